@@ -1,0 +1,66 @@
+"""nivel: machines and mechanisms, simulated with numbers one can trust.
+
+    import nivel
+
+    machine = nivel.load("slider-crank.yaml")
+    result = machine.simulate(duration=8.0, step=1e-3)
+    result["hinge.angle"]
+
+Names are loaded when they are used: importing `nivel` costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from nivel.api import Machine as Machine
+    from nivel.api import load as load
+    from nivel.api import open_result as open_result
+    from nivel.errors import ModelError as ModelError
+    from nivel.errors import NivelError as NivelError
+    from nivel.errors import SolveError as SolveError
+    from nivel.machine import Baumgarte as Baumgarte
+    from nivel.machine import Body as Body
+    from nivel.machine import Expression as Expression
+    from nivel.machine import Joint as Joint
+    from nivel.machine import Marker as Marker
+    from nivel.machine import PointForce as PointForce
+    from nivel.machine import SimulationSettings as SimulationSettings
+    from nivel.machine import Table as Table
+    from nivel.machine import Torque as Torque
+    from nivel.results import Result as Result
+
+_HOME = {
+    "Machine": "nivel.api",
+    "load": "nivel.api",
+    "open_result": "nivel.api",
+    "ModelError": "nivel.errors",
+    "NivelError": "nivel.errors",
+    "SolveError": "nivel.errors",
+    "Baumgarte": "nivel.machine",
+    "Body": "nivel.machine",
+    "Expression": "nivel.machine",
+    "Joint": "nivel.machine",
+    "Marker": "nivel.machine",
+    "PointForce": "nivel.machine",
+    "SimulationSettings": "nivel.machine",
+    "Table": "nivel.machine",
+    "Torque": "nivel.machine",
+    "Result": "nivel.results",
+}
+
+__all__ = [*_HOME, "__version__"]  # noqa: PLE0604, RUF022
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'nivel' has no attribute '{name}'")
+    return getattr(import_module(_HOME[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -1,0 +1,168 @@
+"""Motion in time: build, assemble, march in chunks, feed the sinks."""
+
+from __future__ import annotations
+
+import time as clock_of_python
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from nivel.analysis.assemble import Assembly, assemble
+from nivel.analysis.equations import MotionEquations, equations
+from nivel.analysis.interrupt import interruptible
+from nivel.analysis.outcome import failure
+from nivel.analysis.redundancy import Redundancy, analyse
+from nivel.analysis.settings import RunSettings
+from nivel.errors import Fault, ModelError
+from nivel.kernels.handle import Handle
+from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
+from nivel.machine import MachineRecord
+from nivel.march.catalogue import INTEGRATORS
+from nivel.march.run import (
+    ALL_STEPS,
+    BUDGET,
+    COUNTS,
+    DONE_STEPS,
+    END,
+    EVALUATIONS,
+    EVERY,
+    FRAMES,
+    LAST_FRAME,
+    STEP,
+    TIME,
+    Run,
+)
+from nivel.march.sink import Sink
+from nivel.march.stabilise.catalogue import STABILISATIONS
+
+# A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
+CHUNK = 0.05
+BUFFER_BYTES = 1_000_000
+
+Progress = Callable[[float], None]
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A machine ready to run: its equations, its assembled state, its redundancy."""
+
+    motion: MotionEquations
+    assembly: Assembly
+    redundancy: Redundancy
+
+
+@dataclass
+class Finished:
+    """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s])."""
+
+    outcome: str
+    timing: dict[str, float] = field(default_factory=dict)
+    failure: tuple[str, str, float] | None = None
+
+
+def prepare(machine: MachineRecord, formulation: str) -> Prepared:
+    """Build and assemble `machine`. Raises ModelError where it cannot be closed or starts in a singular position."""
+    motion = equations(machine, formulation)
+    assembly = assemble(machine, motion)
+    redundancy = analyse(motion, 0.0, assembly.y)
+    if redundancy.singular_rows:
+        rows = ", ".join(redundancy.singular_rows)
+        message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby; start it a little aside"
+        raise ModelError(Fault("", 0, 0, "machine", message))
+    rank = len(motion.system.rows) - len(redundancy.redundant_rows)
+    return Prepared(MotionEquations(motion.system.known_rank(rank), motion.kernels), assembly, redundancy)
+
+
+def march(
+    prepared: Prepared,
+    settings: RunSettings,
+    sinks: Sequence[Sink],
+    *,
+    progress: Progress | None = None,
+    chunk_steps: int | None = None,
+) -> Finished:
+    """Run `prepared` and give every frame to all `sinks` (already begun).
+
+    progress : called with the time reached [s] after every chunk. chunk_steps : steps a chunk, instead of as many as fit into 50 ms;
+    the result does not depend on it.
+    """
+    system = prepared.motion.system
+    stabilisation = STABILISATIONS[settings.stabilisation]
+    alpha, beta = settings.baumgarte or (None, None)
+    system.record.control.stabilise[:] = stabilisation.coefficients(settings.step, alpha, beta, system.size)
+    kernels = prepared.motion.kernels
+    correct = kernels.correct if stabilisation.CORRECTS else kernels.keep
+    facts = INTEGRATORS[settings.integrator]
+    step = getattr(import_module(facts.module), facts.function)
+    advance = import_module("nivel.march.loop").advance
+    run = _start(prepared, settings, facts.stages)
+    machine, history = prepared.motion.handle, Handle(run)
+    finished = Finished("done")
+    wall = clock_of_python.perf_counter()
+    budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
+    with interruptible() as interrupted:
+        while status in (BUDGET_SPENT, BUFFER_FULL):
+            run.count[BUDGET] = budget
+            begin = clock_of_python.process_time()
+            status = advance(kernels.evaluate, correct, step, machine.address, history.address)
+            spent = clock_of_python.process_time() - begin
+            loop_seconds += spent
+            _give(run, sinks)
+            if progress is not None:
+                progress(float(run.clock[TIME]))
+            if chunk_steps is None and status == BUDGET_SPENT:
+                budget = max(1, min(2 * budget, int(budget * CHUNK / max(spent, 1e-9)))) if spent < CHUNK else max(1, budget // 2)
+            if status in (BUDGET_SPENT, BUFFER_FULL) and interrupted():
+                finished.outcome = "interrupted"
+                break
+    if status not in (BUDGET_SPENT, BUFFER_FULL, DONE):
+        finished.outcome = "failed"
+        y = run.previous if np.all(np.isfinite(run.previous)) else run.y
+        message, advice = failure(prepared.motion, status, float(run.clock[TIME]), settings.step, y)
+        finished.failure = (message, advice, float(run.clock[TIME]))
+    finished.timing = {
+        "steps": int(run.count[DONE_STEPS]),
+        "evaluations": int(run.count[EVALUATIONS]),
+        "loop_seconds": loop_seconds,
+        "wall_seconds": clock_of_python.perf_counter() - wall,
+    }
+    return finished
+
+
+def _start(prepared: Prepared, settings: RunSettings, stages: int) -> Run:
+    """History of a run at its start: energies referred to the assembled state, joint angles counted from it."""
+    system = prepared.motion.system
+    y = prepared.assembly.y.copy()
+    width = system.layout.width
+    rows = max(2, min(4096, BUFFER_BYTES // (8 * width)))
+    clock = np.zeros(4)
+    clock[STEP], clock[END] = settings.step, settings.duration
+    count = np.zeros(COUNTS, dtype=np.int64)
+    count[ALL_STEPS], count[EVERY], count[LAST_FRAME] = settings.steps, settings.every, -1
+    system.record.joints.turn[:] = 0.0
+    system.record.control.energy[:] = 0.0
+    prepared.motion.evaluate(0.0, y)
+    observe: Any = import_module("nivel.kernels.observe").observe
+    observe(prepared.motion.handle.address, y, np.zeros(width))
+    energy = system.record.control.energy
+    energy[2] = energy[0] + energy[1]
+    return Run(
+        clock=clock,
+        count=count,
+        y=y,
+        rate=np.zeros_like(y),
+        previous=y.copy(),
+        stages=np.zeros((stages, len(y))),
+        frames=np.zeros((rows, width)),
+    )
+
+
+def _give(run: Run, sinks: Sequence[Sink]) -> None:
+    filled = int(run.count[FRAMES])
+    if filled:
+        for sink in sinks:
+            sink.take(run.frames[:filled])
+        run.count[FRAMES] = 0

@@ -1,0 +1,49 @@
+"""From a kernel's status to a sentence: when it failed, where by joint and coordinate, and what to try."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.analysis.equations import MotionEquations
+from nivel.kernels.status import NOT_FINITE, SINGULAR
+from nivel.system.system import Array
+
+
+def failure(motion: MotionEquations, status: int, time: float, step: float, y: Array) -> tuple[str, str]:
+    """(message, advice) for a run that failed in the step from `time` [s], whose last accepted state is y."""
+    system, record = motion.system, motion.system.record
+    if status == SINGULAR:
+        row = system.rows[int(record.control.failure[0])]
+        motion.evaluate(time, y)
+        message = f"stopped at t = {time:.6g} s: the constraint {row} depends on the others here, the machine is in a singular position"
+        advice = (
+            f"Look at {_owner(row)} in this position: two links in line, or a loop folded flat? Start the run elsewhere, "
+            f"or move a joint by a small amount so that the machine does not pass through it exactly."
+        )
+        return message, advice
+    assert status == NOT_FINITE
+    motion.evaluate(time, y)
+    where = _worst(motion)
+    message = f"stopped at t = {time:.6g} s: the state after a step of {step:.3g} s is no longer a number; {where}"
+    advice = f"Try a smaller step, for instance --step {step / 10:.3g}; if it stops at the same time, look at the forces near it."
+    return message, advice
+
+
+def _owner(row: str) -> str:
+    return row.split(".")[0]
+
+
+def _worst(motion: MotionEquations) -> str:
+    """The constraint with the largest violation in the state last evaluated; without joints the body with the largest acceleration."""
+    system, record = motion.system, motion.system.record
+    violation = np.abs(record.constraints.C)
+    if len(violation) and np.any(np.isfinite(violation)):
+        row = int(np.nanargmax(violation))
+        units = system.row_units[row]
+        where = f"the largest violation before it is {violation[row]:.3g} {units} at {system.rows[row]}"
+        joint = system.rows[row].split(".")[0]
+        rates = [name for name in system.layout.coordinates["joint_coordinate"] if name.startswith(f"{joint}.")]
+        return f"{where} (joint {joint}, coordinate {', '.join(rates)})" if rates else where
+    accelerations = np.nan_to_num(np.linalg.norm(record.bodies.Rddot[: system.body_count], axis=1), nan=np.inf)
+    body = int(np.argmax(accelerations))
+    return f"the body with the largest acceleration before it is {system.bodies[body]}"

@@ -1,0 +1,103 @@
+"""Which constraint rows depend on the others, which reactions are therefore not unique, and how many freedoms are left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nivel.analysis.equations import MotionEquations, moved
+from nivel.kernels.status import OK
+from nivel.system.system import Array
+
+# Rows count as dependent below this share of their length: assembled machines are closed to about 1e-12.
+DEPENDENT = 1e-8
+# Pivots of S above this share of their diagonal prove independence without a closer look.
+CERTAIN = 1e-9
+# Two positions this far apart (share of the machine's length, radians) tell a singular position from a redundant machine.
+ASIDE = 1e-3
+
+
+@dataclass(frozen=True)
+class Redundancy:
+    """Rank of the joint rows at the assembled position.
+
+    redundant_rows : rows that add nothing to the rows named before them. non_unique_joints : joints with reactions that the equations
+    of rigid bodies do not determine. singular : rows lost at this position only, not nearby.
+    """
+
+    degrees_of_freedom: int
+    rank: int
+    redundant_rows: tuple[str, ...]
+    non_unique_joints: tuple[str, ...]
+    singular_rows: tuple[str, ...]
+
+
+def analyse(motion: MotionEquations, t: float, y: Array) -> Redundancy:
+    """Rank of the constraints at state y, which must be assembled."""
+    system = motion.system
+    rows = system.joint_rows
+    freedoms = 6 * system.body_count
+    if motion.evaluate(t, y)[0] == OK and _certainly_independent(motion):
+        return Redundancy(freedoms - rows, rows, (), (), ())
+    J = _scaled(motion)
+    rank, dependent = _dependent_rows(J)
+    if not dependent:
+        return Redundancy(freedoms - rows, rows, (), (), ())
+    nearby = _rank_nearby(motion, t, y, J, rank)
+    names = tuple(system.rows[row] for row in dependent)
+    U, _, _ = np.linalg.svd(J)
+    loose = np.abs(U[:, rank:]).max(axis=1) > 1e-6
+    joints = sorted({int(system.row_joint[row]) for row in np.flatnonzero(loose)})
+    return Redundancy(
+        freedoms - rank, rank, names, tuple(system.joints[j] for j in joints), names[: nearby - rank] if nearby > rank else ()
+    )
+
+
+def _certainly_independent(motion: MotionEquations) -> bool:
+    saddle = motion.system.record.saddle
+    if not len(saddle.order):
+        return True
+    diagonal = saddle.S[saddle.S_start[1:].astype(int) - 1]
+    return bool(np.all(saddle.Dinv * diagonal < 1.0 / CERTAIN))
+
+
+def _scaled(motion: MotionEquations) -> Array:
+    """C_q with lengths in units of the machine's length and rows of unit length."""
+    J = motion.jacobian().reshape(motion.system.joint_rows, -1, 6).copy()
+    J[:, :, :3] *= motion.system.size
+    J = J.reshape(len(J), -1)
+    return J / np.linalg.norm(J, axis=1, keepdims=True)
+
+
+def _dependent_rows(J: Array) -> tuple[int, list[int]]:
+    """Rank of J (unit rows), and the rows that depend on the rows before them."""
+    rank = int(np.sum(np.linalg.svd(J, compute_uv=False) > DEPENDENT))
+    basis = np.zeros((0, J.shape[1]))
+    left = np.zeros(len(J))
+    for k, row in enumerate(J):
+        rest = row - basis.T @ (basis @ row)
+        rest -= basis.T @ (basis @ rest)
+        left[k] = np.linalg.norm(rest)
+        if left[k] > np.sqrt(DEPENDENT) and len(basis) < rank:
+            basis = np.vstack([basis, rest / left[k]])
+    missing = len(J) - rank
+    return rank, sorted(np.argsort(left, kind="stable")[:missing].tolist())
+
+
+def _rank_nearby(motion: MotionEquations, t: float, y: Array, J: Array, rank: int) -> int:
+    """Rank a little aside along a free motion: larger than `rank` where only this position is singular."""
+    system = motion.system
+    _, _, Vt = np.linalg.svd(J)
+    free = Vt[rank:]
+    if not len(free):
+        return rank
+    direction = free.T @ np.random.default_rng(0).standard_normal(len(free))
+    direction *= ASIDE / np.linalg.norm(direction)
+    change = direction.reshape(-1, 6).copy()
+    change[:, :3] *= system.size
+    aside = y.copy()
+    aside[: system.positions] = moved(y[: system.positions], change.ravel())
+    motion.evaluate(t, aside)
+    nearby = int(np.sum(np.linalg.svd(_scaled(motion), compute_uv=False) > ASIDE**2))
+    return max(rank, nearby) if nearby > rank else rank

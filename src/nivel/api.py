@@ -1,0 +1,156 @@
+"""What users of the package call: load a machine, check it, run it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from nivel.files import read_machine, write_machine
+from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
+
+if TYPE_CHECKING:
+    from nivel.analysis.check import Check
+    from nivel.analysis.simulate import Listener
+    from nivel.results import Result
+
+
+class Machine:
+    """A machine and what can be asked of it.
+
+    Made from records (everything in SI units, or texts with units), or with `nivel.load` from a file::
+
+        arm = nivel.Body(name="arm", mass=2.0, inertia=(0.01, 0.2, 0.2), position=(0.5, 0, 0))
+        pin = nivel.Joint(name="pin", type="revolute", bodies=("ground", "arm"), point=(0, 0, 0), axis=(0, 0, 1))
+        machine = nivel.Machine("pendulum", bodies=[arm], joints=[pin], gravity=(0, -9.81, 0))
+
+    Raises ModelError with everything that is wrong.
+    """
+
+    def __init__(
+        self,
+        name: str = "machine",
+        *,
+        bodies: Sequence[Body] = (),
+        markers: Sequence[Marker] = (),
+        joints: Sequence[Joint] = (),
+        forces: Sequence[PointForce | Torque] = (),
+        gravity: Sequence[float] = (0.0, 0.0, 0.0),
+        simulation: SimulationSettings | None = None,
+        description: str = "",
+    ) -> None:
+        self.record = MachineRecord(
+            name=name,
+            description=description,
+            gravity=tuple(gravity),
+            bodies=tuple(bodies),
+            markers=tuple(markers),
+            joints=tuple(joints),
+            forces=tuple(forces),
+            simulation=simulation or SimulationSettings(),
+        )
+        self.source = ""
+
+    @classmethod
+    def from_record(cls, record: MachineRecord, source: str = "") -> Machine:
+        """Wrap a record; `source` is the text of the file it came from."""
+        machine = cls.__new__(cls)
+        machine.record = record
+        machine.source = source
+        return machine
+
+    @property
+    def name(self) -> str:
+        """Name of the machine."""
+        return self.record.name
+
+    def check(self) -> Check:
+        """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
+        from nivel.analysis.check import check
+
+        return check(self.record)
+
+    def simulate(
+        self,
+        *,
+        duration: float | str | None = None,
+        step: float | str | None = None,
+        output_interval: float | str | None = None,
+        integrator: str | None = None,
+        formulation: str | None = None,
+        coordinates: str | None = None,
+        stabilisation: str | None = None,
+        out: str | PathLike[str] | None = None,
+        force: bool = False,
+        verify: bool = False,
+        listener: Listener | None = None,
+    ) -> Result:
+        """Motion in time. Options given here go before those of the machine's `simulation`.
+
+        duration, step, output_interval : [s], or texts with units. out : result file (NetCDF); in memory if None. force : replace an
+        existing file. verify : estimate the accuracy with a second run at half the step.
+        Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
+        """
+        from nivel.analysis.simulate import simulate
+
+        given = {
+            "duration": duration,
+            "step": step,
+            "output_interval": output_interval,
+            "integrator": integrator,
+            "formulation": formulation,
+            "coordinates": coordinates,
+            "stabilisation": stabilisation,
+        }
+        return simulate(
+            self.with_settings({key: value for key, value in given.items() if value is not None}).record,
+            source=self.source,
+            out=out,
+            force=force,
+            verify=verify,
+            listener=listener,
+        )
+
+    def with_settings(self, settings: Mapping[str, Any]) -> Machine:
+        """The same machine with some simulation settings replaced."""
+        if not settings:
+            return self
+        old = self.record.simulation
+        changes = dict(settings)
+        # own Baumgarte coefficients belong to the stabilisation they were given with
+        if changes.get("stabilisation", "baumgarte") != "baumgarte" and old.baumgarte is not None:
+            changes["baumgarte"] = None
+        return Machine.from_record(self.record.replace(simulation=old.replace(**changes)), self.source)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the machine as a YAML file."""
+        Path(fspath(path)).write_text(write_machine(self.record), encoding="utf-8")
+
+    def __repr__(self) -> str:
+        record = self.record
+        parts = [
+            f"{len(items)} {word if len(items) != 1 else singular}"
+            for items, word, singular in (
+                (record.bodies, "bodies", "body"),
+                (record.joints, "joints", "joint"),
+                (record.forces, "forces", "force"),
+            )
+        ]
+        return f"<Machine {record.name}: {', '.join(parts)}>"
+
+
+def load(path: str | PathLike[str], overrides: Mapping[str, str] | None = None) -> Machine:
+    """Read a machine file. `overrides` replace values by path, e.g. ``{"bodies.crank.mass": "22 kg"}``.
+
+    Raises ModelError with every fault of the file, each with its line.
+    """
+    record = read_machine(path, overrides=dict(overrides or {}))
+    return Machine.from_record(record, Path(fspath(path)).read_text(encoding="utf-8"))
+
+
+def open_result(path: str | PathLike[str]) -> Result:
+    """Open a result file."""
+    from nivel.results import Result
+
+    return Result.open(path)

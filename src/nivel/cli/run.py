@@ -1,0 +1,146 @@
+"""`nivel run MACHINE`: simulate, write the result and the report, say what happened."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from nivel.cli.options import file_argument, override_option, quiet_option
+
+if TYPE_CHECKING:
+    from nivel.analysis.simulate import Listener
+    from nivel.results import Result
+
+
+@click.command(short_help="Simulate a machine: result file, report, summary.")
+@file_argument("machine")
+@click.option("--duration", metavar="TIME", help="Simulated time, e.g. 8 or '8 s'.")
+@click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'.")
+@click.option("--output-interval", metavar="TIME", help="Time between frames of the result; a multiple of the step.")
+@click.option("--integrator", metavar="NAME", help="rk4.")
+@click.option("--formulation", metavar="NAME", help="newton-euler or lagrange.")
+@click.option("--coordinates", metavar="NAME", help="auto or absolute.")
+@click.option("--stabilisation", metavar="NAME", help="none, baumgarte or direct.")
+@override_option
+@click.option("--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here.")
+@click.option("--force", is_flag=True, help="Replace an existing result.")
+@click.option("--verify", is_flag=True, help="Run again with half the step and estimate the accuracy.")
+@click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
+@quiet_option
+@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")
+def command(  # noqa: PLR0917
+    machine: str,
+    duration: str | None,
+    step: str | None,
+    output_interval: str | None,
+    integrator: str | None,
+    formulation: str | None,
+    coordinates: str | None,
+    stabilisation: str | None,
+    overrides: dict[str, str],
+    out: str | None,
+    force: bool,
+    verify: bool,
+    no_report: bool,
+    quiet: bool,
+    as_json: bool,
+) -> None:
+    """Simulate MACHINE and write its result (NetCDF) and report (HTML).
+
+    Options go before what the machine file says under `simulation:`. Exit code 0 done, 2 the input is at fault, 3 the computation
+    failed, 130 interrupted; what was computed is kept in every case.
+    """
+    from nivel.api import load
+    from nivel.errors import SolveError
+
+    loaded = load(machine, overrides)
+    target = Path(out) if out is not None else Path(f"{loaded.name}.nc")
+    report = None if no_report else target.with_suffix(".html")
+    _refuse_to_replace(report, target, force)
+    failure: SolveError | None = None
+    with _listener(quiet, loaded.record.simulation, duration) as listener:
+        try:
+            result = loaded.simulate(
+                duration=duration,
+                step=step,
+                output_interval=output_interval,
+                integrator=integrator,
+                formulation=formulation,
+                coordinates=coordinates,
+                stabilisation=stabilisation,
+                out=target,
+                force=force,
+                verify=verify,
+                listener=listener,
+            )
+        except SolveError as error:
+            failure = error
+            result: Any = error.result
+        if report is not None:
+            listener.say("writing the report")
+            result.report(report)
+    if as_json:
+        click.echo(json.dumps(result.summary(), indent=2))
+    if not quiet:
+        _say(result, target, report)
+    if failure is not None:
+        raise failure
+    if result.outcome == "interrupted":
+        raise KeyboardInterrupt
+
+
+def _refuse_to_replace(report: Path | None, target: Path, force: bool) -> None:
+    from nivel.errors import ModelError
+
+    if report is not None and report == target:
+        raise ModelError(f"{target}: the result is a NetCDF file and the report would be written over it; use a name ending in .nc")
+    if report is not None and report.exists() and not force:
+        raise ModelError(f"the report {report} exists already; use --force to replace it, or --out for another name")
+
+
+@contextmanager
+def _listener(quiet: bool, settings: Any, duration: str | None) -> Iterator[Listener]:
+    """What the run tells on standard error: nothing, or stages and a progress bar."""
+    from nivel.analysis.simulate import Listener
+
+    if quiet:
+        yield Listener()
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[reached]}"), TimeElapsedColumn())
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("starting", total=None, reached="")
+
+        def stage(text: str, total: float | None = None) -> None:
+            bar.update(task, description=text, total=total, completed=0, reached="")
+
+        def progress(time: float) -> None:
+            bar.update(task, completed=time, reached=f"t = {time:.3f} s")
+
+        yield Listener(stage, progress)
+
+
+def _say(result: Result, target: Path, report: Path | None) -> None:
+    from rich.console import Console
+
+    console = Console(stderr=True, highlight=False)
+    trust = result.trust
+    timing = result.timing
+    per_step = 1e6 * timing["loop_seconds"] / max(timing["steps"], 1)
+    colour = {"green": "green", "amber": "yellow", "red": "red"}[trust.verdict]
+    console.print(
+        f"[bold]{result.name}[/bold]: {result.outcome}, {result.time[-1] if len(result.time) else 0:.6g} s simulated in "
+        f"{timing['steps']} steps, {timing['loop_seconds']:.3g} s of computing ({per_step:.1f} µs a step)"
+    )
+    console.print(f"trust: [{colour}]{trust.verdict}[/{colour}]")
+    for line in trust.lines():
+        console.print(f"  {line}")
+    console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)

@@ -1,0 +1,63 @@
+"""The exceptions of nivel.
+
+    NivelError
+    ├── ModelError     the user's machine or settings are at fault (exit code 2)
+    └── SolveError     the computation failed; what was computed is kept (exit code 3)
+
+Anything else that escapes is a defect of nivel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+
+class NivelError(Exception):
+    """Base of everything nivel raises on purpose."""
+
+
+@dataclass(frozen=True, order=True)
+class Fault:
+    """One thing that is wrong in a machine, with the place where it stands.
+
+    line, column : 1-based position in `file`; 0 where the machine was written in Python.
+    path : the element in words, e.g. ``joints.hinge.axis``.
+    message : what stood there and what would be right.
+    """
+
+    file: str
+    line: int
+    column: int
+    path: str
+    message: str
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}:{self.column}: " if self.line else ""
+        return f"{place}{self.path}: {self.message}" if self.path else f"{place}{self.message}"
+
+
+class ModelError(NivelError):
+    """The machine or its settings are at fault; `faults` lists everything that was found."""
+
+    def __init__(self, faults: Iterable[Fault] | Fault | str) -> None:
+        if isinstance(faults, str):
+            faults = Fault("", 0, 0, "", faults)
+        if isinstance(faults, Fault):
+            faults = (faults,)
+        self.faults: tuple[Fault, ...] = tuple(sorted(set(faults)))
+        super().__init__("\n".join(str(fault) for fault in self.faults))
+
+
+class SolveError(NivelError):
+    """The computation failed at `time` (seconds); `advice` says what to try.
+
+    `result` is everything computed up to the failure, or None if nothing was.
+    """
+
+    def __init__(self, message: str, *, time: float, advice: str = "", result: object = None) -> None:
+        self.message = message
+        self.time = time
+        self.advice = advice
+        self.result = result
+        super().__init__(f"{message}\n{advice}" if advice else message)

@@ -1,0 +1,51 @@
+"""Rigid bodies: pose and velocity from the state, weight, and energy."""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import stage
+from nivel.kernels.rotation import rotation_matrix
+from nivel.kernels.spatial import dot, multiply
+
+
+@stage
+def place_body(bodies, b, q):
+    """Pose of body b from its seven coordinates q = (R, θ)."""
+    for i in range(3):
+        bodies.R[b, i] = q[i]
+    for i in range(4):
+        bodies.theta[b, i] = q[3 + i]
+    rotation_matrix(bodies.theta[b], bodies.A[b])
+    multiply(bodies.A[b], bodies.centre_b[b], bodies.c[b])
+
+
+@stage
+def load_weight(bodies):
+    """Start the wrenches of all bodies (force; torque about the frame origin, global axes) with the weight m g."""
+    g = bodies.gravity
+    for b in range(bodies.mass.shape[0]):
+        F = bodies.wrench[b]
+        c = bodies.c[b]
+        m = bodies.mass[b]
+        F[0], F[1], F[2] = m * g[0], m * g[1], m * g[2]
+        F[3] = c[1] * F[2] - c[2] * F[1]
+        F[4] = c[2] * F[0] - c[0] * F[2]
+        F[5] = c[0] * F[1] - c[1] * F[0]
+
+
+@stage
+def kinetic_energy(bodies, b, work):
+    """½ m |Ṙ + ω × c|² + ½ ω̄ᵀ J ω̄ of body b [J]; `work` (3,) is overwritten."""
+    w, c, V = bodies.omega[b], bodies.c[b], bodies.Rdot[b]
+    vx = V[0] + w[1] * c[2] - w[2] * c[1]
+    vy = V[1] + w[2] * c[0] - w[0] * c[2]
+    vz = V[2] + w[0] * c[1] - w[1] * c[0]
+    multiply(bodies.inertia_b[b], bodies.omega_b[b], work)
+    return 0.5 * bodies.mass[b] * (vx * vx + vy * vy + vz * vz) + 0.5 * dot(bodies.omega_b[b], work)
+
+
+@stage
+def potential_energy(bodies, b):
+    """-m gᵀ(R + c) of body b [J]."""
+    g, R, c = bodies.gravity, bodies.R[b], bodies.c[b]
+    height = g[0] * (R[0] + c[0]) + g[1] * (R[1] + c[1]) + g[2] * (R[2] + c[2])
+    return -bodies.mass[b] * height

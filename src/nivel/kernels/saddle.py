@@ -1,0 +1,100 @@
+"""The saddle-point system, eliminated body by body: S λ = C_q M⁻¹ Q - γ with S = C_q M⁻¹ C_qᵀ.
+
+A formulation leaves the whitened blocks W = C_q L⁻ᵀ and forces z = L⁻¹ Q with M = L Lᵀ (block-diagonal, so body by body);
+what follows is the same for all of them: S = W Wᵀ, right-hand side W z - γ, accelerations L⁻ᵀ (z - Wᵀ λ).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import stage
+from nivel.kernels.dense import factorise_pivoted, gather, solve_pivoted
+from nivel.kernels.sparse import factorise, solve
+from nivel.kernels.status import OK, SINGULAR
+
+
+@stage
+def factorise_rows(record, width):
+    """Assemble and factorise S from W (blocks of `width` columns). Returns a status; on failure control.failure is the row."""
+    saddle = record.saddle
+    W, S = saddle.W, saddle.S
+    for p in range(S.shape[0]):
+        S[p] = 0.0
+    for p in range(saddle.pair.shape[0]):
+        a, b = saddle.pair[p, 0], saddle.pair[p, 1]
+        total = W[a, 0] * W[b, 0]
+        for i in range(1, width):
+            total += W[a, i] * W[b, i]
+        S[saddle.pair[p, 2]] += total
+    if saddle.dense.shape[0] > 0:
+        gather(saddle)
+        failed = factorise_pivoted(saddle, np.int64(record.control.size[1]))
+    else:
+        failed = factorise(saddle)
+    if failed >= 0:
+        record.control.failure[0] = saddle.order[failed]
+        return SINGULAR
+    return OK
+
+
+@stage
+def solve_rows(record):
+    """Overwrite b with the solution of S x = b."""
+    if record.saddle.dense.shape[0] > 0:
+        solve_pivoted(record.saddle, np.int64(record.control.size[1]))
+    else:
+        solve(record.saddle)
+
+
+@stage
+def multipliers(record, width):
+    """λ from W, z, γ (with Baumgarte's terms, eq. 110), after `factorise_rows`; z becomes z - Wᵀ λ."""
+    saddle, constraints = record.saddle, record.constraints
+    twice_alpha, beta_squared = record.control.stabilise[0], record.control.stabilise[1]
+    b = saddle.b
+    for row in range(b.shape[0]):
+        b[row] = (
+            twice_alpha * constraints.Cdot[row] + beta_squared * constraints.C[row] - constraints.gamma[row]
+        )
+    for k in range(saddle.block.shape[0]):
+        row, body = saddle.block[k, 0], saddle.block[k, 3]
+        total = b[row]
+        for i in range(width):
+            total += saddle.W[k, i] * saddle.z[body, i]
+        b[row] = total
+    solve_rows(record)
+    for row in range(b.shape[0]):
+        constraints.lam[row] = b[row]
+    subtract_rows(saddle, width)
+
+
+@stage
+def subtract_rows(saddle, width):
+    """z -= Wᵀ b."""
+    for k in range(saddle.block.shape[0]):
+        row, body = saddle.block[k, 0], saddle.block[k, 3]
+        for i in range(width):
+            saddle.z[body, i] -= saddle.W[k, i] * saddle.b[row]
+
+
+@stage
+def correction(record, violation, width):
+    """z = -Wᵀ S⁻¹ violation: the whitened change that removes a violation of the linearised rows, least in the mass metric."""
+    saddle = record.saddle
+    for row in range(saddle.b.shape[0]):
+        saddle.b[row] = violation[row]
+    solve_rows(record)
+    for body in range(saddle.z.shape[0]):
+        for i in range(width):
+            saddle.z[body, i] = 0.0
+    subtract_rows(saddle, width)
+
+
+@stage
+def exceeds(violation, tolerance):
+    """Whether any entry is larger than `tolerance` in size."""
+    for row in range(violation.shape[0]):
+        if violation[row] > tolerance or violation[row] < -tolerance:
+            return True
+    return False

@@ -1,0 +1,8 @@
+"""Status codes that kernels return; `nivel.analysis.outcome` turns them into sentences."""
+
+OK = 0
+SINGULAR = 1  # a constraint row depends on the others: control.failure names it
+NOT_FINITE = 2  # the state is no longer a number
+BUFFER_FULL = 3  # the output buffer must be taken
+BUDGET_SPENT = 4  # the chunk of steps is done
+DONE = 5  # the end of the run is reached

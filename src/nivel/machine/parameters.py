@@ -1,0 +1,90 @@
+"""The `parameters:` of a machine file: named numbers that may use each other in any order."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from nivel.machine.arithmetic import (
+    RESERVED,
+    ArithmeticFault,
+    FaultyParameter,
+    Node,
+    Number,
+    bind,
+    evaluate,
+    names,
+    parse,
+    uses_time,
+)
+from nivel.machine.measure import measure
+from nivel.machine.unit import UNITS
+
+
+def resolve(given: Mapping[str, object]) -> tuple[dict[str, Number | None], dict[str, str]]:
+    """Values of all parameters, and what is wrong with some: (name → value, name → message).
+
+    A parameter at fault, or one that uses such a parameter, has the value None; only the first kind has a message.
+    """
+    trees: dict[str, Node] = {}
+    faults: dict[str, str] = {}
+    for name, value in given.items():
+        try:
+            trees[name] = _tree(name, value)
+        except ArithmeticFault as fault:
+            faults[name] = str(fault)
+    values: dict[str, Number | None] = dict.fromkeys(faults)
+    for name in trees:
+        _resolve(name, trees, values, faults, ())
+    return values, faults
+
+
+def _tree(name: str, value: object) -> Node:
+    if not name.isidentifier():
+        raise ArithmeticFault("the name of a parameter has letters, digits and `_` only")
+    if name in RESERVED:
+        raise ArithmeticFault(f"`{name}` has a meaning already; choose another name")
+    if name in UNITS:
+        raise ArithmeticFault(f"`{name}` is a unit; choose another name")
+    if isinstance(value, str):
+        tree = parse(value)
+        if uses_time(tree):
+            raise ArithmeticFault("a parameter cannot change with `time`")
+        return tree
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        number = Number(float(value))
+        evaluate(number)
+        return number
+    raise ArithmeticFault("a number, a quantity such as `10 cm`, or an expression was expected")
+
+
+def _resolve(
+    name: str,
+    trees: Mapping[str, Node],
+    values: dict[str, Number | None],
+    faults: dict[str, str],
+    users: tuple[str, ...],
+) -> None:
+    """Fill `values[name]`, first those it uses. `users` are the parameters that led here."""
+    if name in values:
+        return
+    if name in users:
+        ring = [*users[users.index(name) :], name]
+        faults[name] = f"depends on itself: {' → '.join(ring)}"
+        values[name] = None
+        return
+    if len(users) > 100:
+        faults[name] = "is at the end of more than 100 parameters that use each other"
+        values[name] = None
+        return
+    for used in sorted(names(trees[name]) & trees.keys()):
+        _resolve(used, trees, values, faults, (*users, name))
+    if name in values:  # found to be in a ring on the way
+        return
+    try:
+        bound = bind(trees[name], values)
+        values[name] = Number(evaluate(bound), measure(bound))
+    except FaultyParameter:
+        values[name] = None
+    except ArithmeticFault as fault:
+        faults[name] = str(fault)
+        values[name] = None

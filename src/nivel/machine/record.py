@@ -1,0 +1,156 @@
+"""What all records of a machine share: frozen, nothing unknown accepted, faults in plain words and all at once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ModelWrapValidatorHandler, ValidationError, WithJsonSchema
+from pydantic import model_validator
+from pydantic_core import ErrorDetails, InitErrorDetails
+
+from nivel.errors import Fault, ModelError
+from nivel.machine.quantity import FAULT, REPORTED, fault, reported, shown
+
+_NAME = re.compile(r"[^\W\d_][\w-]*")
+GROUND = "ground"
+
+
+def _named(value: Any) -> str:
+    if not isinstance(value, str):
+        raise fault(f"a name was expected, got {shown(value)}")
+    if not _NAME.fullmatch(value):
+        raise fault(f"`{value}` is not a name: a name starts with a letter and has letters, digits, `-` and `_` only")
+    return value
+
+
+Name = Annotated[str, BeforeValidator(_named), WithJsonSchema({"type": "string", "pattern": r"^\p{L}[\p{L}\p{N}_-]*$"})]
+
+
+class Record(BaseModel):
+    """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as one ModelError."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True, hide_input_in_errors=True)
+    collection: ClassVar[str] = ""  # the section of the machine that holds such records
+    tagged: ClassVar[Mapping[str, int]] = {}  # fields that are one of several records → where pydantic puts its tag in a location
+
+    def __init__(self, /, **data: Any) -> None:
+        try:
+            super().__init__(**data)
+        except ValidationError as error:
+            raise ModelError(_faults(type(self), data, error)) from None
+
+    # Without this mark pydantic would call __init__ for nested records too, and lose the place of what is wrong in them.
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+    def replace(self, **changes: Any) -> Self:
+        """A copy in which `changes` hold, checked like a new record."""
+        return type(self)(**{**{name: getattr(self, name) for name in self.model_fields_set}, **changes})
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _in_plain_words(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        try:
+            return handler(data)
+        except ValidationError as error:
+            raise restated(error, cls) from None
+
+
+def restated(error: ValidationError, record: type[Record], more: Sequence[InitErrorDetails] = ()) -> ValidationError:
+    """The same error in our own words, with `more` lines."""
+    lines = [_restated_line(line, record) for line in error.errors(include_url=False)]
+    return ValidationError.from_exception_data(record.__name__, [*lines, *more])
+
+
+def _restated_line(line: ErrorDetails, record: type[Record]) -> InitErrorDetails:
+    kind = reported() if line["type"] == REPORTED else fault(_sentence(line, record))
+    place = list(line["loc"])
+    tag = record.tagged.get(str(place[0])) if place else None
+    if tag is not None and len(place) > tag:
+        del place[tag]
+    return InitErrorDetails(type=kind, loc=tuple(place), input=line["input"])
+
+
+_SENTENCES = {
+    "tuple_type": "a list was expected, got {input}",
+    "model_type": "a mapping was expected, got {input}",
+    "model_attributes_type": "a mapping was expected, got {input}",
+    "dict_type": "a mapping was expected, got {input}",
+    "string_type": "a text was expected, got {input}",
+}
+
+
+def _sentence(line: ErrorDetails, record: type[Record]) -> str:
+    """What pydantic found, in the words of a machine file."""
+    context = line.get("ctx", {})
+    match line["type"]:
+        case "nivel":
+            return str(context["message"])
+        case "missing" if isinstance(line["loc"][-1], int):
+            return "an entry is missing here"
+        case "missing":
+            return f"`{line['loc'][-1]}` is missing"
+        case "extra_forbidden":
+            return unknown_word(str(line["loc"][-1]), field_words(record), "key")
+        case "too_short" | "too_long":
+            count = context.get("actual_length")
+            wanted = context.get("min_length", context.get("max_length"))
+            return f"{wanted} entries were expected, got {'more' if count is None else count}"
+        case "literal_error":
+            return unknown_word(str(line["input"]), re.findall(r"'([^']*)'", str(context["expected"])), "word")
+        case "union_tag_invalid":
+            return unknown_word(str(context["tag"]), re.findall(r"'([^']*)'", str(context["expected_tags"])), "type")
+        case "union_tag_not_found":
+            if isinstance(line["input"], Mapping | Record):
+                return "`type` is missing"
+            return f"a mapping was expected, got {shown(line['input'])}"
+        case kind if kind in _SENTENCES:
+            return _SENTENCES[kind].format(input=shown(line["input"]))
+    return line["msg"]
+
+
+def field_words(record: type[Record]) -> list[str]:
+    """The keys that `record` knows, as they are written in a file."""
+    return [field.alias or name for name, field in record.model_fields.items()]
+
+
+def unknown_word(word: str, valid: Sequence[str], what: str) -> str:
+    """A sentence that refuses `word` and offers the nearest of `valid`, or all of them."""
+    near = get_close_matches(word, valid, n=1, cutoff=0.6)
+    if near:
+        return f"the {what} `{word}` is not known; did you mean `{near[0]}`?"
+    if not valid:
+        return f"the {what} `{word}` is not known; there are none"
+    return f"the {what} `{word}` is not known; there {'are' if len(valid) > 1 else 'is'} {', '.join(valid)}"
+
+
+def _faults(record: type[Record], data: Mapping[str, Any], error: ValidationError) -> list[Fault]:
+    """The faults of a record that was made in Python: no file, the element in words."""
+    start = [record.collection, str(data["name"])] if record.collection and "name" in data else []
+    return [
+        Fault("", 0, 0, ".".join([*start, *words(line["loc"], data)]), line["msg"])
+        for line in error.errors(include_url=False)
+        if line["type"] == FAULT
+    ]
+
+
+def words(location: Sequence[int | str], data: Any) -> list[str]:
+    """`location` in `data`, with the names of named elements in place of their numbers."""
+    path: list[str] = []
+    for step in location:
+        if isinstance(step, int):
+            data = data[step] if isinstance(data, Sequence) and step < len(data) else None
+            path.append(str(entry(data, "name") or step))
+        else:
+            data = entry(data, step)
+            path.append(step)
+    return path
+
+
+def entry(data: Any, key: str) -> Any:
+    """What stands under `key` in a mapping or a record; None if nothing does."""
+    if isinstance(data, Mapping):
+        return data.get(key)
+    return getattr(data, key, None) if isinstance(data, Record) else None

@@ -1,0 +1,99 @@
+"""The only loop: steps until the end, a full buffer, a spent budget or a failure, and resumes exactly where it stopped."""
+
+from __future__ import annotations
+
+
+from nivel.kernels.compile import entry, leaf
+from nivel.kernels.observe import count_turns, observe
+from nivel.kernels.handle import address_type
+from nivel.kernels.record import record_at
+from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE, NOT_FINITE, OK
+from nivel.march.run import (
+    ALL_STEPS,
+    BUDGET,
+    DONE_STEPS,
+    END,
+    EVALUATED,
+    EVALUATIONS,
+    EVERY,
+    FRAMES,
+    LAST_FRAME,
+    START,
+    STEP,
+    TIME,
+    correct_type,
+    evaluate_type,
+    run_at,
+    step_type,
+)
+
+
+@leaf
+def time_of(run, n):
+    """Time after n steps; not a running sum, so it carries no round-off from step to step. The last step ends at the end."""
+    if n == run.count[ALL_STEPS]:
+        return run.clock[END]
+    return run.clock[START] + n * run.clock[STEP]
+
+
+@leaf
+def finite(y):
+    """Whether every entry is a number (a NaN or an infinity makes the difference a NaN)."""
+    total = 0.0
+    for i in range(y.shape[0]):
+        total += y[i] - y[i]
+    return total == 0.0
+
+
+@entry((evaluate_type, correct_type, step_type, address_type, address_type))
+def advance(evaluate, correct, step, machine, history):
+    """March until something has to be done outside; returns a status of `nivel.kernels.status`.
+
+    Each step: evaluate at the accepted state, count turns, write a frame if one is due, step, correct. Where a step fails, `run.y` is
+    not that of an accepted state; `run.previous` and `run.clock` are.
+    """
+    run = run_at(history)
+    record = record_at(machine)
+    clock, count = run.clock, run.count
+    h = clock[STEP]
+    budget = count[BUDGET]
+    while True:
+        n = count[DONE_STEPS]
+        clock[TIME] = time_of(run, n)
+        last = n == count[ALL_STEPS]
+        due = (n % count[EVERY] == 0 or last) and count[LAST_FRAME] != n
+        if due and count[FRAMES] == run.frames.shape[0]:
+            return BUFFER_FULL
+        if count[EVALUATED] == 0:
+            status = evaluate(machine, clock[TIME], run.y, run.rate)
+            count[EVALUATIONS] += 1
+            if status != OK:
+                return status
+            if not finite(run.rate):
+                return NOT_FINITE
+            count[EVALUATED] = 1
+            count_turns(record)
+            if due:
+                frame = run.frames[count[FRAMES]]
+                frame[0] = clock[TIME]
+                observe(machine, run.y, frame)
+                count[FRAMES] += 1
+                count[LAST_FRAME] = n
+        if last:
+            return DONE
+        if budget == 0:
+            return BUDGET_SPENT
+        budget -= 1
+        for i in range(run.y.shape[0]):
+            run.previous[i] = run.y[i]
+        clock[STEP] = time_of(run, n + 1) - clock[TIME] if n + 1 == count[ALL_STEPS] else h
+        status = step(evaluate, machine, history)
+        clock[STEP] = h
+        count[EVALUATED] = 0
+        if status == OK:
+            status = correct(machine, time_of(run, n + 1), run.y)
+        if status != OK:
+            return status
+        if not finite(run.y):
+            return NOT_FINITE
+        count[DONE_STEPS] = n + 1

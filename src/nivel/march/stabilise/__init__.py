@@ -1,0 +1,1 @@
+"""Stabilisation methods, one a file: what they set in `control.stabilise`, and whether states are corrected after a step."""

@@ -1,0 +1,11 @@
+"""No stabilisation: constraints hold at the acceleration level only, and drift."""
+
+from __future__ import annotations
+
+CORRECTS = False
+
+
+def coefficients(step: float, alpha: float | None, beta: float | None, size: float) -> tuple[float, float, float, float]:
+    """All zero."""
+    del step, alpha, beta, size
+    return 0.0, 0.0, 0.0, 0.0

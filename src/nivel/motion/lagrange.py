@@ -1,0 +1,300 @@
+"""Absolute coordinates, Lagrange equations in Euler parameters: q = (R, θ), v = q̇, seven a body (report 44, eqs. 57–77).
+
+M is singular along θ (rank 6 of 7); adding μ θ θᵀ to its rotation block, and μ θ (θᵀθ̈) with θᵀθ̈ = -θ̇ᵀθ̇ to the forces, makes it
+positive definite and changes neither the motion nor a multiplier. The normalisation θᵀθ - 1 = 0 is one row a body.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import entry, stage
+from nivel.kernels.constraint import constraint_rows, constraint_values
+from nivel.kernels.load import apply_loads
+from nivel.kernels.marker import move_markers, place_markers
+from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.rigid import load_weight, place_body
+from nivel.kernels.rotation import angular_velocity, transformation
+from nivel.kernels.saddle import correction, exceeds, factorise_rows, multipliers
+from nivel.kernels.spatial import dot, multiply
+from nivel.kernels.status import OK
+
+POSITIONS, VELOCITIES = 7, 7
+WIDTH = 7
+NORMALISATION = 2
+MAX_CORRECTIONS = 3
+# Violations up to this many times the tolerance leave the factor of S good enough for the next pass.
+NEAR = 1e7
+
+
+@stage
+def read_positions(record, y):
+    """Poses of bodies and markers, and C with the normalisation rows."""
+    bodies, constraints = record.bodies, record.constraints
+    nb = bodies.mass.shape[0]
+    first = constraints.C.shape[0] - nb
+    for b in range(nb):
+        place_body(bodies, b, y[7 * b : 7 * b + 7])
+        theta = bodies.theta[b]
+        constraints.C[first + b] = (
+            theta[0] * theta[0] + theta[1] * theta[1] + theta[2] * theta[2] + theta[3] * theta[3] - 1.0
+        )
+    place_markers(bodies, record.markers)
+    constraint_values(bodies, record.markers, constraints)
+
+
+@stage
+def read_velocities(record, y):
+    """Poses and velocities of bodies and markers, and C."""
+    read_positions(record, y)
+    bodies = record.bodies
+    nb = bodies.mass.shape[0]
+    for b in range(nb):
+        v = 7 * nb + 7 * b
+        for i in range(3):
+            bodies.Rdot[b, i] = y[v + i]
+        angular_velocity(bodies.theta[b], y[v + 3 : v + 7], bodies.omega_b[b])
+        multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
+    move_markers(bodies, record.markers)
+
+
+@stage
+def normalisation_rows(record, y):
+    """Ċ = 2 θᵀθ̇ and γ = -2 θ̇ᵀθ̇ of θᵀθ - 1 = 0."""
+    constraints = record.constraints
+    nb = record.bodies.mass.shape[0]
+    first = constraints.C.shape[0] - nb
+    for b in range(nb):
+        rate, square = 0.0 * y[0], 0.0 * y[0]
+        for i in range(4):
+            thetadot = y[7 * nb + 7 * b + 3 + i]
+            rate += y[7 * b + 3 + i] * thetadot
+            square += thetadot * thetadot
+        constraints.Cdot[first + b] = 2.0 * rate
+        constraints.gamma[first + b] = -2.0 * square
+
+
+@stage
+def radial_rate(record, y, b):
+    """κ = -2 θᵀθ̇/|θ|²: ᾱ = Ḡ θ̈ + κ ω̄, zero on the unit sphere."""
+    nb = record.bodies.mass.shape[0]
+    rate, square = 0.0 * y[0], 0.0 * y[0]
+    for i in range(4):
+        rate += y[7 * b + 3 + i] * y[7 * nb + 7 * b + 3 + i]
+        square += y[7 * b + 3 + i] * y[7 * b + 3 + i]
+    return -2.0 * rate / square
+
+
+@stage
+def augmentation(bodies, b):
+    """μ [kg m²]: the mean of the rotation block's other eigenvalues, 4 trace(J̄)/3."""
+    J = bodies.inertia_origin_b[b]
+    return 4.0 / 3.0 * (J[0, 0] + J[1, 1] + J[2, 2])
+
+
+@stage
+def factorise_mass(record, y):
+    """Cholesky factor of M + μ θ θᵀ of each body, in the lower triangle of G; A Ḡ (3, 4) in its free upper right corner.
+
+    m_RR = m 1, m_Rθ = -m c̃ A Ḡ, m_θθ = Ḡᵀ J̄_O Ḡ (eqs. 58–60).
+    """
+    bodies, saddle = record.bodies, record.saddle
+    for b in range(bodies.mass.shape[0]):
+        G, A, c, m, J = saddle.G[b], bodies.A[b], bodies.c[b], bodies.mass[b], bodies.inertia_origin_b[b]
+        theta = bodies.theta[b]
+        Gbar = G[0:3, 3:7]
+        transformation(theta, Gbar)
+        mu = augmentation(bodies, b)
+        for k in range(4):
+            g0, g1, g2 = Gbar[0, k], Gbar[1, k], Gbar[2, k]
+            j0 = J[0, 0] * g0 + J[0, 1] * g1 + J[0, 2] * g2
+            j1 = J[1, 0] * g0 + J[1, 1] * g1 + J[1, 2] * g2
+            j2 = J[2, 0] * g0 + J[2, 1] * g1 + J[2, 2] * g2
+            for i in range(k, 4):
+                G[3 + i, 3 + k] = Gbar[0, i] * j0 + Gbar[1, i] * j1 + Gbar[2, i] * j2 + mu * theta[i] * theta[k]
+        root = np.sqrt(m)
+        for k in range(4):
+            g0, g1, g2 = Gbar[0, k], Gbar[1, k], Gbar[2, k]
+            h0 = A[0, 0] * g0 + A[0, 1] * g1 + A[0, 2] * g2
+            h1 = A[1, 0] * g0 + A[1, 1] * g1 + A[1, 2] * g2
+            h2 = A[2, 0] * g0 + A[2, 1] * g1 + A[2, 2] * g2
+            Gbar[0, k], Gbar[1, k], Gbar[2, k] = h0, h1, h2
+            # column k of m_Rθ over √m: -√m c × h
+            G[3 + k, 0] = -root * (c[1] * h2 - c[2] * h1)
+            G[3 + k, 1] = -root * (c[2] * h0 - c[0] * h2)
+            G[3 + k, 2] = -root * (c[0] * h1 - c[1] * h0)
+        for i in range(3):
+            G[i, i] = root
+        for i in range(4):
+            for k in range(i + 1):
+                value = G[3 + i, 3 + k]
+                for j in range(3 + k):
+                    value -= G[3 + i, j] * G[3 + k, j]
+                G[3 + i, 3 + k] = np.sqrt(value) if i == k else value / G[3 + k, 3 + k]
+
+
+@stage
+def forward(G, z):
+    """z := L⁻¹ z for the factor in G."""
+    for i in range(3):
+        z[i] /= G[i, i]
+    for i in range(3, 7):
+        value = z[i]
+        for j in range(i):
+            value -= G[i, j] * z[j]
+        z[i] = value / G[i, i]
+
+
+@stage
+def whiten_rows(record, y):
+    """W = C_q L⁻ᵀ with C_θ = (n + u × f)ᵀ A Ḡ (eq. 27); off the unit sphere γ changes by -κ (n + u × f)ᵀ ω."""
+    bodies, markers, saddle, constraints = record.bodies, record.markers, record.saddle, record.constraints
+    J = constraints.J
+    for k in range(saddle.block.shape[0]):
+        row, side, marker, b = saddle.block[k, 0], saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
+        W, G = saddle.W[k], saddle.G[b]
+        if side == NORMALISATION:
+            for i in range(3):
+                W[i] = 0.0
+            for i in range(4):
+                W[3 + i] = 2.0 * bodies.theta[b, i]
+        else:
+            part = 6 * side
+            f0, f1, f2 = J[row, part], J[row, part + 1], J[row, part + 2]
+            u = markers.u[marker]
+            n0 = J[row, part + 3] + u[1] * f2 - u[2] * f1
+            n1 = J[row, part + 4] + u[2] * f0 - u[0] * f2
+            n2 = J[row, part + 5] + u[0] * f1 - u[1] * f0
+            W[0], W[1], W[2] = f0, f1, f2
+            for i in range(4):
+                W[3 + i] = n0 * G[0, 3 + i] + n1 * G[1, 3 + i] + n2 * G[2, 3 + i]
+            w = bodies.omega[b]
+            kappa = radial_rate(record, y, b)
+            constraints.gamma[row] -= kappa * (n0 * w[0] + n1 * w[1] + n2 * w[2])
+        forward(G, W)
+
+
+@stage
+def whiten_forces(record, y):
+    """z = L⁻¹ (Q_e + Q_v) with Q_v from eq. 63, and the parts of κ and of the augmentation."""
+    bodies, saddle = record.bodies, record.saddle
+    nb = bodies.mass.shape[0]
+    for b in range(nb):
+        F, c, w, w_b = bodies.wrench[b], bodies.c[b], bodies.omega[b], bodies.omega_b[b]
+        A, J, G, z = bodies.A[b], bodies.inertia_origin_b[b], saddle.G[b], saddle.z[b]
+        m = bodies.mass[b]
+        kappa = radial_rate(record, y, b)
+        wc, ww = dot(w, c), dot(w, w)
+        z[0] = F[0] - m * (w[0] * wc - c[0] * ww + kappa * (w[1] * c[2] - w[2] * c[1]))
+        z[1] = F[1] - m * (w[1] * wc - c[1] * ww + kappa * (w[2] * c[0] - w[0] * c[2]))
+        z[2] = F[2] - m * (w[2] * wc - c[2] * ww + kappa * (w[0] * c[1] - w[1] * c[0]))
+        h0 = J[0, 0] * w_b[0] + J[0, 1] * w_b[1] + J[0, 2] * w_b[2]
+        h1 = J[1, 0] * w_b[0] + J[1, 1] * w_b[1] + J[1, 2] * w_b[2]
+        h2 = J[2, 0] * w_b[0] + J[2, 1] * w_b[1] + J[2, 2] * w_b[2]
+        # velocity moments in body axes, then all moments in global axes: C_θ and Q_θ share A Ḡ
+        v0 = w_b[1] * h2 - w_b[2] * h1 + kappa * h0
+        v1 = w_b[2] * h0 - w_b[0] * h2 + kappa * h1
+        v2 = w_b[0] * h1 - w_b[1] * h0 + kappa * h2
+        t0 = F[3] - (A[0, 0] * v0 + A[0, 1] * v1 + A[0, 2] * v2)
+        t1 = F[4] - (A[1, 0] * v0 + A[1, 1] * v1 + A[1, 2] * v2)
+        t2 = F[5] - (A[2, 0] * v0 + A[2, 1] * v1 + A[2, 2] * v2)
+        radial = 0.5 * augmentation(bodies, b) * record.constraints.gamma[record.constraints.gamma.shape[0] - nb + b]
+        for i in range(4):
+            z[3 + i] = t0 * G[0, 3 + i] + t1 * G[1, 3 + i] + t2 * G[2, 3 + i] + radial * bodies.theta[b, i]
+        forward(G, z)
+
+
+@stage
+def unwhiten(record, b):
+    """z := L⁻ᵀ z, the change of (R, θ) or its derivatives."""
+    G, z = record.saddle.G[b], record.saddle.z[b]
+    for k in range(7):
+        i = 6 - k
+        value = z[i]
+        for j in range(max(i + 1, 3), 7):
+            value -= G[j, i] * z[j]
+        z[i] = value / G[i, i]
+
+
+@stage
+def write_rates(record, y, ydot):
+    """ẏ = (q̇, q̈, power), and the accelerations of the bodies."""
+    bodies, saddle = record.bodies, record.saddle
+    nb = bodies.mass.shape[0]
+    for b in range(nb):
+        unwhiten(record, b)
+        q, v = 7 * b, 7 * nb + 7 * b
+        for i in range(7):
+            ydot[q + i] = y[v + i]
+            ydot[v + i] = saddle.z[b, i]
+        kappa = radial_rate(record, y, b)
+        angular_velocity(bodies.theta[b], saddle.z[b, 3:7], bodies.alpha_b[b])
+        for i in range(3):
+            bodies.Rddot[b, i] = saddle.z[b, i]
+            bodies.alpha_b[b, i] += kappa * bodies.omega_b[b, i]
+    x = 14 * nb
+    ydot[x] = record.control.power[0]
+    ydot[x + 1] = record.control.power[1]
+
+
+@entry(evaluate_signature)
+def evaluate(machine, t, y, ydot):
+    """ẏ of y = (q, q̇, x): x are the work of external forces and the dissipated energy [J]. Leaves everything else in the record."""
+    record = record_at(machine)
+    read_velocities(record, y)
+    constraint_rows(record.bodies, record.markers, record.constraints)
+    normalisation_rows(record, y)
+    load_weight(record.bodies)
+    apply_loads(record, t)
+    factorise_mass(record, y)
+    whiten_rows(record, y)
+    status = factorise_rows(record, WIDTH)
+    if status != OK:
+        return status
+    whiten_forces(record, y)
+    multipliers(record, WIDTH)
+    write_rates(record, y, ydot)
+    return OK
+
+
+@entry(correct_signature)
+def correct(machine, t, y):
+    """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137).
+
+    The change is least in the mass metric M + μ θ θᵀ instead of the report's unit weights; see `newton_euler.correct`.
+    A level within its tolerance (control.stabilise[2:4]) is left alone.
+    """
+    record = record_at(machine)
+    constraints, saddle = record.constraints, record.saddle
+    nb = record.bodies.mass.shape[0]
+    tolerance = record.control.stabilise
+    factorised = False
+    for attempt in range(MAX_CORRECTIONS + 1):
+        read_velocities(record, y)
+        constraint_rows(record.bodies, record.markers, constraints)
+        normalisation_rows(record, y)
+        at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, tolerance[2])
+        if not at_positions and not exceeds(constraints.Cdot, tolerance[3]):
+            return OK
+        if not factorised:
+            factorise_mass(record, y)
+            whiten_rows(record, y)
+            status = factorise_rows(record, WIDTH)
+            if status != OK:
+                return status
+        factorised = not exceeds(constraints.C, NEAR * tolerance[2])
+        correction(record, constraints.C if at_positions else constraints.Cdot, WIDTH)
+        first = 0 if at_positions else 7 * nb
+        for b in range(nb):
+            unwhiten(record, b)
+            for i in range(7):
+                y[first + 7 * b + i] += saddle.z[b, i]
+        if not at_positions:
+            return OK
+    return OK
+
+
+@entry(correct_signature)
+def keep(machine, t, y):
+    """No correction: the normalisation rows drift like all others."""
+    return OK

@@ -1,0 +1,219 @@
+"""Absolute coordinates, Newton–Euler equations: six velocities a body, v = (Ṙ, ω̄), q = (R, θ) (report 44, eqs. 90–93).
+
+For a frame origin away from the centre of mass the unknowns are changed to w = (R̈ + α × c, ᾱ), in which the mass matrix is
+diag(m, J̄_c): the same equations, and its factor costs nothing.
+"""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import entry, stage
+from nivel.kernels.constraint import constraint_rows, constraint_values
+from nivel.kernels.load import apply_loads
+from nivel.kernels.marker import move_markers, place_markers
+from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.rigid import load_weight, place_body
+from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.saddle import correction, exceeds, factorise_rows, multipliers
+from nivel.kernels.spatial import dot, multiply
+from nivel.kernels.status import OK
+
+POSITIONS, VELOCITIES = 7, 6
+WIDTH = 6
+MAX_CORRECTIONS = 3
+# Violations up to this many times the tolerance leave the factor of S good enough for the next pass.
+NEAR = 1e7
+
+
+@stage
+def normalise(record, y):
+    """θ := θ/|θ| for every body."""
+    for b in range(record.bodies.mass.shape[0]):
+        k = 7 * b + 3
+        square = y[k] * y[k] + y[k + 1] * y[k + 1] + y[k + 2] * y[k + 2] + y[k + 3] * y[k + 3]
+        # 1/√s for s near 1; exact to round-off after one step's drift
+        scale = 1.0 / square**0.5
+        for i in range(4):
+            y[k + i] *= scale
+
+
+@stage
+def read_positions(record, y):
+    """Poses of bodies and markers, and C."""
+    bodies = record.bodies
+    for b in range(bodies.mass.shape[0]):
+        place_body(bodies, b, y[7 * b : 7 * b + 7])
+    place_markers(bodies, record.markers)
+    constraint_values(bodies, record.markers, record.constraints)
+
+
+@stage
+def read_velocities(record, y):
+    """Poses and velocities of bodies and markers, and C."""
+    read_positions(record, y)
+    bodies = record.bodies
+    nb = bodies.mass.shape[0]
+    for b in range(nb):
+        v = 7 * nb + 6 * b
+        for i in range(3):
+            bodies.Rdot[b, i] = y[v + i]
+            bodies.omega_b[b, i] = y[v + 3 + i]
+        multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
+    move_markers(bodies, record.markers)
+
+
+@stage
+def whiten_rows(record):
+    """W = C_q L⁻ᵀ: force part over √m; moment about the centre of mass through J̄_c^{-1/2} Aᵀ (kept in G)."""
+    bodies, markers, saddle = record.bodies, record.markers, record.saddle
+    J = record.constraints.J
+    for b in range(bodies.mass.shape[0]):
+        A, K, B = bodies.A[b], bodies.whitener_b[b], saddle.G[b]
+        for j in range(3):
+            B[0, j] = K[0, 0] * A[j, 0]
+            B[1, j] = K[1, 0] * A[j, 0] + K[1, 1] * A[j, 1]
+            B[2, j] = K[2, 0] * A[j, 0] + K[2, 1] * A[j, 1] + K[2, 2] * A[j, 2]
+    for k in range(saddle.block.shape[0]):
+        row, side, marker, b = saddle.block[k, 0], saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
+        part = 6 * side
+        f0, f1, f2 = J[row, part], J[row, part + 1], J[row, part + 2]
+        u0 = markers.u[marker, 0] - bodies.c[b, 0]
+        u1 = markers.u[marker, 1] - bodies.c[b, 1]
+        u2 = markers.u[marker, 2] - bodies.c[b, 2]
+        n0 = J[row, part + 3] + u1 * f2 - u2 * f1
+        n1 = J[row, part + 4] + u2 * f0 - u0 * f2
+        n2 = J[row, part + 5] + u0 * f1 - u1 * f0
+        root, B, W = bodies.inverse_root_mass[b], saddle.G[b], saddle.W[k]
+        W[0], W[1], W[2] = root * f0, root * f1, root * f2
+        W[3] = B[0, 0] * n0 + B[0, 1] * n1 + B[0, 2] * n2
+        W[4] = B[1, 0] * n0 + B[1, 1] * n1 + B[1, 2] * n2
+        W[5] = B[2, 0] * n0 + B[2, 1] * n1 + B[2, 2] * n2
+
+
+@stage
+def whiten_forces(record):
+    """z = L⁻¹ (Q_e + Q_v): force - m ω × (ω × c) over √m; J̄_c^{-1/2} (moment about the centre of mass - ω̄ × J̄_c ω̄)."""
+    bodies, saddle = record.bodies, record.saddle
+    for b in range(bodies.mass.shape[0]):
+        F, c, w, w_b = bodies.wrench[b], bodies.c[b], bodies.omega[b], bodies.omega_b[b]
+        A, J, K, z = bodies.A[b], bodies.inertia_b[b], bodies.whitener_b[b], saddle.z[b]
+        m, root = bodies.mass[b], bodies.inverse_root_mass[b]
+        wc, ww = dot(w, c), dot(w, w)
+        for i in range(3):
+            z[i] = root * (F[i] - m * (w[i] * wc - c[i] * ww))
+        # moment about the centre of mass, global axes
+        t0 = F[3] - (c[1] * F[2] - c[2] * F[1])
+        t1 = F[4] - (c[2] * F[0] - c[0] * F[2])
+        t2 = F[5] - (c[0] * F[1] - c[1] * F[0])
+        h0 = J[0, 0] * w_b[0] + J[0, 1] * w_b[1] + J[0, 2] * w_b[2]
+        h1 = J[1, 0] * w_b[0] + J[1, 1] * w_b[1] + J[1, 2] * w_b[2]
+        h2 = J[2, 0] * w_b[0] + J[2, 1] * w_b[1] + J[2, 2] * w_b[2]
+        m0 = A[0, 0] * t0 + A[1, 0] * t1 + A[2, 0] * t2 - (w_b[1] * h2 - w_b[2] * h1)
+        m1 = A[0, 1] * t0 + A[1, 1] * t1 + A[2, 1] * t2 - (w_b[2] * h0 - w_b[0] * h2)
+        m2 = A[0, 2] * t0 + A[1, 2] * t1 + A[2, 2] * t2 - (w_b[0] * h1 - w_b[1] * h0)
+        z[3] = K[0, 0] * m0
+        z[4] = K[1, 0] * m0 + K[1, 1] * m1
+        z[5] = K[2, 0] * m0 + K[2, 1] * m1 + K[2, 2] * m2
+
+
+@stage
+def unwhiten(bodies, saddle, b):
+    """(R̈, ᾱ) of body b from z = Lᵀ (R̈ + α × c, ᾱ); also the change of (R, rotation) or of (Ṙ, ω̄) in a correction."""
+    z, K, root = saddle.z[b], bodies.whitener_b[b], bodies.inverse_root_mass[b]
+    alpha, c, a, A = bodies.alpha_b[b], bodies.c[b], bodies.Rddot[b], bodies.A[b]
+    alpha[0] = K[0, 0] * z[3] + K[1, 0] * z[4] + K[2, 0] * z[5]
+    alpha[1] = K[1, 1] * z[4] + K[2, 1] * z[5]
+    alpha[2] = K[2, 2] * z[5]
+    g0 = A[0, 0] * alpha[0] + A[0, 1] * alpha[1] + A[0, 2] * alpha[2]
+    g1 = A[1, 0] * alpha[0] + A[1, 1] * alpha[1] + A[1, 2] * alpha[2]
+    g2 = A[2, 0] * alpha[0] + A[2, 1] * alpha[1] + A[2, 2] * alpha[2]
+    a[0] = root * z[0] - (g1 * c[2] - g2 * c[1])
+    a[1] = root * z[1] - (g2 * c[0] - g0 * c[2])
+    a[2] = root * z[2] - (g0 * c[1] - g1 * c[0])
+
+
+@stage
+def write_rates(record, ydot):
+    """ẏ = (Ṙ, θ̇, R̈, ᾱ, power)."""
+    bodies = record.bodies
+    nb = bodies.mass.shape[0]
+    for b in range(nb):
+        unwhiten(bodies, record.saddle, b)
+        q, v = 7 * b, 7 * nb + 6 * b
+        rates_of_parameters(bodies.theta[b], bodies.omega_b[b], ydot[q + 3 : q + 7])
+        for i in range(3):
+            ydot[q + i] = bodies.Rdot[b, i]
+            ydot[v + i] = bodies.Rddot[b, i]
+            ydot[v + 3 + i] = bodies.alpha_b[b, i]
+    x = 13 * nb
+    ydot[x] = record.control.power[0]
+    ydot[x + 1] = record.control.power[1]
+
+
+@entry(evaluate_signature)
+def evaluate(machine, t, y, ydot):
+    """ẏ of y = (q, v, x): x are the work of external forces and the dissipated energy [J]. Leaves everything else in the record."""
+    record = record_at(machine)
+    read_velocities(record, y)
+    constraint_rows(record.bodies, record.markers, record.constraints)
+    load_weight(record.bodies)
+    apply_loads(record, t)
+    whiten_rows(record)
+    status = factorise_rows(record, WIDTH)
+    if status != OK:
+        return status
+    whiten_forces(record)
+    multipliers(record, WIDTH)
+    write_rates(record, ydot)
+    return OK
+
+
+@entry(correct_signature)
+def correct(machine, t, y):
+    """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137).
+
+    The report's pseudo-inverse weighs metres and radians alike; here the change is least in the mass metric, which does not depend
+    on units and uses the same matrix S. A level within its tolerance (control.stabilise[2:4]) is left alone.
+    """
+    record = record_at(machine)
+    bodies, saddle, constraints = record.bodies, record.saddle, record.constraints
+    nb = bodies.mass.shape[0]
+    tolerance = record.control.stabilise
+    factorised = False
+    for attempt in range(MAX_CORRECTIONS + 1):
+        normalise(record, y)
+        read_velocities(record, y)
+        constraint_rows(bodies, record.markers, constraints)
+        at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, tolerance[2])
+        if not at_positions and not exceeds(constraints.Cdot, tolerance[3]):
+            return OK
+        if not factorised:
+            whiten_rows(record)
+            status = factorise_rows(record, WIDTH)
+            if status != OK:
+                return status
+        factorised = not exceeds(constraints.C, NEAR * tolerance[2])
+        correction(record, constraints.C if at_positions else constraints.Cdot, WIDTH)
+        for b in range(nb):
+            unwhiten(bodies, saddle, b)
+            if at_positions:
+                turn, change = bodies.alpha_b[b], saddle.z[b]
+                rates_of_parameters(bodies.theta[b], turn, change)
+                for i in range(3):
+                    y[7 * b + i] += bodies.Rddot[b, i]
+                for i in range(4):
+                    y[7 * b + 3 + i] += change[i]
+            else:
+                v = 7 * nb + 6 * b
+                for i in range(3):
+                    y[v + i] += bodies.Rddot[b, i]
+                    y[v + 3 + i] += bodies.alpha_b[b, i]
+        if not at_positions:
+            return OK
+    return OK
+
+
+@entry(correct_signature)
+def keep(machine, t, y):
+    """No correction; |θ| is brought back to one, which moves nothing because A is taken of θ/|θ|."""
+    normalise(record_at(machine), y)
+    return OK

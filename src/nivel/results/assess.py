@@ -1,0 +1,121 @@
+"""Measure how far a run can be trusted."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size
+from nivel.results.statements import statements
+from nivel.results.trust import SPEED_FLOOR, Trust, worst
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The largest number of a history: its value, the name it belongs to, and the time in seconds."""
+
+    value: float
+    row: str = ""
+    time: float = 0.0
+
+
+def assess(
+    result: Readable,
+    *,
+    outcome: str,
+    degrees_of_freedom: int | None = None,
+    redundant_rows: Iterable[str] = (),
+    non_unique_joints: Iterable[str] = (),
+    accuracy: Peak | None = None,
+    message: str = "",
+) -> Trust:
+    """The trust report of a run.
+
+    outcome : done, interrupted, failed or running.
+    non_unique_joints : joints whose reactions depend on which redundant rows are kept.
+    accuracy : largest change of a position [m] when the step is halved (`nivel.results.accuracy.step_halving`).
+    message : what stopped the run, said after the outcome.
+    """
+    size = machine_size(result)
+    speed = max(largest_speed(result), SPEED_FLOOR * size)
+    energy_scale, energy_scale_kind = largest_energy(result)
+    energy = peak(result, "energy_error")
+    violation, violation_units = worst_row(result, "constraint_violation", {"m": 1.0 / size, "1": 1.0})
+    rate, rate_units = worst_row(result, "constraint_rate_violation", {"m": 1.0 / speed, "1": size / speed})
+    trust = Trust(
+        verdict="green",
+        outcome=outcome,
+        energy_error_max=energy.value,
+        energy_error_time=energy.time,
+        energy_scale=energy_scale,
+        energy_scale_kind=energy_scale_kind,
+        size=size,
+        speed=speed,
+        constraint_violation_max=violation.value,
+        constraint_violation_row=violation.row,
+        constraint_violation_time=violation.time,
+        constraint_violation_units=violation_units,
+        constraint_rate_violation_max=rate.value,
+        constraint_rate_violation_row=rate.row,
+        constraint_rate_violation_time=rate.time,
+        constraint_rate_violation_units="m/s" if rate_units == "m" else "1/s",
+        degrees_of_freedom=degrees_of_freedom,
+        redundant_rows=tuple(redundant_rows),
+        non_unique_joints=tuple(non_unique_joints),
+        accuracy_estimate=accuracy.value if accuracy else None,
+        accuracy_body=accuracy.row if accuracy else "",
+        accuracy_time=accuracy.time if accuracy else None,
+    )
+    items = tuple(statements(trust, message))
+    return replace(trust, items=items, verdict=worst(items))
+
+
+def peak(result: Readable, name: str) -> Peak:
+    """The largest magnitude of a history without rows; the first NaN counts as the largest."""
+    if name not in result.variables or not len(result.time):
+        return Peak(0.0)
+    values = np.abs(result.values(name))
+    k = int(np.argmax(values))
+    return Peak(float(values[k]), "", float(result.time[k]))
+
+
+def worst_row(result: Readable, name: str, fraction_of: Mapping[str, float]) -> tuple[Peak, str]:
+    """The row of `name` (time, row) that is largest as a fraction, and its units: m or 1.
+
+    fraction_of : factor that turns a value of these units into a fraction.
+    """
+    if name not in result.variables:
+        return Peak(0.0), "m"
+    rows = result.coordinates[result.variables[name].dims[1]]
+    units = row_units(result, rows)
+    factors = np.array([fraction_of[each] for each in units])
+    best, largest = (0, 0), -1.0
+    for frames in blocks(result):
+        block = np.abs(result.values(name, frames)) * factors
+        if not block.size:
+            continue
+        k, row = np.unravel_index(int(np.argmax(block)), block.shape)
+        if not block[k, row] <= largest:  # also when it is NaN
+            best, largest = (frames.start + int(k), int(row)), float(block[k, row])
+        if math.isnan(largest):
+            break
+    if largest < 0.0:
+        return Peak(0.0), "m"
+    k, row = best
+    value = float(abs(result.values(name, slice(k, k + 1))[0, row]))
+    return Peak(value, rows[row], float(result.time[k])), units[row]
+
+
+def row_units(result: Readable, rows: tuple[str, ...]) -> tuple[str, ...]:
+    """Units of the constraint rows at position level, m or 1; rows without a stated unit count as lengths.
+
+    They are stated by the attribute `constraint_units`, JSON: a list in the order of the rows, or row → units.
+    """
+    stated = json.loads(str(result.attributes.get("constraint_units", "{}")))
+    if isinstance(stated, list):
+        stated = dict(zip(rows, stated, strict=True))
+    return tuple("1" if stated.get(row, "m") in ("1", "", "rad") else "m" for row in rows)

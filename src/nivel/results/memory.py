@@ -1,0 +1,75 @@
+"""A sink that keeps the frames in memory, for runs without a file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.march.sink import Header
+from nivel.results.contents import resolved, shape_of
+from nivel.system.layout import Variable
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+
+GROWTH = 2  # the buffer doubles: each frame is copied at most twice on average
+
+
+class MemoryContents:
+    """Frames (frame_count, width) of a run and the names of their columns."""
+
+    def __init__(self, header: Header, frames: NDArray[np.float64], attributes: dict[str, str | float | int]) -> None:
+        self.variables: dict[str, Variable]
+        self.coordinates: dict[str, tuple[str, ...]]
+        self.variables, self.coordinates = resolved(header)
+        self.attributes = attributes
+        self.frame_count = len(frames)
+        self._frames = frames
+
+    def read(self, name: str, where: tuple[slice | int, ...] = ()) -> NDArray[np.float64]:
+        if name == "time":
+            return self._frames[:, 0][where or ...].copy()
+        variable = self.variables[name]
+        block = self._frames[:, variable.columns].reshape(self.frame_count, *shape_of(variable, self.coordinates))
+        return np.array(block[where or ...])
+
+
+class Memory:
+    """Sink without a file: `begin`, `take` …, then `close` gives the result."""
+
+    def __init__(self) -> None:
+        self._header: Header | None = None
+        self._buffer = np.empty((0, 0))
+        self._count = 0
+
+    def begin(self, header: Header) -> None:
+        self._header = header
+        self._buffer = np.empty((256, header.layout.width))
+        self._count = 0
+
+    def take(self, frames: NDArray[np.float64]) -> None:
+        end = self._count + len(frames)
+        if end > len(self._buffer):
+            grown = np.empty((max(end, GROWTH * len(self._buffer)), self._buffer.shape[1]))
+            grown[: self._count] = self._buffer[: self._count]
+            self._buffer = grown
+        self._buffer[self._count : end] = frames
+        self._count = end
+
+    def result(self) -> Result:
+        """What was taken so far, with the attributes of the header."""
+        return self._as_result({})
+
+    def close(self, attributes: dict[str, str | float | int]) -> Result:
+        """The result; `attributes` (`outcome`, `trust`, `timing`, …) replace those of the header."""
+        return self._as_result(attributes)
+
+    def _as_result(self, attributes: dict[str, str | float | int]) -> Result:
+        from nivel.results.result import Result
+
+        if self._header is None:
+            raise RuntimeError("a sink must begin before it gives a result")
+        frames = self._buffer[: self._count].copy()
+        return Result(MemoryContents(self._header, frames, {**self._header.attributes, **attributes}))

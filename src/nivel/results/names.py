@@ -1,0 +1,62 @@
+"""The names by which the numbers of a result are asked for.
+
+A variable is asked for by its own name (`position`) or for one element (`crank.position`, `hinge.force`, `hinge.angle`,
+`hinge.angle.rate`, `hinge.s.x.violation`), and either for one component (`crank.position.x`).
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from nivel.errors import ModelError
+from nivel.system.layout import Variable
+
+# Dimensions whose names are components of one quantity, not elements of the machine.
+COMPONENTS = ("xyz", "euler_parameter")
+
+
+@dataclass(frozen=True)
+class Selection:
+    """A part of a variable: `where` selects along its dimensions, time (all of it) first."""
+
+    variable: str
+    where: tuple[slice | int, ...]
+
+
+def selections(variables: Mapping[str, Variable], coordinates: Mapping[str, tuple[str, ...]]) -> dict[str, Selection]:
+    """Every name that can be asked for, in the order of the variables. A variable's own name wins over an element's."""
+    every = slice(None)
+    found = {name: Selection(name, ()) for name in variables}
+    for variable in variables.values():
+        dims = variable.dims[1:]
+        element = dims[0] if dims and dims[0] not in COMPONENTS else None
+        starts = [(variable.name, (every,) if element is None else None)]
+        if element is not None:
+            suffix = _suffix(variable.name, element)
+            starts = [(f"{name}{suffix}", (every, i)) for i, name in enumerate(coordinates[element])]
+        components = coordinates[dims[-1]] if dims and dims[-1] in COMPONENTS else ()
+        for name, where in starts:
+            found.setdefault(name, Selection(variable.name, where))
+            for k, component in enumerate(components):
+                found.setdefault(f"{name}.{component}", Selection(variable.name, (*where, k)))
+    return found
+
+
+def _suffix(variable: str, dimension: str) -> str:
+    """`.force` for `joint_force` along `joint`; nothing for `joint_coordinate` along its own names."""
+    first, _, rest = variable.partition("_")
+    if not rest or first not in ("joint", "constraint", dimension.split("_", maxsplit=1)[0]):
+        return f".{variable}"
+    return "" if rest in dimension else f".{rest}"
+
+
+def unknown_name(name: str, known: Mapping[str, Selection]) -> ModelError:
+    """The error for a name that a result does not have, with the nearest names that it has."""
+    near = difflib.get_close_matches(name, known, n=3, cutoff=0.5)
+    if near:
+        listed = " or ".join(f"`{each}`" for each in near)
+        return ModelError(f"the result has no `{name}`; did you mean {listed}?")
+    some = ", ".join(f"`{each}`" for each in list(known)[:6])
+    return ModelError(f"the result has no `{name}`; it has, for instance, {some}")

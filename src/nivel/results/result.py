@@ -1,0 +1,193 @@
+"""The result of a simulation."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.results.assess import assess
+from nivel.results.contents import Contents
+from nivel.results.names import Selection, selections, unknown_name
+from nivel.results.stored import StoredContents
+from nivel.results.trust import Trust
+from nivel.system.layout import Variable
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+
+class Result:
+    """What a run computed, read from its file or memory when asked for.
+
+    `result["crank.position"]` is an xarray array with units; `result.values("crank.position")` the plain numpy array of
+    it; `result.dataset` the whole as an xarray dataset. `result.names` lists everything that can be asked for.
+    """
+
+    def __init__(self, contents: Contents) -> None:
+        self._contents = contents
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str]) -> Result:
+        """Read a result file, also one that is still being written or whose writer was killed."""
+        return cls(StoredContents(Path(path)))
+
+    # --- the run ---
+
+    @property
+    def machine(self) -> str:
+        """Name of the machine."""
+        return str(self.attributes.get("machine", "machine"))
+
+    @property
+    def outcome(self) -> str:
+        """done, interrupted, failed, or running: the file was never closed because the run goes on or was killed."""
+        return str(self.attributes.get("outcome", "running"))
+
+    @property
+    def message(self) -> str:
+        """What stopped the run, in a sentence; empty where nothing did."""
+        return str(self.attributes.get("message", ""))
+
+    @property
+    def attributes(self) -> Mapping[str, str | float | int]:
+        """Everything known about the run besides its numbers; nested data are JSON text."""
+        return self._contents.attributes
+
+    @cached_property
+    def settings(self) -> dict[str, Any]:
+        """All settings that were used."""
+        return self._json("settings")
+
+    @cached_property
+    def timing(self) -> dict[str, Any]:
+        """Steps, evaluations and seconds that the run took; empty while it goes on."""
+        return self._json("timing")
+
+    @cached_property
+    def scene(self) -> dict[str, Any]:
+        """Bodies and joints as the viewer and the report draw them."""
+        return self._json("scene")
+
+    @cached_property
+    def trust(self) -> Trust:
+        """How far to trust the result. A run that was killed is assessed from what it left behind."""
+        if "trust" in self.attributes:
+            return Trust.from_json(str(self.attributes["trust"]))
+        return assess(self, outcome=self.outcome, message=self.message)
+
+    def _json(self, attribute: str) -> dict[str, Any]:
+        return json.loads(str(self.attributes.get(attribute, "{}")))
+
+    # --- the numbers ---
+
+    @property
+    def path(self) -> Path | None:
+        """The file, or None for a result in memory."""
+        return self._contents.path if isinstance(self._contents, StoredContents) else None
+
+    @cached_property
+    def time(self) -> NDArray[np.float64]:
+        """(n,) [s]"""
+        return self._contents.read("time")
+
+    @property
+    def variables(self) -> Mapping[str, Variable]:
+        """Name → dimensions, units and meaning of every variable but the time."""
+        return self._contents.variables
+
+    @property
+    def coordinates(self) -> Mapping[str, tuple[str, ...]]:
+        """Dimension → the names along it."""
+        return self._contents.coordinates
+
+    @cached_property
+    def _selections(self) -> dict[str, Selection]:
+        return selections(self.variables, self.coordinates)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Everything that can be asked for."""
+        return tuple(self._selections)
+
+    def selection(self, name: str) -> Selection:
+        """Where `name` stands; ModelError with the nearest names when there is none."""
+        if name not in self._selections:
+            raise unknown_name(name, self._selections)
+        return self._selections[name]
+
+    def values(self, name: str, frames: slice = slice(None)) -> NDArray[np.float64]:
+        """The numbers of `name`, time first, as a numpy array; `frames` takes a part of the run."""
+        if name == "time":
+            return self.time[frames]
+        if name in self.variables:
+            return self._contents.read(name, (frames,))
+        found = self.selection(name)
+        return self._contents.read(found.variable, (frames, *found.where[1:]))
+
+    def units(self, name: str) -> str:
+        """SI units of `name`; of joint coordinates and rates those of each joint, where one is asked for."""
+        if name == "time":
+            return "s"
+        found = self.selection(name)
+        variable = self.variables[found.variable]
+        own = self._json("coordinate_units")
+        if variable.name in ("joint_coordinate", "joint_rate") and len(found.where) > 1:
+            element = self.coordinates[variable.dims[1]][int(found.where[1])]  # type: ignore[arg-type]
+            unit = own.get(element, variable.units) if isinstance(own, dict) else own[int(found.where[1])]  # type:
+            ignore[arg-type] return f"{unit}/s" if variable.name == "joint_rate" and not unit.endswith("/s") else unit
+        return variable.units
+
+    def __contains__(self, name: object) -> bool:
+        return name == "time" or name in self._selections
+
+    def __getitem__(self, name: str) -> xarray.DataArray:
+        from nivel.results.labelled import data_array
+
+        return data_array(self, name)
+
+    @cached_property
+    def dataset(self) -> xarray.Dataset:
+        """Everything as one xarray dataset; read from the file when used where the run is over."""
+        from nivel.results.labelled import dataset
+
+        return dataset(self)
+
+    # --- for people ---
+
+    def plot(self, *names: str) -> Figure:
+        """Curves of `names` over time, one below the other where units differ; without names the joint coordinates."""
+        from nivel.results.plot import plot
+
+        return plot(self, names)
+
+    def report(self, path: str | os.PathLike[str], force: bool = False) -> Path:
+        """Write the report as one HTML file that needs no network."""
+        from nivel.report.write import write_report
+
+        return write_report(self, path, force=force)
+
+    def export_csv(
+        self, path: str | os.PathLike[str], select: tuple[str, ...] | list[str] = (), force: bool = False
+    ) -> Path:
+        """Write a table, one row per frame; `select` takes names, elements (`crank`), or patterns (`*.angle`)."""
+        from nivel.results.csv_table import write_csv
+
+        return write_csv(self, path, select, force=force)
+
+    def __repr__(self) -> str:
+        from nivel.results.summary import summary_text
+
+        return summary_text(self)
+
+    def _repr_html_(self) -> str:
+        from nivel.results.summary import summary_html
+
+        return summary_html(self)

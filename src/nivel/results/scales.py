@@ -1,0 +1,120 @@
+"""The scales of a run that its errors are compared with: size, speed, energy. `trust.RULES` states them in words."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.results.trust import ENERGY_FLOOR, SIZE_FLOOR
+
+Array = NDArray[np.float64]
+BLOCK = 16 * 1024  # frames read at once: a long run need not fit in memory
+
+
+class Readable(Protocol):
+    """What a measurement needs of a result: `Result` is one."""
+
+    @property
+    def attributes(self) -> Mapping[str, str | float | int]: ...
+    @property
+    def variables(self) -> Mapping[str, Any]: ...
+    @property
+    def coordinates(self) -> Mapping[str, tuple[str, ...]]: ...
+    @property
+    def time(self) -> Array: ...
+    def values(self, name: str, frames: slice = ...) -> Array: ...
+
+
+def machine_size(result: Readable) -> float:
+    """Diagonal of the box around all joint points, centres of mass and body origins in the first frame [m]."""
+    points = list(_points_in_space(result, slice(0, 1)))
+    ground = _scene(result).get("ground_points", [])
+    together = [each.reshape(-1, 3) for each in points] + [np.reshape(ground, (-1, 3))]
+    cloud = np.concatenate(together)
+    cloud = cloud[np.isfinite(cloud).all(axis=1)]
+    extent = float(np.linalg.norm(np.ptp(cloud, axis=0))) if len(cloud) else 0.0
+    return max(extent, SIZE_FLOOR)
+
+
+def largest_speed(result: Readable) -> float:
+    """Upper bound |v| + |ω| r of the speed of every joint point, centre of mass and body origin, over the run [m/s]."""
+    if "velocity" not in result.variables:
+        return 0.0
+    reach = np.array([_reach(body) for body in _bodies(result)])
+    largest = 0.0
+    for frames in blocks(result):
+        v = np.linalg.norm(result.values("velocity", frames), axis=-1)
+        omega = np.linalg.norm(result.values("angular_velocity", frames), axis=-1)
+        speed = v + omega * reach
+        largest = max(largest, float(np.max(speed, initial=0.0, where=np.isfinite(speed))))
+    return largest
+
+
+def largest_energy(result: Readable) -> tuple[float, str]:
+    """The energy [J] that the energy error is compared with, and what it is: see `trust.RULES`."""
+    candidates = [
+        ("largest kinetic energy", _largest(result, "kinetic_energy", lambda e: e)),
+        ("largest change of potential energy", _largest(result, "potential_energy", lambda e: e - e[0])),
+        ("largest work of external forces", _largest(result, "external_work", lambda e: e)),
+        ("largest dissipated energy", _largest(result, "dissipated_energy", lambda e: e)),
+        ("smallest energy that counts", ENERGY_FLOOR * (1.0 + _largest(result, "potential_energy", lambda e: e))),
+    ]
+    kind, value = max(candidates, key=lambda each: each[1])
+    return value, kind
+
+
+def blocks(result: Readable) -> Iterator[slice]:
+    """The frames of the run in parts."""
+    count = len(result.time)
+    for start in range(0, count, BLOCK):
+        yield slice(start, min(start + BLOCK, count))
+
+
+def _largest(result: Readable, name: str, change: Callable[[Array], Array]) -> float:
+    if name not in result.variables or not len(result.time):
+        return 0.0
+    values = np.abs(change(result.values(name)))
+    return float(np.max(values, initial=0.0, where=np.isfinite(values)))
+
+
+def _scene(result: Readable) -> dict[str, Any]:
+    return json.loads(str(result.attributes.get("scene", "{}")))
+
+
+def _bodies(result: Readable) -> list[dict[str, Any]]:
+    """Bodies of the scene in the order of the result; a body that the scene does not know is a bare origin."""
+    known = {body["name"]: body for body in _scene(result).get("bodies", [])}
+    return [known.get(name, {}) for name in result.coordinates.get("body", ())]
+
+
+def _body_points(body: dict[str, Any]) -> Array:
+    """(n, 3) [m] origin, centre of mass and joint points in the body frame."""
+    return np.array(
+        [[0.0, 0.0, 0.0], body.get("centre_of_mass", [0.0, 0.0, 0.0]), *body.get("points", [])], dtype=float
+    )
+
+
+def _reach(body: dict[str, Any]) -> float:
+    """Largest distance of a point of the body from its origin [m]."""
+    return float(np.linalg.norm(_body_points(body), axis=1).max())
+
+
+def _points_in_space(result: Readable, frames: slice) -> Iterator[Array]:
+    """For each body its points (frames, n, 3) in global axes [m]."""
+    if "position" not in result.variables:
+        return
+    position, orientation = result.values("position", frames), result.values("orientation", frames)
+    for k, body in enumerate(_bodies(result)):
+        local = _body_points(body)
+        yield position[:, k, None, :] + rotated(orientation[:, k, None, :], local)
+
+
+def rotated(theta: Array, r: Array) -> Array:
+    """A r for Euler parameters θ (…, 4), scalar first, and vectors r (…, 3) in the body frame."""
+    e0, e = theta[..., :1], theta[..., 1:]
+    t = 2.0 * np.cross(e, r)
+    return r + e0 * t + np.cross(e, t)

@@ -1,0 +1,124 @@
+"""The numbers of a trust report said to a machine designer, each with its thresholds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from nivel.results.trust import THRESHOLDS, Item, Trust, Verdict
+
+OUTCOMES: dict[str, tuple[Verdict, str]] = {
+    "done": ("green", "Outcome: the run reached its end"),
+    "interrupted": ("amber", "Outcome: interrupted; what was computed until then is here"),
+    "failed": ("red", "Outcome: the computation failed; what was computed until then is here"),
+    "running": ("amber", "Outcome: the file was never closed: the run is still going on, or it was killed"),
+}
+
+
+def statements(trust: Trust, message: str) -> Iterator[Item]:
+    """The items of the report; `message` says what stopped the run."""
+    verdict, text = OUTCOMES.get(trust.outcome, ("red", f"Outcome: {trust.outcome}"))
+    yield Item("outcome", verdict, f"{text}: {message}" if message else text)
+    yield _energy_item(trust)
+    if trust.constraint_violation_row:
+        yield _violation_item(trust)
+        yield _rate_item(trust)
+    if trust.degrees_of_freedom is not None:
+        yield _freedom_item(trust)
+    yield _redundancy_item(trust)
+    if trust.accuracy_estimate is not None:
+        yield _accuracy_item(trust, trust.accuracy_estimate)
+
+
+def _energy_item(trust: Trust) -> Item:
+    fraction = trust.energy_error_max / trust.energy_scale
+    said = (
+        f"error {_number(fraction)} of the {trust.energy_scale_kind} {_number(trust.energy_scale)} J"
+        if math.isfinite(fraction)
+        else f"the energy is not a number any more from t = {trust.energy_error_time:.6g} s on"
+    )
+    return _numeric("energy", f"Energy: {said}", fraction, trust.energy_error_time)
+
+
+def _violation_item(trust: Trust) -> Item:
+    length = trust.constraint_violation_units == "m"
+    fraction = trust.constraint_violation_max / (trust.size if length else 1.0)
+    value = f"{_number(trust.constraint_violation_max)} m, " if length else ""
+    scale = f" of the machine's size {_number(trust.size)} m" if length else " as a cosine"
+    said = f"Joints: open by at most {value}{_number(fraction)}{scale}"
+    row, time = trust.constraint_violation_row, trust.constraint_violation_time
+    return _numeric("violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
+
+
+def _rate_item(trust: Trust) -> Item:
+    length = trust.constraint_rate_violation_units == "m/s"
+    scale = trust.speed if length else trust.speed / trust.size
+    fraction = trust.constraint_rate_violation_max / scale
+    against = f"largest speed {_number(trust.speed)} m/s" if length else f"largest speed over size {_number(scale)} 1/s"
+    units = trust.constraint_rate_violation_units
+    value = _number(trust.constraint_rate_violation_max)
+    said = f"Joint rates: off by at most {value} {units}, {_number(fraction)} of the {against}"
+    row, time = trust.constraint_rate_violation_row, trust.constraint_rate_violation_time
+    return _numeric("rate_violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
+
+
+def _accuracy_item(trust: Trust, estimate: float) -> Item:
+    fraction = estimate / trust.size
+    moved = f"half the step moves nothing by more than {_number(estimate)} m"
+    said = f"Accuracy: {moved}, {_number(fraction)} of the machine's size"
+    where = f", largest at {trust.accuracy_body}" if trust.accuracy_body else ""
+    when = f" at t = {trust.accuracy_time:.6g} s" if trust.accuracy_time is not None else ""
+    return _numeric(
+        "accuracy", f"{said} {_number(trust.size)} m{where}{when}", fraction, trust.accuracy_time, trust.accuracy_body
+    )
+
+
+def _freedom_item(trust: Trust) -> Item:
+    count = trust.degrees_of_freedom or 0
+    if count < 1:
+        return Item("degrees_of_freedom", "amber", "Freedom: no degree of freedom: nothing can move (green from 1 on)")
+    degrees = "1 degree of freedom" if count == 1 else f"{count} degrees of freedom"
+    return Item("degrees_of_freedom", "green", f"Freedom: {degrees} (green from 1 on)")
+
+
+def _redundancy_item(trust: Trust) -> Item:
+    if not trust.redundant_rows:
+        return Item(
+            "redundancy",
+            "green",
+            "Redundancy: no constraint repeats another, so every reaction is unique (green when none)",
+        )
+    rows = ", ".join(trust.redundant_rows)
+    count = len(trust.redundant_rows)
+    repeats = "1 constraint row repeats others" if count == 1 else f"{count} constraint rows repeat others"
+    unsure = (
+        f"how the reactions of {', '.join(trust.non_unique_joints)} share the load is not"
+        if trust.non_unique_joints
+        else "so are the reactions"
+    )
+    text = f"Redundancy: {repeats} ({rows}). The motion is unique; {unsure} (green when none, amber otherwise)"
+    return Item("redundancy", "amber", text)
+
+
+def _numeric(name: str, text: str, fraction: float, time: float | None, row: str = "") -> Item:
+    threshold = THRESHOLDS[name]
+    return Item(
+        name,
+        threshold.verdict(fraction),
+        f"{text} ({threshold})",
+        fraction,
+        threshold.green,
+        threshold.amber,
+        row,
+        time,
+    )
+
+
+def _number(value: float) -> str:
+    """Two significant digits for what is tiny or huge, three for the sizes one can picture."""
+    if value == 0.0:
+        return "0"
+    if 1e-3 <= abs(value) < 1e6:
+        return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+    mantissa, exponent = f"{value:.1e}".split("e")
+    return f"{mantissa}e{int(exponent)}" if math.isfinite(value) else str(value)

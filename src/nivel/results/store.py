@@ -1,0 +1,212 @@
+"""Write a result file while the run goes on.
+
+Two forms of the same NetCDF-4 file. While the run goes on it is in HDF5's SWMR mode (single writer, multiple readers)
+and flushed after every block of frames: other processes read it, and a killed run leaves everything up to its last
+block. When the run is over the file is rewritten, compressed and in chunks that run along time, beside the first one,
+and takes its place in one atomic step.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import ModelError
+from nivel.march.sink import Header
+from nivel.results.contents import resolved, shape_of
+from nivel.system.layout import Variable
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+
+Attributes = dict[str, str | float | int]
+
+RUNNING_CHUNK = 64 * 1024  # bytes: a chunk that is not full is written again at each flush, so it is small
+FINAL_CHUNK = 512 * 1024  # bytes: reading the history of one body touches few chunks, reading all of them is fast
+FINAL_ROWS = 16 * 1024  # frames of a chunk, at most: long runs can be read in parts
+COMPRESSION_LEVEL = 2  # gzip after shuffle: higher levels save about 3 % more and take twice as long
+
+
+class Store:
+    """Sink that writes a result file: `begin`, `take` …, then `close` gives the result.
+
+    An existing file is replaced only with `force`. What is wrong with the path raises ModelError here, before anything
+    is computed.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], force: bool = False) -> None:
+        self.path = Path(path)
+        self._force = force
+        self._file: Any = None
+        self._variables: list[tuple[Variable, tuple[int, ...]]] = []
+        _check_path(self.path, force)
+
+    def begin(self, header: Header) -> None:
+        """Create all variables and attributes, then let readers in."""
+        variables, coordinates = resolved(header)
+        self._variables = [(variable, shape_of(variable, coordinates)) for variable in variables.values()]
+        try:
+            if self._force:
+                self.path.unlink(missing_ok=True)  # who reads the old file keeps it
+            self._file = h5py.File(self.path, "x", libver="latest", locking="best-effort")
+        except OSError as error:
+            raise ModelError(f"the result file {self.path} cannot be created: {_reason(error)}") from error
+        _write_header(self._file, self._variables, coordinates, header.attributes, 0, _running_chunks)
+        self._file.swmr_mode = True
+        self._file.flush()
+
+    def take(self, frames: NDArray[np.float64]) -> None:
+        """Append frames (n, width). The time is written last: a frame whose time can be read is complete."""
+        try:
+            for variable, shape in self._variables:
+                _append(self._file[variable.name], frames[:, variable.columns].reshape(len(frames), *shape))
+            self._file.flush()
+            _append(self._file["time"], frames[:, 0])
+            self._file.flush()
+        except OSError as error:
+            raise ModelError(
+                f"the result file {self.path} cannot be written further: {_reason(error)}; "
+                "it is readable up to the frame before"
+            ) from error
+
+    def result(self) -> Result:
+        """What was written so far; the run may go on."""
+        from nivel.results.result import Result
+        from nivel.results.stored import StoredContents
+
+        return Result(StoredContents(self.path))
+
+    def close(self, attributes: Attributes) -> Result:
+        """Rewrite the file in its final form; `attributes` (`outcome`, `trust`, …) replace those of the header."""
+        from nivel.results.result import Result
+        from nivel.results.stored import StoredContents
+
+        if self._file is None:
+            raise RuntimeError("a sink must begin before it gives a result")
+        self._file.close()
+        self._file = None
+        rewrite(self.path, attributes)
+        return Result(StoredContents(self.path))
+
+
+def rewrite(path: Path, attributes: Attributes) -> None:
+    """Replace the file at `path`, which nobody writes, by its final form, in one atomic step.
+
+    When this fails, for instance because the disk is full, the file stays as it was, with the new attributes if they
+    find place.
+    """
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        _write_final(path, temporary, attributes)
+        temporary.replace(path)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        try:
+            with h5py.File(path, "r+", locking="best-effort") as file:
+                file.attrs.update(attributes)
+        except OSError:
+            pass
+        raise ModelError(f"the result file {path} is complete but could not be compressed: {_reason(error)}") from error
+
+
+def _write_final(source_path: Path, path: Path, attributes: Attributes) -> None:
+    from nivel.results.stored import StoredContents
+
+    source = StoredContents(source_path)
+    variables = [(variable, shape_of(variable, source.coordinates)) for variable in source.variables.values()]
+    with (
+        h5py.File(source_path, "r", locking="best-effort") as old,
+        h5py.File(path, "w", libver=("v108", "v108"), locking="best-effort") as new,
+    ):
+        count = source.frame_count
+        _write_header(new, variables, source.coordinates, {**source.attributes, **attributes}, count, _final_chunks)
+        for name in ("time", *source.variables):
+            _copy(old[name], new[name], count)
+    with path.open("rb") as written:
+        os.fsync(written.fileno())
+
+
+def _write_header(
+    file: Any,
+    variables: list[tuple[Variable, tuple[int, ...]]],
+    coordinates: dict[str, tuple[str, ...]],
+    attributes: Attributes,
+    count: int,
+    layout: Any,
+) -> None:
+    """Attributes, coordinates and variables of `count` empty frames; `layout(shape, count)` gives their storage."""
+    file.attrs.update(attributes)
+    file.attrs["Conventions"] = "CF-1.11"
+    scales = {
+        "time": file.create_dataset("time", (count,), "f8", maxshape=(None,), fillvalue=np.nan, **layout((), count))
+    }
+    scales["time"].attrs.update({"units": "s", "long_name": "time"})
+    for dim, names in coordinates.items():
+        scales[dim] = file.create_dataset(dim, data=np.array(names, dtype=object), dtype=h5py.string_dtype())
+    for dim, scale in scales.items():
+        scale.make_scale(dim)
+    for variable, shape in variables:
+        dataset = file.create_dataset(
+            variable.name, (count, *shape), "f8", maxshape=(None, *shape), fillvalue=np.nan, **layout(shape, count)
+        )
+        dataset.attrs.update({"units": variable.units, "long_name": variable.long_name})
+        for axis, dim in enumerate(variable.dims):
+            dataset.dims[axis].attach_scale(scales[dim])
+
+
+def _running_chunks(shape: tuple[int, ...], count: int) -> dict[str, Any]:
+    """Chunks of whole frames."""
+    width = 8 * int(np.prod(shape))
+    return {"chunks": (int(np.clip(RUNNING_CHUNK // width, 1, 1024)), *shape)}
+
+
+def _final_chunks(shape: tuple[int, ...], count: int) -> dict[str, Any]:
+    """Chunks that run along time and hold as many neighbouring columns as fit; compressed."""
+    rows = int(np.clip(count, 1, FINAL_ROWS))
+    room = max(FINAL_CHUNK // (8 * rows), 1)
+    sides: list[int] = []
+    for length in reversed(shape):
+        side = min(length, room)
+        sides.insert(0, side)
+        room = room // side if side == length else 1
+        room = max(room, 1)
+    return {"chunks": (rows, *sides), "shuffle": True, "compression": "gzip", "compression_opts": COMPRESSION_LEVEL}
+
+
+def _append(dataset: Any, block: NDArray[np.float64]) -> None:
+    start = dataset.shape[0]
+    dataset.resize(start + len(block), axis=0)
+    dataset[start:] = block
+
+
+def _copy(old: Any, new: Any, count: int) -> None:
+    """In parts of whole chunks: a long run need not fit in memory."""
+    for start in range(0, count, FINAL_ROWS):
+        stop = min(start + FINAL_ROWS, count)
+        new[start:stop] = old[start:stop]
+
+
+def _check_path(path: Path, force: bool) -> None:
+    folder = path.parent
+    if not folder.exists():
+        raise ModelError(f"there is no folder {folder} for the result file {path.name}")
+    if not folder.is_dir():
+        raise ModelError(f"{folder} is not a folder, so the result file {path.name} cannot be written there")
+    if path.is_dir():
+        raise ModelError(
+            f"{path} is a folder; the name of a result file was expected, for instance {path / 'result.nc'}"
+        )
+    if path.exists() and not force:
+        raise ModelError(f"the result file {path} exists already; it is replaced with --force (in Python: force=True)")
+    if not os.access(folder, os.W_OK):
+        raise ModelError(f"nothing may be written into the folder {folder}: permission denied")
+
+
+def _reason(error: OSError) -> str:
+    """The system's own words, without those of the HDF5 library around them."""
+    return os.strerror(error.errno).lower() if error.errno else str(error)

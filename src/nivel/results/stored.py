@@ -1,0 +1,97 @@
+"""Read a result file: finished, still being written, or left behind by a killed run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import ModelError
+from nivel.system.layout import Variable
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[h5py.File]:
+    """The file, open for reading, also while another process writes it or after that process was killed."""
+    try:
+        file = h5py.File(path, "r", locking="best-effort")
+    except OSError:
+        file = _opened_while_running(path)
+    with file:
+        yield file
+
+
+def _opened_while_running(path: Path) -> h5py.File:
+    """The file in SWMR mode (single writer, multiple readers): such a file refuses to be opened otherwise."""
+    if not path.exists():
+        raise ModelError(f"there is no result file {path}") from None
+    if path.is_dir():
+        raise ModelError(f"{path} is a folder; a result file of nivel was expected") from None
+    try:
+        return h5py.File(path, "r", swmr=True, locking="best-effort")
+    except PermissionError:
+        raise ModelError(f"{path} may not be read: permission denied") from None
+    except OSError:
+        raise ModelError(f"{path} is not a result file of nivel (no readable HDF5/NetCDF-4 content)") from None
+
+
+class StoredContents:
+    """Contents of a result file. The file is open only while something is read, so results can be kept and pickled.
+
+    The number of frames is that of the moment of opening: all variables have at least these frames, whatever a writer
+    was doing.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.attributes: dict[str, str | float | int]
+        self.variables: dict[str, Variable]
+        self.coordinates: dict[str, tuple[str, ...]]
+        self.frame_count: int
+        with opened(path) as file:
+            if "nivel_version" not in file.attrs or "time" not in file:
+                raise ModelError(
+                    f"{path} is not a result file of nivel: "
+                    "it lacks the attribute `nivel_version` or the variable `time`"
+                )
+            self._understand(file)
+
+    def _understand(self, file: h5py.File) -> None:
+        self.attributes = {key: _plain(file.attrs[key]) for key in file.attrs if not key.startswith("_")}
+        self.variables, self.coordinates = {}, {}
+        self.frame_count = _dataset(file, "time").shape[0]
+        for name in file:
+            dataset = _dataset(file, name)
+            if name == "time":
+                continue
+            if dataset.is_scale:
+                self.coordinates[name] = tuple(dataset.asstr()[()])
+                continue
+            dims = tuple(dimension[0].name.lstrip("/") for dimension in dataset.dims)
+            columns = slice(0, int(np.prod(dataset.shape[1:])))
+            units, long_name = str(_plain(dataset.attrs["units"])), str(_plain(dataset.attrs["long_name"]))
+            self.variables[name] = Variable(name, dims, units, long_name, columns)
+            self.frame_count = min(self.frame_count, dataset.shape[0])
+
+    def read(self, name: str, where: tuple[slice | int, ...] = ()) -> NDArray[np.float64]:
+        frames, rest = (where[0], where[1:]) if where else (slice(None), ())
+        frames = range(self.frame_count)[frames]
+        index = slice(frames.start, frames.stop, frames.step) if isinstance(frames, range) else frames
+        with opened(self.path) as file:
+            return np.asarray(_dataset(file, name)[(index, *rest)], dtype=np.float64)
+
+
+def _dataset(file: h5py.File, name: str) -> Any:
+    return file[name]
+
+
+def _plain(value: Any) -> str | float | int:
+    """An attribute as a Python str, float or int."""
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.item() if isinstance(value, np.generic | np.ndarray) else value

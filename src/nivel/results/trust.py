@@ -1,0 +1,163 @@
+"""How far a result can be trusted: the numbers, the thresholds they are held against, and the verdict in words."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict, dataclass, fields
+from typing import Any, Literal
+
+Verdict = Literal["green", "amber", "red"]
+ORDER: tuple[Verdict, ...] = ("green", "amber", "red")
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """A number is green below `green`, amber below `amber`, red otherwise; NaN is red."""
+
+    green: float
+    amber: float
+    reason: str
+
+    def verdict(self, number: float) -> Verdict:
+        if number < self.green:
+            return "green"
+        return "amber" if number < self.amber else "red"
+
+    def __str__(self) -> str:
+        return f"green below {self.green:.0e}, amber below {self.amber:.0e}".replace("e-0", "e-")
+
+
+# Every threshold there is. Each number is a fraction, so the table holds for a watch and for a crane.
+THRESHOLDS = {
+    "energy": Threshold(
+        1e-4,
+        1e-2,
+        "Friction and inertia data of real machines are rarely known to 1 %: above it the run invents or loses more "
+        "energy than the model can explain. 1e-4 is two decades below, where the error is seen in no curve.",
+    ),
+    "violation": Threshold(
+        1e-6,
+        1e-4,
+        "1e-6 of a machine of one metre is a micrometre, less than the play of a good bearing; 1e-4 is a tenth of a "
+        "millimetre, the play of a worn one: above it the joint is visibly open.",
+    ),
+    "rate_violation": Threshold(
+        1e-5,
+        1e-3,
+        "A joint whose parts slip past each other at 1e-3 of the machine's speed feeds in or loses energy of the same "
+        "order; at 1e-5 this is below what the energy balance counts as green.",
+    ),
+    "accuracy": Threshold(
+        1e-4,
+        1e-2,
+        "Halving the step moves no point by more than 1e-4 of the machine, a tenth of a millimetre in a metre: finer "
+        "than manufacturing tolerances. Above 1e-2 the curves of the two steps are seen apart.",
+    ),
+}
+
+SIZE_FLOOR = 1e-3  # m: a single point has no extent; a millimetre keeps the fractions finite
+SPEED_FLOOR = 1e-3  # 1/s times the size: a machine at rest has no speed; crossing its own size in 1000 s counts as rest
+ENERGY_FLOOR = 1e-9  # times (1 J + largest potential energy): round-off of a machine at rest stays below green
+
+RULES = {
+    "energy_scale": "the largest kinetic energy, or the largest change of potential energy, work of external forces or "
+    "dissipated energy where one of these is larger; at least 1e-9 of (1 J + largest potential energy)",
+    "size": "the diagonal of the box around all joint points, centres of mass and body origins in the first frame; at "
+    "least 1e-3 m. Constraint rows that are cosines of angles are compared with 1",
+    "speed": "the largest speed of any joint point, centre of mass or body origin (upper bound |v| + |ω| r); at least "
+    "1e-3 of the size per second. Rates of cosines of angles are compared with speed / size",
+}
+
+
+@dataclass(frozen=True)
+class Item:
+    """One line of the trust report.
+
+    fraction : what is held against `green` and `amber`; None where the item is not a number.
+    text : the whole statement for a machine designer, thresholds included.
+    """
+
+    name: str
+    verdict: Verdict
+    text: str
+    fraction: float | None = None
+    green: float | None = None
+    amber: float | None = None
+    row: str = ""
+    time: float | None = None
+
+
+@dataclass(frozen=True)
+class Trust:
+    """The numbers behind the verdicts, in SI units, and the verdicts.
+
+    Rows are named as in the machine (`hinge.s.x`), times are in seconds. Violations are in `…_units`: m or 1 (a
+    cosine).
+    degrees_of_freedom : None where the run did not live to tell.
+    """
+
+    verdict: Verdict
+    outcome: str
+    energy_error_max: float
+    energy_error_time: float
+    energy_scale: float
+    energy_scale_kind: str
+    size: float
+    speed: float
+    constraint_violation_max: float = 0.0
+    constraint_violation_row: str = ""
+    constraint_violation_time: float = 0.0
+    constraint_violation_units: str = "m"
+    constraint_rate_violation_max: float = 0.0
+    constraint_rate_violation_row: str = ""
+    constraint_rate_violation_time: float = 0.0
+    constraint_rate_violation_units: str = "m/s"
+    degrees_of_freedom: int | None = None
+    redundant_rows: tuple[str, ...] = ()
+    non_unique_joints: tuple[str, ...] = ()
+    accuracy_estimate: float | None = None
+    accuracy_body: str = ""
+    accuracy_time: float | None = None
+    items: tuple[Item, ...] = ()
+
+    def to_json(self) -> str:
+        """JSON text; NaN and infinities stand as the strings "nan", "inf", "-inf"."""
+        return json.dumps(_storable(asdict(self)), ensure_ascii=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Trust:
+        """Read what `to_json` wrote; keys of later versions are passed over."""
+        data = json.loads(text)
+        data["items"] = tuple(Item(**_known(Item, each)) for each in data["items"])
+        for name in ("redundant_rows", "non_unique_joints"):
+            data[name] = tuple(data[name])
+        return cls(**_known(cls, data))
+
+    def __str__(self) -> str:
+        return "\n".join(f"{item.verdict:>5}  {item.text}" for item in self.items)
+
+
+def worst(items: tuple[Item, ...]) -> Verdict:
+    """The verdict of the whole: that of its worst item."""
+    return max((item.verdict for item in items), key=ORDER.index, default="green")
+
+
+def _known(record: type[Any], data: dict[str, Any]) -> dict[str, Any]:
+    """The entries that the record has; numbers that JSON cannot hold are read back."""
+    names = {field.name: field.type for field in fields(record)}
+    return {
+        key: float(value) if value in ("nan", "inf", "-inf") and "float" in str(names[key]) else value
+        for key, value in data.items()
+        if key in names
+    }
+
+
+def _storable(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _storable(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_storable(each) for each in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    return value

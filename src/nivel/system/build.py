@@ -1,0 +1,325 @@
+"""From words to numbers: a machine record becomes the arrays of the kernels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.kernels.load import BODY_AXES, FORCE, GLOBAL_AXES, TORQUE
+from nivel.kernels.record import Bodies, Constraints, Control, Functions, Joints, Loads, Markers, Record, Saddle
+from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, Torque
+from nivel.machine.inertia import mass_properties
+from nivel.machine.placement import marker_frame, placement
+from nivel.system.elimination import plan
+from nivel.system.functions import function_table
+from nivel.system.joint_frames import joint_frames
+from nivel.system.joints import JOINTS
+from nivel.system.layout import frame_layout
+from nivel.system.system import Array, Equations, System
+
+GROUND = "ground"
+TRANSLATION_SIDE, NORMALISATION_SIDE = 0, 2
+
+
+@dataclass
+class MarkerTable:
+    """Markers collected while joints and loads are built."""
+
+    body: list[int] = field(default_factory=list)
+    position: list[Array] = field(default_factory=list)
+    frame: list[Array] = field(default_factory=list)
+
+    def add(self, body: int, position: Array, frame: Array) -> int:
+        """Index of a new marker at `position` (3,) with axes `frame` (3, 3), both in body axes."""
+        self.body.append(body)
+        self.position.append(position)
+        self.frame.append(frame)
+        return len(self.body) - 1
+
+
+def build(machine: MachineRecord, equations: Equations) -> System:
+    """Arrays of `machine` for a formulation with these equations; poses and velocities as given, not yet assembled."""
+    index = {body.name: k for k, body in enumerate(machine.bodies)} | {GROUND: len(machine.bodies)}
+    poses = {body.name: placement(body) for body in machine.bodies}
+    markers = MarkerTable()
+    joints = _joints(machine, index, markers)
+    loads, functions = _loads(machine, index, markers)
+    bodies = _bodies(machine)
+    names = tuple(body.name for body in machine.bodies)
+    count = len(names)
+    joint_row_count = len(joints.names)
+    row_names = [*joints.names]
+    units = [*joints.units]
+    if equations.normalisation:
+        row_names += [f"{name}.euler_parameters" for name in names]
+        units += ["1"] * count
+    rows = len(row_names)
+    block = _blocks(joints.pairs, markers, count, equations, joint_row_count)
+    groups = [range(a, b) for a, b in joints.spans] + [[row] for row in range(joint_row_count, rows)]
+    elimination = plan([list(group) for group in groups], block[:, 0].tolist(), block[:, 3].tolist())
+    width = equations.velocities
+    layout = frame_layout(
+        names,
+        tuple(joint.name for joint in machine.joints),
+        tuple(joints.coordinate_names),
+        row_names,
+        [(load.name, "N" if load.type == "force" else "N m") for load in machine.forces],
+    )
+    table = _marker_arrays(markers)
+    q = np.concatenate([np.concatenate(poses[name]) for name in names]) if names else np.zeros(0)
+    size = _machine_size(q.reshape(-1, 7), table)
+    record = Record(
+        bodies=bodies,
+        markers=table,
+        constraints=_constraint_arrays(joints, rows),
+        joints=Joints(
+            first_marker=_index([pair[0] for pair in joints.first_and_second], 1),
+            rows=_index(joints.spans, 2),
+            coordinate=_index(joints.coordinates, 3),
+            turn=np.zeros((len(joints.coordinates), 3)),
+        ),
+        functions=functions,
+        loads=loads,
+        saddle=Saddle(
+            block=block,
+            pair=elimination.pair,
+            order=elimination.order,
+            S_start=elimination.S_start,
+            S_row=elimination.S_row,
+            L_start=elimination.L_start,
+            L_row=elimination.L_row,
+            P_start=elimination.P_start,
+            P_column=elimination.P_column,
+            P_entry=elimination.P_entry,
+            W=np.zeros((len(block), width)),
+            G=np.zeros((count, width, width)),
+            z=np.zeros((count, width)),
+            S=np.zeros(len(elimination.S_row)),
+            L=np.zeros(len(elimination.L_row)),
+            Dinv=np.zeros(rows),
+            y=np.zeros(rows),
+            b=np.zeros(rows),
+            dense=np.zeros((0, 0)),
+            null=np.zeros((0, 0)),
+            pivot=np.zeros(0, dtype=np.uint32),
+        ),
+        control=Control(
+            size=np.array([count, rows, 7 * count, width * count], dtype=np.uint32),
+            stabilise=np.zeros(4),
+            energy=np.zeros(3),
+            power=np.zeros(2),
+            failure=np.zeros(1, dtype=np.uint32),
+        ),
+    )
+    system = System(
+        record=record,
+        equations=equations,
+        layout=layout,
+        bodies=names,
+        joints=tuple(joint.name for joint in machine.joints),
+        rows=tuple(row_names),
+        row_joint=np.array(joints.owner, dtype=np.int64),
+        row_units=tuple(units),
+        coordinate_units=tuple(joints.coordinate_units),
+        size=size,
+        start=np.zeros(0),
+    )
+    velocity, angular_velocity_b = _velocities(machine.bodies, bodies, q)
+    object.__setattr__(system, "start", system.state(q, velocity, angular_velocity_b))
+    return system
+
+
+@dataclass
+class JointTables:
+    """What the joints of a machine come to."""
+
+    names: list[str] = field(default_factory=list)  # of rows
+    units: list[str] = field(default_factory=list)
+    owner: list[int] = field(default_factory=list)  # joint of each row
+    pairs: list[tuple[int, int]] = field(default_factory=list)  # markers of each row
+    spans: list[tuple[int, int]] = field(default_factory=list)  # rows of each joint
+    first_and_second: list[tuple[int, int]] = field(default_factory=list)  # markers of each joint
+    tables: dict[str, list[tuple[int, ...]]] = field(default_factory=lambda: {"s": [], "d1": [], "d2": []})
+    coordinates: list[tuple[int, int, int]] = field(default_factory=list)
+    coordinate_names: list[str] = field(default_factory=list)
+    coordinate_units: list[str] = field(default_factory=list)
+
+
+def _joints(machine: MachineRecord, index: dict[str, int], markers: MarkerTable) -> JointTables:
+    out = JointTables()
+    for number, joint in enumerate(machine.joints):
+        first, second = (markers.add(index[body], r, A) for body, r, A in joint_frames(machine, joint))
+        kind = JOINTS[joint.type]
+        begin = len(out.names)
+        for basic in kind.constraints:
+            row = len(out.names)
+            out.tables[basic.table].append(basic.entries(first, second, row))
+            out.names += [f"{joint.name}.{name}" for name in basic.rows]
+            out.units += ["1" if basic.table == "d1" else "m"] * len(basic.rows)
+        rows = len(out.names) - begin
+        out.owner += [number] * rows
+        out.pairs += [(first, second)] * rows
+        out.spans.append((begin, begin + rows))
+        out.first_and_second.append((first, second))
+        for coordinate in kind.coordinates:
+            out.coordinates.append((coordinate.kind, first, second))
+            out.coordinate_names.append(f"{joint.name}.{coordinate.name}")
+            out.coordinate_units.append(coordinate.units)
+    return out
+
+
+def _loads(machine: MachineRecord, index: dict[str, int], markers: MarkerTable) -> tuple[Loads, Functions]:
+    by_name = {marker.name: marker for marker in machine.markers}
+    what, components = [], []
+    for load in machine.forces:
+        body, position = _point_of(load, by_name)
+        marker = markers.add(index[body], position, np.eye(3))
+        kind = FORCE if load.type == "force" else TORQUE
+        what.append((kind, marker, BODY_AXES if load.axes == "body" else GLOBAL_AXES))
+        components += list(load.vector)
+    functions = function_table(components)
+    count = len(what)
+    table = Loads(
+        what=_index(what, 3),
+        functions=np.arange(3 * count, dtype=np.uint32).reshape(count, 3),
+        magnitude=np.zeros(count),
+        power=np.zeros(count),
+    )
+    return table, functions
+
+
+def _point_of(load: PointForce | Torque, markers: dict[str, Marker]) -> tuple[str, Array]:
+    """Body and point (3,) in body axes where a load acts; a torque acts on the body, its point does not matter."""
+    if isinstance(load, PointForce):
+        if load.marker is not None:
+            marker = markers[load.marker]
+            return marker.body, np.array(marker.position, dtype=float)
+        assert load.body is not None  # the record was checked
+        return load.body, np.array(load.position or (0.0, 0.0, 0.0), dtype=float)
+    return load.body, np.zeros(3)
+
+
+def _bodies(machine: MachineRecord) -> Bodies:
+    count = len(machine.bodies)
+    properties = [mass_properties(body) for body in machine.bodies]
+    mass = np.array([p.mass for p in properties], dtype=float)
+    centre = np.array([p.centre_of_mass for p in properties], dtype=float).reshape(count, 3)
+    inertia = np.array([p.inertia for p in properties], dtype=float).reshape(count, 3, 3)
+    whitener = np.array([np.linalg.inv(np.linalg.cholesky(J)) for J in inertia]).reshape(count, 3, 3)
+    square = np.einsum("bi,bi->b", centre, centre)
+    steiner = square[:, None, None] * np.eye(3) - np.einsum("bi,bj->bij", centre, centre)
+    A = np.zeros((count + 1, 3, 3))
+    A[:] = np.eye(3)
+    theta = np.zeros((count + 1, 4))
+    theta[:, 0] = 1.0
+
+    def vectors() -> Array:
+        return np.zeros((count + 1, 3))
+
+    return Bodies(
+        mass=mass,
+        centre_b=centre,
+        inertia_b=inertia,
+        inertia_origin_b=np.ascontiguousarray(inertia + mass[:, None, None] * steiner),
+        whitener_b=whitener,
+        inverse_root_mass=1.0 / np.sqrt(mass),
+        gravity=np.array(machine.gravity, dtype=float),
+        R=vectors(),
+        theta=theta,
+        A=A,
+        Rdot=vectors(),
+        omega=vectors(),
+        omega_b=vectors(),
+        c=vectors(),
+        wrench=np.zeros((count + 1, 6)),
+        Rddot=vectors(),
+        alpha_b=vectors(),
+    )
+
+
+def _marker_arrays(markers: MarkerTable) -> Markers:
+    count = len(markers.body)
+
+    def vectors() -> Array:
+        return np.zeros((count, 3))
+
+    return Markers(
+        body=_index(markers.body, 1),
+        position_b=np.array(markers.position, dtype=float).reshape(count, 3),
+        frame_b=np.array(markers.frame, dtype=float).reshape(count, 3, 3),
+        u=vectors(),
+        r=vectors(),
+        A=np.zeros((count, 3, 3)),
+        rdot=vectors(),
+        bias=vectors(),
+    )
+
+
+def _constraint_arrays(joints: JointTables, rows: int) -> Constraints:
+    J = np.zeros((len(joints.names), 12))
+    for _, _, row in joints.tables["s"]:
+        for axis in range(3):
+            J[row + axis, axis] = -1.0
+            J[row + axis, 6 + axis] = 1.0
+    return Constraints(
+        s=_index(joints.tables["s"], 3),
+        d1=_index(joints.tables["d1"], 5),
+        d2=_index(joints.tables["d2"], 4),
+        C=np.zeros(rows),
+        Cdot=np.zeros(rows),
+        gamma=np.zeros(rows),
+        J=J,
+        lam=np.zeros(rows),
+    )
+
+
+def _blocks(
+    pairs: list[tuple[int, int]], markers: MarkerTable, ground: int, equations: Equations, joint_rows: int
+) -> NDArray[np.uint32]:
+    """Blocks (row, side, marker, body) of C_q; the ground has none. A normalisation block names no marker."""
+    blocks = [
+        (row, side, marker, markers.body[marker])
+        for row, pair in enumerate(pairs)
+        for side, marker in enumerate(pair)
+        if markers.body[marker] != ground
+    ]
+    if equations.normalisation:
+        blocks += [(joint_rows + body, NORMALISATION_SIDE, 0, body) for body in range(ground)]
+    return _index(blocks, 4)
+
+
+def _velocities(records: tuple[Body, ...], bodies: Bodies, q: Array) -> tuple[Array, Array]:
+    """Ṙ (B, 3) and ω̄ (B, 3) as given."""
+    velocity = np.zeros((len(records), 3))
+    angular = np.zeros((len(records), 3))
+    for k, body in enumerate(records):
+        velocity[k] = body.velocity
+        if body.angular_velocity_body is not None:
+            angular[k] = body.angular_velocity_body
+        elif body.angular_velocity is not None:
+            angular[k] = rotation(q[7 * k + 3 : 7 * k + 7]).T @ np.array(body.angular_velocity, dtype=float)
+    return velocity, angular
+
+
+def rotation(theta: Array) -> Array:
+    """Rotation matrix (3, 3) of Euler parameters (4,), columns are the body axes."""
+    from nivel.kernels.rotation import rotation_matrix
+
+    A = np.zeros((3, 3))
+    rotation_matrix.py_func(theta, A)
+    return A
+
+
+def _machine_size(poses: Array, markers: Markers) -> float:
+    """Largest distance from a marker to its body's frame, or between frames [m]; 1 m where all is at one point."""
+    spread = float(np.ptp(poses[:, :3], axis=0).max()) if len(poses) else 0.0
+    reach = float(np.linalg.norm(markers.position_b, axis=1).max()) if len(markers.position_b) else 0.0
+    return max(spread, reach) or 1.0
+
+
+def _index(values: object, columns: int) -> NDArray[np.uint32]:
+    """uint32 array of `values`: (n, columns), or (n,) for one column."""
+    array = np.array(values, dtype=np.uint32)
+    return array.reshape(-1) if columns == 1 else array.reshape(-1, columns)

@@ -1,0 +1,87 @@
+"""A machine in numbers: the record of the kernels, its initial state, and the names of everything in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.kernels.record import Record
+from nivel.system.layout import FrameLayout
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Equations:
+    """What a formulation asks of the layout of the state: velocities a rigid body, and whether normalisation is a row."""
+
+    velocities: int
+    normalisation: bool
+
+
+@dataclass(frozen=True)
+class System:
+    """The numbers of one machine for one formulation.
+
+    rows : name of every constraint row of the formulation, e.g. ``hinge.s.x``; the first `joint_rows` belong to joints.
+    row_joint : joint index of each joint row. size : length of the machine [m], the scale of its tolerances.
+    """
+
+    record: Record
+    equations: Equations
+    layout: FrameLayout
+    bodies: tuple[str, ...]
+    joints: tuple[str, ...]
+    rows: tuple[str, ...]
+    row_joint: NDArray[np.int64]
+    row_units: tuple[str, ...]
+    coordinate_units: tuple[str, ...]
+    size: float
+    start: Array
+
+    @property
+    def body_count(self) -> int:
+        return len(self.bodies)
+
+    @property
+    def joint_rows(self) -> int:
+        return len(self.row_joint)
+
+    @property
+    def positions(self) -> int:
+        """Length of q: seven a body."""
+        return 7 * self.body_count
+
+    def state(self, q: Array, velocity: Array, angular_velocity_b: Array) -> Array:
+        """State y = (q, v, x) from q (7 B,), Ṙ (B, 3) [m/s] and ω̄ (B, 3) [rad/s, body axes]; x = 0."""
+        count, per_body = self.body_count, self.equations.velocities
+        v = np.zeros((count, per_body))
+        v[:, :3] = velocity
+        if self.equations.normalisation:
+            v[:, 3:] = parameter_rates(q.reshape(count, 7)[:, 3:], angular_velocity_b)
+        else:
+            v[:, 3:] = angular_velocity_b
+        return np.concatenate([q, v.ravel(), np.zeros(2)])
+
+    def known_rank(self, rank: int) -> System:
+        """The same system prepared for `rank` independent rows: with redundant ones, for the rank-revealing path."""
+        rows = len(self.rows)
+        record = self.record
+        if rank < rows:
+            saddle = record.saddle._replace(
+                dense=np.zeros((rows, rows)), null=np.zeros((rows, rows - rank)), pivot=np.zeros(rows, dtype=np.uint32)
+            )
+            record = record._replace(saddle=saddle)
+        record.control.size[1] = rank
+        return replace(self, record=record)
+
+
+def parameter_rates(theta: Array, angular_velocity_b: Array) -> Array:
+    """θ̇ = ½ Ēᵀ ω̄ for rows of θ (n, 4) and ω̄ (n, 3) [rad/s, body axes]; for a small rotation vector, the change of θ."""
+    e0, e1, e2, e3 = theta.T
+    x, y, z = 0.5 * angular_velocity_b.T
+    return np.column_stack(
+        [-e1 * x - e2 * y - e3 * z, e0 * x - e3 * y + e2 * z, e3 * x + e0 * y - e1 * z, -e2 * x + e1 * y + e0 * z]
+    )

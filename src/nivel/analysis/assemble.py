@@ -8,7 +8,7 @@ import numpy as np
 
 from nivel.analysis.equations import MotionEquations, moved
 from nivel.errors import Fault, ModelError
-from nivel.machine import MachineRecord
+from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import JOINTS
 from nivel.system.system import Array
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.settings import RunSettings, complete
-from nivel.machine import MachineRecord
+from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import JOINTS
 
 

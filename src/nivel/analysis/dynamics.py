@@ -19,7 +19,7 @@ from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
-from nivel.machine import MachineRecord
+from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.run import (
     ALL_STEPS,

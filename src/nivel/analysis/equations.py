@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.handle import Handle
 from nivel.kernels.status import OK
-from nivel.machine import MachineRecord
+from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS
 from nivel.system.build import build
 from nivel.system.system import Array, Equations, System, parameter_rates

@@ -8,13 +8,24 @@ from nivel.analysis.equations import MotionEquations
 from nivel.kernels.status import NOT_FINITE, SINGULAR
 from nivel.system.system import Array
 
+# Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
+NEAR_SINGULAR = 1e-6
+# A violation above this share of the machine's length is not round-off or truncation: the step was too large for the motion.
+DRIFTED = 1e-2
+
 
 def failure(motion: MotionEquations, status: int, time: float, step: float, y: Array) -> tuple[str, str]:
     """(message, advice) for a run that failed in the step from `time` [s], whose last accepted state is y."""
     system, record = motion.system, motion.system.record
     if status == SINGULAR:
         row = system.rows[int(record.control.failure[0])]
-        motion.evaluate(time, y)
+        healthy = motion.holds(time, y) and _far_from_singular(motion)
+        if healthy or _drifted(motion):
+            message = (
+                f"stopped at t = {time:.6g} s: a step of {step:.3g} s from here leads to a position that the machine does not have "
+                f"({row} depends on the other constraints there); {_worst(motion)}"
+            )
+            return message, f"The step is too large for this motion: try --step {step / 10:.3g}."
         message = f"stopped at t = {time:.6g} s: the constraint {row} depends on the others here, the machine is in a singular position"
         advice = (
             f"Look at {_owner(row)} in this position: two links in line, or a loop folded flat? Start the run elsewhere, "
@@ -27,6 +38,20 @@ def failure(motion: MotionEquations, status: int, time: float, step: float, y: A
     message = f"stopped at t = {time:.6g} s: the state after a step of {step:.3g} s is no longer a number; {where}"
     advice = f"Try a smaller step, for instance --step {step / 10:.3g}; if it stops at the same time, look at the forces near it."
     return message, advice
+
+
+def _drifted(motion: MotionEquations) -> bool:
+    """Whether the state last evaluated has left its constraints."""
+    return bool(np.abs(motion.system.record.constraints.C).max(initial=0.0) > DRIFTED * motion.system.size)
+
+
+def _far_from_singular(motion: MotionEquations) -> bool:
+    """Whether all constraints are well independent in the state last evaluated."""
+    saddle = motion.system.record.saddle
+    if len(saddle.dense):
+        return True
+    diagonal = saddle.S[saddle.S_start[1:].astype(int) - 1]
+    return bool(np.all(saddle.Dinv * diagonal < 1.0 / NEAR_SINGULAR))
 
 
 def _owner(row: str) -> str:

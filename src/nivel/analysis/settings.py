@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import ceil
 
 from nivel.errors import Fault, ModelError
-from nivel.machine import SimulationSettings
+from nivel.machine.settings import SimulationSettings
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS

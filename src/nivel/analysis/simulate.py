@@ -14,7 +14,7 @@ import nivel
 from nivel.analysis.dynamics import Finished, Prepared, Progress, march, prepare
 from nivel.analysis.settings import RunSettings, complete
 from nivel.errors import SolveError
-from nivel.machine import MachineRecord
+from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.sink import Header
 from nivel.results import Memory, Result, Store

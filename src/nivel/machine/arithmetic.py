@@ -321,7 +321,7 @@ def _value_of(name: str, parameters: Parameters) -> Number:
     try:
         return Number(*unit(name))
     except UnknownUnit:
-        near = get_close_matches(name, [*parameters, *RESERVED, *UNITS], n=1, cutoff=0.5)
+        near = get_close_matches(name, [*parameters, *RESERVED, *UNITS], n=1, cutoff=0.6)
         hint = f"; did you mean `{near[0]}`?" if near else ""
         raise ArithmeticFault(f"`{name}` is neither a parameter nor a unit{hint}") from None
 

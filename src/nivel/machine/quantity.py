@@ -33,9 +33,9 @@ FAULT = "nivel"  # type of the validation errors that carry a finished sentence
 REPORTED = "nivel_reported"  # type of those that follow from a fault reported elsewhere
 
 
-def fault(message: str) -> PydanticCustomError:
-    """A validation error whose text is `message`, ready for people."""
-    return PydanticCustomError(FAULT, "{message}", {"message": message})
+def fault(message: str, *, at_key: bool = False) -> PydanticCustomError:
+    """A validation error whose text is `message`, ready for people; `at_key`: it is the key that is wrong, not its value."""
+    return PydanticCustomError(FAULT, "{message}", {"message": message, "at_key": at_key})
 
 
 def reported() -> PydanticCustomError:

@@ -47,7 +47,13 @@ class Record(BaseModel):
 
     def replace(self, **changes: Any) -> Self:
         """A copy in which `changes` hold, checked like a new record."""
-        return type(self)(**{**{name: getattr(self, name) for name in self.model_fields_set}, **changes})
+        given = {name: getattr(self, name) for name in self.model_fields_set}
+        return type(self)(**(given | changes))
+
+    def __repr_args__(self) -> Any:
+        """Only what differs from the default."""
+        fields = type(self).model_fields
+        return [(name, value) for name, value in super().__repr_args__() if name and value != fields[name].get_default(call_default_factory=True)]
 
     @model_validator(mode="wrap")
     @classmethod
@@ -65,12 +71,18 @@ def restated(error: ValidationError, record: type[Record], more: Sequence[InitEr
 
 
 def _restated_line(line: ErrorDetails, record: type[Record]) -> InitErrorDetails:
-    kind = reported() if line["type"] == REPORTED else fault(_sentence(line, record))
+    kind = reported() if line["type"] == REPORTED else fault(_sentence(line, record), at_key=_is_about_key(line))
     place = list(line["loc"])
     tag = record.tagged.get(str(place[0])) if place else None
     if tag is not None and len(place) > tag:
         del place[tag]
+    if line["type"] == "missing":
+        place.pop()  # its parent lacks it
     return InitErrorDetails(type=kind, loc=tuple(place), input=line["input"])
+
+
+def _is_about_key(line: ErrorDetails) -> bool:
+    return line["type"] == "extra_forbidden" or bool(line.get("ctx", {}).get("at_key"))
 
 
 _SENTENCES = {
@@ -89,7 +101,7 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
         case "nivel":
             return str(context["message"])
         case "missing" if isinstance(line["loc"][-1], int):
-            return "an entry is missing here"
+            return f"entries are missing: there {'is' if len(line['input']) == 1 else 'are'} only {len(line['input'])}"
         case "missing":
             return f"`{line['loc'][-1]}` is missing"
         case "extra_forbidden":

@@ -24,8 +24,8 @@ def step_halving(result: Readable, finer: Readable) -> Peak:
         np.searchsorted(finer_time, time - 1e-9 * max(abs(float(finer_time[-1])), 1e-300)), 0, len(finer_time) - 1
     )
     frames = slice(0, len(time))
-    moved = np.linalg.norm(result.values("position", frames) - finer.values("position")[nearest], axis=-1)
-    a, b = result.values("orientation", frames), finer.values("orientation")[nearest]
+    moved = np.linalg.norm(result.array("position", frames) - finer.array("position")[nearest], axis=-1)
+    a, b = result.array("orientation", frames), finer.array("orientation")[nearest]
     apart = np.minimum(
         np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)
     )  # θ and -θ are the same orientation

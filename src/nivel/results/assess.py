@@ -11,7 +11,7 @@ import numpy as np
 
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size
 from nivel.results.statements import statements
-from nivel.results.trust import SPEED_FLOOR, Trust, worst
+from nivel.results.verdicts import SPEED_FLOOR, Trust, worst
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def peak(result: Readable, name: str) -> Peak:
     """The largest magnitude of a history without rows; the first NaN counts as the largest."""
     if name not in result.variables or not len(result.time):
         return Peak(0.0)
-    values = np.abs(result.values(name))
+    values = np.abs(result.array(name))
     k = int(np.argmax(values))
     return Peak(float(values[k]), "", float(result.time[k]))
 
@@ -95,7 +95,7 @@ def worst_row(result: Readable, name: str, fraction_of: Mapping[str, float]) -> 
     factors = np.array([fraction_of[each] for each in units])
     best, largest = (0, 0), -1.0
     for frames in blocks(result):
-        block = np.abs(result.values(name, frames)) * factors
+        block = np.abs(result.array(name, frames)) * factors
         if not block.size:
             continue
         k, row = np.unravel_index(int(np.argmax(block)), block.shape)
@@ -106,7 +106,7 @@ def worst_row(result: Readable, name: str, fraction_of: Mapping[str, float]) -> 
     if largest < 0.0:
         return Peak(0.0), "m"
     k, row = best
-    value = float(abs(result.values(name, slice(k, k + 1))[0, row]))
+    value = float(abs(result.array(name, slice(k, k + 1))[0, row]))
     return Peak(value, rows[row], float(result.time[k])), units[row]
 
 

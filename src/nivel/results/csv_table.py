@@ -63,7 +63,7 @@ def write_table(result: Result, chosen: list[str], file: TextIO) -> None:
     places = [(result.selection(name).variable, result.selection(name).where[1:]) for name in chosen]
     for start in range(0, len(result.time), BLOCK):
         frames = slice(start, start + BLOCK)
-        block = {name: result.values(name, frames) for name in needed}
+        block = {name: result.array(name, frames) for name in needed}
         picked = [result.time[frames], *(block[name][:, *where] for name, where in places)]
         table.writerows(np.column_stack(picked).tolist())
 
@@ -74,7 +74,7 @@ def _scalars(result: Result) -> Iterator[tuple[str, str]]:
     for name in result.names:
         found = result.selection(name)
         by_place.setdefault((found.variable, found.where[1:]), name)
-    for variable in result.variables.values():
+    for variable in result.variables.array():
         sides = [range(len(result.coordinates[dim])) for dim in variable.dims[1:]]
         for place in product(*sides):
             yield by_place[variable.name, place], variable.name

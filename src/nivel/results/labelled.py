@@ -23,7 +23,7 @@ def data_array(result: Result, name: str) -> xarray.DataArray:
         names = result.coordinates[dim]
         coords[dim] = (dim, list(names)) if isinstance(each, slice) else names[each]
     attrs = {"units": result.units(name), "long_name": variable.long_name}
-    return xarray.DataArray(result.values(name), dims=dims, coords=coords, name=name, attrs=attrs)
+    return xarray.DataArray(result.array(name), dims=dims, coords=coords, name=name, attrs=attrs)
 
 
 def dataset(result: Result) -> xarray.Dataset:
@@ -31,7 +31,7 @@ def dataset(result: Result) -> xarray.Dataset:
     if result.path is not None and result.outcome != "running":
         return xarray.open_dataset(result.path, engine="h5netcdf", decode_times=False)
     variables = {
-        name: (variable.dims, result.values(name), {"units": variable.units, "long_name": variable.long_name})
+        name: (variable.dims, result.array(name), {"units": variable.units, "long_name": variable.long_name})
         for name, variable in result.variables.items()
     }
     coords: dict[str, object] = {dim: (dim, list(names)) for dim, names in result.coordinates.items()}

@@ -32,7 +32,7 @@ def selections(variables: Mapping[str, Variable], coordinates: Mapping[str, tupl
     for variable in variables.values():
         dims = variable.dims[1:]
         element = dims[0] if dims and dims[0] not in COMPONENTS else None
-        starts = [(variable.name, (every,) if element is None else None)]
+        starts: list[tuple[str, tuple[slice | int, ...]]] = [(variable.name, (every,))]
         if element is not None:
             suffix = _suffix(variable.name, element)
             starts = [(f"{name}{suffix}", (every, i)) for i, name in enumerate(coordinates[element])]

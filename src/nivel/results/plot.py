@@ -30,7 +30,7 @@ def plot(result: Result, names: tuple[str, ...]) -> Figure:
     )
     for axis, (unit, group) in zip(axes[:, 0], by_unit.items(), strict=True):
         for name in group:
-            axis.plot(result.time, result.values(name), label=name, linewidth=1.2)
+            axis.plot(result.time, result.array(name), label=name, linewidth=1.2)
         axis.set_ylabel(f"[{unit}]" if len(group) > 1 else f"{group[0]} [{unit}]")
         axis.grid(alpha=0.3)
         if 1 < len(group) <= QUIET_LINES:

@@ -16,7 +16,7 @@ from nivel.results.assess import assess
 from nivel.results.contents import Contents
 from nivel.results.names import Selection, selections, unknown_name
 from nivel.results.stored import StoredContents
-from nivel.results.trust import Trust
+from nivel.results.verdicts import Trust
 from nivel.system.layout import Variable
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 class Result:
     """What a run computed, read from its file or memory when asked for.
 
-    `result["crank.position"]` is an xarray array with units; `result.values("crank.position")` the plain numpy array of
+    `result["crank.position"]` is an xarray array with units; `result.array("crank.position")` the plain numpy array of
     it; `result.dataset` the whole as an xarray dataset. `result.names` lists everything that can be asked for.
     """
 
@@ -93,9 +93,13 @@ class Result:
         """The file, or None for a result in memory."""
         return self._contents.path if isinstance(self._contents, StoredContents) else None
 
-    @cached_property
+    @property
     def time(self) -> NDArray[np.float64]:
         """(n,) [s]"""
+        return self._time
+
+    @cached_property
+    def _time(self) -> NDArray[np.float64]:
         return self._contents.read("time")
 
     @property
@@ -123,7 +127,7 @@ class Result:
             raise unknown_name(name, self._selections)
         return self._selections[name]
 
-    def values(self, name: str, frames: slice = slice(None)) -> NDArray[np.float64]:
+    def array(self, name: str, frames: slice = slice(None)) -> NDArray[np.float64]:
         """The numbers of `name`, time first, as a numpy array; `frames` takes a part of the run."""
         if name == "time":
             return self.time[frames]
@@ -138,12 +142,17 @@ class Result:
             return "s"
         found = self.selection(name)
         variable = self.variables[found.variable]
-        own = self._json("coordinate_units")
         if variable.name in ("joint_coordinate", "joint_rate") and len(found.where) > 1:
-            element = self.coordinates[variable.dims[1]][int(found.where[1])]  # type: ignore[arg-type]
-            unit = own.get(element, variable.units) if isinstance(own, dict) else own[int(found.where[1])]  # type:
-            ignore[arg-type] return f"{unit}/s" if variable.name == "joint_rate" and not unit.endswith("/s") else unit
+            unit = self._coordinate_units[found.where[1]] if isinstance(found.where[1], int) else "1"
+            return f"{unit}/s" if variable.name == "joint_rate" else unit
         return variable.units
+
+    @cached_property
+    def _coordinate_units(self) -> list[str]:
+        """Units of each joint coordinate, rad or m, from the attribute of that name (JSON: a list, or name → units)."""
+        stated = json.loads(str(self.attributes.get("coordinate_units", "{}")))
+        names = self.coordinates[self.variables["joint_coordinate"].dims[1]]
+        return stated if isinstance(stated, list) else [stated.get(name, "1") for name in names]
 
     def __contains__(self, name: object) -> bool:
         return name == "time" or name in self._selections

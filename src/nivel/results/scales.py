@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.trust import ENERGY_FLOOR, SIZE_FLOOR
+from nivel.results.verdicts import ENERGY_FLOOR, SIZE_FLOOR
 
 Array = NDArray[np.float64]
 BLOCK = 16 * 1024  # frames read at once: a long run need not fit in memory
@@ -26,7 +26,7 @@ class Readable(Protocol):
     def coordinates(self) -> Mapping[str, tuple[str, ...]]: ...
     @property
     def time(self) -> Array: ...
-    def values(self, name: str, frames: slice = ...) -> Array: ...
+    def array(self, name: str, frames: slice = ...) -> Array: ...
 
 
 def machine_size(result: Readable) -> float:
@@ -47,8 +47,8 @@ def largest_speed(result: Readable) -> float:
     reach = np.array([_reach(body) for body in _bodies(result)])
     largest = 0.0
     for frames in blocks(result):
-        v = np.linalg.norm(result.values("velocity", frames), axis=-1)
-        omega = np.linalg.norm(result.values("angular_velocity", frames), axis=-1)
+        v = np.linalg.norm(result.array("velocity", frames), axis=-1)
+        omega = np.linalg.norm(result.array("angular_velocity", frames), axis=-1)
         speed = v + omega * reach
         largest = max(largest, float(np.max(speed, initial=0.0, where=np.isfinite(speed))))
     return largest
@@ -77,7 +77,7 @@ def blocks(result: Readable) -> Iterator[slice]:
 def _largest(result: Readable, name: str, change: Callable[[Array], Array]) -> float:
     if name not in result.variables or not len(result.time):
         return 0.0
-    values = np.abs(change(result.values(name)))
+    values = np.abs(change(result.array(name)))
     return float(np.max(values, initial=0.0, where=np.isfinite(values)))
 
 
@@ -107,7 +107,7 @@ def _points_in_space(result: Readable, frames: slice) -> Iterator[Array]:
     """For each body its points (frames, n, 3) in global axes [m]."""
     if "position" not in result.variables:
         return
-    position, orientation = result.values("position", frames), result.values("orientation", frames)
+    position, orientation = result.array("position", frames), result.array("orientation", frames)
     for k, body in enumerate(_bodies(result)):
         local = _body_points(body)
         yield position[:, k, None, :] + rotated(orientation[:, k, None, :], local)

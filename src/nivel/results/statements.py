@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from nivel.results.trust import THRESHOLDS, Item, Trust, Verdict
+from nivel.results.verdicts import THRESHOLDS, Item, Trust, Verdict
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
     "done": ("green", "Outcome: the run reached its end"),

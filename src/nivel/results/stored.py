@@ -65,7 +65,7 @@ class StoredContents:
         self.attributes = {key: _plain(file.attrs[key]) for key in file.attrs if not key.startswith("_")}
         self.variables, self.coordinates = {}, {}
         self.frame_count = _dataset(file, "time").shape[0]
-        for name in file:
+        for name in file.keys():
             dataset = _dataset(file, name)
             if name == "time":
                 continue

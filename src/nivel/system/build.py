@@ -9,9 +9,12 @@ from numpy.typing import NDArray
 
 from nivel.kernels.load import BODY_AXES, FORCE, GLOBAL_AXES, TORQUE
 from nivel.kernels.record import Bodies, Constraints, Control, Functions, Joints, Loads, Markers, Record, Saddle
-from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, Torque
+from nivel.machine.body import Body
+from nivel.machine.force import PointForce, Torque
 from nivel.machine.inertia import mass_properties
-from nivel.machine.placement import marker_frame, placement
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.marker import Marker
+from nivel.machine.placement import initial_velocity, placement
 from nivel.system.elimination import plan
 from nivel.system.functions import function_table
 from nivel.system.joint_frames import joint_frames
@@ -20,7 +23,7 @@ from nivel.system.layout import frame_layout
 from nivel.system.system import Array, Equations, System
 
 GROUND = "ground"
-TRANSLATION_SIDE, NORMALISATION_SIDE = 0, 2
+NORMALISATION_SIDE = 2
 
 
 @dataclass
@@ -126,7 +129,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
         size=size,
         start=np.zeros(0),
     )
-    velocity, angular_velocity_b = _velocities(machine.bodies, bodies, q)
+    velocity, angular_velocity_b = _velocities(machine.bodies)
     object.__setattr__(system, "start", system.state(q, velocity, angular_velocity_b))
     return system
 
@@ -290,26 +293,11 @@ def _blocks(
     return _index(blocks, 4)
 
 
-def _velocities(records: tuple[Body, ...], bodies: Bodies, q: Array) -> tuple[Array, Array]:
+def _velocities(records: tuple[Body, ...]) -> tuple[Array, Array]:
     """Ṙ (B, 3) and ω̄ (B, 3) as given."""
-    velocity = np.zeros((len(records), 3))
-    angular = np.zeros((len(records), 3))
-    for k, body in enumerate(records):
-        velocity[k] = body.velocity
-        if body.angular_velocity_body is not None:
-            angular[k] = body.angular_velocity_body
-        elif body.angular_velocity is not None:
-            angular[k] = rotation(q[7 * k + 3 : 7 * k + 7]).T @ np.array(body.angular_velocity, dtype=float)
-    return velocity, angular
-
-
-def rotation(theta: Array) -> Array:
-    """Rotation matrix (3, 3) of Euler parameters (4,), columns are the body axes."""
-    from nivel.kernels.rotation import rotation_matrix
-
-    A = np.zeros((3, 3))
-    rotation_matrix.py_func(theta, A)
-    return A
+    given = [initial_velocity(body) for body in records]
+    velocity = np.array([v for v, _ in given], dtype=float).reshape(-1, 3)
+    return velocity, np.array([w for _, w in given], dtype=float).reshape(-1, 3)
 
 
 def _machine_size(poses: Array, markers: Markers) -> float:

@@ -14,7 +14,8 @@ import numpy as np
 from nivel.kernels import cache
 from nivel.kernels.function import COMPILED, CONSTANT, TABLE
 from nivel.kernels.record import Functions
-from nivel.machine import Expression, Table
+from nivel.machine.arithmetic import Call, Name, Negative, Node, Number, Operation, Time, bind, parse
+from nivel.machine.time_function import Expression, Table
 
 TEMPLATE = '''"""A function of time written by nivel from an expression of a machine file."""
 
@@ -57,7 +58,32 @@ def compiled_address(expression: Expression) -> int:
 
     The code is a module named by its content in the cache directory: a function made from a string could not be cached.
     """
-    return int(_module(TEMPLATE.format(source=expression.python_source())).law.address)
+    return int(_module(TEMPLATE.format(source=source(bind(parse(expression.text), {})))).law.address)
+
+
+SPELLING = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2"}
+
+
+def source(node: Node) -> str:
+    """Python source of an arithmetic tree for the compiler; `max` and `min` of many arguments are nested."""
+    match node:
+        case Number(value, _):
+            return f"({value!r})"
+        case Time():
+            return "time"
+        case Negative(operand):
+            return f"(-{source(operand)})"
+        case Operation(symbol, left, right):
+            return f"({source(left)} {symbol} {source(right)})"
+        case Call(("min" | "max") as function, (first, *others)):
+            text = source(first)
+            for other in others:
+                text = f"np.{function}imum({text}, {source(other)})"
+            return text
+        case Call(function, arguments):
+            return f"np.{SPELLING.get(function, function)}({', '.join(source(argument) for argument in arguments)})"
+        case Name(text):
+            raise ValueError(f"the name {text} is not bound")
 
 
 def _module(text: str) -> Any:

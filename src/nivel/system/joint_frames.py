@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.machine import Joint, MachineRecord, Marker
+from nivel.machine.joint import Joint
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.marker import Marker
+from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.machine.placement import frame_from_axes, marker_frame, placement
 from nivel.system.system import Array
 
@@ -26,7 +29,7 @@ def joint_frames(machine: MachineRecord, joint: Joint) -> tuple[Placed, Placed]:
 
 
 def _of_marker(marker: Marker) -> Placed:
-    return marker.body, np.array(marker.position, dtype=float), marker_frame(marker)
+    return marker.body, *marker_frame(marker)
 
 
 def _global_axes(joint: Joint) -> tuple[Array, Array]:
@@ -48,9 +51,7 @@ def _seen_from(machine: MachineRecord, name: str, point: Array, axes: Array) -> 
     """A global point and axes in the frame of the body as it is placed in the file."""
     if name == "ground":
         return name, point, axes
-    from nivel.machine.orientation import matrix_of_parameters
-
     body = next(body for body in machine.bodies if body.name == name)
     position, theta = placement(body)
-    A = matrix_of_parameters(theta)
+    A = matrix_from_euler_parameters(theta)
     return name, A.T @ (point - position), A.T @ axes

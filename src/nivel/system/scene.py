@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
-from nivel.machine import Body, MachineRecord
+from nivel.machine.body import Body
+from nivel.machine.inertia import box_size, length
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.shape import Box, Sphere, Tube
 from nivel.system.system import System
 
 
@@ -49,14 +50,13 @@ def _shape(body: Body) -> dict[str, Any] | None:
     if shape is None:
         return None
     out: dict[str, Any] = {"type": shape.type, "centre": list(shape.centre or (0.0, 0.0, 0.0))}
-    if shape.type == "sphere":
-        return out | {"radius": shape.radius}
-    apart = None
-    if shape.from_ is not None and shape.to is not None:
-        apart = float(np.linalg.norm(np.subtract(shape.to, shape.from_)))
-    if shape.type == "box":
-        return out | {"size": list(shape.size) if shape.size else [apart, shape.width, shape.height]}
-    out |= {"length": shape.length if apart is None else apart, "along": shape.along or "x"}
-    if shape.type == "tube":
-        return out | {"outer_radius": shape.outer_radius, "inner_radius": shape.inner_radius}
-    return out | {"radius": shape.radius}
+    match shape:
+        case Sphere():
+            return out | {"radius": shape.radius}
+        case Box():
+            return out | {"size": list(box_size(shape))}
+        case Tube():
+            out |= {"outer_radius": shape.outer_radius, "inner_radius": shape.inner_radius}
+        case _:
+            out["radius"] = shape.radius
+    return out | {"length": length(shape), "along": shape.along or "x"}

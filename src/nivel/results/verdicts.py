@@ -140,7 +140,8 @@ class Trust:
 
 def worst(items: tuple[Item, ...]) -> Verdict:
     """The verdict of the whole: that of its worst item."""
-    return max((item.verdict for item in items), key=ORDER.index, default="green")
+    found = {item.verdict for item in items}
+    return next((verdict for verdict in reversed(ORDER) if verdict in found), "green")
 
 
 def _known(record: type[Any], data: dict[str, Any]) -> dict[str, Any]:

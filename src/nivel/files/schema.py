@@ -1,0 +1,52 @@
+"""The JSON schema of machine files, for editors that complete and check while one types."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import Any
+
+from nivel.files.overrides import NAMED_SECTIONS
+from nivel.files.reader import FORMAT
+from nivel.machine import MachineRecord
+
+_DRAFT = "https://json-schema.org/draft/2020-12/schema"
+_QUANTITY = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+
+
+def schema() -> dict[str, Any]:
+    """JSON schema (2020-12) of the YAML form: the record's, with mappings by name, `format` and `parameters`."""
+    machine = deepcopy(MachineRecord.model_json_schema(by_alias=True, mode="validation"))
+    definitions, properties = machine["$defs"], machine["properties"]
+    named = set()
+    for section in NAMED_SECTIONS:
+        items = properties[section].pop("items")
+        named |= set(_references(items))
+        properties[section] = {"type": ["object", "null"], "additionalProperties": items, "title": section}
+    for name in named:
+        _without_name(definitions[name])
+    properties["simulation"] = {"anyOf": [properties["simulation"], {"type": "null"}]}
+    machine["properties"] = {
+        "format": {"const": FORMAT, "description": "version of the file format"},
+        "parameters": {
+            "type": ["object", "null"],
+            "additionalProperties": _QUANTITY,
+            "description": "named numbers for use in every quantity; they may use each other",
+        },
+        **properties,
+    }
+    machine["required"] = ["format", "bodies"]
+    return {"$schema": _DRAFT, **machine, "title": "nivel machine"}
+
+
+def _references(items: dict[str, Any]) -> list[str]:
+    """Names of the definitions that `items` refers to."""
+    choices = items.get("oneOf", [items])
+    return [choice["$ref"].rsplit("/", 1)[1] for choice in choices]
+
+
+def _without_name(definition: dict[str, Any]) -> None:
+    """In a file the name is the key."""
+    definition["properties"].pop("name", None)
+    definition["required"] = [word for word in definition.get("required", []) if word != "name"]
+    if "type" in definition["properties"] and "type" not in definition["required"]:
+        definition["required"].append("type")

@@ -1,0 +1,67 @@
+"""From records to a machine file."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import yaml
+
+from nivel.files.overrides import NAMED_SECTIONS
+from nivel.files.reader import FORMAT
+from nivel.files.tree import INTEGER, NOT_FINITE, NULL, NUMBER, TRUTH
+from nivel.machine import Inertia, MachineRecord, Record
+from nivel.machine.time_function import Expression, Table, written
+
+
+def write_machine(record: MachineRecord) -> str:
+    """YAML that `parse_machine` reads back to an equal record. Defaults are left out; everything is SI."""
+    data = _plain(record)
+    for section in NAMED_SECTIONS:
+        if section in data:
+            data[section] = {element.pop("name"): element for element in data[section]}
+    return yaml.dump(
+        {"format": FORMAT, **data}, Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=120, default_flow_style=False
+    )
+
+
+def _plain(value: Any) -> Any:
+    """Records as mappings without defaults, tuples as lists."""
+    match value:
+        case Inertia(xy=0.0, xz=0.0, yz=0.0):
+            return [value.xx, value.yy, value.zz]
+        case Record():
+            return _fields(value)
+        case Table() | Expression():
+            return written(value)
+        case tuple():
+            return [_plain(entry) for entry in value]
+    return value
+
+
+def _fields(record: Record) -> dict[str, Any]:
+    plain = {}
+    for name, field in type(record).model_fields.items():
+        value = getattr(record, name)
+        if name == "type" or value != field.get_default(call_default_factory=True):
+            plain[field.alias or name] = _plain(value)
+    kind = {"type": plain.pop("type")} if "type" in plain else {}
+    return {**kind, **plain}
+
+
+class _Dumper(yaml.SafeDumper):
+    """Sections in lines, small things in one; texts quoted where the reader would take them for something else."""
+
+    yaml_implicit_resolvers: dict[Any, Any] = {}  # noqa: RUF012  (PyYAML's own rule is that of YAML 1.1)
+
+    def represent_sequence(self, tag: str, sequence: Any, flow_style: bool | None = None) -> yaml.SequenceNode:
+        return super().represent_sequence(tag, sequence, flow_style=True)
+
+
+def _represent_float(dumper: _Dumper, value: float) -> yaml.ScalarNode:
+    text = repr(value)
+    return dumper.represent_scalar("tag:yaml.org,2002:float", text.removesuffix(".0") if "." in text else text)
+
+
+_Dumper.add_representer(float, _represent_float)
+for _tag, _pattern in (("null", NULL), ("bool", TRUTH), ("float", INTEGER), ("float", NUMBER), ("float", NOT_FINITE)):
+    _Dumper.add_implicit_resolver(f"tag:yaml.org,2002:{_tag}", _pattern, None)

@@ -1,0 +1,58 @@
+"""A whole machine in words."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Self
+
+from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, ValidationError, WithJsonSchema, model_validator
+from pydantic_core import InitErrorDetails
+
+from nivel.machine.body import Body
+from nivel.machine.force import Force
+from nivel.machine.joint import Joint
+from nivel.machine.marker import Marker
+from nivel.machine.quantity import AccelerationVector, fault, shown
+from nivel.machine.record import Record, entry, restated
+from nivel.machine.references import reference_faults
+from nivel.machine.settings import SimulationSettings
+
+
+def _title(value: Any) -> str:
+    if not isinstance(value, str) or not value.strip():
+        raise fault(f"a name was expected, got {shown(value)}")
+    if any(character in '/\\<>:"|?*' or not character.isprintable() for character in value):
+        raise fault(f"`{value}` cannot be the name of a result file, which is named after the machine")
+    return value.strip()
+
+
+Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"})]
+
+
+class MachineRecord(Record):
+    """Everything nivel is told about a machine. SI, angles in radians."""
+
+    tagged = {"forces": 2}  # noqa: RUF012
+
+    name: Title
+    description: str = ""
+    gravity: AccelerationVector = (0.0, 0.0, 0.0)
+    bodies: tuple[Body, ...]
+    markers: tuple[Marker, ...] = ()
+    joints: tuple[Joint, ...] = ()
+    forces: tuple[Force, ...] = ()
+    simulation: SimulationSettings = Field(default_factory=SimulationSettings)
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _in_plain_words(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Faults of all parts, and names that lead nowhere, in one error."""
+        lines = [InitErrorDetails(type=fault(text), loc=place, input=None) for place, text in reference_faults(data)]
+        if entry(data, "bodies") in ((), []):
+            lines.append(InitErrorDetails(type=fault("a machine needs at least one body"), loc=("bodies",), input=None))
+        try:
+            record = handler(data)
+        except ValidationError as error:
+            raise restated(error, cls, lines) from None
+        if lines:
+            raise ValidationError.from_exception_data(cls.__name__, lines)
+        return record

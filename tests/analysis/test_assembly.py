@@ -1,0 +1,107 @@
+"""Assembly: least change, named gaps, consistent velocities."""
+
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "verification"))
+import machines
+from nivel.analysis.assemble import assemble
+from nivel.analysis.equations import equations
+from nivel.errors import ModelError
+from nivel.machine import Body, Joint, MachineRecord, Marker
+from nivel.system.joints import JOINTS
+
+
+def test_data_rounded_to_a_millimetre_are_closed():
+    """The four-bar with positions and angles of three decimals, as a report would print them."""
+    machine = machines.four_bar()
+    rounded = tuple(
+        body.replace(
+            position=tuple(np.round(body.position, 3)),
+            orientation={"axis": [0, 0, 1], "angle": round(body.orientation.angle, 3)},
+        )
+        for body in machine.bodies
+    )
+    machine = machine.replace(bodies=rounded)
+    motion = equations(machine, "newton-euler")
+    assembly = assemble(machine, motion)
+    assert 1e-4 < assembly.gap < 3e-3
+    assert assembly.gap_row.split(".")[0] in ("hinge", "pin", "sleeve", "pivot")
+    motion.evaluate(0.0, assembly.y)
+    assert np.abs(motion.system.record.constraints.C).max() < 1e-11
+    assert all(distance < 3e-3 and angle < 3e-3 for _, distance, angle in assembly.moved)
+
+
+def test_given_values_move_least():
+    """Two free points pinned together meet in the middle: the change is orthogonal to the null space of C_q."""
+    machine = MachineRecord(
+        name="two",
+        bodies=tuple(Body(name=n, mass=m, inertia=(1, 1, 1), position=(x, 0, 0)) for n, m, x in (("a", 1, 0), ("b", 50, 0.02))),
+        joints=(Joint(name="pin", type="spherical", markers=(Marker(body="a"), Marker(body="b"))),),
+    )
+    motion = equations(machine, "newton-euler")
+    q = assemble(machine, motion).y[:14].reshape(2, 7)
+    np.testing.assert_allclose(q[:, 0], 0.01, atol=1e-12)
+
+
+@pytest.mark.parametrize("kind", JOINTS)
+@pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
+def test_disturbed_positions_and_velocities_become_consistent(kind, formulation, rng):
+    machine = machines.pair(kind, rng)
+    body = machine.bodies[1]
+    near = body.replace(position=tuple(np.add(body.position, rng.uniform(-0.05, 0.05, 3))))
+    frames = MachineRecord(
+        name="near",
+        bodies=(machine.bodies[0], near),
+        joints=(Joint(name="j", type=kind, markers=tuple(_as_marker(machine, k) for k in range(2))),),
+    )
+    motion = equations(frames, formulation)
+    assembly = assemble(frames, motion)
+    motion.evaluate(0.0, assembly.y)
+    constraints = motion.system.record.constraints
+    assert np.abs(constraints.C).max() < 2e-12
+    assert np.abs(constraints.Cdot).max() < 1e-11
+    assert assembly.gap > 1e-4
+
+
+def _as_marker(machine, side):
+    from nivel.system.joint_frames import joint_frames
+
+    body, point, axes = joint_frames(machine, machine.joints[0])[side]
+    return Marker(body=body, position=tuple(point), orientation={"matrix": axes.tolist()})
+
+
+def test_loop_that_cannot_be_closed_is_named_with_its_gap():
+    """Links of 1 m and 1 m cannot span 3 m: one metre stays open."""
+    def link(name, x):
+        return Body(name=name, mass=1, inertia=(0.1, 0.1, 0.1), position=(x, 0.1, 0))
+
+    machine = MachineRecord(
+        name="short",
+        bodies=(link("a", 0.5), link("b", 2.5)),
+        joints=(
+            Joint(name="left", type="spherical", markers=(Marker(body="ground"), Marker(body="a", position=(-0.5, 0, 0)))),
+            Joint(name="middle", type="spherical", markers=(Marker(body="a", position=(0.5, 0, 0)), Marker(body="b", position=(-0.5, 0, 0)))),
+            Joint(name="right", type="spherical", markers=(Marker(body="b", position=(0.5, 0, 0)), Marker(body="ground", position=(3, 0, 0)))),
+        ),
+    )
+    motion = equations(machine, "newton-euler")
+    with pytest.raises(ModelError) as caught:
+        assemble(machine, motion)
+    gaps = [float(re.search(r"a gap of ([\d.]+) m", fault.message)[1]) for fault in caught.value.faults]
+    assert sum(gaps) == pytest.approx(1.0, abs=1e-3)
+    assert {fault.path for fault in caught.value.faults} == {"joints.left", "joints.middle", "joints.right"}
+
+
+def test_opposite_axes_are_refused():
+    machine = MachineRecord(
+        name="wrong",
+        bodies=(Body(name="a", mass=1, inertia=(1, 1, 1)),),
+        joints=(Joint(name="hinge", type="revolute", markers=(Marker(body="ground", axis=(0, 0, 1)), Marker(body="a", axis=(0, 0, -1)))),),
+    )
+    with pytest.raises(ModelError, match="opposite"):
+        assemble(machine, equations(machine, "newton-euler"))

@@ -1,0 +1,143 @@
+"""Machines for the tests: pairs of bodies with one joint, report 44's machines, chains and loops; written in Python."""
+
+import numpy as np
+from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
+from nivel.system.joints import JOINTS
+from scipy.spatial.transform import Rotation
+
+GRAVITY = (0.0, -9.81, 0.0)
+
+
+def random_body(name, rng, *, centre=True):
+    """A body anywhere, with its frame away from the centre of mass, moving."""
+    edges = rng.uniform(0.2, 1.0, 3)
+    principal = np.array([edges[1] ** 2 + edges[2] ** 2, edges[0] ** 2 + edges[2] ** 2, edges[0] ** 2 + edges[1] ** 2])
+    axes = Rotation.random(rng=rng).as_matrix()
+    return Body(
+        name=name,
+        mass=rng.uniform(1, 5),
+        centre_of_mass=tuple(rng.uniform(-0.4, 0.4, 3)) if centre else (0, 0, 0),
+        inertia=(axes @ np.diag(principal) @ axes.T).tolist(),
+        position=tuple(rng.uniform(-1, 1, 3)),
+        orientation={"euler_parameters": Rotation.random(rng=rng).as_quat(scalar_first=True).tolist()},
+        velocity=tuple(rng.uniform(-1, 1, 3)),
+        angular_velocity_body=tuple(rng.uniform(-3, 3, 3)),
+    )
+
+
+def joint_at(name, kind, first, second, rng, point=None):
+    """A joint of `kind` between two bodies at a random point and direction."""
+    point = tuple(rng.uniform(-1, 1, 3)) if point is None else point
+    z = rng.standard_normal(3)
+    x = np.cross(z, rng.standard_normal(3))
+    options = {}
+    if kind == "universal":
+        options["axes"] = (tuple(z), tuple(x))
+    elif kind in ("revolute", "cylindrical", "translational"):
+        options["axis"] = tuple(z)
+        options["x_axis"] = tuple(x)
+    return Joint(name=name, type=kind, bodies=(first, second), point=point, **options)
+
+
+def pair(kind, rng, *, ground=False):
+    """Two bodies (or one and the ground) with one joint, loads, gravity."""
+    bodies = [random_body("a", rng)] if ground else [random_body("a", rng), random_body("b", rng)]
+    second = "ground" if ground else "b"
+    loads = (
+        PointForce(name="push", body="a", position=(0.1, 0.2, 0.3), vector=(3, -2, 5), axes="body"),
+        Torque(name="twist", body="a", vector=(1, 2, -1)),
+    )
+    return MachineRecord(
+        name=kind, bodies=tuple(bodies), joints=(joint_at("j", kind, "a", second, rng),), forces=loads, gravity=GRAVITY
+    )
+
+
+def tree(rng):
+    """A chain of all joint kinds from the ground, its bodies off their centres of mass."""
+    names = [f"b{k}" for k in range(len(JOINTS))]
+    bodies = tuple(random_body(name, rng) for name in names)
+    joints = tuple(
+        joint_at(f"j{k}", kind, "ground" if k == 0 else names[k - 1], names[k], rng) for k, kind in enumerate(JOINTS)
+    )
+    return MachineRecord(name="tree", bodies=bodies, joints=joints, gravity=GRAVITY)
+
+
+def slider_crank(**settings):
+    """The spatial slider-crank of report 44."""
+    return MachineRecord(
+        name="slider-crank",
+        gravity=GRAVITY,
+        bodies=(
+            Body(
+                name="crank",
+                mass=21,
+                inertia=(2.2e-2, 0.513, 0.526),
+                position=(0, 0, -0.25),
+                orientation={"euler": [np.pi / 2, np.pi / 2, -np.pi / 2], "sequence": "zxz"},
+            ),
+            Body(name="rod", mass=71.7, inertia=(7.5e-2, 20.22, 20.27), position=(0.9, 0, -0.5)),
+            Body(name="slider", mass=7.8, inertia=(1.3e-2,) * 3, position=(1.8, 0, -0.5)),
+        ),
+        joints=(
+            Joint(name="hinge", type="revolute", bodies=("crank", "ground"), point=(0, 0, 0), axis=(1, 0, 0)),
+            Joint(
+                name="pin",
+                type="spherical",
+                markers=(Marker(body="crank", position=(0.25, 0, 0)), Marker(body="rod", position=(-0.9, 0, 0))),
+            ),
+            Joint(
+                name="knee", type="universal", bodies=("rod", "slider"), point=(1.8, 0, -0.5), axes=((0, 1, 0), (0, 0, 1))
+            ),
+            Joint(name="slide", type="translational", bodies=("slider", "ground"), point=(1.8, 0, -0.5), axis=(1, 0, 0)),
+        ),
+        forces=(Torque(name="drive", body="crank", vector=(-50, 0, 0)),),
+        simulation=SimulationSettings(**({"duration": 8.0} | settings)),
+    )
+
+
+def four_bar(third="cylindrical", second="spherical", **settings):
+    """The planar four-bar of report 44; `second` and `third` are its coupler's joints."""
+
+    def at(body, x):
+        return Marker(body=body, position=(x, 0, 0))
+
+    bars = (
+        ("crank", 78.1, (8.14e-2, 26.1, 26.0), (0.5, 0.866025403784, 0), 1.047197551197),
+        ("coupler", 156.2, (0.163, 208.4, 208.3), (2.823521413620, 2.553494447797, 0), 0.423245598298),
+        ("rocker", 156.2, (0.163, 208.4, 208.3), (3.573521413620, 1.687469044012, 0), 1.004203159591),
+    )
+    return MachineRecord(
+        name="four-bar",
+        gravity=GRAVITY,
+        bodies=tuple(
+            Body(name=n, mass=m, inertia=J, position=r, orientation={"axis": [0, 0, 1], "angle": a})
+            for n, m, J, r, a in bars
+        ),
+        joints=(
+            Joint(name="hinge", type="revolute", markers=(Marker(body="ground"), at("crank", -1))),
+            Joint(name="pin", type=second, markers=(at("crank", 1), at("coupler", -2))),
+            Joint(name="sleeve", type=third, markers=(at("coupler", 2), at("rocker", 2))),
+            Joint(name="pivot", type="revolute", markers=(at("rocker", -2), Marker(body="ground", position=(2.5, 0, 0)))),
+        ),
+        forces=(Torque(name="drive", body="crank", vector=(0, 0, -1200)),),
+        simulation=SimulationSettings(**({"duration": 4.0} | settings)),
+    )
+
+
+def heavy_top(**settings):
+    """Heavy top of Arnold and Brüls: frame at the fixed point, centre of mass on the body y axis."""
+    return MachineRecord(
+        name="heavy-top",
+        gravity=(0, 0, -9.81),
+        bodies=(
+            Body(
+                name="top",
+                mass=15,
+                centre_of_mass=(0, 1, 0),
+                inertia=(0.234375, 0.46875, 0.234375),
+                angular_velocity_body=(0, 150, -4.61538),
+            ),
+        ),
+        joints=(Joint(name="tip", type="spherical", bodies=("ground", "top"), point=(0, 0, 0)),),
+        simulation=SimulationSettings(**({"duration": 2.0} | settings)),
+    )

@@ -1,0 +1,33 @@
+"""Run a machine and get its frames as arrays by name."""
+
+from types import SimpleNamespace
+
+import numpy as np
+from nivel.analysis.dynamics import march, prepare
+from nivel.analysis.settings import complete
+
+
+class Frames:
+    """A sink that keeps everything."""
+
+    def __init__(self):
+        self.blocks = []
+
+    def take(self, frames):
+        self.blocks.append(frames.copy())
+
+
+def run(machine, *, chunk_steps=None, **settings):
+    """Arrays of all variables, `time`, the prepared machine and how the run finished."""
+    record = machine.replace(simulation=machine.simulation.replace(**settings)) if settings else machine
+    complete_settings = complete(record.simulation)
+    prepared = prepare(record, complete_settings.formulation)
+    sink = Frames()
+    finished = march(prepared, complete_settings, [sink], chunk_steps=chunk_steps)
+    frames = np.vstack(sink.blocks)
+    layout = prepared.motion.system.layout
+    out = {"time": frames[:, 0], "frames": frames, "prepared": prepared, "finished": finished}
+    for variable in layout.variables:
+        shape = [len(layout.coordinates[dim]) for dim in variable.dims[1:]]
+        out[variable.name] = frames[:, variable.columns].reshape(len(frames), *shape)
+    return SimpleNamespace(**out)

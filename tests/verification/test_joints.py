@@ -1,0 +1,126 @@
+"""Every joint, between two bodies and against the ground: Jacobian, acceleration term, free motions, work."""
+
+import machines
+import numpy as np
+import pytest
+from nivel.analysis.assemble import assemble
+from nivel.analysis.equations import equations, moved
+from nivel.analysis.redundancy import analyse
+from nivel.kernels.constraint import constraint_rows, constraint_values
+from nivel.kernels.marker import move_markers, place_markers
+from nivel.kernels.rigid import place_body
+from nivel.kernels.spatial import multiply
+from nivel.system.joints import JOINTS
+from nivel.system.system import parameter_rates
+
+KINDS = pytest.mark.parametrize("kind", JOINTS)
+GROUND = pytest.mark.parametrize("ground", [False, True], ids=["two-bodies", "ground"])
+H = 1e-30
+
+
+@pytest.fixture
+def joint(kind, ground, rng):
+    machine = machines.pair(kind, rng, ground=ground)
+    motion = equations(machine, "newton-euler")
+    state = assemble(machine, motion).y
+    return motion, state
+
+
+def complex_rows(motion, q, velocity, angular_velocity_b):
+    """C and Ċ of the joint rows for complex positions and velocities: the kernels themselves, on complex numbers."""
+    record = motion.system.record
+
+    def widen(part):
+        return type(part)(*[a.astype(complex) if a.dtype == float else a for a in part])
+
+    bodies, markers, rows = widen(record.bodies), widen(record.markers), widen(record.constraints)
+    for b in range(len(bodies.mass)):
+        place_body(bodies, b, q[7 * b : 7 * b + 7])
+        bodies.Rdot[b] = velocity[b]
+        bodies.omega_b[b] = angular_velocity_b[b]
+        multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
+    place_markers(bodies, markers)
+    constraint_values(bodies, markers, rows)
+    move_markers(bodies, markers)
+    constraint_rows(bodies, markers, rows)
+    return rows.C, rows.Cdot
+
+
+def aside(motion, state, rng):
+    """A state near the assembled one that violates the joint at both levels: derivatives must be right there, too."""
+    count = motion.system.body_count
+    q = moved(state[: 7 * count], rng.uniform(-0.2, 0.2, 6 * count))
+    return q, rng.uniform(-2, 2, (count, 3)), rng.uniform(-3, 3, (count, 3))
+
+
+@KINDS
+@GROUND
+def test_jacobian_is_the_complex_step_derivative(joint, rng):
+    motion, state = joint
+    count = motion.system.body_count
+    q, velocity, omega = aside(motion, state, rng)
+    motion.evaluate(0.0, motion.system.state(q, velocity, omega))
+    J = motion.jacobian()
+    for k in range(6 * count):
+        change = np.zeros((count, 6))
+        change.flat[k] = 1.0
+        tangent = np.zeros((count, 7))
+        tangent[:, :3] = change[:, :3]
+        tangent[:, 3:] = parameter_rates(q.reshape(-1, 7)[:, 3:], change[:, 3:])
+        C, _ = complex_rows(motion, q + 1j * H * tangent.ravel(), velocity.astype(complex), omega.astype(complex))
+        np.testing.assert_allclose(J[:, k], C.imag / H, atol=1e-11)
+
+
+@KINDS
+@GROUND
+def test_rates_and_acceleration_term_are_derivatives_along_a_motion(joint, rng):
+    motion, state = joint
+    count = motion.system.body_count
+    q, velocity, omega = aside(motion, state, rng)
+    motion.evaluate(0.0, motion.system.state(q, velocity, omega))
+    J, record = motion.jacobian(), motion.system.record
+    Cdot, gamma = record.constraints.Cdot.copy(), record.constraints.gamma.copy()
+    acceleration = rng.uniform(-5, 5, (count, 6))
+    qdot = np.hstack([velocity, parameter_rates(q.reshape(-1, 7)[:, 3:], omega)]).ravel()
+    C_ahead, Cdot_ahead = complex_rows(
+        motion, q + 1j * H * qdot, velocity + 1j * H * acceleration[:, :3], omega + 1j * H * acceleration[:, 3:]
+    )
+    np.testing.assert_allclose(Cdot, J @ np.hstack([velocity, omega]).ravel(), atol=1e-11)
+    np.testing.assert_allclose(Cdot, C_ahead.imag / H, atol=1e-11)
+    np.testing.assert_allclose(J @ acceleration.ravel() - gamma, Cdot_ahead.imag / H, atol=1e-10)
+
+
+@KINDS
+@GROUND
+def test_stated_number_of_free_motions(kind, ground, joint):
+    motion, state = joint
+    redundancy = analyse(motion, 0.0, state)
+    assert redundancy.degrees_of_freedom == JOINTS[kind].free + (0 if ground else 6)
+    assert redundancy.redundant_rows == ()
+    assert len(JOINTS[kind].rows) == 6 - JOINTS[kind].free
+
+
+@KINDS
+@GROUND
+@pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
+def test_constraint_forces_do_no_work_and_hold_the_joint(kind, ground, formulation, rng):
+    machine = machines.pair(kind, rng, ground=ground)
+    motion = equations(machine, formulation)
+    state = assemble(machine, motion).y
+    assert motion.holds(0.0, state)
+    record = motion.system.record
+    count = motion.system.body_count
+    v = np.hstack([record.bodies.Rdot[:count], record.bodies.omega_b[:count]]).ravel()
+    lam = record.constraints.lam[: motion.system.joint_rows]
+    J = motion.jacobian()
+    power = (J.T @ lam) @ v
+    assert abs(power) <= 1e-12 * np.abs(J.T @ lam).max() * (1 + np.abs(v).max())
+    vdot = np.hstack([record.bodies.Rddot[:count], record.bodies.alpha_b[:count]]).ravel()
+    np.testing.assert_allclose(J @ vdot, record.constraints.gamma[: len(J)], atol=1e-9)
+
+
+@KINDS
+def test_names_of_rows_and_coordinates(kind, rng):
+    system = equations(machines.pair(kind, rng), "newton-euler").system
+    assert system.rows == tuple(f"j.{name}" for name in JOINTS[kind].rows)
+    assert system.layout.coordinates["joint_coordinate"] == tuple(f"j.{c.name}" for c in JOINTS[kind].coordinates)

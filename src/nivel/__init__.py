@@ -27,12 +27,13 @@ if TYPE_CHECKING:
     from nivel.machine import Body as Body
     from nivel.machine import Expression as Expression
     from nivel.machine import Joint as Joint
+    from nivel.machine import MachineRecord as MachineRecord
     from nivel.machine import Marker as Marker
     from nivel.machine import PointForce as PointForce
     from nivel.machine import SimulationSettings as SimulationSettings
     from nivel.machine import Table as Table
     from nivel.machine import Torque as Torque
-    from nivel.results import Result as Result
+    from nivel.results.result import Result as Result
 
 _HOME = {
     "Machine": "nivel.api",
@@ -45,15 +46,16 @@ _HOME = {
     "Body": "nivel.machine",
     "Expression": "nivel.machine",
     "Joint": "nivel.machine",
+    "MachineRecord": "nivel.machine",
     "Marker": "nivel.machine",
     "PointForce": "nivel.machine",
     "SimulationSettings": "nivel.machine",
     "Table": "nivel.machine",
     "Torque": "nivel.machine",
-    "Result": "nivel.results",
+    "Result": "nivel.results.result",
 }
 
-__all__ = [*_HOME, "__version__"]  # noqa: PLE0604, RUF022
+__all__ = [*_HOME, "__version__"]  # noqa: PLE0604
 
 
 def __getattr__(name: str) -> Any:

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nivel.files import read_machine, write_machine
+from nivel.analysis.compilation import compile_path
+from nivel.analysis.listener import Listener
+from nivel.errors import ModelError
+from nivel.files.reader import locate, read_machine
+from nivel.files.writer import write_machine
 from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
 
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
-    from nivel.analysis.simulate import Listener
-    from nivel.results import Result
+    from nivel.results.result import Result
 
 
 class Machine:
@@ -36,14 +41,14 @@ class Machine:
         markers: Sequence[Marker] = (),
         joints: Sequence[Joint] = (),
         forces: Sequence[PointForce | Torque] = (),
-        gravity: Sequence[float] = (0.0, 0.0, 0.0),
+        gravity: tuple[float, float, float] = (0.0, 0.0, 0.0),
         simulation: SimulationSettings | None = None,
         description: str = "",
     ) -> None:
         self.record = MachineRecord(
             name=name,
             description=description,
-            gravity=tuple(gravity),
+            gravity=gravity,
             bodies=tuple(bodies),
             markers=tuple(markers),
             joints=tuple(joints),
@@ -51,13 +56,15 @@ class Machine:
             simulation=simulation or SimulationSettings(),
         )
         self.source = ""
+        self.file = ""
 
     @classmethod
-    def from_record(cls, record: MachineRecord, source: str = "") -> Machine:
-        """Wrap a record; `source` is the text of the file it came from."""
+    def from_record(cls, record: MachineRecord, source: str = "", file: str = "") -> Machine:
+        """Wrap a record; `source` is the text of the `file` it came from."""
         machine = cls.__new__(cls)
         machine.record = record
         machine.source = source
+        machine.file = file
         return machine
 
     @property
@@ -69,7 +76,8 @@ class Machine:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         from nivel.analysis.check import check
 
-        return check(self.record)
+        with self._faults_in_file():
+            return check(self.record)
 
     def simulate(
         self,
@@ -92,8 +100,6 @@ class Machine:
         existing file. verify : estimate the accuracy with a second run at half the step.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
-        from nivel.analysis.simulate import simulate
-
         given = {
             "duration": duration,
             "step": step,
@@ -103,14 +109,37 @@ class Machine:
             "coordinates": coordinates,
             "stabilisation": stabilisation,
         }
-        return simulate(
-            self.with_settings({key: value for key, value in given.items() if value is not None}).record,
-            source=self.source,
-            out=out,
-            force=force,
-            verify=verify,
-            listener=listener,
-        )
+        chosen = self.with_settings({key: value for key, value in given.items() if value is not None})
+        settings = chosen.record.simulation
+        compile_seconds = compile_path(settings.formulation, settings.integrator, listener or Listener())
+        # after the kernels: what follows imports them
+        from nivel.analysis.simulate import simulate
+
+        with self._faults_in_file():
+            return simulate(
+                chosen.record,
+                source=self.source,
+                out=out,
+                force=force,
+                verify=verify,
+                listener=listener,
+                compile_seconds=compile_seconds,
+            )
+
+    @contextmanager
+    def _faults_in_file(self) -> Iterator[None]:
+        """Faults that the assembly finds get the line of the element in the machine's file."""
+        try:
+            yield
+        except ModelError as error:
+            if not self.source:
+                raise
+            raise ModelError(
+                fault
+                if fault.line or not fault.path
+                else replace(fault, file=self.file, **_place(self.source, fault.path))
+                for fault in error.faults
+            ) from error
 
     def with_settings(self, settings: Mapping[str, Any]) -> Machine:
         """The same machine with some simulation settings replaced."""
@@ -121,7 +150,7 @@ class Machine:
         # own Baumgarte coefficients belong to the stabilisation they were given with
         if changes.get("stabilisation", "baumgarte") != "baumgarte" and old.baumgarte is not None:
             changes["baumgarte"] = None
-        return Machine.from_record(self.record.replace(simulation=old.replace(**changes)), self.source)
+        return Machine.from_record(self.record.replace(simulation=old.replace(**changes)), self.source, self.file)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the machine as a YAML file."""
@@ -145,12 +174,17 @@ def load(path: str | PathLike[str], overrides: Mapping[str, str] | None = None) 
 
     Raises ModelError with every fault of the file, each with its line.
     """
-    record = read_machine(path, overrides=dict(overrides or {}))
-    return Machine.from_record(record, Path(fspath(path)).read_text(encoding="utf-8"))
+    record = read_machine(fspath(path), overrides=dict(overrides or {}))
+    return Machine.from_record(record, Path(fspath(path)).read_text(encoding="utf-8"), fspath(path))
+
+
+def _place(source: str, path: str) -> dict[str, int]:
+    line, column = locate(source, path)
+    return {"line": line, "column": column}
 
 
 def open_result(path: str | PathLike[str]) -> Result:
     """Open a result file."""
-    from nivel.results import Result
+    from nivel.results.result import Result
 
     return Result.open(path)

@@ -1,14 +1,11 @@
 """Assembly: least change, named gaps, consistent velocities."""
 
 import re
-import sys
-from pathlib import Path
 
+import machines
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "verification"))
-import machines
 from nivel.analysis.assemble import assemble
 from nivel.analysis.equations import equations
 from nivel.errors import ModelError
@@ -40,7 +37,9 @@ def test_given_values_move_least():
     """Two free points pinned together meet in the middle: the change is orthogonal to the null space of C_q."""
     machine = MachineRecord(
         name="two",
-        bodies=tuple(Body(name=n, mass=m, inertia=(1, 1, 1), position=(x, 0, 0)) for n, m, x in (("a", 1, 0), ("b", 50, 0.02))),
+        bodies=tuple(
+            Body(name=n, mass=m, inertia=(1, 1, 1), position=(x, 0, 0)) for n, m, x in (("a", 1, 0), ("b", 50, 0.02))
+        ),
         joints=(Joint(name="pin", type="spherical", markers=(Marker(body="a"), Marker(body="b"))),),
     )
     motion = equations(machine, "newton-euler")
@@ -77,6 +76,7 @@ def _as_marker(machine, side):
 
 def test_loop_that_cannot_be_closed_is_named_with_its_gap():
     """Links of 1 m and 1 m cannot span 3 m: one metre stays open."""
+
     def link(name, x):
         return Body(name=name, mass=1, inertia=(0.1, 0.1, 0.1), position=(x, 0.1, 0))
 
@@ -84,9 +84,19 @@ def test_loop_that_cannot_be_closed_is_named_with_its_gap():
         name="short",
         bodies=(link("a", 0.5), link("b", 2.5)),
         joints=(
-            Joint(name="left", type="spherical", markers=(Marker(body="ground"), Marker(body="a", position=(-0.5, 0, 0)))),
-            Joint(name="middle", type="spherical", markers=(Marker(body="a", position=(0.5, 0, 0)), Marker(body="b", position=(-0.5, 0, 0)))),
-            Joint(name="right", type="spherical", markers=(Marker(body="b", position=(0.5, 0, 0)), Marker(body="ground", position=(3, 0, 0)))),
+            Joint(
+                name="left", type="spherical", markers=(Marker(body="ground"), Marker(body="a", position=(-0.5, 0, 0)))
+            ),
+            Joint(
+                name="middle",
+                type="spherical",
+                markers=(Marker(body="a", position=(0.5, 0, 0)), Marker(body="b", position=(-0.5, 0, 0))),
+            ),
+            Joint(
+                name="right",
+                type="spherical",
+                markers=(Marker(body="b", position=(0.5, 0, 0)), Marker(body="ground", position=(3, 0, 0))),
+            ),
         ),
     )
     motion = equations(machine, "newton-euler")
@@ -101,7 +111,13 @@ def test_opposite_axes_are_refused():
     machine = MachineRecord(
         name="wrong",
         bodies=(Body(name="a", mass=1, inertia=(1, 1, 1)),),
-        joints=(Joint(name="hinge", type="revolute", markers=(Marker(body="ground", axis=(0, 0, 1)), Marker(body="a", axis=(0, 0, -1)))),),
+        joints=(
+            Joint(
+                name="hinge",
+                type="revolute",
+                markers=(Marker(body="ground", axis=(0, 0, 1)), Marker(body="a", axis=(0, 0, -1))),
+            ),
+        ),
     )
     with pytest.raises(ModelError, match="opposite"):
         assemble(machine, equations(machine, "newton-euler"))

@@ -1,15 +1,11 @@
 """Redundant machines: found, named, and run knowingly."""
 
-import sys
-from pathlib import Path
-
+import machines
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "verification"))
-import machines
-from nivel.analysis.dynamics import prepare
 from running import run
+
+from nivel.analysis.dynamics import prepare
 
 
 def test_report_machines_have_one_freedom_and_no_redundant_row():
@@ -33,7 +29,13 @@ def test_four_revolutes_in_a_plane_are_three_rows_too_many():
 @pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 @pytest.mark.parametrize("stabilisation", ["none", "direct"])
 def test_redundant_four_bar_moves_like_the_determinate_one(formulation, stabilisation):
-    settings = {"duration": 1.0, "step": 1e-3, "output_interval": 0.05, "formulation": formulation, "stabilisation": stabilisation}
+    settings = {
+        "duration": 1.0,
+        "step": 1e-3,
+        "output_interval": 0.05,
+        "formulation": formulation,
+        "stabilisation": stabilisation,
+    }
     plain = run(machines.four_bar(), **settings)
     redundant = run(machines.four_bar(second="revolute", third="revolute"), **settings)
     assert redundant.finished.outcome == "done"

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from numba.core.errors import NumbaError
+
 from nivel.kernels import cache
 from nivel.kernels.compile import leaf
 from nivel.kernels.observe import observe
 from nivel.march.loop import advance
 from nivel.march.runge_kutta import rk4
 from nivel.motion import lagrange, newton_euler
-from numba.core.errors import NumbaError
 
 ENTRIES = [observe, advance, rk4]
 ENTRIES += [getattr(module, name) for module in (newton_euler, lagrange) for name in ("evaluate", "correct", "keep")]

@@ -4,9 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from numba import njit
+
 from nivel.kernels.arrays import A1, F1, F2, F3, I1, U1, U2, numba_type
 from nivel.kernels.handle import Handle, reader
-from numba import njit
 
 
 class Inner(NamedTuple):

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from nivel.kernels.dense import factorise_pivoted, gather, solve_pivoted
 from nivel.kernels.record import Saddle
 from nivel.kernels.sparse import factorise, solve
@@ -61,7 +62,9 @@ def saddle_of(C, blocks, groups, redundant=0):
 def test_sparse_factor_solves_random_linkages(seed):
     rng = np.random.default_rng(seed)
     bodies = int(rng.integers(2, 12))
-    C, blocks, groups = random_rows(rng, bodies, bodies + int(rng.integers(0, max(1, bodies // 4))), int(rng.integers(1, 5)))
+    C, blocks, groups = random_rows(
+        rng, bodies, bodies + int(rng.integers(0, max(1, bodies // 4))), int(rng.integers(1, 5))
+    )
     saddle = saddle_of(C, blocks, groups)
     right = rng.standard_normal(len(C))
     saddle.b[:] = right

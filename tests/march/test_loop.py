@@ -1,15 +1,11 @@
 """The loop: chunks, last step, output times, joint angles, failures."""
 
-import sys
-from pathlib import Path
-
+import machines
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "verification"))
-import machines
-from nivel.machine import Body, Joint, MachineRecord, PointForce, SimulationSettings
 from running import run
+
+from nivel.machine import Body, Joint, MachineRecord, PointForce, SimulationSettings
 
 
 @pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
@@ -90,8 +86,15 @@ def test_force_that_becomes_infinite_keeps_what_was_computed():
 
 def test_singular_position_is_named():
     """A straight strut closed against the ground by two sliding pins: a planar loop folded flat loses a row."""
+
     def bar(name, x, angle):
-        return Body(name=name, mass=1, inertia=(1e-3, 0.1, 0.1), position=(x, 0, 0), orientation={"axis": [0, 0, 1], "angle": angle})
+        return Body(
+            name=name,
+            mass=1,
+            inertia=(1e-3, 0.1, 0.1),
+            position=(x, 0, 0),
+            orientation={"axis": [0, 0, 1], "angle": angle},
+        )
 
     flat = MachineRecord(
         name="flat",

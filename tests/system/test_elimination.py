@@ -3,10 +3,13 @@
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
+
 from nivel.system.elimination import minimum_degree, plan
 
 
-@given(st.lists(st.tuples(st.integers(0, 7), st.integers(0, 7)).filter(lambda p: p[0] != p[1]), min_size=1, max_size=14))
+@given(
+    st.lists(st.tuples(st.integers(0, 7), st.integers(0, 7)).filter(lambda p: p[0] != p[1]), min_size=1, max_size=14)
+)
 def test_pattern_of_the_factor_holds_every_entry_of_a_numerical_one(joints):
     rows = [[2 * k, 2 * k + 1] for k in range(len(joints))]
     blocks = [(row, body) for pair, group in zip(joints, rows, strict=True) for row in group for body in pair]

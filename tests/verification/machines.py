@@ -1,9 +1,10 @@
 """Machines for the tests: pairs of bodies with one joint, report 44's machines, chains and loops; written in Python."""
 
 import numpy as np
+from scipy.spatial.transform import Rotation
+
 from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
 from nivel.system.joints import JOINTS
-from scipy.spatial.transform import Rotation
 
 GRAVITY = (0.0, -9.81, 0.0)
 
@@ -86,9 +87,15 @@ def slider_crank(**settings):
                 markers=(Marker(body="crank", position=(0.25, 0, 0)), Marker(body="rod", position=(-0.9, 0, 0))),
             ),
             Joint(
-                name="knee", type="universal", bodies=("rod", "slider"), point=(1.8, 0, -0.5), axes=((0, 1, 0), (0, 0, 1))
+                name="knee",
+                type="universal",
+                bodies=("rod", "slider"),
+                point=(1.8, 0, -0.5),
+                axes=((0, 1, 0), (0, 0, 1)),
             ),
-            Joint(name="slide", type="translational", bodies=("slider", "ground"), point=(1.8, 0, -0.5), axis=(1, 0, 0)),
+            Joint(
+                name="slide", type="translational", bodies=("slider", "ground"), point=(1.8, 0, -0.5), axis=(1, 0, 0)
+            ),
         ),
         forces=(Torque(name="drive", body="crank", vector=(-50, 0, 0)),),
         simulation=SimulationSettings(**({"duration": 8.0} | settings)),
@@ -117,7 +124,9 @@ def four_bar(third="cylindrical", second="spherical", **settings):
             Joint(name="hinge", type="revolute", markers=(Marker(body="ground"), at("crank", -1))),
             Joint(name="pin", type=second, markers=(at("crank", 1), at("coupler", -2))),
             Joint(name="sleeve", type=third, markers=(at("coupler", 2), at("rocker", 2))),
-            Joint(name="pivot", type="revolute", markers=(at("rocker", -2), Marker(body="ground", position=(2.5, 0, 0)))),
+            Joint(
+                name="pivot", type="revolute", markers=(at("rocker", -2), Marker(body="ground", position=(2.5, 0, 0)))
+            ),
         ),
         forces=(Torque(name="drive", body="crank", vector=(0, 0, -1200)),),
         simulation=SimulationSettings(**({"duration": 4.0} | settings)),

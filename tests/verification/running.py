@@ -3,6 +3,7 @@
 from types import SimpleNamespace
 
 import numpy as np
+
 from nivel.analysis.dynamics import march, prepare
 from nivel.analysis.settings import complete
 

@@ -3,6 +3,7 @@
 import machines
 import numpy as np
 import pytest
+
 from nivel.analysis.assemble import assemble
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.equations import equations

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from nivel.machine import Body, Expression, Joint, MachineRecord, PointForce, SimulationSettings, Table, Torque
 from running import run
+
+from nivel.machine import Body, Expression, Joint, MachineRecord, PointForce, SimulationSettings, Table, Torque
 
 
 def free_block(*forces, **settings):

@@ -3,7 +3,6 @@
 import machines
 import numpy as np
 import pytest
-from nivel.machine import Body, Joint, MachineRecord, SimulationSettings
 from references import four_bar as four_bar_reference
 from references import heavy_top as top_reference
 from references import one_dof
@@ -11,6 +10,8 @@ from references import pendulum as pendulum_reference
 from references import slider_crank as slider_crank_reference
 from running import run
 from scipy.spatial.transform import Rotation
+
+from nivel.machine import Body, Joint, MachineRecord, SimulationSettings
 
 FORMULATIONS = pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 
@@ -59,7 +60,9 @@ def order(machine, steps, solve, duration, **settings):
 @pytest.mark.parametrize("stabilisation", ["none", "direct"])
 def test_rk4_is_of_order_four_on_the_slider_crank(formulation, stabilisation):
     settings = {"formulation": formulation, "stabilisation": stabilisation}
-    slope, errors = order(machines.slider_crank(), [8e-3, 4e-3, 2e-3, 1e-3], slider_crank_reference.solve, 2.0, **settings)
+    slope, errors = order(
+        machines.slider_crank(), [8e-3, 4e-3, 2e-3, 1e-3], slider_crank_reference.solve, 2.0, **settings
+    )
     assert abs(slope - 4) < 0.3, errors
     assert errors[-1] < 1e-8
 
@@ -90,7 +93,11 @@ def test_order_four_holds_down_to_round_off():
 @pytest.mark.parametrize("stabilisation", ["none", "direct"])
 def test_energy_drift_is_fourth_order(stabilisation):
     errors = [
-        np.abs(run(machines.slider_crank(), duration=2.0, step=h, output_interval=0.02, stabilisation=stabilisation).energy_error).max()
+        np.abs(
+            run(
+                machines.slider_crank(), duration=2.0, step=h, output_interval=0.02, stabilisation=stabilisation
+            ).energy_error
+        ).max()
         for h in (4e-3, 2e-3, 1e-3)
     ]
     slopes = np.log2(np.divide(errors[:-1], errors[1:]))
@@ -106,7 +113,9 @@ def test_heavy_top_within_a_millionth(formulation):
     centre = np.einsum("nij,j->ni", A, (0.0, 1.0, 0.0))
     found = Rotation.from_quat(result.orientation[:, 0], scalar_first=True).as_matrix()
     np.testing.assert_allclose(found[:, :, 1], centre, atol=1e-6)
-    np.testing.assert_allclose(result.joint_force[:, 0], -expected.joint_force, atol=1e-6 * np.abs(expected.joint_force).max())
+    np.testing.assert_allclose(
+        result.joint_force[:, 0], -expected.joint_force, atol=1e-6 * np.abs(expected.joint_force).max()
+    )
 
 
 def pendulum(**settings):

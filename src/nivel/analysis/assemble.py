@@ -76,14 +76,16 @@ def _least_change(motion: MotionEquations, target: Array) -> Array:
     J[:, :, :3] *= motion.system.size
     J = J.reshape(len(target), -1)
     if J.size <= DENSE_ENTRIES:
-        return np.linalg.lstsq(J, target, rcond=1e-10)[0]
+        return np.asarray(np.linalg.lstsq(J, target, rcond=1e-10)[0], dtype=np.float64)
     from scipy.sparse import csr_matrix
     from scipy.sparse.linalg import lsmr
 
     return lsmr(csr_matrix(J), target, atol=1e-14, btol=1e-14, maxiter=10 * len(target))[0]
 
 
-def _consistent_velocities(motion: MotionEquations, t: float, y: Array) -> tuple[Array, tuple[tuple[str, float, float], ...]]:
+def _consistent_velocities(
+    motion: MotionEquations, t: float, y: Array
+) -> tuple[Array, tuple[tuple[str, float, float], ...]]:
     system, bodies = motion.system, motion.system.record.bodies
     count = system.body_count
     velocity, angular = bodies.Rdot[:count].copy(), bodies.omega_b[:count].copy()
@@ -96,7 +98,9 @@ def _consistent_velocities(motion: MotionEquations, t: float, y: Array) -> tuple
         change = np.zeros((count, 6))
     new = given + change
     assembled = system.state(y[: system.positions], new[:, :3], new[:, 3:])
-    moves = zip(system.bodies, np.linalg.norm(change[:, :3], axis=1), np.linalg.norm(change[:, 3:], axis=1), strict=True)
+    moves = zip(
+        system.bodies, np.linalg.norm(change[:, :3], axis=1), np.linalg.norm(change[:, 3:], axis=1), strict=True
+    )
     motion.evaluate(t, assembled)
     return assembled, tuple((name, float(d), float(a)) for name, d, a in moves if d > 0.0 or a > 0.0)
 
@@ -105,7 +109,9 @@ def _moves(names: tuple[str, ...], given: Array, q: Array) -> tuple[tuple[str, f
     before, after = given.reshape(-1, 7), q.reshape(-1, 7)
     distance = np.linalg.norm(after[:, :3] - before[:, :3], axis=1)
     # |2 sin(half the angle)| of the turn between two unit quaternions, either sign
-    chord = np.minimum(np.linalg.norm(after[:, 3:] - before[:, 3:], axis=1), np.linalg.norm(after[:, 3:] + before[:, 3:], axis=1))
+    chord = np.minimum(
+        np.linalg.norm(after[:, 3:] - before[:, 3:], axis=1), np.linalg.norm(after[:, 3:] + before[:, 3:], axis=1)
+    )
     angle = 4.0 * np.arcsin(np.clip(chord / 2.0, 0.0, 1.0))
     return tuple(
         (name, float(d), float(a)) for name, d, a in zip(names, distance, angle, strict=True) if d > 1e-14 or a > 1e-14
@@ -123,7 +129,11 @@ def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations) -> None
         if not abs(violation[worst]) <= OPEN * max(1.0, system.size):
             unit = system.row_units[worst].replace("1", "rad")
             message = f"cannot be closed: a gap of {abs(violation[worst]):.6g} {unit} is left at {system.rows[worst]}"
-            faults.append(Fault("", 0, 0, path, message + "; check the positions of its bodies and the lengths between their joints"))
+            faults.append(
+                Fault(
+                    "", 0, 0, path, message + "; check the positions of its bodies and the lengths between their joints"
+                )
+            )
         elif JOINTS[joint.type].parallel:
             first, second = record.joints.first_marker[j], record.joints.first_marker[j] + 1
             if record.markers.A[first, :, 2] @ record.markers.A[second, :, 2] < 0.0:

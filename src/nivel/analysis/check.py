@@ -8,8 +8,10 @@ import numpy as np
 
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.settings import RunSettings, complete
+from nivel.machine.force import PointForce, Torque
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import JOINTS
+from nivel.system.system import System
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,7 @@ class Check:
     gravity: tuple[float, ...]
     bodies: tuple[BodyFacts, ...]
     joints: tuple[JointFacts, ...]
-    forces: tuple[tuple[str, str], ...]
+    forces: tuple[tuple[str, str, str], ...]  # name, type, body
     degrees_of_freedom: int
     constraint_rows: int
     redundant_rows: tuple[str, ...]
@@ -90,7 +92,7 @@ def check(machine: MachineRecord) -> Check:
             for k, name in enumerate(system.bodies)
         ),
         joints=tuple(_joint(system, k, joint.name, joint.type, values) for k, joint in enumerate(machine.joints)),
-        forces=tuple((load.name, load.type) for load in machine.forces),
+        forces=tuple((load.name, load.type, _loaded_body(machine, load)) for load in machine.forces),
         degrees_of_freedom=redundancy.degrees_of_freedom,
         constraint_rows=system.joint_rows,
         redundant_rows=redundancy.redundant_rows,
@@ -103,7 +105,13 @@ def check(machine: MachineRecord) -> Check:
     )
 
 
-def _joint(system, k: int, name: str, kind: str, values: dict[str, tuple[float, str]]) -> JointFacts:
+def _loaded_body(machine: MachineRecord, load: PointForce | Torque) -> str:
+    if load.body is not None:
+        return load.body
+    return next(marker.body for marker in machine.markers if marker.name == load.marker)
+
+
+def _joint(system: System, k: int, name: str, kind: str, values: dict[str, tuple[float, str]]) -> JointFacts:
     record = system.record
     first = int(record.joints.first_marker[k])
     bodies = [*system.bodies, "ground"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time as clock_of_python
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any
@@ -13,6 +13,7 @@ import numpy as np
 from nivel.analysis.assemble import Assembly, assemble
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.interrupt import interruptible
+from nivel.analysis.listener import Progress
 from nivel.analysis.outcome import failure
 from nivel.analysis.redundancy import Redundancy, analyse
 from nivel.analysis.settings import RunSettings
@@ -41,8 +42,6 @@ from nivel.march.stabilise.catalogue import STABILISATIONS
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
 CHUNK = 0.05
 BUFFER_BYTES = 1_000_000
-
-Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True)
@@ -105,7 +104,7 @@ def march(
     budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
     with interruptible() as interrupted:
         while status in (BUDGET_SPENT, BUFFER_FULL):
-            run.count[BUDGET] = budget
+            run.counter[BUDGET] = budget
             begin = clock_of_python.process_time()
             status = advance(kernels.evaluate, correct, step, machine.address, history.address)
             spent = clock_of_python.process_time() - begin
@@ -114,7 +113,11 @@ def march(
             if progress is not None:
                 progress(float(run.clock[TIME]))
             if chunk_steps is None and status == BUDGET_SPENT:
-                budget = max(1, min(2 * budget, int(budget * CHUNK / max(spent, 1e-9)))) if spent < CHUNK else max(1, budget // 2)
+                budget = (
+                    max(1, min(2 * budget, int(budget * CHUNK / max(spent, 1e-9))))
+                    if spent < CHUNK
+                    else max(1, budget // 2)
+                )
             if status in (BUDGET_SPENT, BUFFER_FULL) and interrupted():
                 finished.outcome = "interrupted"
                 break
@@ -124,8 +127,8 @@ def march(
         message, advice = failure(prepared.motion, status, float(run.clock[TIME]), settings.step, y)
         finished.failure = (message, advice, float(run.clock[TIME]))
     finished.timing = {
-        "steps": int(run.count[DONE_STEPS]),
-        "evaluations": int(run.count[EVALUATIONS]),
+        "steps": int(run.counter[DONE_STEPS]),
+        "evaluations": int(run.counter[EVALUATIONS]),
         "loop_seconds": loop_seconds,
         "wall_seconds": clock_of_python.perf_counter() - wall,
     }
@@ -151,7 +154,7 @@ def _start(prepared: Prepared, settings: RunSettings, stages: int) -> Run:
     energy[2] = energy[0] + energy[1]
     return Run(
         clock=clock,
-        count=count,
+        counter=count,
         y=y,
         rate=np.zeros_like(y),
         previous=y.copy(),
@@ -161,8 +164,8 @@ def _start(prepared: Prepared, settings: RunSettings, stages: int) -> Run:
 
 
 def _give(run: Run, sinks: Sequence[Sink]) -> None:
-    filled = int(run.count[FRAMES])
+    filled = int(run.counter[FRAMES])
     if filled:
         for sink in sinks:
             sink.take(run.frames[:filled])
-        run.count[FRAMES] = 0
+        run.counter[FRAMES] = 0

@@ -55,7 +55,7 @@ def _far_from_singular(motion: MotionEquations) -> bool:
 
 
 def _owner(row: str) -> str:
-    return row.split(".")[0]
+    return row.split(".", maxsplit=1)[0]
 
 
 def _worst(motion: MotionEquations) -> str:

@@ -50,7 +50,11 @@ def analyse(motion: MotionEquations, t: float, y: Array) -> Redundancy:
     loose = np.abs(U[:, rank:]).max(axis=1) > 1e-6
     joints = sorted({int(system.row_joint[row]) for row in np.flatnonzero(loose)})
     return Redundancy(
-        freedoms - rank, rank, names, tuple(system.joints[j] for j in joints), names[: nearby - rank] if nearby > rank else ()
+        freedoms - rank,
+        rank,
+        names,
+        tuple(system.joints[j] for j in joints),
+        names[: nearby - rank] if nearby > rank else (),
     )
 
 

@@ -74,7 +74,9 @@ def _every(settings: SimulationSettings, steps: int, faults: list[Fault]) -> int
         return max(1, ceil(steps / FRAMES))
     every = round(settings.output_interval / settings.step)
     if every < 1 or abs(every * settings.step - settings.output_interval) > 1e-9 * settings.output_interval:
-        near = sorted({max(1, every), max(1, every) + (1 if settings.output_interval > every * settings.step else -1)} - {0})
+        near = sorted(
+            {max(1, every), max(1, every) + (1 if settings.output_interval > every * settings.step else -1)} - {0}
+        )
         choices = " or ".join(f"{k * settings.step:.6g}" for k in near)
         message = (
             f"{settings.output_interval:.6g} s is not a multiple of the step {settings.step:.6g} s: a fixed step stays fixed; "

@@ -4,35 +4,23 @@ from __future__ import annotations
 
 import json
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from os import PathLike
-from typing import Any
-
-import numpy as np
 
 import nivel
-from nivel.analysis.dynamics import Finished, Prepared, Progress, march, prepare
+from nivel.analysis.dynamics import Finished, Prepared, march, prepare
+from nivel.analysis.listener import Listener
 from nivel.analysis.settings import RunSettings, complete
 from nivel.errors import SolveError
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.sink import Header
-from nivel.results import Memory, Result, Store
-from nivel.results.trust import Facts, assess
+from nivel.results.accuracy import step_halving
+from nivel.results.memory import Memory
+from nivel.results.result import Result
+from nivel.results.store import Store
+from nivel.results.trust import Facts, Peak, assess
 from nivel.system.scene import scene
-
-
-@dataclass(frozen=True)
-class Listener:
-    """Who wants to know how a run goes: `stage` hears what begins, `progress` the time reached [s]."""
-
-    stage: Any = None
-    progress: Progress | None = None
-
-    def say(self, text: str) -> None:
-        """Tell what begins now."""
-        if self.stage is not None:
-            self.stage(text)
 
 
 def simulate(
@@ -43,10 +31,12 @@ def simulate(
     force: bool = False,
     verify: bool = False,
     listener: Listener | None = None,
+    compile_seconds: float = 0.0,
 ) -> Result:
     """Run `machine` with its own simulation settings; the result is in memory, or streamed to the file `out`.
 
-    verify : run again with half the step and estimate the accuracy of the positions from the difference.
+    compile_seconds : what was spent on compiling before, for the result's timing.
+    verify : run again with half the step and estimate the accuracy from the difference.
     Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails.
     """
     listener = listener or Listener()
@@ -57,38 +47,39 @@ def simulate(
     prepared = prepare(machine, settings.formulation)
     sink.begin(Header(prepared.motion.system.layout, _attributes(machine, source, prepared, settings)))
     prepare_seconds = time.perf_counter() - begin
-    listener.say("running")
+    listener.say("running", settings.duration)
     finished = march(prepared, settings, [sink], progress=listener.progress)
     accuracy = None
     if verify and finished.outcome == "done":
-        listener.say("verifying with half the step")
-        accuracy = _step_halving(machine, sink.result(), settings, listener)
-    return _close(sink, prepared, finished, accuracy, {"prepare_seconds": prepare_seconds})
+        listener.say("verifying with half the step", settings.duration)
+        accuracy = _half_the_step(machine, sink.result(), settings, listener)
+    return _close(
+        sink, prepared, finished, accuracy, {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
+    )
 
 
 def _close(
-    sink: Memory | Store, prepared: Prepared, finished: Finished, accuracy: float | None, timing: dict[str, float]
+    sink: Memory | Store, prepared: Prepared, finished: Finished, accuracy: Peak | None, timing: dict[str, float]
 ) -> Result:
-    system, redundancy = prepared.motion.system, prepared.redundancy
+    redundancy = prepared.redundancy
+    message, advice, at = finished.failure or ("", "", 0.0)
     facts = Facts(
         outcome=finished.outcome,
         degrees_of_freedom=redundancy.degrees_of_freedom,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
-        size=system.size,
-        accuracy_estimate=accuracy,
+        accuracy=accuracy,
+        failure=message,
     )
     attributes: dict[str, str | float | int] = {
         "outcome": finished.outcome,
+        "failure": message,
+        "advice": advice,
         "trust": assess(sink.result(), facts).to_json(),
         "timing": json.dumps({**finished.timing, **timing}),
     }
-    if finished.failure is not None:
-        attributes["failure"] = finished.failure[0]
-        attributes["advice"] = finished.failure[1]
     result = sink.close(attributes)
     if finished.failure is not None:
-        message, advice, at = finished.failure
         raise SolveError(message, time=at, advice=advice, result=result)
     return result
 
@@ -112,15 +103,11 @@ def _attributes(
     }
 
 
-def _step_halving(machine: MachineRecord, coarse: Result, settings: RunSettings, listener: Listener) -> float:
-    """Estimated largest position error [m] of `coarse`: its difference from a run with half the step over 1 - 2^-order."""
+def _half_the_step(machine: MachineRecord, coarse: Result, settings: RunSettings, listener: Listener) -> Peak:
+    """Largest difference of `coarse` from a run with half the step and frames at the same times."""
     halved = replace(settings, step=settings.step / 2, every=2 * settings.every, steps=2 * settings.steps)
-    fine_sink = Memory()
+    sink = Memory()
     prepared = prepare(machine, settings.formulation)
-    fine_sink.begin(Header(prepared.motion.system.layout, {}))
-    march(prepared, halved, [fine_sink], progress=listener.progress)
-    fine = fine_sink.result()
-    frames = min(len(coarse.time), len(fine.time))
-    difference = coarse.array("position")[:frames] - fine.array("position")[:frames]
-    order = INTEGRATORS[settings.integrator].order
-    return float(np.abs(difference).max(initial=0.0)) / (1.0 - 0.5**order)
+    sink.begin(Header(prepared.motion.system.layout, {}))
+    march(prepared, halved, [sink], progress=listener.progress)
+    return step_halving(coarse, sink.result(), INTEGRATORS[settings.integrator].order)

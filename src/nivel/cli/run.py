@@ -13,8 +13,10 @@ import click
 from nivel.cli.options import file_argument, override_option, quiet_option
 
 if TYPE_CHECKING:
-    from nivel.analysis.simulate import Listener
+    from nivel.analysis.listener import Listener
     from nivel.results import Result
+
+COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 
 
 @click.command(short_help="Simulate a machine: result file, report, summary.")
@@ -33,7 +35,7 @@ if TYPE_CHECKING:
 @click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
 @quiet_option
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")
-def command(  # noqa: PLR0917
+def command(
     machine: str,
     duration: str | None,
     step: str | None,
@@ -63,7 +65,7 @@ def command(  # noqa: PLR0917
     report = None if no_report else target.with_suffix(".html")
     _refuse_to_replace(report, target, force)
     failure: SolveError | None = None
-    with _listener(quiet, loaded.record.simulation, duration) as listener:
+    with _listener(quiet) as listener:
         try:
             result = loaded.simulate(
                 duration=duration,
@@ -98,15 +100,17 @@ def _refuse_to_replace(report: Path | None, target: Path, force: bool) -> None:
     from nivel.errors import ModelError
 
     if report is not None and report == target:
-        raise ModelError(f"{target}: the result is a NetCDF file and the report would be written over it; use a name ending in .nc")
+        raise ModelError(
+            f"{target}: the result is a NetCDF file and the report would be written over it; use a name ending in .nc"
+        )
     if report is not None and report.exists() and not force:
         raise ModelError(f"the report {report} exists already; use --force to replace it, or --out for another name")
 
 
 @contextmanager
-def _listener(quiet: bool, settings: Any, duration: str | None) -> Iterator[Listener]:
+def _listener(quiet: bool) -> Iterator[Listener]:
     """What the run tells on standard error: nothing, or stages and a progress bar."""
-    from nivel.analysis.simulate import Listener
+    from nivel.analysis.listener import Listener
 
     if quiet:
         yield Listener()
@@ -120,6 +124,8 @@ def _listener(quiet: bool, settings: Any, duration: str | None) -> Iterator[List
         task = bar.add_task("starting", total=None, reached="")
 
         def stage(text: str, total: float | None = None) -> None:
+            if text.startswith("compiling"):
+                console.print(text)  # stays, also where no bar can be shown
             bar.update(task, description=text, total=total, completed=0, reached="")
 
         def progress(time: float) -> None:
@@ -135,12 +141,12 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
     trust = result.trust
     timing = result.timing
     per_step = 1e6 * timing["loop_seconds"] / max(timing["steps"], 1)
-    colour = {"green": "green", "amber": "yellow", "red": "red"}[trust.verdict]
+    colour = COLOURS[trust.verdict]
     console.print(
         f"[bold]{result.name}[/bold]: {result.outcome}, {result.time[-1] if len(result.time) else 0:.6g} s simulated in "
         f"{timing['steps']} steps, {timing['loop_seconds']:.3g} s of computing ({per_step:.1f} µs a step)"
     )
     console.print(f"trust: [{colour}]{trust.verdict}[/{colour}]")
-    for line in trust.lines():
-        console.print(f"  {line}")
+    for item in trust.items:
+        console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
     console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)

@@ -15,7 +15,9 @@ TOP_WORDS: Final = ("format", "parameters", *field_words(MachineRecord))
 
 
 def override(tree: Tree, overrides: Mapping[str, object]) -> None:
-    """Put `overrides` (path with dots → value, texts as they would stand in the file) into `tree`; faults go to `tree.faults`."""
+    """Put `overrides` (path with dots → value, texts as they would stand in the file) into `tree`; faults go to
+    `tree.faults`.
+    """
     for path, value in overrides.items():
         try:
             _set(tree, path, read_value(value) if isinstance(value, str) else value)
@@ -61,7 +63,9 @@ def _key(container: Any, path: Path, step: str) -> str | int:
     place = ".".join(map(str, path))
     if isinstance(container, list):
         if not step.isdecimal() or int(step) >= len(container):
-            raise ModelError(f"`{place}` is a list of {len(container)}; its entries are 0 to {len(container) - 1}, not `{step}`")
+            raise ModelError(
+                f"`{place}` is a list of {len(container)}; its entries are 0 to {len(container) - 1}, not `{step}`"
+            )
         return int(step)
     if not isinstance(container, dict):
         raise ModelError(f"`{place}` is a single value and has no `{step}`")

@@ -26,8 +26,11 @@ def read_machine(path: str | FilePath, *, overrides: Mapping[str, object] | None
     return parse_machine(read_text(path), str(path), overrides=overrides)
 
 
-def parse_machine(text: str, file: str = "machine.yaml", *, overrides: Mapping[str, object] | None = None) -> MachineRecord:
-    """The machine in the YAML `text`; `file` is the name that messages show, and its stem the default name of the machine.
+def parse_machine(
+    text: str, file: str = "machine.yaml", *, overrides: Mapping[str, object] | None = None
+) -> MachineRecord:
+    """The machine in the YAML `text`; `file` is the name that messages show, and its stem the default name of the
+    machine.
 
     Raises ModelError.
     """
@@ -51,7 +54,9 @@ def parse_machine(text: str, file: str = "machine.yaml", *, overrides: Mapping[s
 
 
 def locate(text: str, path: str) -> tuple[int, int]:
-    """Line and column, from 1, of the element `path` (`joints.hinge.axis`) in the YAML `text`, or of what is around it."""
+    """Line and column, from 1, of the element `path` (`joints.hinge.axis`) in the YAML `text`, or of what is around
+    it.
+    """
     tree = read_tree(text, "")
     names = path.split(".") if path else []
     steps = tuple(int(step) if step.isdecimal() else step for step in names)
@@ -89,7 +94,9 @@ def _check_outline(tree: Tree) -> None:
     Raises ModelError.
     """
     if tree.data is None:
-        raise ModelError([*tree.faults, Fault(tree.file, 1, 1, "", "the file is empty; `nivel new` writes one to start from")])
+        raise ModelError(
+            [*tree.faults, Fault(tree.file, 1, 1, "", "the file is empty; `nivel new` writes one to start from")]
+        )
     if not isinstance(tree.data, dict):
         message = f"a machine file is a mapping that starts with `format: {FORMAT}`, not {shown(tree.data)}"
         raise ModelError([*tree.faults, tree.fault((), message)])
@@ -109,7 +116,7 @@ def _check_format(tree: Tree) -> None:
 
 
 def _check_section(tree: Tree, section: str) -> None:
-    """A section is a mapping of names to mappings. What is not is reported and emptied, so that the rest can be read."""
+    """A section is a mapping of names to mappings. What is not is reported and emptied: the rest can be read."""
     content = tree.data.get(section)
     if content is None:
         if section in tree.data:
@@ -130,7 +137,9 @@ def _check_section(tree: Tree, section: str) -> None:
             content[name] = {}
         elif "name" in element:
             del element["name"]
-            tree.faults.append(tree.fault((section, name, "name"), f"the name is the key `{name}`; `name` must not be given"))
+            tree.faults.append(
+                tree.fault((section, name, "name"), f"the name is the key `{name}`; `name` must not be given")
+            )
 
 
 def _section(tree: Tree, section: str) -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """YAML as plain data that remembers where everything stands.
 
-The number rule is YAML 1.2's (core schema): `1e3` and `1e-3` are numbers; `12:30`, `no` and `on` are texts. Keys are always texts.
-Aliases work; merge keys, tags and keys that stand twice are refused.
+The number rule is YAML 1.2's (core schema): `1e3` and `1e-3` are numbers; `12:30`, `no` and `on` are texts. Keys are
+always texts. Aliases work; merge keys, tags and keys that stand twice are refused.
 """
 
 from __future__ import annotations
@@ -9,11 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Hashable
 from dataclasses import dataclass, field
-from typing import Any, Final, NamedTuple
+from typing import Any, ClassVar, Final, NamedTuple
 
 import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
-from yaml.resolver import BaseResolver
 
 from nivel.errors import Fault, ModelError
 
@@ -39,7 +38,8 @@ class Place(NamedTuple):
 
 @dataclass
 class Tree:
-    """The content of a file: `data` of dicts, lists and scalars; `places` of values and `keys` by path; `faults` found on the way.
+    """The content of a file: `data` of dicts, lists and scalars; `places` of values and `keys` by path; `faults`
+    found on the way.
 
     A path under one of `outside` was set from outside the file and has no place in it.
     """
@@ -89,39 +89,21 @@ def read_value(text: str) -> Any:
     return tree.data
 
 
-if yaml.__with_libyaml__:
-    from yaml.cyaml import CParser
+_Base: Any = yaml.CSafeLoader if yaml.__with_libyaml__ else yaml.SafeLoader
 
-    class _Loader(CParser, BaseResolver):
-        """libyaml, giving every plain scalar as a text."""
 
-        def __init__(self, stream: str) -> None:
-            CParser.__init__(self, stream)
-            BaseResolver.__init__(self)
+class _Loader(_Base):
+    """Gives every plain scalar as a text: PyYAML's own rule is that of YAML 1.1."""
 
-else:
-    from yaml.composer import Composer
-    from yaml.parser import Parser
-    from yaml.reader import Reader
-    from yaml.scanner import Scanner
-
-    class _Loader(Reader, Scanner, Parser, Composer, BaseResolver):  # type: ignore[no-redef]
-        """The same without libyaml."""
-
-        def __init__(self, stream: str) -> None:
-            Reader.__init__(self, stream)
-            Scanner.__init__(self)
-            Parser.__init__(self)
-            Composer.__init__(self)
-            BaseResolver.__init__(self)
+    yaml_implicit_resolvers: ClassVar[dict[str, Any]] = {}
 
 
 def _compose(text: str) -> Node | None:
-    loader: Any = _Loader(text)
+    loader = _Loader(text)
     try:
         return loader.get_single_node()
     finally:
-        loader.dispose() if hasattr(loader, "dispose") else None
+        loader.dispose()
 
 
 def _syntax_fault(error: Exception, text: str, file: str) -> Fault:
@@ -174,7 +156,9 @@ class _Reader:
         for key_node, value_node in node.value:
             place = Place(key_node.start_mark.line + 1, key_node.start_mark.column + 1)
             if not isinstance(key_node, ScalarNode):
-                self.tree.faults.append(Fault(self.tree.file, *place, ".".join(map(str, path)), "a key must be a single word"))
+                self.tree.faults.append(
+                    Fault(self.tree.file, *place, ".".join(map(str, path)), "a key must be a single word")
+                )
                 continue
             key = key_node.value
             if key in data:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import yaml
@@ -9,8 +10,7 @@ import yaml
 from nivel.files.overrides import NAMED_SECTIONS
 from nivel.files.reader import FORMAT
 from nivel.files.tree import INTEGER, NOT_FINITE, NULL, NUMBER, TRUTH
-from nivel.machine import Inertia, MachineRecord, Record
-from nivel.machine.time_function import Expression, Table, written
+from nivel.machine import Body, Expression, Inertia, MachineRecord, Record, SimulationSettings, Table
 
 
 def write_machine(record: MachineRecord) -> str:
@@ -20,7 +20,12 @@ def write_machine(record: MachineRecord) -> str:
         if section in data:
             data[section] = {element.pop("name"): element for element in data[section]}
     return yaml.dump(
-        {"format": FORMAT, **data}, Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=120, default_flow_style=False
+        {"format": FORMAT, **data},
+        Dumper=_Dumper,
+        sort_keys=False,
+        allow_unicode=True,
+        width=120,
+        default_flow_style=False,
     )
 
 
@@ -31,8 +36,10 @@ def _plain(value: Any) -> Any:
             return [value.xx, value.yy, value.zz]
         case Record():
             return _fields(value)
-        case Table() | Expression():
-            return written(value)
+        case Table():
+            return _Line(times=list(value.times), values=list(value.values))
+        case Expression(text):
+            return text
         case tuple():
             return [_plain(entry) for entry in value]
     return value
@@ -45,11 +52,16 @@ def _fields(record: Record) -> dict[str, Any]:
         if name == "type" or value != field.get_default(call_default_factory=True):
             plain[field.alias or name] = _plain(value)
     kind = {"type": plain.pop("type")} if "type" in plain else {}
-    return {**kind, **plain}
+    in_lines = isinstance(record, MachineRecord | Body | SimulationSettings)
+    return {**kind, **plain} if in_lines else _Line({**kind, **plain})
+
+
+class _Line(dict[str, Any]):
+    """A mapping to be written in one line, between braces."""
 
 
 class _Dumper(yaml.SafeDumper):
-    """Sections in lines, small things in one; texts quoted where the reader would take them for something else."""
+    """Lists in one line; texts quoted where the reader would take them for something else."""
 
     yaml_implicit_resolvers: dict[Any, Any] = {}  # noqa: RUF012  (PyYAML's own rule is that of YAML 1.1)
 
@@ -57,11 +69,17 @@ class _Dumper(yaml.SafeDumper):
         return super().represent_sequence(tag, sequence, flow_style=True)
 
 
+def _represent_line(dumper: _Dumper, value: _Line) -> yaml.MappingNode:
+    return dumper.represent_mapping("tag:yaml.org,2002:map", value.items(), flow_style=True)
+
+
 def _represent_float(dumper: _Dumper, value: float) -> yaml.ScalarNode:
-    text = repr(value)
-    return dumper.represent_scalar("tag:yaml.org,2002:float", text.removesuffix(".0") if "." in text else text)
+    text = repr(value).removesuffix(".0")
+    return dumper.represent_scalar(f"tag:yaml.org,2002:{'int' if INTEGER.fullmatch(text) else 'float'}", text)
 
 
 _Dumper.add_representer(float, _represent_float)
-for _tag, _pattern in (("null", NULL), ("bool", TRUTH), ("float", INTEGER), ("float", NUMBER), ("float", NOT_FINITE)):
-    _Dumper.add_implicit_resolver(f"tag:yaml.org,2002:{_tag}", _pattern, None)
+_Dumper.add_representer(_Line, _represent_line)
+_RULES = (("null", NULL), ("bool", TRUTH), ("int", INTEGER), ("float", NUMBER), ("float", NOT_FINITE))
+for _tag, _pattern in _RULES:
+    _Dumper.add_implicit_resolver(f"tag:yaml.org,2002:{_tag}", re.compile(rf"(?:{_pattern.pattern})\Z"), None)

@@ -23,7 +23,7 @@ A1 = Annotated[NDArray[np.uint64], 1, "address"]
 SCALARS = {"real": types.float64, "index": types.uint32, "count": types.int64, "address": types.uint64}
 
 
-def numba_type(record_class: type, real: types.Type = types.float64) -> types.Type:
+def numba_type(record_class: type, real: types.Type = types.float64) -> Any:
     """Numba type of a record class; `real` replaces the dtype of its real arrays (complex128 for exact tangents)."""
     hints = get_type_hints(record_class, include_extras=True)
     return types.BaseTuple.from_types([_field(hint, real) for hint in hints.values()], record_class)

@@ -4,6 +4,9 @@ leaf     small arithmetic; LLVM decides about inlining.
 stage    a part of one evaluation; always inlined, because a call would copy the descriptors of every array of the record.
 entry    what Python or another entry calls: an explicit signature, cached on disk, without the interpreter lock.
 
+All are compiled without Numba's runtime for reference counts (`_nrt=False`): taking a row of an array then costs nothing (with it,
+two atomic operations; the step of the slider-crank took five times as long), and an allocation is an error of compilation.
+
 An entry is compiled (or loaded from the cache) when its module is imported, so a module is imported by the path that needs it.
 """
 
@@ -14,10 +17,12 @@ from typing import Any
 
 from numba import njit, types
 
-leaf: Callable[..., Any] = njit(error_model="numpy", _nrt=False)
-stage: Callable[..., Any] = njit(error_model="numpy", forceinline=True, _nrt=False)
+_compile: Any = njit  # its stubs do not know all options
+
+leaf: Callable[..., Any] = _compile(error_model="numpy", _nrt=False)
+stage: Callable[..., Any] = _compile(error_model="numpy", forceinline=True, _nrt=False)
 
 
 def entry(signature: types.abstract.Type | Any) -> Callable[..., Any]:
     """Decorator: compile now for `signature`, keep the machine code in the cache."""
-    return njit(signature, error_model="numpy", nogil=True, cache=True, _nrt=False)
+    return _compile(signature, error_model="numpy", nogil=True, cache=True, _nrt=False)

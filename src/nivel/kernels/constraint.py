@@ -30,9 +30,7 @@ def constraint_values(bodies, markers, constraints):
     for k in range(constraints.d2.shape[0]):
         i, p, j, row = constraints.d2[k, 0], constraints.d2[k, 1], constraints.d2[k, 2], constraints.d2[k, 3]
         Ai, ri, rj = markers.A[i], markers.r[i], markers.r[j]
-        constraints.C[row] = (
-            Ai[0, p] * (rj[0] - ri[0]) + Ai[1, p] * (rj[1] - ri[1]) + Ai[2, p] * (rj[2] - ri[2])
-        )
+        constraints.C[row] = Ai[0, p] * (rj[0] - ri[0]) + Ai[1, p] * (rj[1] - ri[1]) + Ai[2, p] * (rj[2] - ri[2])
 
 
 @stage
@@ -77,9 +75,7 @@ def perpendicular_axes(bodies, markers, constraints, table):
     ab = a0 * b0 + a1 * b1 + a2 * b2
     wiwj = dot(wi, wj)
     # (ω_i × a)ᵀ (ω_j × b) = (ω_iᵀω_j)(aᵀb) - (ω_iᵀb)(aᵀω_j)
-    constraints.gamma[row] = (
-        ab * (dot(wi, wi) + dot(wj, wj)) - wia * wib - wja * wjb - 2.0 * (wiwj * ab - wib * wja)
-    )
+    constraints.gamma[row] = ab * (dot(wi, wi) + dot(wj, wj)) - wia * wib - wja * wjb - 2.0 * (wiwj * ab - wib * wja)
 
 
 @stage

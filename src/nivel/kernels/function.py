@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from llvmlite import ir
 from numba import types
-from numba.core import cgutils
 from numba.extending import intrinsic
 
 from nivel.kernels.compile import leaf
@@ -18,7 +18,7 @@ def call_address(typingctx, address, t):
 
     def generate(context, builder, sig, args):
         double = context.get_value_type(types.float64)
-        kind = cgutils.ir.FunctionType(double, [double])
+        kind = ir.FunctionType(double, [double])
         pointer = builder.inttoptr(args[0], kind.as_pointer())
         return builder.call(pointer, [args[1]])
 
@@ -32,7 +32,7 @@ def evaluate_function(functions, k, t):
     if kind == CONSTANT:
         return functions.value[k]
     if kind == COMPILED:
-        return call_address(functions.address[k], t)
+        return call_address(functions.address[k], t)  # type: ignore[call-arg]
     low, high = functions.table[k, 0], functions.table[k, 1]
     times, values = functions.times, functions.values
     if t <= times[low]:

@@ -54,9 +54,7 @@ def multipliers(record, width):
     twice_alpha, beta_squared = record.control.stabilise[0], record.control.stabilise[1]
     b = saddle.b
     for row in range(b.shape[0]):
-        b[row] = (
-            twice_alpha * constraints.Cdot[row] + beta_squared * constraints.C[row] - constraints.gamma[row]
-        )
+        b[row] = twice_alpha * constraints.Cdot[row] + beta_squared * constraints.C[row] - constraints.gamma[row]
     for k in range(saddle.block.shape[0]):
         row, body = saddle.block[k, 0], saddle.block[k, 3]
         total = b[row]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import ClassVar, Literal
 
-import numpy as np
 from pydantic import Field, model_validator
 
 from nivel.machine.inertia import InertiaTensor, impossible, mass_properties
@@ -25,14 +24,20 @@ class Body(Record):
 
     name: Name
     mass: Mass | None = None
-    centre_of_mass: Position | None = Field(None, description="in the body frame; default the origin, or the shape's centre")
-    inertia: InertiaTensor | None = Field(None, description="body axes: [xx, yy, zz], {xx, yy, zz, xy, xz, yz} or 3×3 matrix")
+    centre_of_mass: Position | None = Field(
+        default=None, description="in the body frame; default the origin, or the shape's centre"
+    )
+    inertia: InertiaTensor | None = Field(
+        default=None, description="body axes: [xx, yy, zz], {xx, yy, zz, xy, xz, yz} or 3×3 matrix"
+    )
     inertia_about: Literal["centre-of-mass", "origin"] = "centre-of-mass"
-    position: Position | None = Field(None, description="of the body frame's origin, global; default the global origin")
-    orientation: Orientation | None = Field(None, description="of the body frame; default not turned")
-    velocity: VelocityVector = Field((0.0, 0.0, 0.0), description="of the body frame's origin, global axes")
-    angular_velocity: AngularVelocityVector | None = Field(None, description="global axes")
-    angular_velocity_body: AngularVelocityVector | None = Field(None, description="body axes")
+    position: Position | None = Field(
+        default=None, description="of the body frame's origin, global; default the global origin"
+    )
+    orientation: Orientation | None = Field(default=None, description="of the body frame; default not turned")
+    velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of the body frame's origin, global axes")
+    angular_velocity: AngularVelocityVector | None = Field(default=None, description="global axes")
+    angular_velocity_body: AngularVelocityVector | None = Field(default=None, description="body axes")
     shape: Shape | None = None
     density: Density | None = None
 
@@ -74,5 +79,3 @@ class Body(Record):
         for name in ("position", "orientation"):
             if getattr(self, name) is not None:
                 raise fault(f"`{name}` follows from the shape's `from` and `to` and must not be given")
-
-

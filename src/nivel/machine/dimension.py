@@ -1,8 +1,9 @@
 """Physical dimensions: what a unit measures, so that a mass cannot be given in metres.
 
-A dimension is a tuple of exponents over BASES. Angles (rad) and turns (cycle, the unit Hz counts them) are kept as bases of their
-own although SI calls them pure numbers: `30 deg` must not pass for a length, nor `3 Hz` for an angular velocity of 3 rad/s.
-A quantity without a dimension (`None`) is a bare number: it takes the SI unit of whatever field it stands in.
+A dimension is a tuple of exponents over BASES. Angles (rad) and turns (cycle, the unit Hz counts them) are kept as
+bases of their own although SI calls them pure numbers: `30 deg` must not pass for a length, nor `3 Hz` for an angular
+velocity of 3 rad/s. A quantity without a dimension (`None`) is a bare number: it takes the SI unit of whatever field
+it stands in.
 """
 
 from __future__ import annotations

@@ -21,8 +21,8 @@ class PointForce(Record):
     name: Name
     type: Literal["force"] = "force"
     body: Name | None = None
-    position: Position | None = Field(None, description="of the point, in the body frame; default the origin")
-    marker: Name | None = Field(None, description="the point, in place of `body` and `position`")
+    position: Position | None = Field(default=None, description="of the point, in the body frame; default the origin")
+    marker: Name | None = Field(default=None, description="the point, in place of `body` and `position`")
     vector: Annotated[tuple[ForceComponent, ForceComponent, ForceComponent], BeforeValidator(listed)]
     axes: Axes = "global"
 

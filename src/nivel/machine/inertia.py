@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, ValidationInfo
 
-from nivel.machine.arithmetic import ArithmeticFault, FaultyParameter
+from nivel.machine.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.quantity import InertiaComponent, fault, listed, parameters_of, read_quantity, reported, shown
 from nivel.machine.record import Record
 from nivel.machine.shape import Box, Cylinder, Shape, Sphere, Tube
@@ -46,8 +46,8 @@ def _components(value: Any, info: ValidationInfo) -> Any:
         return value
     if not isinstance(value, list | tuple) or len(value) != 3:
         raise fault(
-            "three moments [xx, yy, zz], a mapping {xx: …, yy: …, zz: …, xy: …, xz: …, yz: …} or a 3×3 matrix was expected, "
-            f"got {f'a list of {len(value)}' if isinstance(value, list | tuple) else shown(value)}"
+            "three moments [xx, yy, zz], a mapping {xx: …, yy: …, zz: …, xy: …, xz: …, yz: …} or a 3×3 matrix "
+            f"was expected, got {f'a list of {len(value)}' if isinstance(value, list | tuple) else shown(value)}"
         )
     if not any(isinstance(row, list | tuple) for row in map(listed, value)):
         return dict(zip(("xx", "yy", "zz"), value, strict=True))
@@ -59,9 +59,9 @@ def _from_matrix(rows: list[Any], info: ValidationInfo) -> dict[str, float]:
         raise fault("an inertia matrix has three rows of three")
     try:
         matrix = np.array([[read_quantity(each, "inertia", parameters_of(info)) for each in row] for row in rows])
-    except FaultyParameter:
+    except FaultyParameterError:
         raise reported() from None
-    except ArithmeticFault as problem:
+    except ExpressionError as problem:
         raise fault(str(problem)) from None
     if np.abs(matrix - matrix.T).max() > SYMMETRY_TOLERANCE * np.abs(matrix).max():
         raise fault("an inertia matrix is symmetric; this one is not")
@@ -76,7 +76,9 @@ InertiaTensor = Annotated[Inertia, BeforeValidator(_components, json_schema_inpu
 
 @dataclass(frozen=True)
 class MassProperties:
-    """mass [kg]; centre_of_mass (3,) [m] in the body frame; inertia (3, 3) [kg m²] about the centre of mass, body axes."""
+    """mass [kg]; centre_of_mass (3,) [m] in the body frame; inertia (3, 3) [kg m²] about the centre of mass, body
+    axes.
+    """
 
     mass: float
     centre_of_mass: Array
@@ -111,7 +113,9 @@ def tensor(inertia: Inertia) -> Array:
 
 
 def point_mass_inertia(mass: float, position: Array) -> Array:
-    """(3, 3) of a point mass at `position` (3,) about the origin: m (|r|² 1 - r rᵀ). The term of the parallel-axis theorem."""
+    """(3, 3) of a point mass at `position` (3,) about the origin: m (|r|² 1 - r rᵀ). The term of the parallel-axis
+    theorem.
+    """
     return mass * (position @ position * np.eye(3) - np.outer(position, position))
 
 
@@ -176,8 +180,8 @@ def impossible(inertia: Array) -> str:
     excess = moments[2] - moments[0] - moments[1]
     if excess > TRIANGLE_TOLERANCE * scale:
         return (
-            f"the moment of inertia about {_axis(directions[:, 2])}, {_round(moments[2])} kg*m^2, exceeds the sum of the other two, "
-            f"{_round(moments[0])} + {_round(moments[1])} kg*m^2: no body is like that"
+            f"the moment of inertia about {_axis(directions[:, 2])}, {_round(moments[2])} kg*m^2, "
+            f"exceeds the sum of the other two, {_round(moments[0])} + {_round(moments[1])} kg*m^2: impossible"
         )
     return ""
 

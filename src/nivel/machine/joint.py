@@ -11,7 +11,7 @@ from nivel.machine.axes import check_axis_pair, check_direction
 from nivel.machine.marker import Marker
 from nivel.machine.placement import angle_between
 from nivel.machine.quantity import Direction, Position, fault, shown
-from nivel.machine.record import GROUND, Name, Record
+from nivel.machine.record import Name, Record
 
 JointType = Literal["spherical", "universal", "revolute", "cylindrical", "translational", "fixed"]
 
@@ -31,22 +31,29 @@ _MarkerPlace = Annotated[Name | Marker, BeforeValidator(_name_or_marker)]
 class Joint(Record):
     """Two bodies that can move against each other only in the way of the `type`.
 
-    Placed by `bodies` and a global `point` (and `axis` or `axes`) at the bodies' given positions, or by two `markers`, whose
-    z axes are the joint's axis. The first body comes first in both.
+    Placed by `bodies` and a global `point` (and `axis` or `axes`) at the bodies' given positions, or by two
+    `markers`, whose z axes are the joint's axis. The first body comes first in both.
     """
 
     collection: ClassVar[str] = "joints"
 
     name: Name
     type: JointType
-    bodies: tuple[Name, Name] | None = Field(None, description="first and second body; one may be `ground`")
-    markers: tuple[_MarkerPlace, _MarkerPlace] | None = Field(None, description="on the first and second body: names or markers")
-    point: Position | None = Field(None, description="of the joint, global")
-    axis: Direction | None = Field(None, description="of revolute, cylindrical, translational; global, of any length")
-    axes: tuple[Direction, Direction] | None = Field(
-        None, description="of the cross of a universal joint: arm on the first body, arm on the second; global, perpendicular"
+    bodies: tuple[Name, Name] | None = Field(default=None, description="first and second body; one may be `ground`")
+    markers: tuple[_MarkerPlace, _MarkerPlace] | None = Field(
+        default=None, description="on the first and second body: names or markers"
     )
-    x_axis: Direction | None = Field(None, description="where the joint's x axis points, made perpendicular to `axis`; global")
+    point: Position | None = Field(default=None, description="of the joint, global")
+    axis: Direction | None = Field(
+        default=None, description="of revolute, cylindrical, translational; global, of any length"
+    )
+    axes: tuple[Direction, Direction] | None = Field(
+        default=None,
+        description="cross of a universal joint: arm on the first body, arm on the second; global, perpendicular",
+    )
+    x_axis: Direction | None = Field(
+        default=None, description="where the joint's x axis points, made perpendicular to `axis`; global"
+    )
 
     @model_validator(mode="after")
     def _makes_sense(self) -> Joint:
@@ -79,6 +86,6 @@ class Joint(Record):
                 check_direction("axes", axis)
             angle = angle_between(*self.axes)
             if abs(angle - math.pi / 2) > PERPENDICULAR:
-                raise fault(f"`axes` of a universal joint are perpendicular; these are {math.degrees(angle):.4g} deg apart")
-
-
+                raise fault(
+                    f"`axes` of a universal joint are perpendicular; these are {math.degrees(angle):.4g} deg apart"
+                )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Self
 
-from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, ValidationError, WithJsonSchema, model_validator
+from pydantic import BeforeValidator, ModelWrapValidatorHandler, ValidationError, WithJsonSchema, model_validator
 from pydantic_core import InitErrorDetails
 
 from nivel.machine.body import Body
@@ -40,7 +40,7 @@ class MachineRecord(Record):
     markers: tuple[Marker, ...] = ()
     joints: tuple[Joint, ...] = ()
     forces: tuple[Force, ...] = ()
-    simulation: SimulationSettings = Field(default_factory=SimulationSettings)
+    simulation: SimulationSettings = SimulationSettings()
 
     @model_validator(mode="wrap")
     @classmethod

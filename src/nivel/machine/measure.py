@@ -1,10 +1,10 @@
-"""The dimension of an expression, and whether it makes sense: lengths are not added to masses, nor sines taken of metres."""
+"""The dimension of an expression, and whether it makes sense: lengths are not added to masses, no sine is of metres."""
 
 from __future__ import annotations
 
 from nivel.machine.arithmetic import (
-    ArithmeticFault,
     Call,
+    ExpressionError,
     Name,
     Negative,
     Node,
@@ -23,7 +23,7 @@ _SECOND = dimension(s=1)
 def measure(node: Node, *, time: Dimension | None = None) -> Dimension | None:
     """Dimension of `node`; None for a bare number. `time` is the dimension that the variable `time` is given.
 
-    Raises ArithmeticFault where dimensions clash.
+    Raises ExpressionError where dimensions clash.
     """
     match node:
         case Number(_, its):
@@ -37,7 +37,7 @@ def measure(node: Node, *, time: Dimension | None = None) -> Dimension | None:
         case Operation(symbol, left, right):
             return _of_operation(symbol, left, right, time)
         case Name(text):
-            raise ArithmeticFault(f"`{text}` has no value")
+            raise ExpressionError(f"`{text}` has no value")
 
 
 def measure_in_time(node: Node) -> Dimension | None:
@@ -46,10 +46,10 @@ def measure_in_time(node: Node) -> Dimension | None:
     """
     try:
         return measure(node)
-    except ArithmeticFault as clash:
+    except ExpressionError as clash:
         try:
             return measure(node, time=_SECOND)
-        except ArithmeticFault:
+        except ExpressionError:
             raise clash from None
 
 
@@ -63,11 +63,11 @@ def _of_operation(symbol: str, left: Node, right: Node, time: Dimension | None) 
         case "/":
             return product(first, power(second, -1))
     if without_angle(second) != without_angle(None):
-        raise ArithmeticFault(f"an exponent is a pure number, not {described(second)}")
+        raise ExpressionError(f"an exponent is a pure number, not {described(second)}")
     if first is None:
         return None
     if uses_time(right):
-        raise ArithmeticFault("a quantity with a unit cannot be raised to a power that changes with time")
+        raise ExpressionError("a quantity with a unit cannot be raised to a power that changes with time")
     return power(first, evaluate(right))
 
 
@@ -87,7 +87,7 @@ def _of_call(function: str, arguments: list[Dimension | None]) -> Dimension | No
             return _RADIAN
     if without_angle(arguments[0]) != without_angle(None):
         wanted = "an angle" if function in ("sin", "cos", "tan") else "a pure number"
-        raise ArithmeticFault(f"`{function}` is taken of {wanted}, not of {described(arguments[0])}")
+        raise ExpressionError(f"`{function}` is taken of {wanted}, not of {described(arguments[0])}")
     return _RADIAN if function in ("asin", "acos", "atan") else None
 
 
@@ -95,5 +95,5 @@ def _same(first: Dimension | None, second: Dimension | None, action: str) -> Dim
     if first is None or second is None:
         return first if second is None else second
     if without_angle(first) != without_angle(second):
-        raise ArithmeticFault(f"{described(first)} and {described(second)} cannot be {action}")
+        raise ExpressionError(f"{described(first)} and {described(second)} cannot be {action}")
     return first

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, model_validator
 
-from nivel.machine.quantity import Angle, Direction, Scalar, listed, fault, shown
+from nivel.machine.quantity import Angle, Direction, Scalar, fault, listed, shown
 from nivel.machine.record import Record, unknown_word
 
 Array = NDArray[np.float64]
@@ -31,7 +31,7 @@ def _sequence(value: Any) -> str:
     if axes.lower() in SEQUENCES:
         raise fault(
             f"`{text}`: capital letters mean fixed axes in some programs; here every turn is about the moving axes: "
-            f"write `{axes.lower()}`, or for turns about fixed axes `{axes.lower()[::-1]}` with the angles in reverse order"
+            f"write `{axes.lower()}`, or for turns about fixed axes `{axes.lower()[::-1]}` with the angles reversed"
         )
     raise fault(unknown_word(text, SEQUENCES, "sequence"))
 
@@ -48,16 +48,16 @@ class Orientation(Record):
     """
 
     euler: Annotated[tuple[Angle, Angle, Angle] | None, BeforeValidator(listed)] = Field(
-        None, description="three angles, each about an axis of the frame as turned so far"
+        default=None, description="three angles, each about an axis of the frame as turned so far"
     )
-    sequence: _Sequence | None = Field(None, description="axes of the three turns; zxz is the classical 3-1-3")
-    axis: Direction | None = Field(None, description="axis of the turn, of any length")
-    angle: Angle | None = Field(None, description="turn about `axis`, right-handed")
+    sequence: _Sequence | None = Field(default=None, description="axes of the three turns; zxz is the classical 3-1-3")
+    axis: Direction | None = Field(default=None, description="axis of the turn, of any length")
+    angle: Angle | None = Field(default=None, description="turn about `axis`, right-handed")
     matrix: Annotated[tuple[_Row, _Row, _Row] | None, BeforeValidator(listed)] = Field(
-        None, description="rows of the rotation matrix; its columns are the axes of the turned frame"
+        default=None, description="rows of the rotation matrix; its columns are the axes of the turned frame"
     )
     euler_parameters: Annotated[tuple[Scalar, Scalar, Scalar, Scalar] | None, BeforeValidator(listed)] = Field(
-        None, description="four numbers, scalar first"
+        default=None, description="four numbers, scalar first"
     )
 
     @model_validator(mode="after")
@@ -81,7 +81,9 @@ class Orientation(Record):
 def _check_matrix(matrix: Array) -> None:
     error = np.abs(matrix.T @ matrix - np.eye(3)).max()
     if error > TOLERANCE:
-        raise fault(f"`matrix` is no rotation: its columns are not perpendicular unit vectors (they miss by {error:.2g})")
+        raise fault(
+            f"`matrix` is no rotation: its columns are not perpendicular unit vectors (they miss by {error:.2g})"
+        )
     if np.linalg.det(matrix) < 0:
         raise fault("`matrix` is a reflection, not a rotation: its third column must be the first × the second")
 

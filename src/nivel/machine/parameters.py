@@ -6,16 +6,16 @@ from collections.abc import Mapping
 
 from nivel.machine.arithmetic import (
     RESERVED,
-    ArithmeticFault,
-    FaultyParameter,
+    ExpressionError,
+    FaultyParameterError,
     Node,
     Number,
     bind,
     evaluate,
     names,
-    parse,
     uses_time,
 )
+from nivel.machine.grammar import parse
 from nivel.machine.measure import measure
 from nivel.machine.unit import UNITS
 
@@ -30,7 +30,7 @@ def resolve(given: Mapping[str, object]) -> tuple[dict[str, Number | None], dict
     for name, value in given.items():
         try:
             trees[name] = _tree(name, value)
-        except ArithmeticFault as fault:
+        except ExpressionError as fault:
             faults[name] = str(fault)
     values: dict[str, Number | None] = dict.fromkeys(faults)
     for name in trees:
@@ -40,21 +40,21 @@ def resolve(given: Mapping[str, object]) -> tuple[dict[str, Number | None], dict
 
 def _tree(name: str, value: object) -> Node:
     if not name.isidentifier():
-        raise ArithmeticFault("the name of a parameter has letters, digits and `_` only")
+        raise ExpressionError("the name of a parameter has letters, digits and `_` only")
     if name in RESERVED:
-        raise ArithmeticFault(f"`{name}` has a meaning already; choose another name")
+        raise ExpressionError(f"`{name}` has a meaning already; choose another name")
     if name in UNITS:
-        raise ArithmeticFault(f"`{name}` is a unit; choose another name")
+        raise ExpressionError(f"`{name}` is a unit; choose another name")
     if isinstance(value, str):
         tree = parse(value)
         if uses_time(tree):
-            raise ArithmeticFault("a parameter cannot change with `time`")
+            raise ExpressionError("a parameter cannot change with `time`")
         return tree
     if isinstance(value, int | float) and not isinstance(value, bool):
         number = Number(float(value))
         evaluate(number)
         return number
-    raise ArithmeticFault("a number, a quantity such as `10 cm`, or an expression was expected")
+    raise ExpressionError("a number, a quantity such as `10 cm`, or an expression was expected")
 
 
 def _resolve(
@@ -83,8 +83,8 @@ def _resolve(
     try:
         bound = bind(trees[name], values)
         values[name] = Number(evaluate(bound), measure(bound))
-    except FaultyParameter:
+    except FaultyParameterError:
         values[name] = None
-    except ArithmeticFault as fault:
+    except ExpressionError as fault:
         faults[name] = str(fault)
         values[name] = None

@@ -27,7 +27,8 @@ TIE: Final = 1e-6  # components closer than this are equally perpendicular
 
 
 def placement(body: Body) -> tuple[Array, Array]:
-    """Position (3,) [m] of the origin and Euler parameters (4,) of the frame of `body`, global, as given (before assembly).
+    """Position (3,) [m] of the origin and Euler parameters (4,) of the frame of `body`, global, as given (before
+    assembly).
 
     Between two points: the origin is their midpoint and x points from the first to the second (`frame_between`).
     """
@@ -39,7 +40,9 @@ def placement(body: Body) -> tuple[Array, Array]:
 
 
 def initial_velocity(body: Body) -> tuple[Array, Array]:
-    """Velocity (3,) [m/s] of the origin, global axes, and angular velocity (3,) [rad/s] in body axes, as given (before assembly)."""
+    """Velocity (3,) [m/s] of the origin, global axes, and angular velocity (3,) [rad/s] in body axes, as given
+    (before assembly).
+    """
     velocity = np.array(body.velocity)
     if body.angular_velocity_body is not None:
         return velocity, np.array(body.angular_velocity_body)
@@ -66,7 +69,8 @@ def frame_between(start: ArrayLike, end: ArrayLike) -> Array:
 
 
 def frame_from_axes(axis: ArrayLike, x_axis: ArrayLike | None = None) -> Array:
-    """(3, 3), columns x, y, z in the parent frame: z is along `axis`, x is `x_axis` made perpendicular to it; y = z × x.
+    """(3, 3), columns x, y, z in the parent frame: z is along `axis`, x is `x_axis` made perpendicular to it; y = z ×
+    x.
 
     Without `x_axis`, x comes from the parent axis most perpendicular to `axis`; among equals the first of X, Y, Z.
     """

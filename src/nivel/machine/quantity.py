@@ -1,8 +1,8 @@
 """Numbers as people write them: `0.25`, `10 cm`, `30 rpm`, `2*length + 5 mm`. Fields of records hold them as SI floats.
 
-The field types at the end (`Length`, `Mass`, …) are floats to the type checker. When a record is made they read a number, which is
-SI, or a text with units and arithmetic, whose dimension must be the field's. Parameters of a machine file come in through the
-validation context: ``{"parameters": {"radius": Number(0.25)}}``.
+The field types at the end (`Length`, `Mass`, …) are floats to the type checker. When a record is made they read a
+number, which is SI, or a text with units and arithmetic, whose dimension must be the field's. Parameters of a machine
+file come in through the validation context: ``{"parameters": {"radius": Number(0.25)}}``.
 """
 
 from __future__ import annotations
@@ -16,17 +16,16 @@ from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from nivel.machine.arithmetic import (
-    ArithmeticFault,
-    FaultyParameter,
+    ExpressionError,
+    FaultyParameterError,
     Node,
-    Number,
     Parameters,
     bind,
     evaluate,
-    parse,
     uses_time,
 )
 from nivel.machine.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
+from nivel.machine.grammar import parse
 from nivel.machine.measure import measure
 
 FAULT = "nivel"  # type of the validation errors that carry a finished sentence
@@ -34,7 +33,9 @@ REPORTED = "nivel_reported"  # type of those that follow from a fault reported e
 
 
 def fault(message: str, *, at_key: bool = False) -> PydanticCustomError:
-    """A validation error whose text is `message`, ready for people; `at_key`: it is the key that is wrong, not its value."""
+    """A validation error whose text is `message`, ready for people; `at_key`: it is the key that is wrong, not its
+    value.
+    """
     return PydanticCustomError(FAULT, "{message}", {"message": message, "at_key": at_key})
 
 
@@ -51,33 +52,35 @@ def parameters_of(info: ValidationInfo) -> Parameters:
 def bound_tree(text: str, parameters: Parameters) -> Node:
     """The tree of `text` with parameters, constants and units put in.
 
-    Raises ArithmeticFault, FaultyParameter.
+    Raises ExpressionError, FaultyParameterError.
     """
     return bind(parse(text), parameters)
 
 
 def check_kind(text: str, its: Dimension | None, kind: str) -> None:
-    """Raises ArithmeticFault unless a quantity of dimension `its`, written as `text`, is of `kind`. A bare number always is."""
+    """Raises ExpressionError unless a quantity of dimension `its`, written as `text`, is of `kind`. A bare number
+    always is.
+    """
     article, unit, wanted = KINDS[kind]
     if its is None:
         return
     expected = f"{article} ({unit})" if unit != "1" else article
     # Angles vanish where SI lets them (rad/s × m = m/s), but where one is asked for, another power of it is a mistake.
     if without_angle(its) != without_angle(wanted) or (is_angular(its) and is_angular(wanted) and its != wanted):
-        raise ArithmeticFault(f"`{text}` is {described(its)}; {expected} was expected")
+        raise ExpressionError(f"`{text}` is {described(its)}; {expected} was expected")
     if is_angular(wanted) and counts_turns(its):
-        raise ArithmeticFault(f"`{text}` counts turns; {expected} was expected: write `rev/s`, `rpm` or `rad/s`")
+        raise ExpressionError(f"`{text}` counts turns; {expected} was expected: write `rev/s`, `rpm` or `rad/s`")
 
 
 def read_quantity(value: object, kind: str, parameters: Parameters) -> float:
     """`value` as a finite SI number of `kind`, a key of KINDS.
 
-    Raises ArithmeticFault, FaultyParameter.
+    Raises ExpressionError, FaultyParameterError.
     """
     if isinstance(value, str):
         tree = bound_tree(value, parameters)
         if uses_time(tree):
-            raise ArithmeticFault("`time` may only be used in the components of forces and torques")
+            raise ExpressionError("`time` may only be used in the components of forces and torques")
         its = measure(tree)
         number = evaluate(tree)
         check_kind(value.strip(), its, kind)
@@ -85,13 +88,13 @@ def read_quantity(value: object, kind: str, parameters: Parameters) -> float:
     if isinstance(value, Real) and not isinstance(value, bool):
         number = float(value)
         if not math.isfinite(number):
-            raise ArithmeticFault(f"a finite number was expected, got {number}")
+            raise ExpressionError(f"a finite number was expected, got {number}")
         return number
     if hasattr(value, "item") and getattr(value, "shape", None) == ():  # a NumPy scalar or array without axes
         return read_quantity(value.item(), kind, parameters)  # type: ignore[attr-defined]
     article, unit, _ = KINDS[kind]
     expected = f"{article} ({unit})" if unit != "1" else article
-    raise ArithmeticFault(f"{expected} was expected, got {shown(value)}")
+    raise ExpressionError(f"{expected} was expected, got {shown(value)}")
 
 
 def shown(value: object) -> str:
@@ -123,9 +126,9 @@ class Quantity:
     def read(self, value: Any, info: ValidationInfo) -> float:
         try:
             number = read_quantity(value, self.kind, parameters_of(info))
-        except FaultyParameter:
+        except FaultyParameterError:
             raise reported() from None
-        except ArithmeticFault as problem:
+        except ExpressionError as problem:
             raise fault(_with_text(str(problem), value)) from None
         if self.positive and number <= 0:
             raise fault(f"{KINDS[self.kind][0]} greater than zero was expected, got {shown(value)}")

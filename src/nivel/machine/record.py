@@ -7,8 +7,15 @@ from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ModelWrapValidatorHandler, ValidationError, WithJsonSchema
-from pydantic import model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    ModelWrapValidatorHandler,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
+)
 from pydantic_core import ErrorDetails, InitErrorDetails
 
 from nivel.errors import Fault, ModelError
@@ -30,11 +37,15 @@ Name = Annotated[str, BeforeValidator(_named), WithJsonSchema({"type": "string",
 
 
 class Record(BaseModel):
-    """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as one ModelError."""
+    """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as one
+    ModelError.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True, hide_input_in_errors=True)
     collection: ClassVar[str] = ""  # the section of the machine that holds such records
-    tagged: ClassVar[Mapping[str, int]] = {}  # fields that are one of several records → where pydantic puts its tag in a location
+    tagged: ClassVar[
+        Mapping[str, int]
+    ] = {}  # fields that are one of several records → where pydantic puts its tag in a location
 
     def __init__(self, /, **data: Any) -> None:
         try:
@@ -42,7 +53,8 @@ class Record(BaseModel):
         except ValidationError as error:
             raise ModelError(_faults(type(self), data, error)) from None
 
-    # Without this mark pydantic would call __init__ for nested records too, and lose the place of what is wrong in them.
+    # Without this mark pydantic would call __init__ for nested records too, and lose the place of what is wrong in
+    # them.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
     def replace(self, **changes: Any) -> Self:
@@ -53,7 +65,11 @@ class Record(BaseModel):
     def __repr_args__(self) -> Any:
         """Only what differs from the default."""
         fields = type(self).model_fields
-        return [(name, value) for name, value in super().__repr_args__() if name and value != fields[name].get_default(call_default_factory=True)]
+        return [
+            (name, value)
+            for name, value in super().__repr_args__()
+            if name and value != fields[name].get_default(call_default_factory=True)
+        ]
 
     @model_validator(mode="wrap")
     @classmethod

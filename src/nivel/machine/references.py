@@ -1,4 +1,4 @@
-"""Whether what a machine mentions exists: bodies, markers. Works on raw data too, so that a fault in one place hides no other."""
+"""Whether the bodies and markers that a machine mentions exist. Reads raw data too: one fault hides no other."""
 
 from __future__ import annotations
 
@@ -13,11 +13,15 @@ SECTIONS = ("bodies", "markers", "joints", "forces")
 
 
 def reference_faults(machine: Any) -> Iterator[tuple[Place, str]]:
-    """Place and message of every name that is used twice or mentioned in vain. `machine` is a record, or what it is made of."""
+    """Place and message of every name that is used twice or mentioned in vain. `machine` is a record, or what it is
+    made of.
+    """
     for section in SECTIONS:
         yield from _twice(section, _elements(machine, section))
     bodies = {name: name for name in _names(machine, "bodies")} | {GROUND: GROUND}
-    markers = {str(name): entry(each, "body") for each in _elements(machine, "markers") if (name := entry(each, "name"))}
+    markers = {
+        str(name): entry(each, "body") for each in _elements(machine, "markers") if (name := entry(each, "name"))
+    }
     for at, marker in enumerate(_elements(machine, "markers")):
         yield from _unknown(entry(marker, "body"), bodies, "body", ("markers", at, "body"))
         if isinstance(marker, Mapping | Record) and entry(marker, "name") is None:
@@ -32,7 +36,9 @@ def reference_faults(machine: Any) -> Iterator[tuple[Place, str]]:
             yield ("forces", at, "marker"), f"the marker `{marker}` is on `{GROUND}`: a force there moves nothing"
 
 
-def _of_joint(joint: Any, bodies: Mapping[str, str], markers: Mapping[str, Any], place: Place) -> Iterator[tuple[Place, str]]:
+def _of_joint(
+    joint: Any, bodies: Mapping[str, str], markers: Mapping[str, Any], place: Place
+) -> Iterator[tuple[Place, str]]:
     for at, body in enumerate(_list(entry(joint, "bodies"))):
         yield from _unknown(body, bodies, "body", (*place, "bodies", at))
     ends = _list(entry(joint, "markers"))

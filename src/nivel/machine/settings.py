@@ -18,16 +18,20 @@ class Baumgarte(Record):
 
 
 class SimulationSettings(Record):
-    """Time span, step and methods. `baumgarte` belongs to that stabilisation; absent, the coefficients follow from the step."""
+    """Time span, step and methods. Without `baumgarte`, the coefficients of that stabilisation follow from the step."""
 
     duration: Duration = 1.0
     step: Duration = 1e-3
-    output_interval: Duration | None = Field(None, description="time between stored results; absent, the run chooses")
+    output_interval: Duration | None = Field(
+        default=None, description="time between stored results; absent, the run chooses"
+    )
     integrator: Literal["rk4"] = "rk4"
     formulation: Literal["newton-euler", "lagrange"] = "newton-euler"
     coordinates: Literal["auto", "absolute"] = "absolute"
     stabilisation: Literal["none", "baumgarte", "direct"] = "direct"
-    baumgarte: Baumgarte | None = Field(None, description="own coefficients alpha and beta of the baumgarte stabilisation")
+    baumgarte: Baumgarte | None = Field(
+        default=None, description="own coefficients alpha and beta of the baumgarte stabilisation"
+    )
 
     @model_validator(mode="after")
     def _makes_sense(self) -> SimulationSettings:

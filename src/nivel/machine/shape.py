@@ -1,7 +1,7 @@
 """Homogeneous solids: box, cylinder, sphere, tube. They give a body its looks and, with a density or mass, its inertia.
 
-A shape stands in the body frame with its centre at `centre`. Box, cylinder and tube may instead be laid between two global points
-`from:` and `to:`; then they define the body frame too (placement.py) and the centre is its origin.
+A shape stands in the body frame with its centre at `centre`. Box, cylinder and tube may instead be laid between two
+global points `from:` and `to:`; then they define the body frame too (placement.py) and the centre is its origin.
 """
 
 from __future__ import annotations
@@ -17,9 +17,11 @@ from nivel.machine.record import Record
 Along = Literal["x", "y", "z"]
 _NEAR: Final = 1e-9  # [m] two end points closer than this have no direction
 
-_FROM = Field(None, alias="from", description="global point where the body x axis starts; then the body needs no position")
-_TO = Field(None, description="global point to which the body x axis points")
-_CENTRE = Field(None, description="centre of the shape in the body frame; default the origin")
+_FROM = Field(
+    default=None, alias="from", description="global point where the body x axis starts; then the body needs no position"
+)
+_TO = Field(default=None, description="global point to which the body x axis points")
+_CENTRE = Field(default=None, description="centre of the shape in the body frame; default the origin")
 
 
 class _Between(Record):
@@ -79,7 +81,7 @@ class Cylinder(_Between):
     type: Literal["cylinder"] = "cylinder"
     radius: PositiveLength
     length: PositiveLength | None = None
-    along: Along | None = Field(None, description="body axis; default x")
+    along: Along | None = Field(default=None, description="body axis; default x")
 
     def _extent(self) -> dict[str, object]:
         return {"length": self.length}
@@ -91,13 +93,15 @@ class Cylinder(_Between):
 
 
 class Tube(_Between):
-    """A hollow round bar: `outer_radius`, `inner_radius`, `length` and `along` (default x); or the radii, `from` and `to`."""
+    """A hollow round bar: `outer_radius`, `inner_radius`, `length` and `along` (default x); or the radii, `from` and
+    `to`.
+    """
 
     type: Literal["tube"] = "tube"
     outer_radius: PositiveLength
     inner_radius: PositiveLength
     length: PositiveLength | None = None
-    along: Along | None = Field(None, description="body axis; default x")
+    along: Along | None = Field(default=None, description="body axis; default x")
 
     def _extent(self) -> dict[str, object]:
         return {"length": self.length}
@@ -105,7 +109,9 @@ class Tube(_Between):
     @model_validator(mode="after")
     def _hollow(self) -> Tube:
         if self.inner_radius >= self.outer_radius:
-            raise fault(f"`inner_radius` {self.inner_radius:g} m must be smaller than `outer_radius` {self.outer_radius:g} m")
+            raise fault(
+                f"`inner_radius` {self.inner_radius:g} m must be smaller than `outer_radius` {self.outer_radius:g} m"
+            )
         _refuse_along(self)
         return self
 

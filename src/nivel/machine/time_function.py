@@ -1,7 +1,8 @@
 """What may change with time: a number, a table, or an expression of `time`.
 
-Components of forces and torques are of this type. Once in a record, numbers and tables are SI, and the text of an expression is
-arithmetic of `time` and SI numbers only, in Python's syntax, with the functions of arithmetic.FUNCTIONS.
+Components of forces and torques are of this type. Once in a record, numbers and tables are SI, and the text of an
+expression is arithmetic of `time` and SI numbers only, in Python's syntax, with the functions of
+arithmetic.FUNCTIONS.
 """
 
 from __future__ import annotations
@@ -14,7 +15,17 @@ from typing import Annotated, Any
 from pydantic import PlainSerializer, PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from nivel.machine.arithmetic import ArithmeticFault, FaultyParameter, Node, Parameters, evaluate, fold, parse, render, uses_time
+from nivel.machine.arithmetic import (
+    ExpressionError,
+    FaultyParameterError,
+    Node,
+    Parameters,
+    evaluate,
+    fold,
+    render,
+    uses_time,
+)
+from nivel.machine.grammar import parse
 from nivel.machine.measure import measure_in_time
 from nivel.machine.quantity import bound_tree, check_kind, fault, listed, read_quantity, reported, shown
 from nivel.machine.record import unknown_word
@@ -22,7 +33,8 @@ from nivel.machine.record import unknown_word
 
 @dataclass(frozen=True)
 class Table:
-    """Straight lines between points. `times` [s] increase strictly; before the first and after the last the end values hold.
+    """Straight lines between points. `times` [s] increase strictly; before the first and after the last the end
+    values hold.
 
     Entries may be texts with units until the table stands in a force, which turns them into SI numbers.
     """
@@ -60,7 +72,7 @@ TimeFunction = float | Table | Expression
 def read_time_function(value: object, kind: str, parameters: Parameters) -> TimeFunction:
     """`value` as a number, table or expression of a quantity of `kind`, in SI.
 
-    Raises ArithmeticFault, FaultyParameter; for the entries of a table a ValidationError with their places.
+    Raises ExpressionError, FaultyParameterError; for the entries of a table a ValidationError with their places.
     """
     if isinstance(value, Expression):
         value = value.text
@@ -77,10 +89,9 @@ def read_time_function(value: object, kind: str, parameters: Parameters) -> Time
 
 
 def _read_table(given: Mapping[str, object], kind: str, parameters: Parameters) -> Table:
-    lines: list[InitErrorDetails] = []
-    for word in given:
-        if word not in ("times", "values"):
-            lines.append(_line((str(word),), fault(unknown_word(str(word), ("times", "values"), "key"))))
+    keys = ("times", "values")
+    unknown = [str(word) for word in given if word not in keys]
+    lines = [_line((word,), fault(unknown_word(word, keys, "key"), at_key=True)) for word in unknown]
     columns: dict[str, list[float]] = {}
     for word, its_kind in (("times", "time"), ("values", kind)):
         columns[word] = _read_column(word, given.get(word), its_kind, parameters, lines)
@@ -91,7 +102,9 @@ def _read_table(given: Mapping[str, object], kind: str, parameters: Parameters) 
     return Table(tuple(columns["times"]), tuple(columns["values"]))
 
 
-def _read_column(word: str, given: object, kind: str, parameters: Parameters, lines: list[InitErrorDetails]) -> list[float]:
+def _read_column(
+    word: str, given: object, kind: str, parameters: Parameters, lines: list[InitErrorDetails]
+) -> list[float]:
     given = listed(given)
     if not isinstance(given, Sequence) or isinstance(given, str):
         message = f"`{word}` is missing" if given is None else f"a list was expected, got {shown(given)}"
@@ -101,9 +114,9 @@ def _read_column(word: str, given: object, kind: str, parameters: Parameters, li
     for at, entry in enumerate(given):
         try:
             column.append(read_quantity(entry, kind, parameters))
-        except FaultyParameter:
+        except FaultyParameterError:
             lines.append(_line((word, at), reported()))
-        except ArithmeticFault as problem:
+        except ExpressionError as problem:
             lines.append(_line((word, at), fault(str(problem))))
     return column
 
@@ -115,7 +128,9 @@ def _faults_of_columns(times: list[float], values: list[float]) -> list[InitErro
         return [_line(("times",), fault("a table needs at least one time"))]
     for at in range(1, len(times)):
         if times[at] <= times[at - 1]:
-            return [_line(("times", at), fault(f"times increase; {times[at]:g} s does not come after {times[at - 1]:g} s"))]
+            return [
+                _line(("times", at), fault(f"times increase; {times[at]:g} s does not come after {times[at - 1]:g} s"))
+            ]
     return []
 
 
@@ -142,9 +157,9 @@ def _time_function(kind: str) -> Any:
     def read(value: Any, info: ValidationInfo) -> TimeFunction:
         try:
             return read_time_function(value, kind, (info.context or {}).get("parameters", {}))
-        except FaultyParameter:
+        except FaultyParameterError:
             raise reported() from None
-        except ArithmeticFault as problem:
+        except ExpressionError as problem:
             text = f"`{value.strip()}`" if isinstance(value, str) else ""
             raise fault(f"{text}: {problem}" if text and text not in str(problem) else str(problem)) from None
 

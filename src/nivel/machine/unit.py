@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from difflib import get_close_matches
 from functools import cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from nivel.machine.dimension import BASES, Dimension, dimension
 
@@ -17,7 +17,7 @@ class Unit(NamedTuple):
     dimension: Dimension
 
 
-class UnknownUnit(ValueError):
+class UnknownUnitError(ValueError):
     """Neither the table nor pint knows this name."""
 
 
@@ -80,18 +80,18 @@ UNITS: dict[str, Unit] = {
 def unit(name: str) -> Unit:
     """The unit called `name`.
 
-    Raises UnknownUnit, with the nearest known name in its message.
+    Raises UnknownUnitError, with the nearest known name in its message.
     """
     found = UNITS.get(name) or _ask_pint(name)
     if found is None:
         near = get_close_matches(name, UNITS, n=1, cutoff=0.5)
         hint = f"; did you mean `{near[0]}`?" if near else ""
-        raise UnknownUnit(f"the unit `{name}` is not known{hint}")
+        raise UnknownUnitError(f"the unit `{name}` is not known{hint}")
     return found
 
 
 @cache
-def _registry():  # noqa: ANN202  (pint is imported here only)
+def _registry() -> Any:
     import pint
 
     return pint.UnitRegistry(cache_folder=None)
@@ -111,7 +111,9 @@ _PINT_BASES = {
 
 
 def _ask_pint(name: str) -> Unit | None:
-    """A single unit name by pint; None where pint does not know it, or where it is no plain multiple of SI units (degC, dB)."""
+    """The unit `name` by pint; None where pint does not know it, or where it is no plain multiple of SI units (degC,
+    dB).
+    """
     import pint
 
     registry = _registry()
@@ -121,7 +123,7 @@ def _ask_pint(name: str) -> Unit | None:
         multiplicative = registry.Quantity(0, parsed).to(base).magnitude == 0
     except (pint.errors.PintError, ValueError, TypeError, AttributeError, ArithmeticError, RecursionError):
         return None
-    exponents = dict.fromkeys(BASES, 0.0)
+    exponents: dict[str, float] = dict.fromkeys(BASES, 0.0)
     for part, exponent in base._units.items():
         if part not in _PINT_BASES:
             return None

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-
 from nivel.kernels.compile import entry, leaf
-from nivel.kernels.observe import count_turns, observe
 from nivel.kernels.handle import address_type
+from nivel.kernels.observe import count_turns, observe
 from nivel.kernels.record import record_at
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE, NOT_FINITE, OK
 from nivel.march.run import (
@@ -31,7 +30,7 @@ from nivel.march.run import (
 @leaf
 def time_of(run, n):
     """Time after n steps; not a running sum, so it carries no round-off from step to step. The last step ends at the end."""
-    if n == run.count[ALL_STEPS]:
+    if n == run.counter[ALL_STEPS]:
         return run.clock[END]
     return run.clock[START] + n * run.clock[STEP]
 
@@ -54,31 +53,31 @@ def advance(evaluate, correct, step, machine, history):
     """
     run = run_at(history)
     record = record_at(machine)
-    clock, count = run.clock, run.count
+    clock, counter = run.clock, run.counter
     h = clock[STEP]
-    budget = count[BUDGET]
+    budget = counter[BUDGET]
     while True:
-        n = count[DONE_STEPS]
+        n = counter[DONE_STEPS]
         clock[TIME] = time_of(run, n)
-        last = n == count[ALL_STEPS]
-        due = (n % count[EVERY] == 0 or last) and count[LAST_FRAME] != n
-        if due and count[FRAMES] == run.frames.shape[0]:
+        last = n == counter[ALL_STEPS]
+        due = (n % counter[EVERY] == 0 or last) and counter[LAST_FRAME] != n
+        if due and counter[FRAMES] == run.frames.shape[0]:
             return BUFFER_FULL
-        if count[EVALUATED] == 0:
+        if counter[EVALUATED] == 0:
             status = evaluate(machine, clock[TIME], run.y, run.rate)
-            count[EVALUATIONS] += 1
+            counter[EVALUATIONS] += 1
             if status != OK:
                 return status
             if not finite(run.rate):
                 return NOT_FINITE
-            count[EVALUATED] = 1
+            counter[EVALUATED] = 1
             count_turns(record)
             if due:
-                frame = run.frames[count[FRAMES]]
+                frame = run.frames[counter[FRAMES]]
                 frame[0] = clock[TIME]
                 observe(machine, run.y, frame)
-                count[FRAMES] += 1
-                count[LAST_FRAME] = n
+                counter[FRAMES] += 1
+                counter[LAST_FRAME] = n
         if last:
             return DONE
         if budget == 0:
@@ -86,14 +85,14 @@ def advance(evaluate, correct, step, machine, history):
         budget -= 1
         for i in range(run.y.shape[0]):
             run.previous[i] = run.y[i]
-        clock[STEP] = time_of(run, n + 1) - clock[TIME] if n + 1 == count[ALL_STEPS] else h
+        clock[STEP] = time_of(run, n + 1) - clock[TIME] if n + 1 == counter[ALL_STEPS] else h
         status = step(evaluate, machine, history)
         clock[STEP] = h
-        count[EVALUATED] = 0
+        counter[EVALUATED] = 0
         if status == OK:
             status = correct(machine, time_of(run, n + 1), run.y)
         if status != OK:
             return status
         if not finite(run.y):
             return NOT_FINITE
-        count[DONE_STEPS] = n + 1
+        counter[DONE_STEPS] = n + 1

@@ -21,7 +21,9 @@ class Run(NamedTuple):
     """History and output of one run. All of it is here, so the result does not depend on how the run is cut into chunks."""
 
     clock: F1  # (4,) [s] time, step size, start, end
-    count: I1  # (8,) steps done, steps in all, steps between frames, frames in the buffer, step of the last frame, budget, evaluations, whether rate is that of y
+    # (8,) steps done, steps in all, steps between frames, frames in the buffer, step of the last frame, budget, evaluations,
+    # and whether `rate` is that of y
+    counter: I1
     y: F1  # (ny,) state
     rate: F1  # (ny,) ẏ at the accepted state
     previous: F1  # (ny,) the accepted state before the last step: where a failed step started

@@ -33,5 +33,5 @@ def rk4(evaluate, machine, history):
         return status
     for i in range(n):
         y[i] += h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
-    run.count[EVALUATIONS] += 3
+    run.counter[EVALUATIONS] += 3
     return OK

@@ -4,25 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.results.assess import Peak
 from nivel.results.scales import Readable, machine_size
+from nivel.results.trust import Peak
 
 
-def step_halving(result: Readable, finer: Readable) -> Peak:
-    """Largest difference of two runs of the same machine at the times of `result`: length [m], body, time.
+def step_halving(result: Readable, finer: Readable, order: int) -> Peak:
+    """Estimated largest error of the positions of `result` [m], with its body and time.
 
-    finer : the run with half the step; it must have frames at the times of `result` (to 1e-9 of the duration).
-    A body's difference is the distance of its origins, or the angle between its orientations times the machine's size,
-    whichever is larger: a rotor whose origin rests counts too. For a method of order p the error of `result` is 2ᵖ /
-    (2ᵖ - 1) times this, between 1 and 1.33 for order 2 and more; no correction is applied.
+    finer : the run with half the step; it has frames at the times of `result`, as far as it got.
+    order : p of the integrator: the difference of the two runs is 1 - 2⁻ᵖ of the error of the coarser one.
+    A body is off by the distance of its two origins, or by the angle between its two orientations times the machine's
+    size, whichever is larger: a rotor whose origin rests counts too.
     """
-    time, finer_time = result.time, finer.time
-    if "position" not in result.variables or not len(finer_time):
+    if "position" not in result.variables or not len(finer.time) or not len(result.time):
         return Peak(0.0)
-    time = time[time <= finer_time[-1] + 1e-9 * abs(finer_time[-1])]
-    nearest = np.clip(
-        np.searchsorted(finer_time, time - 1e-9 * max(abs(float(finer_time[-1])), 1e-300)), 0, len(finer_time) - 1
-    )
+    tolerance = 1e-9 * max(abs(float(finer.time[-1])), abs(float(result.time[-1])))
+    time = result.time[result.time <= finer.time[-1] + tolerance]
+    nearest = np.searchsorted(finer.time, time - tolerance)
     frames = slice(0, len(time))
     moved = np.linalg.norm(result.array("position", frames) - finer.array("position")[nearest], axis=-1)
     a, b = result.array("orientation", frames), finer.array("orientation")[nearest]
@@ -31,4 +29,5 @@ def step_halving(result: Readable, finer: Readable) -> Peak:
     )  # θ and -θ are the same orientation
     difference = np.maximum(moved, 2.0 * apart * machine_size(result))
     k, body = np.unravel_index(int(np.argmax(difference)), difference.shape)
-    return Peak(float(difference[k, body]), result.coordinates["body"][body], float(time[k]))
+    error = float(difference[k, body]) / (1.0 - 0.5**order)
+    return Peak(error, result.coordinates["body"][body], float(time[k]))

@@ -74,7 +74,7 @@ def _scalars(result: Result) -> Iterator[tuple[str, str]]:
     for name in result.names:
         found = result.selection(name)
         by_place.setdefault((found.variable, found.where[1:]), name)
-    for variable in result.variables.array():
+    for variable in result.variables.values():
         sides = [range(len(result.coordinates[dim])) for dim in variable.dims[1:]]
         for place in product(*sides):
             yield by_place[variable.name, place], variable.name

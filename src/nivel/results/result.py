@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.assess import assess
 from nivel.results.contents import Contents
 from nivel.results.names import Selection, selections, unknown_name
+from nivel.results.row_units import own_units
 from nivel.results.stored import StoredContents
+from nivel.results.trust import Facts, assess
 from nivel.results.verdicts import Trust
 from nivel.system.layout import Variable
 
@@ -42,7 +43,7 @@ class Result:
     # --- the run ---
 
     @property
-    def machine(self) -> str:
+    def name(self) -> str:
         """Name of the machine."""
         return str(self.attributes.get("machine", "machine"))
 
@@ -52,9 +53,14 @@ class Result:
         return str(self.attributes.get("outcome", "running"))
 
     @property
-    def message(self) -> str:
+    def failure(self) -> str:
         """What stopped the run, in a sentence; empty where nothing did."""
-        return str(self.attributes.get("message", ""))
+        return str(self.attributes.get("failure", ""))
+
+    @property
+    def advice(self) -> str:
+        """What to try after a failure."""
+        return str(self.attributes.get("advice", ""))
 
     @property
     def attributes(self) -> Mapping[str, str | float | int]:
@@ -81,7 +87,7 @@ class Result:
         """How far to trust the result. A run that was killed is assessed from what it left behind."""
         if "trust" in self.attributes:
             return Trust.from_json(str(self.attributes["trust"]))
-        return assess(self, outcome=self.outcome, message=self.message)
+        return assess(self, Facts(outcome=self.outcome, failure=self.failure))
 
     def _json(self, attribute: str) -> dict[str, Any]:
         return json.loads(str(self.attributes.get(attribute, "{}")))
@@ -137,25 +143,21 @@ class Result:
         return self._contents.read(found.variable, (frames, *found.where[1:]))
 
     def units(self, name: str) -> str:
-        """SI units of `name`; of joint coordinates and rates those of each joint, where one is asked for."""
+        """SI units of `name`; nothing for all joint coordinates or constraint rows together: each has its own."""
         if name == "time":
             return "s"
         found = self.selection(name)
         variable = self.variables[found.variable]
-        if variable.name in ("joint_coordinate", "joint_rate") and len(found.where) > 1:
-            unit = self._coordinate_units[found.where[1]] if isinstance(found.where[1], int) else "1"
-            return f"{unit}/s" if variable.name == "joint_rate" else unit
-        return variable.units
-
-    @cached_property
-    def _coordinate_units(self) -> list[str]:
-        """Units of each joint coordinate, rad or m, from the attribute of that name (JSON: a list, or name → units)."""
-        stated = json.loads(str(self.attributes.get("coordinate_units", "{}")))
-        names = self.coordinates[self.variables["joint_coordinate"].dims[1]]
-        return stated if isinstance(stated, list) else [stated.get(name, "1") for name in names]
+        row = found.where[1] if len(found.where) > 1 else None
+        if variable.units or not isinstance(row, int):
+            return variable.units
+        return own_units(self.attributes, variable.name, self.coordinates[variable.dims[1]][row])
 
     def __contains__(self, name: object) -> bool:
         return name == "time" or name in self._selections
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
 
     def __getitem__(self, name: str) -> xarray.DataArray:
         from nivel.results.labelled import data_array
@@ -190,6 +192,12 @@ class Result:
         from nivel.results.csv_table import write_csv
 
         return write_csv(self, path, select, force=force)
+
+    def summary(self) -> dict[str, Any]:
+        """The run in a few words and numbers, as `nivel run --json` prints it."""
+        from nivel.results.summary import summary
+
+        return summary(self)
 
     def __repr__(self) -> str:
         from nivel.results.summary import summary_text

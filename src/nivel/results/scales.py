@@ -1,4 +1,4 @@
-"""The scales of a run that its errors are compared with: size, speed, energy. `trust.RULES` states them in words."""
+"""The scales of a run that its errors are compared with: size, speed, energy. `verdicts.RULES` states them in words."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def largest_speed(result: Readable) -> float:
 
 
 def largest_energy(result: Readable) -> tuple[float, str]:
-    """The energy [J] that the energy error is compared with, and what it is: see `trust.RULES`."""
+    """The energy [J] that the energy error is compared with, and what it is: see `verdicts.RULES`."""
     candidates = [
         ("largest kinetic energy", _largest(result, "kinetic_energy", lambda e: e)),
         ("largest change of potential energy", _largest(result, "potential_energy", lambda e: e - e[0])),

@@ -15,10 +15,10 @@ OUTCOMES: dict[str, tuple[Verdict, str]] = {
 }
 
 
-def statements(trust: Trust, message: str) -> Iterator[Item]:
-    """The items of the report; `message` says what stopped the run."""
+def statements(trust: Trust, failure: str) -> Iterator[Item]:
+    """The items of the report; `failure` says what stopped the run."""
     verdict, text = OUTCOMES.get(trust.outcome, ("red", f"Outcome: {trust.outcome}"))
-    yield Item("outcome", verdict, f"{text}: {message}" if message else text)
+    yield Item("outcome", verdict, f"{text}: {failure}" if failure else text)
     yield _energy_item(trust)
     if trust.constraint_violation_row:
         yield _violation_item(trust)

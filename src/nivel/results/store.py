@@ -9,6 +9,7 @@ and takes its place in one atomic step.
 from __future__ import annotations
 
 import os
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,8 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.march.sink import Header
 from nivel.results.contents import resolved, shape_of
+from nivel.results.space import Space
+from nivel.results.stored import StoredContents, opened
 from nivel.system.layout import Variable
 
 if TYPE_CHECKING:
@@ -29,6 +32,8 @@ Attributes = dict[str, str | float | int]
 RUNNING_CHUNK = 64 * 1024  # bytes: a chunk that is not full is written again at each flush, so it is small
 FINAL_CHUNK = 512 * 1024  # bytes: reading the history of one body touches few chunks, reading all of them is fast
 FINAL_ROWS = 16 * 1024  # frames of a chunk, at most: long runs can be read in parts
+HEADER = 256 * 1024  # bytes
+INDEX = 4096  # bytes
 COMPRESSION_LEVEL = 2  # gzip after shuffle: higher levels save about 3 % more and take twice as long
 
 
@@ -43,6 +48,8 @@ class Store:
         self.path = Path(path)
         self._force = force
         self._file: Any = None
+        self._space: Space | None = None
+        self._chunks = 0  # bytes of one chunk of every variable, with what HDF5 needs to find it
         self._variables: list[tuple[Variable, tuple[int, ...]]] = []
         _check_path(self.path, force)
 
@@ -53,43 +60,58 @@ class Store:
         try:
             if self._force:
                 self.path.unlink(missing_ok=True)  # who reads the old file keeps it
-            self._file = h5py.File(self.path, "x", libver="latest", locking="best-effort")
+            self._file = h5py.File(self.path, "x", libver="latest", locking="best-effort", track_order=True)
+            self._space = Space(self.path, self._file)
+            self._space.ensure(_header_size(header.attributes))
         except OSError as error:
+            self._file = None
             raise ModelError(f"the result file {self.path} cannot be created: {_reason(error)}") from error
         _write_header(self._file, self._variables, coordinates, header.attributes, 0, _running_chunks)
+        everything = [self._file["time"], *(self._file[variable.name] for variable, _ in self._variables)]
+        self._chunks = sum(8 * prod(dataset.chunks) + INDEX for dataset in everything)
         self._file.swmr_mode = True
         self._file.flush()
 
     def take(self, frames: NDArray[np.float64]) -> None:
         """Append frames (n, width). The time is written last: a frame whose time can be read is complete."""
+        if self._space is None:
+            raise RuntimeError("a sink must begin before it takes frames")
         try:
-            for variable, shape in self._variables:
-                _append(self._file[variable.name], frames[:, variable.columns].reshape(len(frames), *shape))
-            self._file.flush()
-            _append(self._file["time"], frames[:, 0])
-            self._file.flush()
+            self._space.ensure(2 * frames.nbytes + self._chunks)
         except OSError as error:
-            raise ModelError(
-                f"the result file {self.path} cannot be written further: {_reason(error)}; "
-                "it is readable up to the frame before"
-            ) from error
+            raise self._given_up(_reason(error)) from error
+        for variable, shape in self._variables:
+            _append(self._file[variable.name], frames[:, variable.columns].reshape(len(frames), *shape))
+        self._file.flush()
+        _append(self._file["time"], frames[:, 0])
+        self._file.flush()
+
+    def _given_up(self, reason: str) -> ModelError:
+        """Close the file as it is; it says why it ends there."""
+        failure = f"the result file {self.path} cannot be written further: {reason}"
+        self._finish()
+        with h5py.File(self.path, "r+", locking="best-effort") as file:
+            file.attrs.update({"outcome": "failed", "failure": failure})
+        return ModelError(f"{failure}; it is readable up to the frame before")
+
+    def _finish(self) -> None:
+        if self._space is not None:
+            self._space.close()
+        self._file, self._space = None, None
 
     def result(self) -> Result:
         """What was written so far; the run may go on."""
         from nivel.results.result import Result
-        from nivel.results.stored import StoredContents
 
         return Result(StoredContents(self.path))
 
     def close(self, attributes: Attributes) -> Result:
         """Rewrite the file in its final form; `attributes` (`outcome`, `trust`, …) replace those of the header."""
         from nivel.results.result import Result
-        from nivel.results.stored import StoredContents
 
         if self._file is None:
             raise RuntimeError("a sink must begin before it gives a result")
-        self._file.close()
-        self._file = None
+        self._finish()
         rewrite(self.path, attributes)
         return Result(StoredContents(self.path))
 
@@ -115,20 +137,20 @@ def rewrite(path: Path, attributes: Attributes) -> None:
 
 
 def _write_final(source_path: Path, path: Path, attributes: Attributes) -> None:
-    from nivel.results.stored import StoredContents
-
     source = StoredContents(source_path)
     variables = [(variable, shape_of(variable, source.coordinates)) for variable in source.variables.values()]
-    with (
-        h5py.File(source_path, "r", locking="best-effort") as old,
-        h5py.File(path, "w", libver=("v108", "v108"), locking="best-effort") as new,
-    ):
-        count = source.frame_count
-        _write_header(new, variables, source.coordinates, {**source.attributes, **attributes}, count, _final_chunks)
-        for name in ("time", *source.variables):
-            _copy(old[name], new[name], count)
-    with path.open("rb") as written:
-        os.fsync(written.fileno())
+    count, both = source.frame_count, {**source.attributes, **attributes}
+    with opened(source_path) as old:
+        new = h5py.File(path, "w", libver=("v108", "v108"), locking="best-effort", track_order=True)
+        space = Space(path, new)
+        try:
+            space.ensure(_header_size(both))
+            _write_header(new, variables, source.coordinates, both, count, _final_chunks)
+            for name in ("time", *source.variables):
+                _copy(old[name], new[name], count, space)
+        finally:
+            new.flush()
+            space.close()
 
 
 def _write_header(
@@ -161,7 +183,7 @@ def _write_header(
 
 def _running_chunks(shape: tuple[int, ...], count: int) -> dict[str, Any]:
     """Chunks of whole frames."""
-    width = 8 * int(np.prod(shape))
+    width = 8 * prod(shape)
     return {"chunks": (int(np.clip(RUNNING_CHUNK // width, 1, 1024)), *shape)}
 
 
@@ -184,11 +206,18 @@ def _append(dataset: Any, block: NDArray[np.float64]) -> None:
     dataset[start:] = block
 
 
-def _copy(old: Any, new: Any, count: int) -> None:
+def _copy(old: Any, new: Any, count: int, space: Space) -> None:
     """In parts of whole chunks: a long run need not fit in memory."""
     for start in range(0, count, FINAL_ROWS):
         stop = min(start + FINAL_ROWS, count)
-        new[start:stop] = old[start:stop]
+        block = old[start:stop]
+        space.ensure(block.nbytes + FINAL_CHUNK)
+        new[start:stop] = block
+
+
+def _header_size(attributes: Attributes) -> int:
+    """Bytes that are enough for the attributes and all that is created before the first frame."""
+    return HEADER + sum(4 * len(str(value)) for value in attributes.values())
 
 
 def _check_path(path: Path, force: bool) -> None:

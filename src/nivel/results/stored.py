@@ -65,8 +65,7 @@ class StoredContents:
         self.attributes = {key: _plain(file.attrs[key]) for key in file.attrs if not key.startswith("_")}
         self.variables, self.coordinates = {}, {}
         self.frame_count = _dataset(file, "time").shape[0]
-        for name in file.keys():
-            dataset = _dataset(file, name)
+        for name, dataset in _datasets(file):
             if name == "time":
                 continue
             if dataset.is_scale:
@@ -84,6 +83,10 @@ class StoredContents:
         index = slice(frames.start, frames.stop, frames.step) if isinstance(frames, range) else frames
         with opened(self.path) as file:
             return np.asarray(_dataset(file, name)[(index, *rest)], dtype=np.float64)
+
+
+def _datasets(file: h5py.File) -> list[tuple[str, Any]]:
+    return [(str(name), item) for name, item in file.items()]
 
 
 def _dataset(file: h5py.File, name: str) -> Any:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -11,9 +12,26 @@ if TYPE_CHECKING:
 COLOURS = {"green": "#1a7f4b", "amber": "#b26a00", "red": "#c0362c"}
 
 
+def summary(result: Result) -> dict[str, Any]:
+    """Name, outcome, extent, timing, and the trust report in full; everything JSON can hold."""
+    time = result.time
+    return {
+        "machine": result.name,
+        "outcome": result.outcome,
+        "failure": result.failure,
+        "advice": result.advice,
+        "file": str(result.path) if result.path else None,
+        "frames": len(time),
+        "time": [float(time[0]), float(time[-1])] if len(time) else [],
+        "settings": result.settings,
+        "timing": result.timing,
+        "trust": json.loads(result.trust.to_json()),
+    }
+
+
 def summary_text(result: Result) -> str:
     """Name, outcome, extent and trust; then what can be asked for."""
-    lines = [f"<Result of {result.machine}: {_outcome(result)}>", f"  {_extent(result)}"]
+    lines = [f"<Result of {result.name}: {_outcome(result)}>", f"  {_extent(result)}"]
     lines += [f"  {item.verdict:>5}  {item.text}" for item in result.trust.items]
     lines.append(f"  for instance: {', '.join(_examples(result))}")
     return "\n".join(lines)
@@ -29,7 +47,7 @@ def summary_html(result: Result) -> str:
     names = " ".join(f"<code>{escape(name)}</code>" for name in _examples(result))
     return (
         '<div style="border:1px solid rgba(128,128,128,.35);border-radius:8px;padding:.8em 1.1em;max-width:56em">'
-        f'<div style="font-size:1.15em;font-weight:600">{escape(result.machine)}</div>'
+        f'<div style="font-size:1.15em;font-weight:600">{escape(result.name)}</div>'
         f'<div style="opacity:.75;margin-bottom:.5em">{escape(_outcome(result))} · {escape(_extent(result))}</div>'
         f'<table style="border-collapse:collapse;background:none">{rows}</table>'
         f'<div style="opacity:.75;margin-top:.5em">for instance {names}</div></div>'
@@ -43,7 +61,7 @@ def _outcome(result: Result) -> str:
         "failed": "failed",
     }
     said = words.get(result.outcome, result.outcome)
-    return f"{said}: {result.message}" if result.message else said
+    return f"{said}: {result.failure}" if result.failure else said
 
 
 def _extent(result: Result) -> str:

@@ -8,7 +8,6 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any, Literal
 
 Verdict = Literal["green", "amber", "red"]
-ORDER: tuple[Verdict, ...] = ("green", "amber", "red")
 
 
 @dataclass(frozen=True)
@@ -134,14 +133,18 @@ class Trust:
             data[name] = tuple(data[name])
         return cls(**_known(cls, data))
 
+    def lines(self) -> list[str]:
+        """One line per item: its verdict and its statement."""
+        return [f"{item.verdict:>5}  {item.text}" for item in self.items]
+
     def __str__(self) -> str:
-        return "\n".join(f"{item.verdict:>5}  {item.text}" for item in self.items)
+        return "\n".join(self.lines())
 
 
 def worst(items: tuple[Item, ...]) -> Verdict:
     """The verdict of the whole: that of its worst item."""
-    found = {item.verdict for item in items}
-    return next((verdict for verdict in reversed(ORDER) if verdict in found), "green")
+    found = [item.verdict for item in items]
+    return "red" if "red" in found else "amber" if "amber" in found else "green"
 
 
 def _known(record: type[Any], data: dict[str, Any]) -> dict[str, Any]:

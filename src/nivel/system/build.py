@@ -174,7 +174,7 @@ def _joints(machine: MachineRecord, index: dict[str, int], markers: MarkerTable)
 
 
 def _loads(machine: MachineRecord, index: dict[str, int], markers: MarkerTable) -> tuple[Loads, Functions]:
-    by_name = {marker.name: marker for marker in machine.markers}
+    by_name = {marker.name: marker for marker in machine.markers if marker.name is not None}
     what, components = [], []
     for load in machine.forces:
         body, position = _point_of(load, by_name)
@@ -210,7 +210,7 @@ def _bodies(machine: MachineRecord) -> Bodies:
     mass = np.array([p.mass for p in properties], dtype=float)
     centre = np.array([p.centre_of_mass for p in properties], dtype=float).reshape(count, 3)
     inertia = np.array([p.inertia for p in properties], dtype=float).reshape(count, 3, 3)
-    whitener = np.array([np.linalg.inv(np.linalg.cholesky(J)) for J in inertia]).reshape(count, 3, 3)
+    whitener = np.array([np.linalg.inv(np.linalg.cholesky(J)) for J in inertia], dtype=np.float64).reshape(count, 3, 3)
     square = np.einsum("bi,bi->b", centre, centre)
     steiner = square[:, None, None] * np.eye(3) - np.einsum("bi,bj->bij", centre, centre)
     A = np.zeros((count + 1, 3, 3))

@@ -14,7 +14,8 @@ import numpy as np
 from nivel.kernels import cache
 from nivel.kernels.function import COMPILED, CONSTANT, TABLE
 from nivel.kernels.record import Functions
-from nivel.machine.arithmetic import Call, Name, Negative, Node, Number, Operation, Time, bind, parse
+from nivel.machine.arithmetic import Call, Name, Negative, Node, Number, Operation, Time, bind
+from nivel.machine.grammar import parse
 from nivel.machine.time_function import Expression, Table
 
 TEMPLATE = '''"""A function of time written by nivel from an expression of a machine file."""

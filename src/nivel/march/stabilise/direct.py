@@ -8,7 +8,9 @@ CORRECTS = True
 TOLERANCE = 1e-13
 
 
-def coefficients(step: float, alpha: float | None, beta: float | None, size: float) -> tuple[float, float, float, float]:
+def coefficients(
+    step: float, alpha: float | None, beta: float | None, size: float
+) -> tuple[float, float, float, float]:
     """(0, 0, tolerance of |C| [m], tolerance of |Ċ| [m/s]) for a machine of length `size` [m]."""
     del step, alpha, beta
     return 0.0, 0.0, TOLERANCE * size, TOLERANCE * size

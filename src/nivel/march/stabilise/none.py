@@ -5,7 +5,9 @@ from __future__ import annotations
 CORRECTS = False
 
 
-def coefficients(step: float, alpha: float | None, beta: float | None, size: float) -> tuple[float, float, float, float]:
+def coefficients(
+    step: float, alpha: float | None, beta: float | None, size: float
+) -> tuple[float, float, float, float]:
     """All zero."""
     del step, alpha, beta, size
     return 0.0, 0.0, 0.0, 0.0

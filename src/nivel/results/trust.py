@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +12,8 @@ import numpy as np
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size
 from nivel.results.statements import statements
 from nivel.results.verdicts import SPEED_FLOOR, Trust, worst
+
+__all__ = ["Facts", "Peak", "Trust", "assess", "peak", "worst_row"]
 
 
 @dataclass(frozen=True)
@@ -23,23 +25,27 @@ class Peak:
     time: float = 0.0
 
 
-def assess(
-    result: Readable,
-    *,
-    outcome: str,
-    degrees_of_freedom: int | None = None,
-    redundant_rows: Iterable[str] = (),
-    non_unique_joints: Iterable[str] = (),
-    accuracy: Peak | None = None,
-    message: str = "",
-) -> Trust:
-    """The trust report of a run.
+@dataclass(frozen=True)
+class Facts:
+    """What only the run itself knows.
 
     outcome : done, interrupted, failed or running.
-    non_unique_joints : joints whose reactions depend on which redundant rows are kept.
-    accuracy : largest change of a position [m] when the step is halved (`nivel.results.accuracy.step_halving`).
-    message : what stopped the run, said after the outcome.
+    degrees_of_freedom : None where unknown.
+    non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
+    accuracy : largest change of a position [m] when the step is halved, from `nivel.results.accuracy.step_halving`.
+    failure : what stopped the run, in a sentence.
     """
+
+    outcome: str
+    degrees_of_freedom: int | None = None
+    redundant_rows: tuple[str, ...] = ()
+    non_unique_joints: tuple[str, ...] = ()
+    accuracy: Peak | None = None
+    failure: str = ""
+
+
+def assess(result: Readable, facts: Facts) -> Trust:
+    """The trust report of a run: what its histories show, the facts, and the verdicts."""
     size = machine_size(result)
     speed = max(largest_speed(result), SPEED_FLOOR * size)
     energy_scale, energy_scale_kind = largest_energy(result)
@@ -48,7 +54,7 @@ def assess(
     rate, rate_units = worst_row(result, "constraint_rate_violation", {"m": 1.0 / speed, "1": size / speed})
     trust = Trust(
         verdict="green",
-        outcome=outcome,
+        outcome=facts.outcome,
         energy_error_max=energy.value,
         energy_error_time=energy.time,
         energy_scale=energy_scale,
@@ -63,14 +69,14 @@ def assess(
         constraint_rate_violation_row=rate.row,
         constraint_rate_violation_time=rate.time,
         constraint_rate_violation_units="m/s" if rate_units == "m" else "1/s",
-        degrees_of_freedom=degrees_of_freedom,
-        redundant_rows=tuple(redundant_rows),
-        non_unique_joints=tuple(non_unique_joints),
-        accuracy_estimate=accuracy.value if accuracy else None,
-        accuracy_body=accuracy.row if accuracy else "",
-        accuracy_time=accuracy.time if accuracy else None,
+        degrees_of_freedom=facts.degrees_of_freedom,
+        redundant_rows=tuple(facts.redundant_rows),
+        non_unique_joints=tuple(facts.non_unique_joints),
+        accuracy_estimate=facts.accuracy.value if facts.accuracy else None,
+        accuracy_body=facts.accuracy.row if facts.accuracy else "",
+        accuracy_time=facts.accuracy.time if facts.accuracy else None,
     )
-    items = tuple(statements(trust, message))
+    items = tuple(statements(trust, facts.failure))
     return replace(trust, items=items, verdict=worst(items))
 
 
@@ -113,9 +119,7 @@ def worst_row(result: Readable, name: str, fraction_of: Mapping[str, float]) -> 
 def row_units(result: Readable, rows: tuple[str, ...]) -> tuple[str, ...]:
     """Units of the constraint rows at position level, m or 1; rows without a stated unit count as lengths.
 
-    They are stated by the attribute `constraint_units`, JSON: a list in the order of the rows, or row → units.
+    They are stated by the attribute `constraint_units` (JSON: row → units).
     """
     stated = json.loads(str(result.attributes.get("constraint_units", "{}")))
-    if isinstance(stated, list):
-        stated = dict(zip(rows, stated, strict=True))
     return tuple("1" if stated.get(row, "m") in ("1", "", "rad") else "m" for row in rows)

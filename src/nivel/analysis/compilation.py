@@ -1,0 +1,33 @@
+"""The kernels that one run needs, compiled one after another; later processes load them from the cache."""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+
+from nivel.analysis.listener import Listener
+from nivel.kernels import cache
+from nivel.march.catalogue import INTEGRATORS
+from nivel.motion.catalogue import FORMULATIONS
+
+
+def compile_path(formulation: str, integrator: str, listener: Listener) -> float:
+    """Import the kernel modules of a run; tell the listener about each that is not in the cache. Unknown names are left alone.
+
+    Returns the wall time [s].
+    """
+    from time import perf_counter
+
+    begin = perf_counter()
+    parts = [("nivel.kernels.observe", "output"), ("nivel.march.loop", "the time loop")]
+    if formulation in FORMULATIONS:
+        parts.insert(0, (FORMULATIONS[formulation].module, f"the equations of motion, {formulation}"))
+    if integrator in INTEGRATORS:
+        parts.append((INTEGRATORS[integrator].module, f"the integrator {integrator}"))
+    missing = [part for part in parts if part[0] not in sys.modules and not cache.is_warm(part[0].rsplit(".", 1)[1])]
+    for module, what in parts:
+        if (module, what) in missing:
+            place = f"{missing.index((module, what)) + 1}/{len(missing)}"
+            listener.say(f"compiling {what} ({place}; only the first run does this)")
+        import_module(module)
+    return perf_counter() - begin

@@ -1,0 +1,69 @@
+"""The command `nivel`. Its sub-commands are modules that are imported when they are called, so that help is there at once."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from importlib import import_module
+from typing import Final, NamedTuple
+
+import click
+
+from nivel import __version__
+from nivel.cli.failures import told
+
+
+class CommandPlace(NamedTuple):
+    """Where a sub-command lives, and what it is for in one line."""
+
+    module: str
+    help: str
+
+
+COMMANDS: Final[dict[str, CommandPlace]] = {
+    "new": CommandPlace("nivel.cli.new", "Write a commented machine file that runs, to start from."),
+    "check": CommandPlace("nivel.cli.check", "Check and assemble a machine; say what it is."),
+    "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
+    "explain": CommandPlace("nivel.cli.explain", "Say how far a result can be trusted, and why."),
+    "export": CommandPlace("nivel.cli.export", "Write a result in another format."),
+    "warmup": CommandPlace("nivel.cli.warmup", "Compile everything ahead of the first run."),
+}
+
+
+class LazyGroup(click.Group):
+    """A group whose commands are the `command` of the modules in COMMANDS. What they raise is told in failures.py."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        place = COMMANDS.get(cmd_name)
+        return None if place is None else import_module(place.module).command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        if args and not args[0].startswith("-") and args[0] not in COMMANDS:
+            near = get_close_matches(args[0], COMMANDS, n=1)
+            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(COMMANDS)}."
+            ctx.fail(f"there is no command '{args[0]}'; {hint}")
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, place.help) for name, place in COMMANDS.items()])
+
+    def invoke(self, ctx: click.Context) -> object:
+        with told():
+            return super().invoke(ctx)
+
+
+@click.group(cls=LazyGroup, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, message="nivel %(version)s")
+@click.pass_context
+def main(ctx: click.Context) -> None:
+    """Simulate machines and mechanisms: joints that close loops, numbers one can trust.
+
+    `nivel COMMAND --help` says more about a command.
+    """
+    if ctx.invoked_subcommand is None:
+        click.echo(ctx.get_help())

@@ -1,0 +1,73 @@
+"""What a failed command says, and the exit code it ends with. Nothing else in the command line decides about either.
+
+0 done; 2 the input is at fault (also wrong options, by click); 3 the computation failed; 130 interrupted.
+What is neither is a defect of nivel and keeps its traceback.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Final
+
+from nivel.errors import Fault, ModelError, SolveError
+
+if TYPE_CHECKING:
+    from rich.text import Text
+
+INPUT_AT_FAULT: Final = 2
+COMPUTATION_FAILED: Final = 3
+INTERRUPTED: Final = 130
+
+
+@contextmanager
+def told() -> Iterator[None]:
+    """Tell what goes wrong inside on standard error, and leave with the code that belongs to it."""
+    try:
+        yield
+    except ModelError as error:
+        say_faults(error)
+        raise SystemExit(INPUT_AT_FAULT) from None
+    except SolveError as error:
+        say_failure(error)
+        raise SystemExit(COMPUTATION_FAILED) from None
+    except KeyboardInterrupt:
+        _say("interrupted")
+        raise SystemExit(INTERRUPTED) from None
+
+
+def say_faults(error: ModelError) -> None:
+    """One line for each fault: `file:line:column  element  message`. The order is that of the file."""
+    for fault in error.faults:
+        _say(fault_line(fault))
+    if len(error.faults) > 1:
+        _say(f"{len(error.faults)} faults")
+
+
+def fault_line(fault: Fault) -> Text:
+    """A fault in colours: the place to click on, the element, the message."""
+    from rich.text import Text
+
+    parts = []
+    if fault.line:
+        parts.append(Text(f"{fault.file}:{fault.line}:{fault.column}", style="cyan"))
+    if fault.path:
+        parts.append(Text(fault.path, style="bold"))
+    parts.append(Text(fault.message, style="" if parts else "red"))
+    return Text("  ").join(parts)
+
+
+def say_failure(error: SolveError) -> None:
+    """What failed, when, and what to try."""
+    from rich.text import Text
+
+    _say(Text.assemble(("the computation failed: ", "red"), error.message))
+    if error.advice:
+        _say(error.advice)
+
+
+def _say(text: Text | str) -> None:
+    from rich.console import Console
+
+    # soft_wrap: a line is a line also in a narrow terminal or a pipe, for people and programs that look for places
+    Console(stderr=True, highlight=False, soft_wrap=True, markup=False).print(text)

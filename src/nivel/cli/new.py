@@ -1,0 +1,61 @@
+"""`nivel new NAME`: a commented machine file that runs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Final
+
+import click
+
+from nivel.errors import ModelError
+
+TEMPLATE: Final = Path(__file__).with_name("new_machine.yaml")
+SUFFIX: Final = ".yaml"
+SCHEMA_NAME: Final = "nivel.schema.json"
+
+
+@click.command(short_help="Write a commented machine file that runs, to start from.")
+@click.argument("name", type=click.Path(path_type=Path))
+@click.option("--force", is_flag=True, help="Replace a file that exists already.")
+@click.option(
+    "--schema", "with_schema", is_flag=True, help=f"Also write {SCHEMA_NAME} beside it, with which editors help."
+)
+def command(name: Path, force: bool, with_schema: bool) -> None:
+    """Write NAME.yaml: a small machine with comments, ready for `nivel run NAME.yaml`."""
+    target = name if name.suffix == SUFFIX else name.with_name(name.name + SUFFIX)
+    text = new_machine(target.stem)
+    if with_schema:
+        text = f"# yaml-language-server: $schema={SCHEMA_NAME}\n{text}"
+    _write(target, text, force)
+    if with_schema:
+        _write(target.with_name(SCHEMA_NAME), _schema_text(), force=True)
+    click.echo(f"{target} is written; run it with: nivel run {target}", err=True)
+
+
+def new_machine(name: str) -> str:
+    """The text of a new machine file whose machine is called `name`.
+
+    Raises ModelError where `name` cannot be the name of a machine.
+    """
+    from nivel.files import parse_machine
+
+    text = TEMPLATE.read_text(encoding="utf-8").replace("NAME", json.dumps(name, ensure_ascii=False), 1)
+    parse_machine(text, f"{name}{SUFFIX}")
+    return text
+
+
+def _schema_text() -> str:
+    from nivel.files import schema
+
+    return json.dumps(schema(), indent=1) + "\n"
+
+
+def _write(target: Path, text: str, force: bool) -> None:
+    try:
+        with target.open("w" if force else "x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        raise ModelError(f"{target} exists already; use --force to replace it, or another name") from None
+    except OSError as error:
+        raise ModelError(f"{target} cannot be written: {error.strerror}") from None

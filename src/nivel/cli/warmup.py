@@ -1,0 +1,33 @@
+"""`nivel warmup`: compile everything ahead of the first run."""
+
+from __future__ import annotations
+
+import time
+
+import click
+
+from nivel.cli.options import quiet_option
+
+
+@click.command(short_help="Compile all kernels ahead of the first run.")
+@quiet_option
+def command(quiet: bool) -> None:
+    """Compile every formulation and integrator into the user's cache, and say how long each took."""
+    from importlib import import_module
+
+    from rich.console import Console
+
+    from nivel.kernels import cache
+    from nivel.march.catalogue import INTEGRATORS
+    from nivel.motion.catalogue import FORMULATIONS
+
+    console = Console(stderr=True, highlight=False, quiet=quiet)
+    modules = ["nivel.kernels.observe", "nivel.march.loop"]
+    modules += [facts.module for facts in FORMULATIONS.values()] + [facts.module for facts in INTEGRATORS.values()]
+    total = time.perf_counter()
+    for module in dict.fromkeys(modules):
+        begin = time.perf_counter()
+        with console.status(f"compiling {module}"):
+            import_module(module)
+        console.print(f"{module:36} {time.perf_counter() - begin:6.2f} s")
+    console.print(f"ready in {time.perf_counter() - total:.1f} s; cache: {cache.directory()}", soft_wrap=True)

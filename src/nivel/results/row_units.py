@@ -1,0 +1,22 @@
+"""Units of variables whose rows differ: joint coordinates are angles or lengths, constraint rows lengths or cosines."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+
+# (units of the row at position level) → units of the variable
+OF_VARIABLE = {
+    "joint_coordinate": {"rad": "rad", "m": "m"},
+    "joint_rate": {"rad": "rad/s", "m": "m/s"},
+    "constraint_violation": {"m": "m", "1": "1"},
+    "constraint_rate_violation": {"m": "m/s", "1": "1/s"},
+    "constraint_force": {"m": "N", "1": "N m"},
+}
+
+
+def own_units(attributes: Mapping[str, str | float | int], variable: str, row: str) -> str:
+    """Units of `row` of `variable`, from the attributes `coordinate_units`, `constraint_units` (JSON: row → units)."""
+    attribute = "coordinate_units" if variable.startswith("joint_") else "constraint_units"
+    stated = json.loads(str(attributes.get(attribute, "{}")))
+    return OF_VARIABLE.get(variable, {}).get(stated.get(row, ""), "")

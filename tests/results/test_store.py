@@ -1,0 +1,280 @@
+"""A result file is complete up to its last block at every moment of its life."""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+import synthetic_run as pendulum
+from nivel.errors import ModelError
+from nivel.results import Memory, Result, Store
+from nivel.results.store import rewrite
+
+TIME = np.linspace(0.0, 8.0, 801)
+WRITER = """
+    import sys
+    sys.path.insert(0, {tests!r})
+    import numpy as np
+    import synthetic_run as pendulum
+    from nivel.results import Store
+
+    frames = pendulum.frames(np.linspace(0.0, 8.0, 801))
+    store = Store({path!r})
+    store.begin(pendulum.header())
+    for k in range(0, 801, 10):
+        store.take(frames[k : k + 10])
+        print(k, flush=True)
+        sys.stdin.readline()
+"""
+
+
+@pytest.fixture
+def writer(tmp_path):
+    """A process that writes ten frames for each line it is given, and the file it writes."""
+    path = tmp_path / "run.nc"
+    code = textwrap.dedent(WRITER).format(path=str(path), tests=str(Path(__file__).parents[1]))
+    process = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    with process:
+        yield process, path
+        process.kill()
+
+
+def advance(process, blocks):
+    for _ in range(blocks):
+        assert process.stdout.readline()
+        process.stdin.write("\n")
+        process.stdin.flush()
+    assert process.stdout.readline()  # one block more is on the disk, and the writer waits
+
+
+def stored(path, take=100, **attributes):
+    store = Store(path)
+    store.begin(pendulum.header())
+    frames = pendulum.frames(TIME)
+    for start in range(0, len(frames), take):
+        store.take(frames[start : start + take])
+    return store.close({"outcome": "done", **attributes})
+
+
+def assert_same_numbers(result, count=801):
+    assert len(result.time) == count
+    np.testing.assert_array_equal(result.time, TIME[:count])
+    for name, values in pendulum.histories(TIME).items():
+        np.testing.assert_array_equal(result.array(name), values[:count], err_msg=name)
+
+
+def test_a_run_can_be_read_by_another_process_while_it_goes_on(writer):
+    process, path = writer
+    advance(process, 4)
+    assert_same_numbers(Result.open(path), 50)
+    process.stdin.write("\n" * 3)
+    process.stdin.flush()
+    for _ in range(3):
+        process.stdout.readline()
+    assert_same_numbers(Result.open(path), 80)
+    assert Result.open(path).outcome == "running"
+
+
+def test_a_killed_run_keeps_everything_up_to_its_last_block(writer):
+    process, path = writer
+    advance(process, 20)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    result = Result.open(path)
+    assert_same_numbers(result, 210)
+    assert result.outcome == "running"
+    assert "killed" in repr(result)
+    outcome = result.trust.items[0]
+    assert (outcome.verdict, result.trust.verdict) == ("amber", "amber")
+    assert "killed" in outcome.text
+    assert result.dataset.sizes["time"] == 210
+
+
+def test_a_run_killed_at_any_moment_has_whole_frames(tmp_path):
+    code = textwrap.dedent(WRITER).replace("sys.stdin.readline()", "pass")
+    for attempt in range(4):
+        path = tmp_path / f"{attempt}.nc"
+        source = code.format(path=str(path), tests=str(Path(__file__).parents[1]))
+        with subprocess.Popen([sys.executable, "-c", source], stdout=subprocess.PIPE, text=True) as process:
+            for _ in range(1 + 17 * attempt):
+                process.stdout.readline()
+            process.kill()
+        result = Result.open(path)
+        assert_same_numbers(result, len(result.time))
+        assert len(result.time) >= 10 * (1 + 17 * attempt)
+
+
+def test_memory_and_file_give_the_same_numbers_names_and_attributes(tmp_path):
+    memory = Memory()
+    memory.begin(pendulum.header())
+    frames = pendulum.frames(TIME)
+    for k in range(len(frames)):
+        memory.take(frames[k : k + 1])
+    from_memory = memory.close({"outcome": "done"})
+    from_file = stored(tmp_path / "run.nc")
+    for result in (from_memory, from_file):
+        assert_same_numbers(result)
+    assert from_memory.names == from_file.names
+    assert from_memory.coordinates == from_file.coordinates
+    assert dict(from_memory.attributes) == {k: v for k, v in from_file.attributes.items() if k != "Conventions"}
+
+
+def test_memory_keeps_no_view_of_the_frames_it_was_given():
+    memory = Memory()
+    memory.begin(pendulum.header())
+    frames = pendulum.frames(TIME)
+    memory.take(frames)
+    frames[:] = np.nan  # the run reuses its buffer
+    assert_same_numbers(memory.close({}))
+
+
+@pytest.mark.parametrize("take", [1, 7, 801])
+def test_the_size_of_the_blocks_does_not_matter(tmp_path, take):
+    assert_same_numbers(stored(tmp_path / "run.nc", take))
+
+
+def test_closing_compresses_in_chunks_along_time(tmp_path):
+    path = stored(tmp_path / "run.nc").path
+    with h5py.File(path, "r") as file:
+        position = file["position"]
+        assert position.compression == "gzip"
+        assert position.chunks == (801, 1, 3)
+        assert position.attrs["units"] == "m"
+        assert [dim[0].name for dim in position.dims] == ["/time", "/body", "/xyz"]
+        assert json.loads(file.attrs["constraint_units"]) == pendulum.ROWS
+
+
+def test_closing_leaves_one_file_and_replaces_it_in_one_step(tmp_path):
+    path = tmp_path / "run.nc"
+    store = Store(path)
+    store.begin(pendulum.header())
+    store.take(pendulum.frames(TIME))
+    before = path.stat().st_ino
+    reader = h5py.File(path, "r", swmr=True)  # somebody looks at it meanwhile
+    store.close({"outcome": "done"})
+    assert [each.name for each in tmp_path.iterdir()] == ["run.nc"]
+    assert path.stat().st_ino != before
+    assert reader["time"].shape == (801,)
+    reader.close()
+
+
+def test_a_rewrite_that_fails_leaves_the_file_readable(tmp_path, monkeypatch):
+    store = Store(tmp_path / "run.nc")
+    store.begin(pendulum.header())
+    store.take(pendulum.frames(TIME))
+
+    def full(self, target):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", full)
+    with pytest.raises(ModelError, match="could not be compressed: no space left on device"):
+        store.close({"outcome": "done"})
+    assert [each.name for each in tmp_path.iterdir()] == ["run.nc"]
+    result = Result.open(tmp_path / "run.nc")
+    assert_same_numbers(result)
+    assert result.outcome == "done"
+
+
+def test_a_full_disk_is_said_and_what_was_written_stays(tmp_path):
+    path = tmp_path / "run.nc"
+    limit = 900_000  # bytes: the run needs more
+    code = textwrap.dedent(WRITER).replace("sys.stdin.readline()", "pass")
+    source = code.format(path=str(path), tests=str(Path(__file__).parents[1]))
+
+    def small_disk():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+
+    run = subprocess.run(
+        [sys.executable, "-c", source], capture_output=True, text=True, preexec_fn=small_disk, check=False
+    )
+    assert run.returncode == 1
+    assert "cannot be written further: file too large; it is readable up to the frame before" in run.stderr
+    result = Result.open(path)
+    assert len(result.time) > 0
+    assert_same_numbers(result, len(result.time))
+    assert result.outcome == "failed"
+    assert "file too large" in result.failure
+
+
+def test_a_frame_whose_time_is_missing_does_not_exist(tmp_path):
+    path = tmp_path / "run.nc"
+    store = Store(path)
+    store.begin(pendulum.header())
+    store.take(pendulum.frames(TIME[:100]))
+    store._file.close()
+    with h5py.File(path, "r+") as file:
+        file["time"].resize(120, axis=0)  # as if the process had died between two writes
+        file["position"].resize(130, axis=0)
+    assert_same_numbers(Result.open(path), 100)
+    rewrite(path, {})
+    assert_same_numbers(Result.open(path), 100)
+
+
+def test_nothing_is_computed_for_a_path_that_cannot_work(tmp_path):
+    (tmp_path / "there.nc").touch()
+    with pytest.raises(ModelError, match=r"there is no folder .*nowhere for the result file run.nc"):
+        Store(tmp_path / "nowhere" / "run.nc")
+    with pytest.raises(ModelError, match=r"there.nc is not a folder"):
+        Store(tmp_path / "there.nc" / "run.nc")
+    with pytest.raises(ModelError, match="is a folder; the name of a result file was expected"):
+        Store(tmp_path)
+    with pytest.raises(ModelError, match="exists already; it is replaced with --force"):
+        Store(tmp_path / "there.nc")
+    assert (tmp_path / "there.nc").stat().st_size == 0
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_a_folder_one_may_not_write_into_is_said(tmp_path):
+    tmp_path.chmod(0o500)
+    with pytest.raises(ModelError, match="permission denied"):
+        Store(tmp_path / "run.nc")
+
+
+def test_force_replaces_an_existing_result_and_its_readers_keep_theirs(tmp_path):
+    path = tmp_path / "run.nc"
+    stored(path)
+    with h5py.File(path, "r") as reader:
+        store = Store(path, force=True)
+        store.begin(pendulum.header(machine="another"))
+        store.take(pendulum.frames(TIME[:5]))
+        result = store.close({"outcome": "done"})
+        assert reader.attrs["machine"] == "pendulum"
+    assert (result.name, len(result.time)) == ("another", 5)
+
+
+def test_a_run_without_any_frame_gives_an_empty_result(tmp_path):
+    store = Store(tmp_path / "run.nc")
+    store.begin(pendulum.header())
+    assert len(store.result().time) == 0
+    result = store.close({"outcome": "failed", "failure": "stopped at t = 0 s"})
+    assert result.array("position").shape == (0, 1, 3)
+    assert "stopped at t = 0 s" in repr(result)
+
+
+def test_files_that_are_no_results_are_refused_in_words(tmp_path):
+    with pytest.raises(ModelError, match="there is no result file"):
+        Result.open(tmp_path / "nothing.nc")
+    with pytest.raises(ModelError, match="is a folder"):
+        Result.open(tmp_path)
+    text = tmp_path / "text.nc"
+    text.write_text("a,b\n1,2\n")
+    with pytest.raises(ModelError, match="is not a result file of nivel"):
+        Result.open(text)
+    with h5py.File(tmp_path / "other.nc", "w") as file:
+        file["x"] = 1.0
+    with pytest.raises(ModelError, match="it lacks the attribute `nivel_version`"):
+        Result.open(tmp_path / "other.nc")
+
+
+def test_large_attributes_survive(tmp_path):
+    source = "# a long machine file\n" * 10_000
+    assert stored(tmp_path / "run.nc", machine_source=source).attributes["machine_source"] == source

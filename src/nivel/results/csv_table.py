@@ -45,7 +45,10 @@ def columns(result: Result, select: Iterable[str] = ()) -> list[str]:
     wanted: dict[str, None] = {}
     faults: list[Fault] = []
     for entry in select:
-        found = [name for name, variable in scalars if _matches(entry, name, variable)]
+        only = result.selection(entry).variable if entry in result else None
+        found = [name for name, variable in scalars if _matches(entry, name) and only in (None, variable)]
+        if entry in result.variables:
+            found = [name for name, variable in scalars if variable == entry]
         if not found:
             known = {name: result.selection(name) for name in result.names}
             faults.extend(unknown_name(entry, known).faults)
@@ -80,5 +83,5 @@ def _scalars(result: Result) -> Iterator[tuple[str, str]]:
             yield by_place[variable.name, place], variable.name
 
 
-def _matches(entry: str, name: str, variable: str) -> bool:
-    return entry in (name, variable) or name.startswith(f"{entry}.") or fnmatchcase(name, entry)
+def _matches(entry: str, name: str) -> bool:
+    return name == entry or name.startswith(f"{entry}.") or fnmatchcase(name, entry)

@@ -116,9 +116,9 @@ def _numeric(name: str, text: str, fraction: float, time: float | None, row: str
 
 def _number(value: float) -> str:
     """Two significant digits for what is tiny or huge, three for the sizes one can picture."""
-    if value == 0.0:
-        return "0"
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g}"
     if 1e-3 <= abs(value) < 1e6:
         return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
     mantissa, exponent = f"{value:.1e}".split("e")
-    return f"{mantissa}e{int(exponent)}" if math.isfinite(value) else str(value)
+    return f"{float(mantissa):g}e{int(exponent)}"

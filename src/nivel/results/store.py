@@ -64,7 +64,10 @@ class Store:
             self._space = Space(self.path, self._file)
             self._space.ensure(_header_size(header.attributes))
         except OSError as error:
-            self._file = None
+            if self._file is not None:
+                self._file.close()
+                self.path.unlink(missing_ok=True)
+            self._file, self._space = None, None
             raise ModelError(f"the result file {self.path} cannot be created: {_reason(error)}") from error
         _write_header(self._file, self._variables, coordinates, header.attributes, 0, _running_chunks)
         everything = [self._file["time"], *(self._file[variable.name] for variable, _ in self._variables)]

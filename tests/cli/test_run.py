@@ -1,0 +1,180 @@
+"""`nivel run` as a user calls it: files, exit codes, interruption, kill."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from nivel.results import Result
+
+PENDULUM = """\
+format: 1
+name: pendulum
+gravity: [0, -9.81, 0]
+bodies:
+  bar: {mass: 1, inertia: [0.001, 0.0833, 0.0833], position: [0.5, 0, 0]}
+joints:
+  hinge: {type: revolute, bodies: [ground, bar], point: [0, 0, 0], axis: [0, 0, 1]}
+simulation: {duration: 1, step: 1 ms, output_interval: 10 ms}
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "pendulum.yaml").write_text(PENDULUM)
+    return tmp_path
+
+
+def nivel(folder, *arguments, **options):
+    command = [sys.executable, "-m", "nivel", *map(str, arguments)]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300, **options)
+
+
+def test_result_and_report_stand_beside_each_other(folder):
+    done = nivel(folder, "run", "pendulum.yaml")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == ""
+    assert (folder / "pendulum.nc").exists()
+    assert "<html" in (folder / "pendulum.html").read_text(encoding="utf-8")
+    result = Result.open(folder / "pendulum.nc")
+    assert result.outcome == "done"
+    assert result.trust.verdict == "green"
+    assert len(result.time) == 101
+    assert "trust: green" in done.stderr
+
+
+def test_json_summary_is_all_that_stands_on_standard_output(folder):
+    done = nivel(folder, "run", "pendulum.yaml", "--json", "--quiet", "--no-report", "--verify")
+    summary = json.loads(done.stdout)
+    assert summary["outcome"] == "done"
+    assert summary["trust"]["degrees_of_freedom"] == 1
+    assert 0 < summary["trust"]["accuracy_estimate"] < 1e-6
+    assert done.stderr == ""
+    assert not (folder / "pendulum.html").exists()
+
+
+def test_options_go_before_the_file_and_are_recorded(folder):
+    options = ["--duration", "0.5 s", "--step", "2 ms", "--output-interval", "20 ms", "--formulation", "lagrange"]
+    options += ["--stabilisation", "baumgarte", "--set", "bodies.bar.mass=2 kg", "--out", "other.nc", "--no-report"]
+    done = nivel(folder, "run", "pendulum.yaml", *options)
+    assert done.returncode == 0, done.stderr
+    result = Result.open(folder / "other.nc")
+    assert result.settings["step"] == 2e-3
+    assert result.settings["formulation"] == "lagrange"
+    assert result.settings["stabilisation"] == "baumgarte"
+    assert len(result.time) == 26
+    assert json.loads(result.attributes["machine_record"])["bodies"][0]["mass"] == 2.0
+
+
+def test_existing_result_needs_force(folder):
+    assert nivel(folder, "run", "pendulum.yaml", "--no-report").returncode == 0
+    before = (folder / "pendulum.nc").read_bytes()
+    refused = nivel(folder, "run", "pendulum.yaml", "--no-report")
+    assert refused.returncode == 2
+    assert "--force" in refused.stderr
+    assert (folder / "pendulum.nc").read_bytes() == before
+    assert nivel(folder, "run", "pendulum.yaml", "--no-report", "--force").returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--step", "3 kg"], ["step", "time"]),
+        (["--step", "-1"], ["step"]),
+        (["--integrator", "rk5"], ["rk5", "rk4"]),
+        (["--formulation", "lagrang"], ["lagrang", "lagrange"]),
+        (["--output-interval", "1.5 ms"], ["output_interval", "multiple of the step"]),
+        (["--set", "bodies.bra.mass=2"], ["bra", "bar"]),
+        (["--set", "nonsense"], ["PATH=VALUE"]),
+        (["--out", "missing/folder/x.nc"], ["missing"]),
+        (["--wrong"], ["--wrong"]),
+    ],
+)
+def test_wrong_options_end_with_code_two_and_say_what_would_be_right(folder, arguments, words):
+    done = nivel(folder, "run", "pendulum.yaml", *arguments)
+    assert done.returncode == 2, done.stderr
+    assert "Traceback" not in done.stderr
+    for word in words:
+        assert word in done.stderr
+    assert not (folder / "pendulum.nc").exists()
+
+
+def test_faults_of_the_assembly_have_their_line(folder):
+    text = PENDULUM.replace("bodies: [ground, bar], point: [0, 0, 0], axis: [0, 0, 1]", "markers: [{body: ground}, {body: bar}]")
+    (folder / "two.yaml").write_text(text + "", encoding="utf-8")
+    text = text.replace(
+        "joints:\n", "joints:\n  far: {type: spherical, markers: [{body: ground, position: [5, 0, 0]}, {body: bar, position: [0.5, 0, 0]}]}\n"
+    )
+    (folder / "open.yaml").write_text(text)
+    done = nivel(folder, "check", "open.yaml")
+    assert done.returncode == 2
+    assert "open.yaml:7:" in done.stderr
+    assert "joints.far" in done.stderr
+    assert "cannot be closed" in done.stderr
+
+
+def test_failed_computation_ends_with_code_three_and_a_readable_result(folder):
+    text = PENDULUM + "forces:\n  burst: {type: torque, body: bar, vector: [0, 0, \"log(0.5 - time)\"]}\n"
+    (folder / "burst.yaml").write_text(text)
+    done = nivel(folder, "run", "burst.yaml", "--no-report")
+    assert done.returncode == 3, done.stderr
+    assert "no longer a number" in done.stderr
+    assert "hinge" in done.stderr
+    result = Result.open(folder / "pendulum.nc")
+    assert result.outcome == "failed"
+    assert 0.45 < result.time[-1] < 0.5
+    assert result.trust.verdict == "red"
+
+
+def start_long_run(folder):
+    command = [sys.executable, "-m", "nivel", "run", "pendulum.yaml", "--duration", "20000", "--output-interval", "0.1"]
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    path = folder / "pendulum.nc"
+    deadline = time.monotonic() + 240
+    while time.monotonic() < deadline:
+        time.sleep(0.2)
+        assert process.poll() is None, process.communicate()
+        if path.exists():
+            try:
+                if len(Result.open(path).time) > 100:
+                    return process, path
+            except Exception:
+                continue
+    process.kill()
+    raise AssertionError("the run did not start")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="POSIX signals")
+def test_interruption_keeps_what_was_computed(folder):
+    process, path = start_long_run(folder)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=120)
+    assert process.returncode == 130, errors
+    result = Result.open(path)
+    assert result.outcome == "interrupted"
+    assert len(result.time) > 100
+    assert "Traceback" not in errors
+
+
+@pytest.mark.skipif(os.name == "nt", reason="POSIX signals")
+def test_killed_run_leaves_a_readable_result(folder):
+    process, path = start_long_run(folder)
+    process.kill()
+    process.communicate(timeout=60)
+    result = Result.open(path)
+    assert result.outcome == "running"
+    assert len(result.time) > 100
+    assert result.array("bar.position").shape == (len(result.time), 3)
+    explained = nivel(folder, "explain", path)
+    assert "Traceback" not in explained.stderr
+
+
+def test_result_holds_the_machine_it_came_from(folder):
+    nivel(folder, "run", "pendulum.yaml", "--no-report")
+    result = Result.open(folder / "pendulum.nc")
+    assert result.attributes["machine_source"] == PENDULUM
+    assert {body["name"] for body in result.scene["bodies"]} == {"bar"}
+    assert result.scene["joints"][0]["points"] == [[0.0, 0.0, 0.0], [-0.5, 0.0, 0.0]]

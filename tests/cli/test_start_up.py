@@ -1,0 +1,40 @@
+"""What is loaded when: help and import are light, a warm run loads no pandas."""
+
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = ("numba", "numpy", "scipy", "xarray", "pandas", "matplotlib", "pint", "pydantic", "h5py")
+
+
+def modules_after(code):
+    script = f"{code}\nimport sys; print('loaded:', *(name for name in {HEAVY!r} if name in sys.modules))"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    return done.stdout.strip().splitlines()[-1].removeprefix("loaded:").split()
+
+
+def test_importing_nivel_loads_nothing_heavy():
+    assert modules_after("import nivel") == []
+
+
+def test_help_loads_nothing_heavy():
+    code = "from nivel.cli import main\nmain(['--help'], standalone_mode=False)"
+    assert modules_after(code) == []
+
+
+def test_public_names_exist_and_are_few():
+    import nivel
+
+    assert len(nivel.__all__) <= 40
+    for name in nivel.__all__:
+        assert getattr(nivel, name) is not None
+    with pytest.raises(AttributeError, match="no attribute"):
+        _ = nivel.nothing_of_this_name
+
+
+@pytest.mark.parametrize("command", ["new", "check", "run", "explain", "export", "warmup"])
+def test_every_command_has_help(command):
+    done = subprocess.run([sys.executable, "-m", "nivel", command, "--help"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "Usage" in done.stdout

@@ -1,0 +1,153 @@
+"""The expression parser against Python's own arithmetic, and its refusals."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from nivel.machine.arithmetic import FUNCTIONS, ExpressionError, bind, evaluate, fold, render
+from nivel.machine.grammar import parse
+
+PYTHON = {"__builtins__": {}, **{name: function for name, (function, _) in FUNCTIONS.items()}, "pi": math.pi, "e": math.e}
+
+
+def value(text, time=0.0):
+    return evaluate(bind(parse(text), {}), time)
+
+
+numbers = st.one_of(
+    st.integers(0, 999).map(str),
+    st.floats(0, 1e6, allow_nan=False).map(repr),
+    st.sampled_from(["1e3", "2.", ".5", "1e-3", "1.5E+2", "pi", "e", "time"]),
+)
+
+
+def _larger(inner):
+    return st.one_of(
+        st.tuples(inner, st.sampled_from([" + ", "-", "*", " / ", "**"]), inner).map("".join),
+        inner.map(lambda text: f"({text})"),
+        inner.map(lambda text: f"-{text}"),
+        inner.map(lambda text: f"+ {text}"),
+        st.tuples(st.sampled_from(["sin", "cos", "sqrt", "exp", "log", "abs", "atan"]), inner).map(lambda p: f"{p[0]}({p[1]})"),
+        st.tuples(st.sampled_from(["min", "max", "atan2"]), inner, inner).map(lambda p: f"{p[0]}({p[1]}, {p[2]})"),
+    )
+
+
+expressions = st.recursive(numbers, _larger, max_leaves=12)
+
+
+def _by_python(text, time):
+    """The value by Python, or None where there is none."""
+    try:
+        result = eval(text, PYTHON, {"time": time})  # noqa: S307
+    except (ArithmeticError, ValueError):
+        return None
+    return float(result) if not isinstance(result, complex) and math.isfinite(result) else None
+
+
+def _as_floats(text):
+    """Python computes integers exactly and without end; the machine file has floats only."""
+    import re
+
+    return re.sub(r"(?<![\w.])(\d+)(?![\w.])", r"\1.0", text)
+
+
+@settings(max_examples=400, deadline=None)
+@given(expressions, st.floats(-10, 10))
+def test_agrees_with_python(text, time):
+    expected = _by_python(_as_floats(text), time)
+    if expected is None:
+        with pytest.raises(ExpressionError):
+            value(text, time)
+    else:
+        assert value(text, time) == expected
+
+
+@settings(max_examples=200, deadline=None)
+@given(expressions, st.floats(-10, 10))
+def test_folded_and_rendered_text_means_the_same_here_and_in_python(text, time):
+    tree = bind(parse(text), {})
+    try:
+        expected = evaluate(tree, time)
+        rendered = render(fold(tree))
+    except ExpressionError:
+        return  # also where a part without time has no value, e.g. 0*log(0)
+    assert value(rendered, time) == expected
+    assert _by_python(rendered, time) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("-2^2", -4.0),
+        ("2^3^2", 512.0),
+        ("2^-1", 0.5),
+        ("8/2/2", 2.0),
+        ("2 - 3 - 4", -5.0),
+        ("--3", 3.0),
+        ("2 pi", 2 * math.pi),
+        ("3/8 in", 0.375 * 0.0254),
+        ("pi/2 rad", math.pi / 2),
+        ("90 deg", math.pi / 2),
+        ("90°", math.pi / 2),
+        ("10cm", 0.1),
+        ("(1/2) ft", 0.1524),
+        ("5 kg*m^2", 5.0),
+        ("7.85 g/cm^3", 7850.0),
+        ("10 N m", 10.0),
+        ("(2 m)/(4 s)", 0.5),
+        ("60 rpm", 2 * math.pi),
+        ("1 t", 1000.0),
+        ("2 kN/mm", 2e6),
+    ],
+)
+def test_reads_as_people_mean_it(text, expected):
+    assert value(text) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("", "nothing stands here"),
+        ("   ", "nothing stands here"),
+        ("2 +", "ends too early"),
+        ("(1", "`)` was expected"),
+        ("1)", "`)` was not expected"),
+        ("1 2", "`2` was not expected"),
+        ("2 m / 4 s", "unclear"),
+        ("2 sin(1)", "`*` is missing before `sin`"),
+        ("sine(1)", "did you mean `sin`"),
+        ("foo(1)", "there are sin, cos"),
+        ("sin(1, 2)", "takes 1 argument, got 2"),
+        ("min(1)", "at least 2 arguments"),
+        ("sin()", "`)` was not expected"),
+        ("1/0", "division by zero"),
+        ("0^-1", "division by zero"),
+        ("1e999", "too large"),
+        ("10^400", "too large"),
+        ("1e200*1e200", "too large"),
+        ("exp(1000)", "too large"),
+        ("sqrt(-1)", "outside the domain"),
+        ("log(0)", "outside the domain"),
+        ("(-8)^(1/3)", "not a real number"),
+        ("1 $ 2", "`$` is not understood"),
+        ("__import__('os')", "`'` is not understood"),
+        ("a.b", "`.` is not understood"),
+        ("1 if 2 else 3", "`if` is neither"),
+        ("lenght", "neither a parameter nor a unit"),
+        ("5 kgs", "did you mean `kg`"),
+        ("20 degC", "neither a parameter nor a unit"),
+        ("(" * 500 + "1" + ")" * 500, "nested too deeply"),
+        ("-" * 300 + "1", "nested too deeply"),
+        ("2^" * 150 + "1", "nested too deeply"),
+        ("+".join(["1"] * 1000), "too long"),
+    ],
+)
+def test_refuses_with_the_reason(text, part):
+    with pytest.raises(ExpressionError, match=".*") as caught:
+        value(text)
+    assert part in str(caught.value)
+
+
+def test_the_longest_expression_that_is_read_is_also_computed():
+    assert value("+".join(["1"] * 200)) == 200.0

@@ -1,0 +1,215 @@
+"""Every number of a trust report is what the histories say, and every threshold decides on the side it should."""
+
+import json
+
+import numpy as np
+import pytest
+
+import synthetic_run as pendulum
+from nivel.results import Memory
+from nivel.results.accuracy import step_halving
+from nivel.results.trust import Facts, Peak, Trust, assess
+from nivel.results.verdicts import THRESHOLDS
+
+TIME = np.linspace(0.0, 2.0, 201)
+
+
+def run(time=TIME, attributes=None, **histories):
+    memory = Memory()
+    memory.begin(pendulum.header(**(attributes or {})))
+    memory.take(pendulum.packed(time, {**pendulum.histories(time), **histories}))
+    return memory.result()
+
+
+def item(trust, name):
+    return next(each for each in trust.items if each.name == name)
+
+
+def spike(columns, row, frame, value):
+    out = np.zeros((len(TIME), columns))
+    out[frame, row] = value
+    return out
+
+
+def test_the_scales_are_those_of_the_machine():
+    trust = assess(run(), Facts("done", 1))
+    kinetic = pendulum.histories(TIME)["kinetic_energy"].max()
+    assert trust.energy_scale == kinetic
+    assert trust.energy_scale_kind == "largest kinetic energy"
+    assert trust.size == pytest.approx(pendulum.SIZE, rel=1e-14)
+    # the velocity of the centre of mass and, as an upper bound, the joint point 0.5 m from it
+    assert trust.speed == pytest.approx(2 * 0.5 * np.abs(pendulum.histories(TIME)["joint_rate"]).max(), rel=1e-12)
+
+
+def test_a_designer_reads_numbers_scales_and_thresholds():
+    trust = assess(
+        run(kinetic_energy=np.full(len(TIME), 812.0), energy_error=np.full(len(TIME), 3.1e-9 * 812)), Facts("done", 1)
+    )
+    text = "Energy: error 3.1e-9 of the largest kinetic energy 812 J (green below 1e-4, amber below 1e-2)"
+    assert item(trust, "energy").text == text
+    assert item(trust, "violation").text == (
+        "Joints: open by at most 4e-9 m, 8e-9 of the machine's size 0.5 m, row hinge.s.y at t = 2 s "
+        "(green below 1e-6, amber below 1e-4)"
+    )
+
+
+@pytest.mark.parametrize(
+    ("factor", "verdict"), [("green", "green"), ("amber", "amber"), ("beyond", "red"), ("nan", "red"), ("inf", "red")]
+)
+@pytest.mark.parametrize("name", list(THRESHOLDS))
+def test_thresholds_decide_on_each_side(name, factor, verdict):
+    limits = THRESHOLDS[name]
+    near = 1e-9
+    fraction = {
+        "green": limits.green * (1 - near),
+        "amber": limits.green * (1 + near),
+        "beyond": limits.amber * (1 + near),
+        "nan": np.nan,
+        "inf": np.inf,
+    }[factor]
+    reference = assess(run(), Facts("done", 1))
+    histories, accuracy = {}, None
+    match name:
+        case "energy":
+            histories["energy_error"] = spike(1, 0, 77, -fraction * reference.energy_scale)
+        case "violation":
+            histories["constraint_violation"] = spike(5, 2, 77, -fraction * reference.size)
+        case "rate_violation":
+            histories["constraint_rate_violation"] = spike(5, 2, 77, -fraction * reference.speed)
+        case "accuracy":
+            accuracy = Peak(fraction * reference.size, "arm", TIME[77])
+    trust = assess(run(**histories), Facts("done", 1, accuracy=accuracy))
+    found = item(trust, name)
+    assert found.verdict == verdict
+    assert found.time == TIME[77]
+    assert (found.green, found.amber) == (limits.green, limits.amber)
+    assert trust.verdict == verdict
+    np.testing.assert_allclose(found.fraction, fraction, rtol=1e-12)
+
+
+def test_cosines_are_not_compared_with_metres():
+    # hinge.d1.xz (a cosine) is off by 3e-7, hinge.s.x by 2e-7 m of 0.5 m = 4e-7: the smaller number is the larger fault
+    violation = spike(5, 3, 10, 3e-7) + spike(5, 0, 20, 2e-7)
+    trust = assess(run(constraint_violation=violation), Facts("done"))
+    assert (trust.constraint_violation_row, trust.constraint_violation_max) == ("hinge.s.x", 2e-7)
+    trust = assess(run(constraint_violation=spike(5, 3, 10, 2e-6)), Facts("done"))
+    assert (trust.constraint_violation_units, item(trust, "violation").fraction) == ("1", 2e-6)
+    assert "as a cosine" in item(trust, "violation").text
+    trust = assess(run(constraint_rate_violation=spike(5, 3, 10, 1e-3)), Facts("done"))
+    assert trust.constraint_rate_violation_units == "1/s"
+    assert item(trust, "rate_violation").fraction == pytest.approx(1e-3 * trust.size / trust.speed)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [
+        ("potential_energy", "largest change of potential energy"),
+        ("external_work", "largest work of external forces"),
+        ("dissipated_energy", "largest dissipated energy"),
+    ],
+)
+def test_the_energy_scale_is_the_largest_energy_that_moved(name, kind):
+    offset = 1e6 if name == "potential_energy" else 0.0  # where the zero of the height lies does not matter
+    trust = assess(run(**{name: offset + np.linspace(0.0, -50.0, len(TIME))}), Facts("done"))
+    assert trust.energy_scale == pytest.approx(50.0)
+    assert trust.energy_scale_kind == kind
+    assert kind in item(trust, "energy").text
+
+
+def test_a_machine_at_rest_is_green():
+    still = {name: np.zeros_like(values) for name, values in pendulum.histories(TIME).items()}
+    still |= {"orientation": np.tile([1.0, 0, 0, 0], (len(TIME), 1)), "potential_energy": np.full(len(TIME), 1e6)}
+    still |= {"energy_error": spike(1, 0, 3, 1e-10), "constraint_rate_violation": spike(5, 0, 3, 1e-17)}
+    trust = assess(run(**still), Facts("done", 1))
+    assert trust.verdict == "green"
+    assert np.isfinite(item(trust, "energy").fraction)
+
+
+def test_the_first_value_that_is_no_number_is_named():
+    error = np.zeros(len(TIME))
+    error[50:] = np.nan
+    assert (
+        "not a number any more from t = 0.5 s on"
+        in item(assess(run(energy_error=error), Facts("failed")), "energy").text
+    )
+
+
+@pytest.mark.parametrize(
+    ("outcome", "verdict"), [("done", "green"), ("interrupted", "amber"), ("running", "amber"), ("failed", "red")]
+)
+def test_an_unfinished_run_is_not_green(outcome, verdict):
+    trust = assess(run(), Facts(outcome, 1, failure="stopped at t = 2 s"))
+    assert trust.verdict == verdict
+    assert trust.items[0].text.endswith(": stopped at t = 2 s")
+
+
+def test_redundant_rows_leave_the_motion_unique_but_not_the_reactions():
+    trust = assess(run(), Facts("done", 1, ("hinge.d1.xz",), ("hinge", "pin")))
+    found = item(trust, "redundancy")
+    assert (found.verdict, trust.verdict) == ("amber", "amber")
+    assert "(hinge.d1.xz)" in found.text
+    assert "hinge, pin" in found.text
+    assert item(assess(run(), Facts("done", 1)), "redundancy").verdict == "green"
+
+
+def test_a_machine_that_cannot_move_is_amber():
+    assert item(assess(run(), Facts("done", 0)), "degrees_of_freedom").verdict == "amber"
+    assert item(assess(run(), Facts("done", 3)), "degrees_of_freedom").text.startswith("Freedom: 3 degrees of freedom")
+
+
+def test_every_threshold_is_printed_and_has_a_reason():
+    trust = assess(run(), Facts("done", 1, accuracy=Peak(1e-9, "arm", 1.0)))
+    for name, threshold in THRESHOLDS.items():
+        assert str(threshold) in item(trust, name).text
+        assert len(threshold.reason) > 60
+    assert str(THRESHOLDS["energy"]) == "green below 1e-4, amber below 1e-2"
+
+
+@pytest.mark.parametrize("value", [1e-9, np.nan, np.inf])
+def test_json_out_and_in_changes_nothing(value):
+    trust = assess(
+        run(energy_error=spike(1, 0, 4, value)), Facts("done", 1, ("a.s.x",), ("a",), Peak(1e-5, "arm", 0.5))
+    )
+    text = trust.to_json()
+    json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is not JSON"))
+    assert str(Trust.from_json(text)) == str(trust)
+    assert repr(Trust.from_json(text)) == repr(trust)
+
+
+def test_json_of_a_later_version_is_read():
+    data = json.loads(assess(run(), Facts("done", 1)).to_json())
+    data["something_new"] = 1
+    data["items"][0]["something_new"] = 2
+    assert Trust.from_json(json.dumps(data)) == assess(run(), Facts("done", 1))
+
+
+def test_json_has_the_agreed_keys():
+    data = json.loads(assess(run(), Facts("done", 1)).to_json())
+    agreed = "energy_error_max energy_scale constraint_violation_max constraint_violation_row constraint_violation_time"
+    agreed += " constraint_rate_violation_max degrees_of_freedom redundant_rows non_unique_joints accuracy_estimate"
+    assert set(agreed.split()) <= set(data)
+
+
+def test_step_halving_finds_the_worst_body_and_time():
+    moved = pendulum.histories(TIME)["position"].copy()
+    moved[77, 0, 1] += 15e-6
+    peak = step_halving(run(position=moved), run(), order=4)
+    assert peak.value == pytest.approx(16e-6)  # 15/16 of the error of the coarser run is seen
+    assert (peak.row, peak.time) == ("arm", TIME[77])
+
+
+def test_step_halving_sees_a_rotor_whose_origin_rests():
+    turned = -pendulum.histories(TIME)["orientation"]  # θ and -θ are the same orientation
+    angle = 1e-5
+    half = np.array([np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2)])
+    c, s = turned[10, 0, 0], turned[10, 0, 3]
+    turned[10, 0] = [c * half[0] - s * half[3], 0.0, 0.0, c * half[3] + s * half[0]]
+    peak = step_halving(run(orientation=turned), run(), order=1)
+    assert peak.value == pytest.approx(2.0 * angle * pendulum.SIZE, rel=1e-6)
+    assert peak.time == TIME[10]
+
+
+def test_step_halving_compares_equal_times():
+    finer = np.linspace(0.0, 2.0, 401)
+    assert step_halving(run(), run(finer), order=4).value < 1e-15
+    assert step_halving(run(), run(finer[:200]), order=4).value < 1e-15  # a finer run that stopped early

@@ -54,7 +54,7 @@ def main() -> None:
     for heading in ("links", "µs/step", "µs/link and step", "energy error / max T"):
         table.add_column(heading, justify="right")
     for links in options.links:
-        machine = nivel.Machine(chain(links))
+        machine = nivel.Machine.from_record(chain(links))
         settings = {
             "duration": options.steps * options.step,
             "step": options.step,

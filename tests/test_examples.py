@@ -4,9 +4,10 @@ import csv
 import runpy
 from pathlib import Path
 
-import nivel
 import numpy as np
 import pytest
+
+import nivel
 from references import four_bar, heavy_top, pendulum, slider_crank
 
 EXAMPLES = Path(__file__).parent.parent / "examples"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from html import escape
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -155,6 +156,20 @@ class Machine:
     def save(self, path: str | PathLike[str]) -> None:
         """Write the machine as a YAML file."""
         Path(fspath(path)).write_text(write_machine(self.record), encoding="utf-8")
+
+    def _repr_html_(self) -> str:
+        """A card for notebooks: what the machine consists of."""
+        record = self.record
+        rows = [
+            ("body", body.name, f"{body.mass:g} kg" if body.mass is not None else "from its shape")
+            for body in record.bodies
+        ]
+        rows += [("joint", joint.name, joint.type) for joint in record.joints]
+        rows += [("force", force.name, force.type) for force in record.forces]
+        lines = "".join(
+            f"<tr><td>{kind}</td><th>{escape(name)}</th><td>{escape(fact)}</td></tr>" for kind, name, fact in rows
+        )
+        return f"<table><caption>{escape(record.name)}</caption>{lines}</table>"
 
     def __repr__(self) -> str:
         record = self.record

@@ -2,10 +2,10 @@
 
 import re
 
-import machines
 import numpy as np
 import pytest
 
+import machines
 from nivel.analysis.assemble import assemble
 from nivel.analysis.equations import equations
 from nivel.errors import ModelError

@@ -1,11 +1,11 @@
 """Redundant machines: found, named, and run knowingly."""
 
-import machines
 import numpy as np
 import pytest
-from running import run
 
+import machines
 from nivel.analysis.dynamics import prepare
+from running import run
 
 
 def test_report_machines_have_one_freedom_and_no_redundant_row():

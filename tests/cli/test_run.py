@@ -8,6 +8,7 @@ import sys
 import time
 
 import pytest
+
 from nivel.results import Result
 
 PENDULUM = """\

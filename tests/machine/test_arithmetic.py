@@ -1,14 +1,21 @@
 """The expression parser against Python's own arithmetic, and its refusals."""
 
 import math
+import re
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from nivel.machine.arithmetic import FUNCTIONS, ExpressionError, bind, evaluate, fold, render
 from nivel.machine.grammar import parse
 
-PYTHON = {"__builtins__": {}, **{name: function for name, (function, _) in FUNCTIONS.items()}, "pi": math.pi, "e": math.e}
+PYTHON = {
+    "__builtins__": {},
+    **{name: function for name, (function, _) in FUNCTIONS.items()},
+    "pi": math.pi,
+    "e": math.e,
+}
 
 
 def value(text, time=0.0):
@@ -28,7 +35,9 @@ def _larger(inner):
         inner.map(lambda text: f"({text})"),
         inner.map(lambda text: f"-{text}"),
         inner.map(lambda text: f"+ {text}"),
-        st.tuples(st.sampled_from(["sin", "cos", "sqrt", "exp", "log", "abs", "atan"]), inner).map(lambda p: f"{p[0]}({p[1]})"),
+        st.tuples(st.sampled_from(["sin", "cos", "sqrt", "exp", "log", "abs", "atan"]), inner).map(
+            lambda p: f"{p[0]}({p[1]})"
+        ),
         st.tuples(st.sampled_from(["min", "max", "atan2"]), inner, inner).map(lambda p: f"{p[0]}({p[1]}, {p[2]})"),
     )
 
@@ -39,7 +48,7 @@ expressions = st.recursive(numbers, _larger, max_leaves=12)
 def _by_python(text, time):
     """The value by Python, or None where there is none."""
     try:
-        result = eval(text, PYTHON, {"time": time})  # noqa: S307
+        result = eval(text, PYTHON, {"time": time})
     except (ArithmeticError, ValueError):
         return None
     return float(result) if not isinstance(result, complex) and math.isfinite(result) else None
@@ -47,9 +56,7 @@ def _by_python(text, time):
 
 def _as_floats(text):
     """Python computes integers exactly and without end; the machine file has floats only."""
-    import re
-
-    return re.sub(r"(?<![\w.])(\d+)(?![\w.])", r"\1.0", text)
+    return re.sub(r"(?<!\w)(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", lambda number: repr(float(number[0])), text)
 
 
 @settings(max_examples=400, deadline=None)
@@ -133,18 +140,18 @@ def test_reads_as_people_mean_it(text, expected):
         ("1 $ 2", "`$` is not understood"),
         ("__import__('os')", "`'` is not understood"),
         ("a.b", "`.` is not understood"),
-        ("1 if 2 else 3", "`if` is neither"),
+        ("if 2", "`2` was not expected"),
         ("lenght", "neither a parameter nor a unit"),
         ("5 kgs", "did you mean `kg`"),
         ("20 degC", "neither a parameter nor a unit"),
-        ("(" * 500 + "1" + ")" * 500, "nested too deeply"),
-        ("-" * 300 + "1", "nested too deeply"),
+        ("(" * 80 + "1" + ")" * 80, "nested too deeply"),
+        ("-" * 100 + "1", "nested too deeply"),
         ("2^" * 150 + "1", "nested too deeply"),
         ("+".join(["1"] * 1000), "too long"),
     ],
 )
 def test_refuses_with_the_reason(text, part):
-    with pytest.raises(ExpressionError, match=".*") as caught:
+    with pytest.raises(ExpressionError) as caught:
         value(text)
     assert part in str(caught.value)
 

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
 from nivel.errors import ModelError
 from nivel.machine import Body, Box, Cylinder, Sphere, Tube, mass_properties
 from nivel.machine.inertia import impossible, point_mass_inertia, volume
-from scipy.spatial.transform import Rotation
 
 lengths = st.floats(0.01, 10)
 DENSITY = 7850.0
@@ -184,7 +185,10 @@ def test_three_digit_data_of_a_thin_bar_are_taken():
         ({"mass": 1, "inertia": (0, 1, 1)}, "body x axis, 0 kg*m^2, must be greater than zero"),
         ({"mass": 1, "inertia": (1, 1, -1)}, "must be greater than zero"),
         ({"mass": 1, "inertia": (0, 0, 0)}, "must be greater than zero"),
-        ({"mass": 1, "inertia": (1, 1, 1), "centre_of_mass": (2, 0, 0), "inertia_about": "origin"}, "about the centre of mass"),
+        (
+            {"mass": 1, "inertia": (1, 1, 1), "centre_of_mass": (2, 0, 0), "inertia_about": "origin"},
+            "about the centre of mass",
+        ),
         ({"mass": 1, "inertia": [[1, 2, 0], [0, 1, 0], [0, 0, 1]]}, "symmetric"),
         ({"mass": 1, "inertia": [[1, 0, 0], [0, 1, 0]]}, "a list of 2"),
         ({"mass": 1, "inertia": [[1, 0, 0], [0, 1, 0], [0, 0]]}, "three rows of three"),

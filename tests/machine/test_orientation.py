@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
 from nivel.errors import ModelError
 from nivel.machine import Orientation, euler_parameters, rotation_matrix
 from nivel.machine.orientation import SEQUENCES, euler_parameters_from_matrix, matrix_from_euler_parameters
-from scipy.spatial.transform import Rotation
 
 angles = st.tuples(*[st.floats(-10, 10)] * 3)
 ROUND_OFF = 1e-13
@@ -27,7 +28,9 @@ def test_every_sequence_is_a_product_of_elementary_rotations_about_moving_axes(s
     for axis, angle in zip(sequence, three, strict=True):
         expected = expected * Rotation.from_rotvec(angle * np.eye(3)["xyz".index(axis)])
     assert np.allclose(rotation_matrix(orientation), expected.as_matrix(), atol=ROUND_OFF)
-    assert np.allclose(rotation_matrix(orientation), Rotation.from_euler(sequence.upper(), three).as_matrix(), atol=ROUND_OFF)
+    assert np.allclose(
+        rotation_matrix(orientation), Rotation.from_euler(sequence.upper(), three).as_matrix(), atol=ROUND_OFF
+    )
 
 
 @given(st.sampled_from(SEQUENCES), angles)
@@ -77,7 +80,9 @@ def test_printed_digits_are_made_exact():
     coarse = Orientation(matrix=[[c, -0.5, 0], [0.5, c, 0], [0, 0, 1]])
     assert np.allclose(rotation_matrix(coarse).T @ rotation_matrix(coarse), np.eye(3), atol=1e-15)
     assert np.allclose(rotation_matrix(coarse), Rotation.from_euler("z", 30, degrees=True).as_matrix(), atol=1e-3)
-    assert np.linalg.norm(euler_parameters(Orientation(euler_parameters=(0.7071, 0.7071, 0, 0)))) == pytest.approx(1, abs=1e-15)
+    assert np.linalg.norm(euler_parameters(Orientation(euler_parameters=(0.7071, 0.7071, 0, 0)))) == pytest.approx(
+        1, abs=1e-15
+    )
 
 
 def test_nothing_given_is_not_turned():
@@ -108,6 +113,6 @@ def test_nothing_given_is_not_turned():
     ],
 )
 def test_refusals(given, part):
-    with pytest.raises(ModelError, match=".*") as caught:
+    with pytest.raises(ModelError) as caught:
         Orientation(**given)
     assert part in str(caught.value)

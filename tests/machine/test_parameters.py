@@ -1,6 +1,7 @@
 """Parameters that use each other."""
 
 import pytest
+
 from nivel.machine.arithmetic import Number
 from nivel.machine.dimension import dimension
 from nivel.machine.parameters import resolve

@@ -1,11 +1,11 @@
 """The loop: chunks, last step, output times, joint angles, failures."""
 
-import machines
 import numpy as np
 import pytest
-from running import run
 
+import machines
 from nivel.machine import Body, Joint, MachineRecord, PointForce, SimulationSettings
+from running import run
 
 
 @pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])

@@ -1,9 +1,9 @@
 """*lagrange* and *newton-euler* against each other and against the textbook equations written here in NumPy."""
 
-import machines
 import numpy as np
 import pytest
 
+import machines
 from nivel.analysis.assemble import assemble
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.equations import equations

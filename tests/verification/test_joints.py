@@ -1,9 +1,9 @@
 """Every joint, between two bodies and against the ground: Jacobian, acceleration term, free motions, work."""
 
-import machines
 import numpy as np
 import pytest
 
+import machines
 from nivel.analysis.assemble import assemble
 from nivel.analysis.equations import equations, moved
 from nivel.analysis.redundancy import analyse

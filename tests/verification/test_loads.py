@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from running import run
 
 from nivel.machine import Body, Expression, Joint, MachineRecord, PointForce, SimulationSettings, Table, Torque
+from running import run
 
 
 def free_block(*forces, **settings):

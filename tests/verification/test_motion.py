@@ -1,17 +1,17 @@
 """Motion in time against independent solutions, and the order of convergence."""
 
-import machines
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
+
+import machines
+from nivel.machine import Body, Joint, MachineRecord, SimulationSettings
 from references import four_bar as four_bar_reference
 from references import heavy_top as top_reference
 from references import one_dof
 from references import pendulum as pendulum_reference
 from references import slider_crank as slider_crank_reference
 from running import run
-from scipy.spatial.transform import Rotation
-
-from nivel.machine import Body, Joint, MachineRecord, SimulationSettings
 
 FORMULATIONS = pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 

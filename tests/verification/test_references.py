@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from references import four_bar, heavy_top, one_dof, pendulum, slider_crank
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
+
+from references import four_bar, heavy_top, one_dof, pendulum, slider_crank
 
 LINKAGES = pytest.mark.parametrize("machine", [slider_crank, four_bar], ids=["slider-crank", "four-bar"])
 DURATION = {slider_crank: 8.0, four_bar: 4.0}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,7 +43,7 @@ class BodyFacts:
 
 @dataclass(frozen=True)
 class Check:
-    """A machine that was checked and assembled; see `nivel check`."""
+    """A machine that was checked and assembled; `str` of it is what `nivel check` shows."""
 
     name: str
     gravity: tuple[float, ...]
@@ -60,9 +61,64 @@ class Check:
     settings: RunSettings
 
     def __repr__(self) -> str:
-        plural = "degree" if self.degrees_of_freedom == 1 else "degrees"
         extra = f", redundant: {', '.join(self.redundant_rows)}" if self.redundant_rows else ""
-        return f"<Check {self.name}: {self.degrees_of_freedom} {plural} of freedom{extra}>"
+        return f"<Check {self.name}: {_freedoms(self.degrees_of_freedom)}{extra}>"
+
+    def __str__(self) -> str:
+        return "\n".join(_lines(self))
+
+
+def _freedoms(count: int) -> str:
+    return f"{count} degree{'' if count == 1 else 's'} of freedom"
+
+
+def _lines(facts: Check) -> Iterator[str]:
+    """The facts in words, for people."""
+    yield f"{facts.name}: {_freedoms(facts.degrees_of_freedom)}, gravity {_vector(facts.gravity)} m/s²"
+    yield "bodies"
+    for body in facts.bodies:
+        inertia = _vector(body.principal_inertia)
+        yield f"  {body.name}: {body.mass:.6g} kg, principal inertia {inertia} kg m², frame at {_vector(body.position)} m"
+    if facts.joints:
+        yield "joints (first body → second body)"
+    for joint in facts.joints:
+        axis = "" if joint.type == "spherical" else f", z axis {_vector(joint.axis)}"
+        place = f"at {_vector(joint.point)} m{axis}"
+        yield f"  {joint.name}: {joint.type}, {joint.first} → {joint.second}, free motions {joint.free}, {place}"
+        for name, value, units in joint.coordinates:
+            yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}"
+    for kind, convention in {joint.type: joint.convention for joint in facts.joints if joint.coordinates}.items():
+        yield f"  {kind}: {convention}"
+    if facts.forces:
+        yield "forces"
+    for name, kind, body in facts.forces:
+        yield f"  {name}: {kind} on {body}"
+    yield from _assembly_lines(facts)
+    yield from _redundancy_lines(facts)
+
+
+def _assembly_lines(facts: Check) -> Iterator[str]:
+    if facts.moved:
+        yield f"assembly: as given, {facts.gap_row} is open by {facts.gap:.3g}; closed by moving"
+        for name, distance, angle in facts.moved:
+            yield f"  {name} by {distance:.3g} m and {angle:.3g} rad"
+    else:
+        yield "assembly: closed as given"
+    for name, speed, rate in facts.velocity_change:
+        yield f"  velocity of {name} changed by {speed:.3g} m/s and {rate:.3g} rad/s to fit the joints"
+
+
+def _redundancy_lines(facts: Check) -> Iterator[str]:
+    if facts.redundant_rows:
+        yield f"constraints: {facts.constraint_rows} rows, redundant: {', '.join(facts.redundant_rows)}"
+        yield f"  the motion is unique; reactions are not in: {', '.join(facts.non_unique_joints)}"
+    else:
+        yield f"constraints: {facts.constraint_rows} rows, none redundant, every reaction is unique"
+
+
+def _vector(values: tuple[float, ...]) -> str:
+    # + 0.0 turns -0 into 0
+    return "(" + ", ".join(f"{round(value, 12) + 0.0:.6g}" for value in values) + ")"
 
 
 def check(machine: MachineRecord) -> Check:

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Final
+from typing import Final, SupportsFloat
 
 from nivel.machine.dimension import Dimension
 from nivel.machine.unit import UNITS, UnknownUnitError, unit
@@ -89,11 +89,18 @@ TIME: Final = "time"
 RESERVED: Final = frozenset({TIME, *CONSTANTS, *FUNCTIONS})
 
 
-def finite(value: float) -> float:
-    """`value`, or an ExpressionError for inf and nan."""
-    if not math.isfinite(value):
-        raise ExpressionError("the number is too large" if not math.isnan(value) else "the result is not a number")
-    return value
+def finite(value: SupportsFloat) -> float:
+    """`value` as a float.
+
+    Raises ExpressionError for inf, nan and integers beyond the range of floats.
+    """
+    try:
+        number = float(value)
+    except OverflowError:
+        raise ExpressionError("the number is too large") from None
+    if not math.isfinite(number):
+        raise ExpressionError("this is not a number" if math.isnan(number) else "the number is too large")
+    return number
 
 
 def names(node: Node) -> set[str]:

@@ -64,9 +64,7 @@ class _Parser:
         return node
 
     def sum(self) -> Node:
-        self.depth += 1
-        if self.depth > _DEEPEST:
-            raise ExpressionError("the expression is nested too deeply")
+        self.deeper()
         node = self.term()
         while self.symbol() in ("+", "-"):
             node = Operation(self.take(), node, self.term())
@@ -98,9 +96,7 @@ class _Parser:
         if sign not in ("+", "-"):
             return self.power()
         self.take()
-        self.depth += 1
-        if self.depth > _DEEPEST:
-            raise ExpressionError("the expression is nested too deeply")
+        self.deeper()
         operand = self.sign()
         self.depth -= 1
         return Negative(operand) if sign == "-" else operand
@@ -112,7 +108,7 @@ class _Parser:
         if self.symbol() not in ("^", "**"):
             return base
         self.take()
-        self.depth += 1
+        self.deeper()
         exponent = self.sign()
         self.depth -= 1
         return Operation("**", base, exponent)
@@ -155,6 +151,11 @@ class _Parser:
             wanted = str(fewest) if fewest == most else f"at least {fewest}"
             raise ExpressionError(f"`{name}` takes {wanted} argument{'s' if fewest > 1 else ''}, got {len(arguments)}")
         return Call(name, tuple(arguments))
+
+    def deeper(self) -> None:
+        self.depth += 1
+        if self.depth > _DEEPEST:
+            raise ExpressionError("the expression is nested too deeply")
 
     def kind(self) -> str:
         return self.tokens[self.at][0] if self.at < len(self.tokens) else "end"

@@ -17,7 +17,6 @@ from nivel.machine.arithmetic import (
 from nivel.machine.dimension import Dimension, described, dimension, known, power, product, without_angle
 
 _RADIAN = dimension(rad=1)
-_SECOND = dimension(s=1)
 
 
 def measure(node: Node, *, time: Dimension | None = None) -> Dimension | None:
@@ -38,19 +37,6 @@ def measure(node: Node, *, time: Dimension | None = None) -> Dimension | None:
             return _of_operation(symbol, left, right, time)
         case Name(text):
             raise ExpressionError(f"`{text}` has no value")
-
-
-def measure_in_time(node: Node) -> Dimension | None:
-    """Dimension of an expression of time, where `time` may count as plain seconds (`sin(2*pi*time)`) or as a quantity
-    (`sin(30 deg/s * time)`): one of the two readings must make sense throughout.
-    """
-    try:
-        return measure(node)
-    except ExpressionError as clash:
-        try:
-            return measure(node, time=_SECOND)
-        except ExpressionError:
-            raise clash from None
 
 
 def _of_operation(symbol: str, left: Node, right: Node, time: Dimension | None) -> Dimension | None:

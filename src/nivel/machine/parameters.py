@@ -12,6 +12,7 @@ from nivel.machine.arithmetic import (
     Number,
     bind,
     evaluate,
+    finite,
     names,
     uses_time,
 )
@@ -51,9 +52,7 @@ def _tree(name: str, value: object) -> Node:
             raise ExpressionError("a parameter cannot change with `time`")
         return tree
     if isinstance(value, int | float) and not isinstance(value, bool):
-        number = Number(float(value))
-        evaluate(number)
-        return number
+        return Number(finite(value))
     raise ExpressionError("a number, a quantity such as `10 cm`, or an expression was expected")
 
 

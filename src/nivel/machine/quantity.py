@@ -7,7 +7,6 @@ file come in through the validation context: ``{"parameters": {"radius": Number(
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from numbers import Real
 from typing import Annotated, Any
@@ -22,6 +21,7 @@ from nivel.machine.arithmetic import (
     Parameters,
     bind,
     evaluate,
+    finite,
     uses_time,
 )
 from nivel.machine.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
@@ -86,10 +86,7 @@ def read_quantity(value: object, kind: str, parameters: Parameters) -> float:
         check_kind(value.strip(), its, kind)
         return number
     if isinstance(value, Real) and not isinstance(value, bool):
-        number = float(value)
-        if not math.isfinite(number):
-            raise ExpressionError(f"a finite number was expected, got {number}")
-        return number
+        return finite(value)
     if hasattr(value, "item") and getattr(value, "shape", None) == ():  # a NumPy scalar or array without axes
         return read_quantity(value.item(), kind, parameters)  # type: ignore[attr-defined]
     article, unit, _ = KINDS[kind]

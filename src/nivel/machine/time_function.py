@@ -25,8 +25,9 @@ from nivel.machine.arithmetic import (
     render,
     uses_time,
 )
+from nivel.machine.dimension import KINDS, Dimension
 from nivel.machine.grammar import parse
-from nivel.machine.measure import measure_in_time
+from nivel.machine.measure import measure
 from nivel.machine.quantity import bound_tree, check_kind, fault, listed, read_quantity, reported, shown
 from nivel.machine.record import unknown_word
 
@@ -78,14 +79,29 @@ def read_time_function(value: object, kind: str, parameters: Parameters) -> Time
         value = value.text
     if isinstance(value, str) and uses_time(parse(value)):
         bound = bound_tree(value, parameters)
-        its = measure_in_time(bound)
-        check_kind(value.strip(), its, kind)
+        _check_kind_in_time(bound, value.strip(), kind)
         return Expression(render(fold(bound)))
     if isinstance(value, Table):
         value = {"times": value.times, "values": value.values}
     if isinstance(value, Mapping):
         return _read_table(value, kind, parameters)
     return read_quantity(value, kind, parameters)
+
+
+def _check_kind_in_time(tree: Node, text: str, kind: str) -> None:
+    """`time` may count as a plain number of seconds (`sin(2*pi*time)`) or as a quantity (`5 N/s * time`): one of the two
+    readings must make sense throughout.
+
+    Raises ExpressionError, about the first reading.
+    """
+    seconds: Dimension = KINDS["time"][2]
+    try:
+        check_kind(text, measure(tree), kind)
+    except ExpressionError as clash:
+        try:
+            check_kind(text, measure(tree, time=seconds), kind)
+        except ExpressionError:
+            raise clash from None
 
 
 def _read_table(given: Mapping[str, object], kind: str, parameters: Parameters) -> Table:

@@ -1,0 +1,300 @@
+"""A still picture of the assembled machine with its names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from html import escape
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.report.labels import FONT, Label, place
+from nivel.report.solids import Ball, Face, reach, solid
+from nivel.report.symbols import centre_of_mass_sign, ground_sign, joint_sign, rail_sign
+from nivel.report.view import View, choose_view
+
+Array = NDArray[np.float64]
+
+WIDTH = 560.0  # pixels; names stay readable when a phone shows it at two thirds
+HEIGHTS = (260.0, 470.0)
+MARGIN = (54.0, 46.0)  # room for names and ground signs
+LIGHT = np.array([-0.45, 0.65, 0.61])  # where it comes from: right, up, towards the eye
+COLOURS = ("#5b86b4", "#cf7f4f", "#6fa17a", "#9274b0", "#c6a548", "#469c9f", "#bb6a86", "#7d8998")
+STYLE = """
+.machine{font:500 13px/1.2 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif;--paper:#fff;--ink:#1b2430;--soft:#6b7684}
+.machine .joint circle,.machine .joint rect{fill:var(--paper);stroke:var(--ink);stroke-width:1.6}
+.machine .joint .dot,.machine .mass .dot,.machine .joint .solid{fill:var(--ink);stroke:none}
+.machine .joint .thin{fill:none;stroke:var(--ink);stroke-width:1.2}
+.machine .joint .axis{fill:none;stroke:var(--ink);stroke-width:1.6;stroke-linecap:round}
+.machine .mass circle{fill:var(--paper);stroke:var(--ink);stroke-width:1.2}
+.machine .ground path{fill:none;stroke:var(--soft);stroke-width:1.6;stroke-linecap:round;stroke-linejoin:round}
+.machine .ground .foot{fill:var(--paper)}.machine .ground .hatch{stroke-width:1.1}
+.machine text{fill:var(--ink);paint-order:stroke;stroke:var(--paper);stroke-width:3.5px;stroke-linejoin:round;text-anchor:middle}
+.machine .body{font-style:italic;font-weight:600}.machine .joint-name{font-weight:500}
+.machine .leader{stroke:var(--soft);stroke-width:.8;fill:none}
+.machine .aid{fill:var(--soft);font-size:11px;font-weight:500}.machine .aid-line{stroke:var(--soft);stroke-width:1.4;fill:none;stroke-linecap:round}
+@media (prefers-color-scheme:dark){.machine{--paper:#171d26;--ink:#e6ebf2;--soft:#93a0b0}}
+"""
+
+
+@dataclass
+class Drawing:
+    """What is drawn, far things first, and what names must keep clear of. Pixels."""
+
+    parts: list[tuple[float, str]] = field(default_factory=list)
+    signs: list[str] = field(default_factory=list)
+    labels: list[Label] = field(default_factory=list)
+    points: list[Array] = field(default_factory=list)
+    lines: list[Array] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """From metres in space to pixels on the picture."""
+
+    view: View
+    scale: float
+    shift: Array
+    height: float
+
+    def pixels(self, points: Array) -> Array:
+        """(…, 2) right and down."""
+        return self.view.on_screen(points) * [self.scale, -self.scale] + self.shift
+
+
+def machine_picture(
+    scene: dict[str, Any], position: Array, orientation: Array, up: tuple[float, float, float] = (0, 0, 1)
+) -> str:
+    """SVG text of the machine in one configuration.
+
+    scene : bodies, ground points and joints as in a result's attribute of that name.
+    position : (bodies, 3) [m]; orientation : (bodies, 4) Euler parameters, scalar first; of the body frames, global axes.
+    up : the global direction that points up in the picture, unless the machine is planar and seen along it.
+    Bodies with a shape are shaded solids, others are links from their centre of mass to their joints. Empty where there is
+    nothing finite to draw.
+    """
+    poses = _poses(scene, position, orientation)
+    cloud = _cloud(scene, poses)
+    if not len(cloud) or not np.all(np.isfinite(cloud)):
+        return ""
+    axes = np.array([poses[j["bodies"][0]][1] @ np.array(j["axes"][0]) for j in scene["joints"]]).reshape(-1, 3)
+    frame = _frame(choose_view(_skeleton(scene, poses), axes, np.array(up, dtype=float)), cloud)
+    drawing = Drawing()
+    for k, body in enumerate(scene["bodies"]):
+        _draw_body(drawing, frame, body, poses[body["name"]], COLOURS[k % len(COLOURS)])
+    for joint in scene["joints"]:
+        _draw_joint(drawing, frame, joint, poses)
+    return _svg(drawing, frame)
+
+
+def _poses(scene: dict[str, Any], position: Array, orientation: Array) -> dict[str, tuple[Array, Array]]:
+    """Name → (position, rotation matrix) of the body frame; the ground too."""
+    out = {"ground": (np.zeros(3), np.eye(3))}
+    for body, r, theta in zip(scene["bodies"], position, orientation, strict=True):
+        out[body["name"]] = (np.asarray(r, dtype=float), _rotation(np.asarray(theta, dtype=float)))
+    return out
+
+
+def _rotation(theta: Array) -> Array:
+    e0, e = theta[0], theta[1:]
+    cross = np.array([[0.0, -e[2], e[1]], [e[2], 0.0, -e[0]], [-e[1], e[0], 0.0]])
+    return np.eye(3) + 2.0 * e0 * cross + 2.0 * cross @ cross
+
+
+def _in_space(pose: tuple[Array, Array], points: Any) -> Array:
+    r, A = pose
+    return r + np.reshape(np.asarray(points, dtype=float), (-1, 3)) @ A.T
+
+
+def _skeleton(scene: dict[str, Any], poses: dict[str, tuple[Array, Array]]) -> Array:
+    """(n, 3) joint points and centres of mass."""
+    parts = [np.reshape(np.asarray(scene.get("ground_points", []), dtype=float), (-1, 3))]
+    parts += [_in_space(poses[b["name"]], [b["centre_of_mass"], *b.get("points", [])]) for b in scene["bodies"]]
+    return np.concatenate(parts)
+
+
+def _cloud(scene: dict[str, Any], poses: dict[str, tuple[Array, Array]]) -> Array:
+    """(n, 3) everything that must be in the picture."""
+    shapes = [_in_space(poses[b["name"]], reach(b["shape"])) for b in scene["bodies"] if b.get("shape")]
+    return np.concatenate([_skeleton(scene, poses), *shapes])
+
+
+def _frame(view: View, cloud: Array) -> Frame:
+    flat = view.on_screen(cloud)
+    low, size = flat.min(axis=0), np.ptp(flat, axis=0)
+    room = np.array([WIDTH, HEIGHTS[1]]) - 2.0 * np.array(MARGIN)
+    scale = float(min(room / np.maximum(size, 1e-12)))
+    scale = min(scale, 1e9) if size.max() > 0.0 else 100.0
+    height = float(np.clip(scale * size[1] + 2.0 * MARGIN[1], *HEIGHTS))
+    middle = low + 0.5 * size
+    shift = np.array([0.5 * WIDTH, 0.5 * height - 4.0]) - middle * [scale, -scale]
+    return Frame(view, scale, shift, height)
+
+
+def _draw_body(drawing: Drawing, frame: Frame, body: dict[str, Any], pose: tuple[Array, Array], colour: str) -> None:
+    centre = _in_space(pose, body["centre_of_mass"])[0]
+    joints = _in_space(pose, body.get("points", []))
+    x, y = frame.pixels(centre)
+    drawing.labels.append(Label(body["name"], x, y, "body"))
+    if body.get("shape"):
+        _draw_solid(drawing, frame, solid(body["shape"]), pose, colour)
+        for joint in joints:  # a shape need not reach its joints
+            drawing.lines.append(frame.pixels(np.stack([centre, joint])))
+        return
+    for joint in joints:
+        ends = np.stack([centre, joint])
+        (x1, y1), (x2, y2) = frame.pixels(ends)
+        line = f'x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke-linecap="round"'
+        dark, depth = _mixed(colour, 0.0, 0.35), float(frame.view.depth(ends).mean())
+        drawing.parts.append((depth - 1e-9, f'<line {line} stroke="{dark}" stroke-width="9"/>'))
+        drawing.parts.append((depth, f'<line {line} stroke="{colour}" stroke-width="6.6"/>'))
+        drawing.lines.append(frame.pixels(ends))
+    drawing.signs.append(centre_of_mass_sign(x, y))
+    drawing.points.append(np.array([x, y]))
+
+
+def _draw_solid(
+    drawing: Drawing, frame: Frame, parts: list[Face] | Ball, pose: tuple[Array, Array], colour: str
+) -> None:
+    if isinstance(parts, Ball):
+        centre = _in_space(pose, parts.centre)[0]
+        (x, y), r = frame.pixels(centre), parts.radius * frame.scale
+        bright, dark = _mixed(colour, 0.45, 0.0), _mixed(colour, 0.0, 0.4)
+        rings = "".join(
+            f'<circle cx="{x - 0.36 * r * s:.1f}" cy="{y - 0.42 * r * s:.1f}" r="{r * (1 - 0.62 * s):.1f}" '
+            f'fill="{_between(colour, bright, s)}"/>'
+            for s in np.linspace(0.0, 1.0, 14)
+        )
+        outline = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{r:.1f}" fill="none" stroke="{dark}" stroke-width="1"/>'
+        drawing.parts.append((float(frame.view.depth(centre)), rings + outline))
+        return
+    seen = [face for face in parts if (pose[1] @ face.normal) @ frame.view.towards > 1e-9]
+    silhouette = _edges_seen_once(seen)
+    for k, face in enumerate(seen):
+        corners = _in_space(pose, face.corners)
+        fill = _shaded(colour, pose[1] @ face.normal, frame.view)
+        flat = frame.pixels(corners)
+        outline = " ".join(f"{x:.1f},{y:.1f}" for x, y in flat)
+        depth = float(frame.view.depth(corners).mean())
+        shape = f'<polygon points="{outline}" fill="{fill}" stroke="{fill}" stroke-width=".7" stroke-linejoin="round"/>'
+        edges = "".join(
+            f"M{flat[i][0]:.1f} {flat[i][1]:.1f}L{flat[j][0]:.1f} {flat[j][1]:.1f}"
+            for i, j in ((i, (i + 1) % len(flat)) for i in range(len(flat)))
+            if face.outlined[i] or (k, i) in silhouette
+        )
+        dark = _mixed(colour, 0.0, 0.45)
+        line = (
+            f'<path d="{edges}" stroke="{dark}" stroke-width="1" stroke-linecap="round" fill="none"/>' if edges else ""
+        )
+        drawing.parts.append((depth, shape + line))
+
+
+def _edges_seen_once(faces: list[Face]) -> set[tuple[int, int]]:
+    """(face, edge) whose neighbour across the edge turns away: the silhouette."""
+    found: dict[Any, list[tuple[int, int]]] = {}
+    for k, face in enumerate(faces):
+        for i, corner in enumerate(face.corners):
+            ends = (corner, face.corners[(i + 1) % len(face.corners)])
+            key = tuple(sorted(tuple(np.round(end, 9)) for end in ends))
+            found.setdefault(key, []).append((k, i))
+    return {places[0] for places in found.values() if len(places) == 1}
+
+
+def _draw_joint(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dict[str, tuple[Array, Array]]) -> None:
+    first, second = joint["bodies"]
+    point = _in_space(poses[first], joint["points"][0])[0]
+    if joint["type"] in ("translational", "cylindrical"):
+        point = _in_space(
+            poses[second if second != "ground" else first], joint["points"][1 if second != "ground" else 0]
+        )[0]
+    direction = frame.view.on_screen(poses[first][1] @ np.asarray(joint["axes"][0], dtype=float))
+    axis = (float(direction[0]), float(-direction[1]))
+    x, y = (float(each) for each in frame.pixels(point))
+    if "ground" in (first, second):
+        sliding = joint["type"] in ("translational", "cylindrical") and np.hypot(*axis) > 0.35
+        drawing.signs.append(rail_sign(x, y, axis) if sliding else ground_sign(x, y))
+        drawing.points += [np.array([x, y + 12.0]), np.array([x - 10.0, y + 19.0]), np.array([x + 10.0, y + 19.0])]
+    title = f"<title>{escape(joint['name'])}: {escape(joint['type'])}, {escape(first)} – {escape(second)}</title>"
+    drawing.signs.append(f"<g>{title}{joint_sign(joint['type'], x, y, axis)}</g>")
+    drawing.points.append(np.array([x, y]))
+    drawing.labels.append(Label(joint["name"], x, y, "joint-name"))
+
+
+def _svg(drawing: Drawing, frame: Frame) -> str:
+    aids = _scale_bar(frame) + _triad(frame)
+    keep_free = [*drawing.points, *(np.array([x, frame.height - 14.0]) for x in (14.0, 34.0, 54.0, 74.0, 94.0))]
+    keep_free += [np.array([WIDTH - x, frame.height - y]) for x in (20.0, 45.0) for y in (20.0, 45.0)]
+    lines = np.array(drawing.lines).reshape(-1, 2, 2)
+    labels = sorted(drawing.labels, key=lambda label: label.kind == "body")
+    placed = place(labels, np.array(keep_free).reshape(-1, 2), lines, WIDTH, frame.height)
+    texts = "".join(_text(each.label, *each.centre) for each in placed)
+    parts = "".join(text for _, text in sorted(drawing.parts, key=lambda part: part[0]))
+    box = f'viewBox="0 0 {WIDTH:.0f} {frame.height:.0f}"'
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" class="machine" {box} role="img" aria-label="picture of the machine">'
+        f"<style>{STYLE}</style>{parts}{''.join(drawing.signs)}{aids}{texts}</svg>"
+    )
+
+
+def _text(label: Label, x: float, y: float) -> str:
+    far = np.hypot(label.x - x, label.y - y)
+    leader = ""
+    if far > 40.0 and label.kind != "body":
+        ux, uy = (x - label.x) / far, (y - label.y) / far
+        start, stop = (
+            (label.x + 9.0 * ux, label.y + 9.0 * uy),
+            (label.x + (far - 14.0) * ux, label.y + (far - 14.0) * uy),
+        )
+        leader = f'<path class="leader" d="M{start[0]:.1f} {start[1]:.1f}L{stop[0]:.1f} {stop[1]:.1f}"/>'
+    return f'{leader}<text class="{label.kind}" x="{x:.1f}" y="{y + 0.35 * FONT:.1f}">{escape(label.text)}</text>'
+
+
+def _scale_bar(frame: Frame) -> str:
+    """A bar of a round length, bottom left."""
+    metres = 90.0 / frame.scale
+    power = 10.0 ** np.floor(np.log10(metres))
+    length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= metres)
+    x, y = 14.0 + length * frame.scale, frame.height - 12.0
+    return (
+        f'<path class="aid-line" d="M14 {y - 4:.1f}V{y:.1f}H{x:.1f}V{y - 4:.1f}"/>'
+        f'<text class="aid" style="text-anchor:start" x="{x + 6:.1f}" y="{y + 1:.1f}">{_length(float(length))}</text>'
+    )
+
+
+def _length(metres: float) -> str:
+    if metres >= 1000.0:
+        return f"{metres / 1000.0:g} km"
+    if metres >= 1.0:
+        return f"{metres:g} m"
+    return f"{metres * 1e3:g} mm" if metres >= 1e-3 else f"{metres * 1e6:g} µm"
+
+
+def _triad(frame: Frame) -> str:
+    """The global axes, bottom right; one seen end-on is left out."""
+    origin = np.array([WIDTH - 42.0, frame.height - 30.0])
+    out = []
+    for name, axis in zip("XYZ", np.eye(3), strict=True):
+        direction = frame.view.on_screen(axis) * [1.0, -1.0]
+        if np.linalg.norm(direction) < 0.2:
+            continue
+        tip, mark = origin + 22.0 * direction, origin + (22.0 + 9.0 / np.linalg.norm(direction)) * direction
+        out.append(f'<path class="aid-line" d="M{origin[0]:.1f} {origin[1]:.1f}L{tip[0]:.1f} {tip[1]:.1f}"/>')
+        out.append(f'<text class="aid" x="{mark[0]:.1f}" y="{mark[1] + 4:.1f}">{name}</text>')
+    return "".join(out)
+
+
+def _shaded(colour: str, normal: Array, view: View) -> str:
+    facing = float(np.array([normal @ view.right, normal @ view.up, normal @ view.towards]) @ LIGHT)
+    return _mixed(colour, 0.34 * max(facing, 0.0), 0.22 * max(0.35 - facing, 0.0))
+
+
+def _mixed(colour: str, white: float, black: float) -> str:
+    rgb = np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)], dtype=float)
+    rgb = (rgb + white * (255.0 - rgb)) * (1.0 - black)
+    return "#" + "".join(f"{round(each):02x}" for each in rgb)
+
+
+def _between(first: str, second: str, share: float) -> str:
+    a, b = (np.array([int(c[k : k + 2], 16) for k in (1, 3, 5)], dtype=float) for c in (first, second))
+    return "#" + "".join(f"{round(each):02x}" for each in a + share * (b - a))

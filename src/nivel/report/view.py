@@ -1,0 +1,97 @@
+"""Where to look at a machine from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+PLANAR = 0.02  # a machine thinner than this fraction of its length is seen head-on
+ELEVATION = np.deg2rad(28.0)
+AZIMUTHS = np.deg2rad([-60.0, -45.0, -30.0, 30.0, 45.0, 60.0, 120.0, 135.0, 150.0, -120.0, -135.0, -150.0])
+X, Y, Z = np.eye(3)
+
+
+@dataclass(frozen=True)
+class View:
+    """An orthographic view; three perpendicular unit vectors in global axes.
+
+    right, up : directions on the screen. towards : from the machine to the eye.
+    """
+
+    right: Array
+    up: Array
+    towards: Array
+
+    def on_screen(self, points: Array) -> Array:
+        """(…, 2) [m] right and up of points (…, 3)."""
+        return points @ np.stack([self.right, self.up], axis=-1)
+
+    def depth(self, points: Array) -> Array:
+        """(…,) [m], larger is nearer to the eye."""
+        return points @ self.towards
+
+
+def choose_view(points: Array, axes: Array, up: Array = Z) -> View:
+    """The view of a machine with these points (n, 3) [m] and joint axes (k, 3), both in global axes.
+
+    A planar machine is seen along its normal, with `up` upwards or, where that is the normal, Y (or Z for a normal along Y).
+    Any other is seen from above at 28 degrees, from the side that keeps its points furthest apart.
+    """
+    normal = _plane_normal(points, axes)
+    if normal is not None:
+        return _head_on(normal, up)
+    views = [_from_side(azimuth, up) for azimuth in AZIMUTHS]
+    return max(views, key=lambda view: _clarity(view.on_screen(points)))
+
+
+def _plane_normal(points: Array, axes: Array) -> Array | None:
+    """Unit normal of the plane that holds all points, or None. For points on a line the joint axes decide."""
+    if len(points) < 2:
+        return None
+    _, extents, directions = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)
+    extents = np.append(extents, np.zeros(3 - len(extents)))
+    if extents[0] == 0.0 or extents[2] > PLANAR * extents[0]:
+        return None
+    if extents[1] > PLANAR * extents[0]:
+        return directions[2]
+    across = [axis for axis in axes if abs(axis @ directions[0]) < 0.1]
+    if across and all(abs(axis @ across[0]) > 0.99 for axis in across):
+        return across[0]
+    return None
+
+
+def _head_on(normal: Array, up: Array) -> View:
+    """Look along the normal, from the side that is usual in drawings: X to the right before Y, Y before Z."""
+    if abs(normal @ up) > 0.99:
+        up = Y if abs(normal @ Y) < 0.99 else Z
+    up = up - (up @ normal) * normal
+    up = up / np.linalg.norm(up)
+    right = np.cross(up, normal)
+    sign = 1.0 if right[int(np.argmax(np.abs(right) - [0.0, 1e-6, 2e-6]))] >= 0.0 else -1.0
+    return View(sign * right, up, sign * normal)
+
+
+def _from_side(azimuth: float, up: Array) -> View:
+    """From above at the elevation, turned by `azimuth` about `up` from the horizontal direction that is usual."""
+    front = -Y if abs(up @ Z) > 0.9 else Z
+    front = front - (front @ up) * up
+    front = front / np.linalg.norm(front)
+    side = np.cross(up, front)
+    horizontal = np.cos(azimuth) * front + np.sin(azimuth) * side
+    towards = np.cos(ELEVATION) * horizontal + np.sin(ELEVATION) * up
+    right = np.cross(up, horizontal)
+    return View(right, np.cross(towards, right), towards)
+
+
+def _clarity(flat: Array) -> float:
+    """How well points (n, 2) are seen apart: their spread in both directions, less where many nearly coincide."""
+    centred = flat - flat.mean(axis=0)
+    extents = np.linalg.svd(centred, compute_uv=False)
+    length = extents[0] or 1.0
+    distances = np.linalg.norm(flat[:60, None] - flat[None, :60], axis=-1)
+    apart = np.clip(distances / (0.15 * np.ptp(flat, axis=0).max() or 1.0), 0.0, 1.0)
+    return float(extents[-1] / length + apart.mean())

@@ -104,11 +104,9 @@ def test_wrong_options_end_with_code_two_and_say_what_would_be_right(folder, arg
 
 
 def test_faults_of_the_assembly_have_their_line(folder):
-    text = PENDULUM.replace("bodies: [ground, bar], point: [0, 0, 0], axis: [0, 0, 1]", "markers: [{body: ground}, {body: bar}]")
-    (folder / "two.yaml").write_text(text + "", encoding="utf-8")
-    text = text.replace(
-        "joints:\n", "joints:\n  far: {type: spherical, markers: [{body: ground, position: [5, 0, 0]}, {body: bar, position: [0.5, 0, 0]}]}\n"
-    )
+    by_point = "bodies: [ground, bar], point: [0, 0, 0], axis: [0, 0, 1]"
+    far = "  far: {type: spherical, markers: [{body: ground, position: [5, 0, 0]}, {body: bar}]}\n"
+    text = PENDULUM.replace(by_point, "markers: [{body: ground}, {body: bar}]").replace("joints:\n", f"joints:\n{far}")
     (folder / "open.yaml").write_text(text)
     done = nivel(folder, "check", "open.yaml")
     assert done.returncode == 2
@@ -118,7 +116,7 @@ def test_faults_of_the_assembly_have_their_line(folder):
 
 
 def test_failed_computation_ends_with_code_three_and_a_readable_result(folder):
-    text = PENDULUM + "forces:\n  burst: {type: torque, body: bar, vector: [0, 0, \"log(0.5 - time)\"]}\n"
+    text = PENDULUM + 'forces:\n  burst: {type: torque, body: bar, vector: [0, 0, "log(0.5 - time)"]}\n'
     (folder / "burst.yaml").write_text(text)
     done = nivel(folder, "run", "burst.yaml", "--no-report")
     assert done.returncode == 3, done.stderr

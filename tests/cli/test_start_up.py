@@ -35,6 +35,8 @@ def test_public_names_exist_and_are_few():
 
 @pytest.mark.parametrize("command", ["new", "check", "run", "explain", "export", "warmup"])
 def test_every_command_has_help(command):
-    done = subprocess.run([sys.executable, "-m", "nivel", command, "--help"], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-m", "nivel", command, "--help"], capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stderr
     assert "Usage" in done.stdout

@@ -18,7 +18,7 @@ CLOSED = 1e-12
 # A row that cannot be closed better than this is named.
 OPEN = 1e-9
 # Machines larger than this many entries of C_q are solved iteratively.
-DENSE_ENTRIES = 4_000_000
+DENSE_ENTRIES = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,8 @@ def assemble(machine: MachineRecord, motion: MotionEquations, t: float = 0.0) ->
 
 def _least_change(motion: MotionEquations, target: Array) -> Array:
     """Least x with C_q x = target, lengths of x in units of the machine's length."""
+    if not np.any(target):
+        return np.zeros(6 * motion.system.body_count)
     J = motion.jacobian().reshape(len(target), -1, 6)
     J[:, :, :3] *= motion.system.size
     J = J.reshape(len(target), -1)
@@ -80,7 +82,7 @@ def _least_change(motion: MotionEquations, target: Array) -> Array:
     from scipy.sparse import csr_matrix
     from scipy.sparse.linalg import lsmr
 
-    return lsmr(csr_matrix(J), target, atol=1e-14, btol=1e-14, maxiter=10 * len(target))[0]
+    return lsmr(csr_matrix(J), target, atol=1e-15, btol=1e-15, conlim=1e15, maxiter=20 * len(target))[0]
 
 
 def _consistent_velocities(

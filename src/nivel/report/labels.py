@@ -13,7 +13,7 @@ Box = tuple[float, float, float, float]  # left, top, right, bottom in pixels
 FONT = 13.0  # pixels
 LETTER = 0.58  # width of a letter over its height, on average
 CROWDED = 3.0  # cost above which a name is left out: it would hide more than it says
-DISTANCES = (14.0, 24.0, 38.0, 56.0)  # pixels from the point to the label
+DISTANCES = (15.0, 25.0, 38.0, 56.0)  # pixels from the point to the label
 ANGLES = np.deg2rad([-40.0, 40.0, -140.0, 140.0, 0.0, 180.0, -90.0, 90.0, -65.0, 65.0, -115.0, 115.0])
 
 

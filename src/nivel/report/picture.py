@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.report.labels import FONT, Label, place
-from nivel.report.solids import Ball, Face, reach, solid
+from nivel.report.solids import FACETS, FEW_FACETS, Ball, Face, reach, solid
 from nivel.report.symbols import centre_of_mass_sign, ground_sign, joint_sign, rail_sign
 from nivel.report.view import View, choose_view
 
 Array = NDArray[np.float64]
 
 WIDTH = 560.0  # pixels; names stay readable when a phone shows it at two thirds
+MANY_BODIES = 20
 HEIGHTS = (260.0, 470.0)
 MARGIN = (54.0, 46.0)  # room for names and ground signs
 LIGHT = np.array([-0.45, 0.65, 0.61])  # where it comes from: right, up, towards the eye
@@ -33,7 +34,8 @@ STYLE = """
 .machine text{fill:var(--ink);paint-order:stroke;stroke:var(--paper);stroke-width:3.5px;stroke-linejoin:round;text-anchor:middle}
 .machine .body{font-style:italic;font-weight:600}.machine .joint-name{font-weight:500}
 .machine .leader{stroke:var(--soft);stroke-width:.8;fill:none}
-.machine .aid{fill:var(--soft);font-size:11px;font-weight:500}.machine .aid-line{stroke:var(--soft);stroke-width:1.4;fill:none;stroke-linecap:round}
+.machine .aid{fill:var(--soft);font-size:11px;font-weight:500}
+.machine .aid-line{stroke:var(--soft);stroke-width:1.4;fill:none;stroke-linecap:round}
 @media (prefers-color-scheme:dark){.machine{--paper:#171d26;--ink:#e6ebf2;--soft:#93a0b0}}
 """
 
@@ -78,11 +80,13 @@ def machine_picture(
     cloud = _cloud(scene, poses)
     if not len(cloud) or not np.all(np.isfinite(cloud)):
         return ""
-    axes = np.array([poses[j["bodies"][0]][1] @ np.array(j["axes"][0]) for j in scene["joints"]]).reshape(-1, 3)
-    frame = _frame(choose_view(_skeleton(scene, poses), axes, np.array(up, dtype=float)), cloud)
+    turning, sliding = (_axes(scene, poses, kinds) for kinds in (("revolute", "cylindrical"), ("translational",)))
+    view = choose_view(_skeleton(scene, poses), turning, sliding, np.array(up, dtype=float))
+    frame = _frame(view, cloud)
     drawing = Drawing()
     for k, body in enumerate(scene["bodies"]):
-        _draw_body(drawing, frame, body, poses[body["name"]], COLOURS[k % len(COLOURS)])
+        facets = FACETS if len(scene["bodies"]) <= MANY_BODIES else FEW_FACETS
+        _draw_body(drawing, frame, body, poses[body["name"]], COLOURS[k % len(COLOURS)], facets)
     for joint in scene["joints"]:
         _draw_joint(drawing, frame, joint, poses)
     return _svg(drawing, frame)
@@ -105,6 +109,12 @@ def _rotation(theta: Array) -> Array:
 def _in_space(pose: tuple[Array, Array], points: Any) -> Array:
     r, A = pose
     return r + np.reshape(np.asarray(points, dtype=float), (-1, 3)) @ A.T
+
+
+def _axes(scene: dict[str, Any], poses: dict[str, tuple[Array, Array]], kinds: tuple[str, ...]) -> Array:
+    """(k, 3) axes of the joints of these kinds, global."""
+    chosen = [joint for joint in scene["joints"] if joint["type"] in kinds]
+    return np.array([poses[j["bodies"][0]][1] @ np.array(j["axes"][0], dtype=float) for j in chosen]).reshape(-1, 3)
 
 
 def _skeleton(scene: dict[str, Any], poses: dict[str, tuple[Array, Array]]) -> Array:
@@ -132,26 +142,37 @@ def _frame(view: View, cloud: Array) -> Frame:
     return Frame(view, scale, shift, height)
 
 
-def _draw_body(drawing: Drawing, frame: Frame, body: dict[str, Any], pose: tuple[Array, Array], colour: str) -> None:
+def _draw_body(
+    drawing: Drawing, frame: Frame, body: dict[str, Any], pose: tuple[Array, Array], colour: str, facets: int
+) -> None:
     centre = _in_space(pose, body["centre_of_mass"])[0]
-    joints = _in_space(pose, body.get("points", []))
     x, y = frame.pixels(centre)
     drawing.labels.append(Label(body["name"], x, y, "body"))
+    joints = np.reshape(np.asarray(body.get("points", []), dtype=float), (-1, 3))
+    width = 6.6
     if body.get("shape"):
-        _draw_solid(drawing, frame, solid(body["shape"]), pose, colour)
-        for joint in joints:  # a shape need not reach its joints
-            drawing.lines.append(frame.pixels(np.stack([centre, joint])))
-        return
-    for joint in joints:
+        _draw_solid(drawing, frame, solid(body["shape"], facets), pose, colour)
+        drawing.lines += [frame.pixels(np.stack([centre, joint])) for joint in _in_space(pose, joints)]
+        joints, width = joints[_outside(body["shape"], joints)], 3.4  # a shape need not reach its joints
+    else:
+        drawing.signs.append(centre_of_mass_sign(x, y))
+        drawing.points.append(np.array([x, y]))
+    for joint in _in_space(pose, joints):
         ends = np.stack([centre, joint])
         (x1, y1), (x2, y2) = frame.pixels(ends)
         line = f'x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke-linecap="round"'
         dark, depth = _mixed(colour, 0.0, 0.35), float(frame.view.depth(ends).mean())
-        drawing.parts.append((depth - 1e-9, f'<line {line} stroke="{dark}" stroke-width="9"/>'))
-        drawing.parts.append((depth, f'<line {line} stroke="{colour}" stroke-width="6.6"/>'))
+        drawing.parts.append((depth - 1e-9, f'<line {line} stroke="{dark}" stroke-width="{width + 2.4:.1f}"/>'))
+        drawing.parts.append((depth, f'<line {line} stroke="{colour}" stroke-width="{width:.1f}"/>'))
         drawing.lines.append(frame.pixels(ends))
-    drawing.signs.append(centre_of_mass_sign(x, y))
-    drawing.points.append(np.array([x, y]))
+
+
+def _outside(shape: dict[str, Any], points: Array) -> NDArray[np.bool_]:
+    """Which points (n, 3) of the body frame lie outside the box around the shape."""
+    extent = reach(shape)
+    slack = 1e-3 * np.ptp(extent, axis=0).max()
+    low, high = extent.min(axis=0) - slack, extent.max(axis=0) + slack
+    return np.any((points < low) | (points > high), axis=1)
 
 
 def _draw_solid(
@@ -217,7 +238,7 @@ def _draw_joint(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: di
         drawing.points += [np.array([x, y + 12.0]), np.array([x - 10.0, y + 19.0]), np.array([x + 10.0, y + 19.0])]
     title = f"<title>{escape(joint['name'])}: {escape(joint['type'])}, {escape(first)} – {escape(second)}</title>"
     drawing.signs.append(f"<g>{title}{joint_sign(joint['type'], x, y, axis)}</g>")
-    drawing.points.append(np.array([x, y]))
+    drawing.points += [np.array([x, y]) + part * 13.0 * np.array(axis) for part in (-1.0, 0.0, 1.0)]
     drawing.labels.append(Label(joint["name"], x, y, "joint-name"))
 
 

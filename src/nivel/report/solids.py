@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-FACETS = 28  # of a cylinder: its silhouette is round to 1 % of the radius
+FACETS = 48  # of a cylinder: its silhouette is round to 0.2 % of the radius
+FEW_FACETS = 20  # in a machine of many bodies, to keep the picture small
 
 
 @dataclass
@@ -33,7 +34,7 @@ class Ball:
     radius: float
 
 
-def solid(shape: dict[str, Any]) -> list[Face] | Ball:
+def solid(shape: dict[str, Any], facets: int = FACETS) -> list[Face] | Ball:
     """The shape as faces, or as a ball. `shape` as in the scene: type, sizes, `centre` and `along` in the body frame."""
     centre = np.array(shape.get("centre") or [0.0, 0.0, 0.0], dtype=float)
     match shape["type"]:
@@ -42,9 +43,10 @@ def solid(shape: dict[str, Any]) -> list[Face] | Ball:
         case "sphere":
             return Ball(centre, float(shape["radius"]))
         case "cylinder":
-            faces = _round(shape["length"], [shape["radius"]], shape.get("along") or "x")
+            faces = _round(shape["length"], [shape["radius"]], shape.get("along") or "x", facets)
         case "tube":
-            faces = _round(shape["length"], [shape["outer_radius"], shape["inner_radius"]], shape.get("along") or "x")
+            radii = [shape["outer_radius"], shape["inner_radius"]]
+            faces = _round(shape["length"], radii, shape.get("along") or "x", facets)
         case other:
             raise ValueError(f"no picture of the shape {other}")
     for face in faces:
@@ -75,9 +77,9 @@ def _box(size: Array) -> list[Face]:
     return faces
 
 
-def _round(length: float, radii: list[float], along: str) -> list[Face]:
+def _round(length: float, radii: list[float], along: str, facets: int) -> list[Face]:
     """A cylinder, or with a second radius a tube, about the axis `along`."""
-    turn = 2.0 * np.pi * np.arange(FACETS + 1) / FACETS
+    turn = 2.0 * np.pi * np.arange(facets + 1) / facets
     axis = "xyz".index(along)
     order = [(axis + k) % 3 for k in range(3)]  # places of (axis, first, second cross direction)
 
@@ -89,7 +91,7 @@ def _round(length: float, radii: list[float], along: str) -> list[Face]:
     faces = []
     for radius, outwards in zip(radii, (1.0, -1.0), strict=False):
         y, z = radius * np.cos(turn), radius * np.sin(turn)
-        for k in range(FACETS):
+        for k in range(facets):
             ends = np.array([-0.5, -0.5, 0.5, 0.5]) * length
             pick = [k, k + 1, k + 1, k]
             middle = 0.5 * (turn[k] + turn[k + 1])
@@ -101,10 +103,10 @@ def _round(length: float, radii: list[float], along: str) -> list[Face]:
         normal = place(end, 0.0, 0.0)
         if len(radii) == 1:
             ring = place(0.5 * end * length, radii[0] * np.cos(turn[:-1]), radii[0] * np.sin(turn[:-1]))[:: int(end)]
-            faces.append(Face(ring, normal, np.ones(FACETS, dtype=bool)))
+            faces.append(Face(ring, normal, np.ones(facets, dtype=bool)))
             continue
         outer, inner = (place(0.5 * end * length, r * np.cos(turn), r * np.sin(turn)) for r in radii)
-        for k in range(FACETS):
+        for k in range(facets):
             corners = np.stack([outer[k], outer[k + 1], inner[k + 1], inner[k]])[:: int(end)]
             faces.append(Face(corners, normal, np.array([True, False, True, False])))
     return faces

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-PLANAR = 0.02  # a machine thinner than this fraction of its length is seen head-on
+PLANAR = 0.05  # a machine thinner than this fraction of its length is flat
+ALIGNED = 0.99  # cosine of axes that count as parallel
 ELEVATION = np.deg2rad(28.0)
 AZIMUTHS = np.deg2rad([-60.0, -45.0, -30.0, 30.0, 45.0, 60.0, 120.0, 135.0, 150.0, -120.0, -135.0, -150.0])
 X, Y, Z = np.eye(3)
@@ -35,33 +36,25 @@ class View:
         return points @ self.towards
 
 
-def choose_view(points: Array, axes: Array, up: Array = Z) -> View:
-    """The view of a machine with these points (n, 3) [m] and joint axes (k, 3), both in global axes.
+def choose_view(points: Array, turning: Array, sliding: Array, up: Array = Z) -> View:
+    """The view of a machine with these points (n, 3) [m], all in global axes.
 
-    A planar machine is seen along its normal, with `up` upwards or, where that is the normal, Y (or Z for a normal along Y).
-    Any other is seen from above at 28 degrees, from the side that keeps its points furthest apart.
+    turning, sliding : (k, 3) axes of its joints. A machine is planar when its points lie in a plane, it turns about the
+    plane's normal only and slides in the plane only. It is seen along the normal, with `up` upwards or, where that is the
+    normal, Y (Z for a normal along Y). Any other is seen from above at 28 degrees, from the side that keeps its points
+    furthest apart.
     """
-    normal = _plane_normal(points, axes)
-    if normal is not None:
-        return _head_on(normal, up)
+    if len(turning) and abs(turning @ turning[0]).min() > ALIGNED and _is_flat(points, turning[0]):
+        normal = turning[0]
+        if np.all(np.abs(sliding @ normal) < 0.1):
+            return _head_on(normal, up)
     views = [_from_side(azimuth, up) for azimuth in AZIMUTHS]
     return max(views, key=lambda view: _clarity(view.on_screen(points)))
 
 
-def _plane_normal(points: Array, axes: Array) -> Array | None:
-    """Unit normal of the plane that holds all points, or None. For points on a line the joint axes decide."""
-    if len(points) < 2:
-        return None
-    _, extents, directions = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)
-    extents = np.append(extents, np.zeros(3 - len(extents)))
-    if extents[0] == 0.0 or extents[2] > PLANAR * extents[0]:
-        return None
-    if extents[1] > PLANAR * extents[0]:
-        return directions[2]
-    across = [axis for axis in axes if abs(axis @ directions[0]) < 0.1]
-    if across and all(abs(axis @ across[0]) > 0.99 for axis in across):
-        return across[0]
-    return None
+def _is_flat(points: Array, normal: Array) -> bool:
+    """Whether points (n, 3) lie in a plane with this normal."""
+    return float(np.ptp(points @ normal)) <= PLANAR * float(np.ptp(points, axis=0).max())
 
 
 def _head_on(normal: Array, up: Array) -> View:
@@ -70,7 +63,7 @@ def _head_on(normal: Array, up: Array) -> View:
         up = Y if abs(normal @ Y) < 0.99 else Z
     up = up - (up @ normal) * normal
     up = up / np.linalg.norm(up)
-    right = np.cross(up, normal)
+    right = np.asarray(np.cross(up, normal), dtype=float)
     sign = 1.0 if right[int(np.argmax(np.abs(right) - [0.0, 1e-6, 2e-6]))] >= 0.0 else -1.0
     return View(sign * right, up, sign * normal)
 
@@ -83,7 +76,7 @@ def _from_side(azimuth: float, up: Array) -> View:
     side = np.cross(up, front)
     horizontal = np.cos(azimuth) * front + np.sin(azimuth) * side
     towards = np.cos(ELEVATION) * horizontal + np.sin(ELEVATION) * up
-    right = np.cross(up, horizontal)
+    right = np.asarray(np.cross(up, horizontal), dtype=float)
     return View(right, np.cross(towards, right), towards)
 
 

@@ -7,8 +7,10 @@ import sys
 import time
 from pathlib import Path
 
-import nivel
 import numpy as np
+from numba import njit, types
+
+import nivel
 from nivel.analysis.dynamics import prepare
 from nivel.kernels.constraint import constraint_rows
 from nivel.kernels.handle import address_type
@@ -18,7 +20,7 @@ from nivel.kernels.record import record_at, state_type
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.motion import newton_euler as ne
-from numba import njit, types
+from nivel.motion.newton_euler_correction import correct
 
 REPEATS, ROUNDS = 20_000, 7
 signature = types.void(address_type, state_type, state_type, types.int64)
@@ -103,7 +105,7 @@ def correction(machine, y, _out, repeats):
     for _ in range(repeats):
         y[0] += 1e-10
         y[y.shape[0] // 2 + 2] += 1e-9
-        ne.correct(machine, 0.0, y)
+        correct(machine, 0.0, y)
 
 
 def measure(function, *arguments):

@@ -2,6 +2,7 @@
 
 import numpy as np
 from exudyn_machine import Machine, System, items, main
+
 from references import four_bar as reference
 
 CRANK, COUPLER, ROCKER = reference.CRANK, reference.COUPLER, reference.ROCKER

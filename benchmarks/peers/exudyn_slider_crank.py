@@ -2,6 +2,7 @@
 
 import numpy as np
 from exudyn_machine import Machine, System, items, main
+
 from references import slider_crank as reference
 
 CRANK, ROD, SLIDER = reference.CRANK, reference.ROD, reference.SLIDER

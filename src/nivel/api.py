@@ -112,7 +112,9 @@ class Machine:
         }
         chosen = self.with_settings({key: value for key, value in given.items() if value is not None})
         settings = chosen.record.simulation
-        compile_seconds = compile_path(settings.formulation, settings.integrator, listener or Listener())
+        compile_seconds = compile_path(
+            settings.formulation, settings.integrator, settings.stabilisation, listener or Listener()
+        )
         # after the kernels: what follows imports them
         from nivel.analysis.simulate import simulate
 

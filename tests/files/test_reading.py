@@ -4,10 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from base_machine import BASE
 
 from nivel.errors import ModelError
-from nivel.files import locate, parse_machine, read_machine
+from nivel.files import locate, nodes, parse_machine, read_machine
 from nivel.files.tree import read_tree, read_value
 from nivel.machine import Expression, Table, placement
 
@@ -86,6 +87,22 @@ def test_values_follow_yaml_1_2(text, value):
     read = read_value(text)
     assert read == value
     assert type(read) is type(value)
+
+
+@pytest.mark.parametrize(
+    "text", [BASE, "format: 1\nbodies: {a: &x {mass: 1}, b: *x}", "a: 'b", "", "\0", "a: *b", "[" * 99, "--- 1\n--- 2"]
+)
+def test_without_libyaml_nothing_changes(text, monkeypatch):
+    def tree():
+        try:
+            read = read_tree(text, "file")
+        except ModelError as error:
+            return [(fault.line, fault.path) for fault in error.faults]
+        return read.data, read.places, read.keys
+
+    with_libyaml = tree()
+    monkeypatch.setattr(nodes, "_Loader", yaml.SafeLoader)
+    assert tree() == with_libyaml
 
 
 def test_numbers_that_yaml_1_1_takes_for_texts():

@@ -8,10 +8,11 @@ from importlib import import_module
 from nivel.analysis.listener import Listener
 from nivel.kernels import cache
 from nivel.march.catalogue import INTEGRATORS
+from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
 
 
-def compile_path(formulation: str, integrator: str, listener: Listener) -> float:
+def compile_path(formulation: str, integrator: str, stabilisation: str, listener: Listener) -> float:
     """Import the kernel modules of a run; tell the listener about each that is not in the cache. Unknown names are left alone.
 
     Returns the wall time [s].
@@ -22,6 +23,8 @@ def compile_path(formulation: str, integrator: str, listener: Listener) -> float
     parts = [("nivel.kernels.observe", "output"), ("nivel.march.loop", "the time loop")]
     if formulation in FORMULATIONS:
         parts.insert(0, (FORMULATIONS[formulation].module, f"the equations of motion, {formulation}"))
+        if stabilisation in STABILISATIONS and STABILISATIONS[stabilisation].CORRECTS:
+            parts.insert(1, (FORMULATIONS[formulation].correction, "the direct correction"))
     if integrator in INTEGRATORS:
         parts.append((INTEGRATORS[integrator].module, f"the integrator {integrator}"))
     missing = [part for part in parts if part[0] not in sys.modules and not cache.is_warm(part[0].rsplit(".", 1)[1])]

@@ -38,6 +38,7 @@ from nivel.march.run import (
 )
 from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
+from nivel.motion.catalogue import FORMULATIONS
 
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
 CHUNK = 0.05
@@ -92,8 +93,8 @@ def march(
     stabilisation = STABILISATIONS[settings.stabilisation]
     alpha, beta = settings.baumgarte or (None, None)
     system.record.control.stabilise[:] = stabilisation.coefficients(settings.step, alpha, beta, system.size)
-    kernels = prepared.motion.kernels
-    correct = kernels.correct if stabilisation.CORRECTS else kernels.keep
+    kernels, formulation = prepared.motion.kernels, FORMULATIONS[settings.formulation]
+    correct = import_module(formulation.correction).correct if stabilisation.CORRECTS else kernels.keep
     facts = INTEGRATORS[settings.integrator]
     step = getattr(import_module(facts.module), facts.function)
     advance = import_module("nivel.march.loop").advance

@@ -20,7 +20,7 @@ from nivel.system.system import Array, Equations, System, parameter_rates
 
 @dataclass(frozen=True)
 class MotionEquations:
-    """A system with its compiled `evaluate`, `correct` and `keep`."""
+    """A system with its compiled `evaluate` and `keep`."""
 
     system: System
     kernels: Any

@@ -25,7 +25,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
     "explain": CommandPlace("nivel.cli.explain", "Say how far a result can be trusted, and why."),
     "export": CommandPlace("nivel.cli.export", "Write a result in another format."),
-    "warmup": CommandPlace("nivel.cli.warmup", "Compile everything ahead of the first run."),
+    "warmup": CommandPlace("nivel.cli.warmup", "Compile all kernels ahead of the first run."),
 }
 
 

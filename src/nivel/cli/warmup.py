@@ -23,7 +23,8 @@ def command(quiet: bool) -> None:
 
     console = Console(stderr=True, highlight=False, quiet=quiet)
     modules = ["nivel.kernels.observe", "nivel.march.loop"]
-    modules += [facts.module for facts in FORMULATIONS.values()] + [facts.module for facts in INTEGRATORS.values()]
+    modules += [module for facts in FORMULATIONS.values() for module in (facts.module, facts.correction)]
+    modules += [facts.module for facts in INTEGRATORS.values()]
     total = time.perf_counter()
     for module in dict.fromkeys(modules):
         begin = time.perf_counter()

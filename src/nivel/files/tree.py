@@ -9,12 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Hashable
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Final, NamedTuple
-
-import yaml
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+from typing import Any, Final
 
 from nivel.errors import Fault, ModelError
+from nivel.files.nodes import DEEPEST, Mapping, Node, NotYamlError, Place, Scalar, Sequence, compose
 
 Path = tuple[str | int, ...]
 
@@ -26,14 +24,6 @@ NOT_FINITE: Final = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
 
 _MOST_NODES = 200_000
 _PREFIX = "tag:yaml.org,2002:"
-_PLAIN_TAGS = {_PREFIX + "str", _PREFIX + "map", _PREFIX + "seq"}
-
-
-class Place(NamedTuple):
-    """Line and column, from 1."""
-
-    line: int
-    column: int
 
 
 @dataclass
@@ -70,9 +60,9 @@ def read_tree(text: str, file: str) -> Tree:
     """
     tree = Tree(file)
     try:
-        root = _compose(text)
-    except (yaml.YAMLError, RecursionError, ValueError) as error:
-        raise ModelError(_syntax_fault(error, text, file)) from None
+        root = compose(text)
+    except NotYamlError as error:
+        raise ModelError(Fault(file, *error.place, "", error.message)) from None
     if root is not None:
         _Reader(tree).value(root, ())
     return tree
@@ -89,39 +79,6 @@ def read_value(text: str) -> Any:
     return tree.data
 
 
-_Base: Any = yaml.CSafeLoader if yaml.__with_libyaml__ else yaml.SafeLoader
-
-
-class _Loader(_Base):
-    """Gives every plain scalar as a text: PyYAML's own rule is that of YAML 1.1."""
-
-    yaml_implicit_resolvers: ClassVar[dict[str, Any]] = {}
-
-
-def _compose(text: str) -> Node | None:
-    loader = _Loader(text)
-    try:
-        return loader.get_single_node()
-    finally:
-        loader.dispose()
-
-
-def _syntax_fault(error: Exception, text: str, file: str) -> Fault:
-    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
-    place = Place(mark.line + 1, mark.column + 1) if mark is not None else _place_of_character(error, text)
-    problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "nested too deeply"
-    context = getattr(error, "context", None)
-    hint = "; indent with spaces, not tabs" if "'\\t'" in str(problem) else ""
-    return Fault(file, *place, "", f"this is not YAML: {problem}{f' {context}' if context else ''}{hint}")
-
-
-def _place_of_character(error: Exception, text: str) -> Place:
-    """Place of a character that YAML does not allow."""
-    at = getattr(error, "position", None) or getattr(error, "start", None)
-    before = text[:at] if isinstance(at, int) else ""
-    return Place(before.count("\n") + 1, len(before) - (before.rfind("\n") + 1) + 1)
-
-
 class _Reader:
     """Walks the nodes of a document and fills a Tree."""
 
@@ -132,35 +89,37 @@ class _Reader:
         self.tree.data = None
 
     def value(self, node: Node, path: Path) -> None:
-        self.tree.places[path] = Place(node.start_mark.line + 1, node.start_mark.column + 1)
+        self.tree.places[path] = node.place
         self.tree.data = self.read(node, path)
 
     def read(self, node: Node, path: Path) -> Any:
         self.count += 1
         if self.count > _MOST_NODES:
             raise ModelError(self.tree.fault(path, f"the file has more than {_MOST_NODES} entries"))
-        if node.tag not in _PLAIN_TAGS:
+        if len(path) > DEEPEST:  # through aliases of aliases
+            raise ModelError(self.tree.fault(path[:3], "this is nested too deeply for a machine file"))
+        if node.tag is not None:
             self.report(path, f"the tag `{node.tag.replace(_PREFIX, '!!')}` is not used in machine files")
-        if isinstance(node, ScalarNode):
+        if isinstance(node, Scalar):
             return self.scalar(node, path)
         if id(node) in self.open:
             self.report(path, "this alias leads back to itself")
             return None
         self.open.add(id(node))
-        data = self.mapping(node, path) if isinstance(node, MappingNode) else self.sequence(node, path)
+        data = self.mapping(node, path) if isinstance(node, Mapping) else self.sequence(node, path)
         self.open.discard(id(node))
         return data
 
-    def mapping(self, node: MappingNode, path: Path) -> dict[str, Any]:
+    def mapping(self, node: Mapping, path: Path) -> dict[str, Any]:
         data: dict[str, Any] = {}
-        for key_node, value_node in node.value:
-            place = Place(key_node.start_mark.line + 1, key_node.start_mark.column + 1)
-            if not isinstance(key_node, ScalarNode):
+        for key_node, value_node in node.pairs:
+            place = key_node.place
+            if not isinstance(key_node, Scalar):
                 self.tree.faults.append(
                     Fault(self.tree.file, *place, ".".join(map(str, path)), "a key must be a single word")
                 )
                 continue
-            key = key_node.value
+            key = key_node.text
             if key in data:
                 first = self.tree.keys[(*path, key)].line
                 words = ".".join(map(str, (*path, key)))
@@ -172,17 +131,16 @@ class _Reader:
             data[key] = self.read(value_node, (*path, key))
         return data
 
-    def sequence(self, node: Node, path: Path) -> list[Any]:
-        assert isinstance(node, SequenceNode)
+    def sequence(self, node: Sequence, path: Path) -> list[Any]:
         data = []
-        for at, entry in enumerate(node.value):
-            self.tree.places[(*path, at)] = Place(entry.start_mark.line + 1, entry.start_mark.column + 1)
+        for at, entry in enumerate(node.entries):
+            self.tree.places[(*path, at)] = entry.place
             data.append(self.read(entry, (*path, at)))
         return data
 
-    def scalar(self, node: ScalarNode, path: Path) -> Hashable:
-        text = node.value
-        if node.style:  # quoted, or a block of text
+    def scalar(self, node: Scalar, path: Path) -> Hashable:
+        text = node.text
+        if not node.plain:
             return text
         if NULL.fullmatch(text):
             return None
@@ -202,8 +160,7 @@ class _Reader:
 
 def _place_of_value(key: Node, value: Node) -> Place:
     """Where a reader looks: at the value if it starts in the line of its key, else at the key."""
-    mark = value.start_mark if value.start_mark.line == key.start_mark.line else key.start_mark
-    return Place(mark.line + 1, mark.column + 1)
+    return value.place if value.place.line == key.place.line else key.place
 
 
 def _integer(text: str) -> int | float:

@@ -1,6 +1,6 @@
 """Equations of motion: coordinates and formulations, one pair a file.
 
-A file gives two compiled functions with the signatures of `nivel.kernels.record`:
-`evaluate(machine, t, y, ydot) -> status` and `correct(machine, t, y) -> status`, the direct correction of a state; and the two
-facts `POSITIONS` and `VELOCITIES`, coordinates a rigid body.
+A file gives two compiled functions with the signatures of `nivel.kernels.record`: `evaluate(machine, t, y, ydot) -> status` and
+`keep(machine, t, y) -> status`, what is done to a state after a step without correction. A second file beside it gives
+`correct(machine, t, y) -> status`, the direct correction; it is compiled by runs that use it.
 """

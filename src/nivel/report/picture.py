@@ -66,7 +66,7 @@ class Frame:
 
 
 def machine_picture(
-    scene: dict[str, Any], position: Array, orientation: Array, up: tuple[float, float, float] = (0, 0, 1)
+    scene: dict[str, Any], position: Array, orientation: Array, up: tuple[float, float, float] | Array = (0, 0, 1)
 ) -> str:
     """SVG text of the machine in one configuration.
 
@@ -87,7 +87,7 @@ def machine_picture(
     for k, body in enumerate(scene["bodies"]):
         facets = FACETS if len(scene["bodies"]) <= MANY_BODIES else FEW_FACETS
         _draw_body(drawing, frame, body, poses[body["name"]], COLOURS[k % len(COLOURS)], facets)
-    for joint in scene["joints"]:
+    for joint in sorted(scene["joints"], key=lambda joint: joint["type"] not in ("translational", "cylindrical")):
         _draw_joint(drawing, frame, joint, poses)
     return _svg(drawing, frame)
 
@@ -161,7 +161,8 @@ def _draw_body(
         ends = np.stack([centre, joint])
         (x1, y1), (x2, y2) = frame.pixels(ends)
         line = f'x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke-linecap="round"'
-        dark, depth = _mixed(colour, 0.0, 0.35), float(frame.view.depth(ends).mean())
+        depths = frame.view.depth(ends)
+        dark, depth = _mixed(colour, 0.0, 0.35), float(depths.min() if body.get("shape") else depths.mean())
         drawing.parts.append((depth - 1e-9, f'<line {line} stroke="{dark}" stroke-width="{width + 2.4:.1f}"/>'))
         drawing.parts.append((depth, f'<line {line} stroke="{colour}" stroke-width="{width:.1f}"/>'))
         drawing.lines.append(frame.pixels(ends))

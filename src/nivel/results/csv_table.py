@@ -21,12 +21,10 @@ if TYPE_CHECKING:
 BLOCK = 4096  # frames turned into text at once
 
 
-def write_csv(result: Result, path: str | os.PathLike[str], select: Iterable[str] = (), *, force: bool = False) -> Path:
-    """Write the table to `path`. An existing file is replaced only with `force`; see `columns` for `select`."""
+def write_csv(result: Result, path: str | os.PathLike[str], select: Iterable[str] = ()) -> Path:
+    """Write the table to `path`; an existing file is replaced. See `columns` for `select`."""
     target = Path(path)
     chosen = columns(result, select)
-    if target.exists() and not force:
-        raise ModelError(f"the file {target} exists already; it is replaced with --force (in Python: force=True)")
     try:
         with target.open("w", encoding="utf-8", newline="") as file:
             write_table(result, chosen, file)

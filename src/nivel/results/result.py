@@ -179,19 +179,20 @@ class Result:
 
         return plot(self, names)
 
-    def report(self, path: str | os.PathLike[str], force: bool = False) -> Path:
-        """Write the report as one HTML file that needs no network."""
+    def report(self, path: str | os.PathLike[str]) -> Path:
+        """Write the report as one HTML file that needs no network; an existing file is replaced."""
         from nivel.report.write import write_report
 
-        return write_report(self, path, force=force)
+        return write_report(self, path)
 
-    def export_csv(
-        self, path: str | os.PathLike[str], select: tuple[str, ...] | list[str] = (), force: bool = False
-    ) -> Path:
-        """Write a table, one row per frame; `select` takes names, elements (`crank`), or patterns (`*.angle`)."""
+    def export_csv(self, path: str | os.PathLike[str], select: tuple[str, ...] | list[str] = ()) -> Path:
+        """Write a table, one row per frame; `select` takes names, elements (`crank`), or patterns (`*.angle`).
+
+        An existing file is replaced.
+        """
         from nivel.results.csv_table import write_csv
 
-        return write_csv(self, path, select, force=force)
+        return write_csv(self, path, select)
 
     def summary(self) -> dict[str, Any]:
         """The run in a few words and numbers, as `nivel run --json` prints it."""

@@ -1,0 +1,148 @@
+"""YAML text as a tree of nodes with their places, from the events of PyYAML's parser (libyaml where there is one).
+
+PyYAML's own composer recurses in C without a limit, and deep nesting ends the process; this one stops at DEEPEST.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, Final, NamedTuple
+
+import yaml
+from yaml import events
+
+DEEPEST: Final = 60
+
+
+class Place(NamedTuple):
+    """Line and column, from 1."""
+
+    line: int
+    column: int
+
+
+class NotYamlError(Exception):
+    """The text is not YAML, or not the part of YAML that machine files use."""
+
+    def __init__(self, message: str, place: Place) -> None:
+        self.message = message
+        self.place = place
+        super().__init__(message)
+
+
+@dataclass
+class Scalar:
+    """`text` as written; `plain`: without quotes."""
+
+    place: Place
+    tag: str | None
+    text: str
+    plain: bool
+
+
+@dataclass
+class Sequence:
+    place: Place
+    tag: str | None
+    entries: list[Node] = field(default_factory=list)
+
+
+@dataclass
+class Mapping:
+    place: Place
+    tag: str | None
+    pairs: list[tuple[Node, Node]] = field(default_factory=list)
+
+
+Node = Scalar | Sequence | Mapping
+_Loader: Any = yaml.CSafeLoader if yaml.__with_libyaml__ else yaml.SafeLoader
+
+
+def compose(text: str) -> Node | None:
+    """The root node of the one document in `text`; None if there is nothing in it.
+
+    Raises NotYamlError.
+    """
+    try:
+        return _Composer(yaml.parse(text, Loader=_Loader)).document()
+    except yaml.YAMLError as error:
+        raise _restated(error, text) from None
+    except UnicodeEncodeError as error:
+        raise NotYamlError(f"this is not YAML: {error.reason}", _place_of_character(error.start, text)) from None
+
+
+class _Composer:
+    """Puts events together. Sequences and mappings that are still open stand in the Python stack."""
+
+    def __init__(self, stream: Iterator[Any]) -> None:
+        self.stream = stream
+        self.anchors: dict[str, Node] = {}
+
+    def document(self) -> Node | None:
+        next(self.stream)  # the start of the stream
+        if isinstance(next(self.stream), events.StreamEndEvent):
+            return None
+        root = self.node(next(self.stream), 0)
+        next(self.stream)  # the end of the document
+        following = next(self.stream)
+        if not isinstance(following, events.StreamEndEvent):
+            raise NotYamlError("a machine file is one document; another document starts here", _place(following))
+        return root
+
+    def node(self, event: Any, depth: int) -> Node:
+        place = _place(event)
+        if depth > DEEPEST:
+            raise NotYamlError("this is nested too deeply for a machine file", place)
+        if isinstance(event, events.AliasEvent):
+            if event.anchor not in self.anchors:
+                raise NotYamlError(
+                    f"this is not YAML: the alias `*{event.anchor}` has no anchor `&{event.anchor}` before it", place
+                )
+            return self.anchors[event.anchor]
+        if isinstance(event, events.ScalarEvent):
+            return self.anchored(event, Scalar(place, event.tag, event.value, not event.style))
+        if isinstance(event, events.SequenceStartEvent):
+            sequence = Sequence(place, event.tag)
+            self.anchored(event, sequence)
+            while not isinstance(entry := next(self.stream), events.SequenceEndEvent):
+                sequence.entries.append(self.node(entry, depth + 1))
+            return sequence
+        mapping = Mapping(place, event.tag)
+        self.anchored(event, mapping)
+        while not isinstance(key := next(self.stream), events.MappingEndEvent):
+            mapping.pairs.append((self.node(key, depth + 1), self.node(next(self.stream), depth + 1)))
+        return mapping
+
+    def anchored(self, event: Any, node: Node) -> Node:
+        if event.anchor is not None:
+            self.anchors[event.anchor] = node
+        return node
+
+
+def _place(event: Any) -> Place:
+    return Place(event.start_mark.line + 1, event.start_mark.column + 1)
+
+
+def _restated(error: yaml.YAMLError, text: str) -> NotYamlError:
+    """PyYAML's error with its place, and a hint for tabs."""
+    place = _place_of_error(error, text)
+    problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "it cannot be read"
+    context = getattr(error, "context", None)
+    lines = text.splitlines()
+    line = lines[place.line - 1] if place.line <= len(lines) else ""
+    hint = "; indent with spaces, not tabs" if line[place.column - 1 : place.column] == "\t" else ""
+    return NotYamlError(f"this is not YAML: {problem}{f' {context}' if context else ''}{hint}", place)
+
+
+def _place_of_error(error: yaml.YAMLError, text: str) -> Place:
+    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
+    if mark is not None:
+        return Place(mark.line + 1, mark.column + 1)
+    return _place_of_character(getattr(error, "position", 0) or 0, text)
+
+
+def _place_of_character(at: int, text: str) -> Place:
+    """Place of a character that YAML does not allow."""
+    before = text[:at]
+    return Place(before.count("\n") + 1, len(before) - (before.rfind("\n") + 1) + 1)

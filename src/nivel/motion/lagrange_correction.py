@@ -1,0 +1,51 @@
+"""Direct correction of states of the Lagrange equations (report 44, §5.5)."""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import entry
+from nivel.kernels.constraint import constraint_rows
+from nivel.kernels.record import correct_signature, record_at
+from nivel.kernels.saddle import correction, exceeds, factorise_rows
+from nivel.kernels.status import OK
+from nivel.motion.lagrange import WIDTH, factorise_mass, normalisation_rows, read_velocities, unwhiten, whiten_rows
+
+MAX_CORRECTIONS = 3
+# Violations up to this many times the tolerance leave the factor of S good enough for the next pass.
+NEAR = 1e7
+
+
+@entry(correct_signature)
+def correct(machine, t, y):
+    """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137).
+
+    The change is least in the mass metric M + μ θ θᵀ instead of the report's unit weights; see `newton_euler.correct`.
+    A level within its tolerance (control.stabilise[2:4]) is left alone.
+    """
+    record = record_at(machine)
+    constraints, saddle = record.constraints, record.saddle
+    nb = record.bodies.mass.shape[0]
+    tolerance = record.control.stabilise
+    factorised = False
+    for attempt in range(MAX_CORRECTIONS + 1):
+        read_velocities(record, y)
+        constraint_rows(record.bodies, record.markers, constraints)
+        normalisation_rows(record, y)
+        at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, tolerance[2])
+        if not at_positions and not exceeds(constraints.Cdot, tolerance[3]):
+            return OK
+        if not factorised:
+            factorise_mass(record, y)
+            whiten_rows(record, y)
+            status = factorise_rows(record, WIDTH)
+            if status != OK:
+                return status
+        factorised = not exceeds(constraints.C, NEAR * tolerance[2])
+        correction(record, constraints.C if at_positions else constraints.Cdot, WIDTH)
+        first = 0 if at_positions else 7 * nb
+        for b in range(nb):
+            unwhiten(record, b)
+            for i in range(7):
+                y[first + 7 * b + i] += saddle.z[b, i]
+        if not at_positions:
+            return OK
+    return OK

@@ -1,0 +1,174 @@
+// Plots of the report. One cursor and one time range for all of them.
+(() => {
+  "use strict";
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const root = document.documentElement;
+  const colour = (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim();
+  const font = `12px ${getComputedStyle(document.body).fontFamily}`;
+  const HEIGHT = 250;
+
+  function floats(text, Kind) {
+    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    return new Kind(bytes.buffer);
+  }
+
+  const time = floats(data.time, Float64Array);
+  const start = time[0];
+  const end = time[time.length - 1];
+  const whole = [start, end > start ? end : start + 1];
+  let range = whole;
+
+  // values that are not numbers, or zero on a logarithmic scale, are gaps
+  function values(curve, log) {
+    if (!curve.decoded) {
+      curve.decoded = Array.from(floats(curve.values, Float32Array), (v) => (Number.isFinite(v) && (!log || v > 0) ? v : null));
+    }
+    return curve.decoded;
+  }
+
+  function short(v) {
+    if (v == null) return "";
+    const size = Math.abs(v);
+    if (size === 0) return "0";
+    if (size >= 1e-3 && size < 1e6) return String(+v.toPrecision(5));
+    return v.toExponential(2).replace(/\.?0+e/, "e").replace("e+", "e");
+  }
+
+  function axisWidth(u, labels, index, cycle) {
+    const axis = u.axes[index];
+    if (cycle > 1) return axis._size;
+    let size = axis.ticks.size + axis.gap;
+    const longest = (labels ?? []).reduce((a, b) => (String(b ?? "").length > a.length ? String(b) : a), "");
+    if (longest) {
+      u.ctx.font = axis.font[0];
+      size += u.ctx.measureText(longest).width / devicePixelRatio + 4;
+    }
+    return Math.ceil(Math.max(size, 34));
+  }
+
+  function limitLines(limits) {
+    return (u) => {
+      const { ctx, bbox } = u;
+      for (const limit of limits) {
+        const scale = u.scales.y;
+        if (!(limit.value >= scale.min && limit.value <= scale.max)) continue;
+        const y = Math.round(u.valToPos(limit.value, "y", true));
+        ctx.save();
+        ctx.strokeStyle = ctx.fillStyle = colour(limit.tone);
+        ctx.lineWidth = devicePixelRatio;
+        ctx.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
+        ctx.beginPath();
+        ctx.moveTo(bbox.left, y);
+        ctx.lineTo(bbox.left + bbox.width, y);
+        ctx.stroke();
+        ctx.font = `${11 * devicePixelRatio}px sans-serif`;
+        ctx.textAlign = "right";
+        ctx.textBaseline = "bottom";
+        ctx.fillText(`${limit.tone} below`, bbox.left + bbox.width - 4, y - 2);
+        ctx.restore();
+      }
+    };
+  }
+
+  const plots = new Map();
+
+  function setRange(min, max, from) {
+    range = [min, max];
+    document.getElementById("reset").hidden = min <= whole[0] && max >= whole[1];
+    for (const plot of plots.values()) {
+      if (plot !== from && (plot.scales.x.min !== min || plot.scales.x.max !== max)) plot.setScale("x", { min, max });
+    }
+  }
+
+  function options(panel, group, width) {
+    const axis = { stroke: () => colour("faint"), font, grid: { stroke: () => colour("grid"), width: 1 }, ticks: { show: false, size: 4 }, gap: 4 };
+    const highest = Math.max(0, ...group.limits.filter((l) => l.tone === "green").map((l) => l.value));
+    const y = panel.log
+      ? { distr: 3, range: (u, min, max) => uPlot.rangeLog(min ?? 1e-16, Math.max(max ?? 1e-15, 2 * highest), 10, true) }
+      : { range: (u, min, max) => (min == null ? [-1, 1] : min === max ? [min - (Math.abs(min) || 1) * 0.1, max + (Math.abs(max) || 1) * 0.1] : uPlot.rangeNum(min, max, 0.08, true)) };
+    return {
+      width,
+      height: HEIGHT,
+      scales: { x: { time: false }, y },
+      cursor: { sync: { key: "nivel" }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 }, focus: { prox: 18 } },
+      focus: { alpha: 0.3 },
+      axes: [
+        { ...axis, values: (u, splits) => splits.map((v) => `${short(v)}`), label: "", size: 28 },
+        { ...axis, size: axisWidth, values: (u, splits) => splits.map((v) => (v == null ? "" : short(v))) },
+      ],
+      series: [
+        { label: "t", value: (u, v) => (v == null ? "" : `${+v.toPrecision(6)} s`) },
+        ...group.curves.map((curve) => ({
+          label: curve.label,
+          stroke: () => colour(`tone-${/\d/.test(curve.tone) ? Number(curve.tone) % 8 : curve.tone}`),
+          dash: Number(curve.tone) >= 8 ? [6, 4] : undefined,
+          width: 1.6,
+          points: { show: false },
+          value: (u, v) => (v == null ? "" : `${short(v)} ${group.unit === "1" ? "" : group.unit}`),
+        })),
+      ],
+      hooks: {
+        draw: [limitLines(group.limits)],
+        setScale: [(u, key) => key === "x" && u.ready && setRange(u.scales.x.min, u.scales.x.max, u)],
+        ready: [(u) => { u.ready = true; }],
+      },
+    };
+  }
+
+  function build(card) {
+    const panel = data.panels[card.dataset.panel];
+    const group = panel.groups[card.querySelector("select")?.value ?? 0];
+    const place = card.querySelector(".canvas");
+    plots.get(card)?.destroy();
+    card.querySelector(".unit").textContent = group.unit === "1" ? "" : `[${group.unit}]`;
+    const lines = [time, ...group.curves.map((curve) => values(curve, panel.log))];
+    const plot = new uPlot(options(panel, group, place.clientWidth || 400), lines, place);
+    plots.set(card, plot);
+    if (range !== whole) plot.setScale("x", { min: range[0], max: range[1] });
+  }
+
+  // one finger moves the cursor, two fingers zoom
+  function touch(place, card) {
+    let pinch = null;
+    const at = (finger) => finger.clientX - plots.get(card).over.getBoundingClientRect().left;
+    place.addEventListener("touchstart", (event) => {
+      if (event.touches.length === 2) {
+        const plot = plots.get(card);
+        pinch = [...event.touches].map((finger) => plot.posToVal(at(finger), "x")).sort((a, b) => a - b);
+      }
+    }, { passive: true });
+    place.addEventListener("touchmove", (event) => {
+      const plot = plots.get(card);
+      if (event.touches.length === 1) {
+        plot.setCursor({ left: at(event.touches[0]), top: plot.over.clientHeight / 2 });
+      } else if (pinch) {
+        event.preventDefault();
+        const [a, b] = [...event.touches].map(at).sort((m, n) => m - n);
+        const perPixel = (pinch[1] - pinch[0]) / Math.max(b - a, 20);
+        const min = Math.max(whole[0], pinch[0] - a * perPixel);
+        setRange(min, Math.min(whole[1], min + plot.over.clientWidth * perPixel));
+      }
+    }, { passive: false });
+    place.addEventListener("touchend", () => { pinch = null; });
+  }
+
+  const cards = [...document.querySelectorAll(".plot")];
+  const watch = new ResizeObserver((entries) => {
+    for (const { target } of entries) {
+      const plot = plots.get(target.parentElement);
+      if (plot && target.clientWidth && plot.width !== target.clientWidth) plot.setSize({ width: target.clientWidth, height: HEIGHT });
+    }
+  });
+  for (const card of cards) {
+    build(card);
+    card.querySelector("select")?.addEventListener("change", () => build(card));
+    const place = card.querySelector(".canvas");
+    touch(place, card);
+    watch.observe(place);
+  }
+  document.getElementById("reset").addEventListener("click", () => setRange(...whole));
+  if (data.thinned > 1) {
+    document.querySelector(".thinned").textContent = ` Each point pair is the least and the largest of ${data.thinned} frames; the result file has them all.`;
+  }
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => cards.forEach(build));
+})();

@@ -1,0 +1,181 @@
+"""The words and figures of the report around its plots."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from nivel.results.verdicts import Item, Trust, Verdict
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+
+DECADES = 16  # of a gauge, down from 1: round-off of double precision
+
+HEADLINES: dict[str, tuple[Verdict, str]] = {
+    "done": ("green", "Yes, to its end"),
+    "interrupted": ("amber", "Interrupted"),
+    "failed": ("red", "No, it stopped"),
+    "running": ("amber", "Never closed"),
+}
+VERDICTS: dict[Verdict, str] = {
+    "green": "Yes, everything is in the green",
+    "amber": "With care: see what is amber",
+    "red": "No: see what is red",
+}
+NAMES = {
+    "outcome": "Outcome",
+    "energy": "Energy",
+    "violation": "Joints closed",
+    "rate_violation": "Joint rates",
+    "degrees_of_freedom": "Freedom",
+    "redundancy": "Redundancy",
+    "accuracy": "Accuracy",
+}
+
+
+@dataclass(frozen=True)
+class Headline:
+    """The two answers on top: did it run, can I trust it."""
+
+    outcome: str
+    outcome_verdict: Verdict
+    outcome_text: str
+    trust: str
+
+
+@dataclass(frozen=True)
+class Gauge:
+    """A number on a logarithmic scale from 1e-16 to 1, in percent of the scale's length."""
+
+    value: float
+    green: float
+    amber: float
+
+
+@dataclass(frozen=True)
+class TrustLine:
+    """An item of the trust report: its name, its statement without the name, and its gauge where it is a number."""
+
+    name: str
+    verdict: Verdict
+    text: str
+    gauge: Gauge | None
+
+
+def headline(result: Result) -> Headline:
+    """What happened and whether to believe it, in a few words."""
+    verdict, outcome = HEADLINES.get(result.outcome, ("red", result.outcome))
+    time = result.time
+    reached = f"{_seconds(float(time[-1] - time[0]))} simulated" if len(time) else "nothing was computed"
+    seconds = result.timing.get("loop_seconds")
+    took = f" in {_seconds(float(seconds))} of computing" if seconds else ""
+    text = {
+        "running": f"{reached}. The run is still going on, or it was killed; everything up to its last block is here.",
+        "interrupted": f"{reached}{took}, then it was stopped by hand.",
+        "failed": f"{reached}{took}. {_sentence(result.failure)}",
+    }.get(result.outcome, f"{reached}{took}")
+    return Headline(outcome, verdict, text, VERDICTS[result.trust.verdict])
+
+
+def facts(result: Result) -> list[str]:
+    """What the machine is and how it was run, in a line."""
+    count = {dim: len(result.coordinates.get(dim, ())) for dim in ("body", "joint")}
+    out = [_plural(count["body"], "body", "bodies"), _plural(count["joint"], "joint", "joints")]
+    degrees = result.trust.degrees_of_freedom
+    if degrees is not None:
+        out.append(_plural(degrees, "degree of freedom", "degrees of freedom"))
+    settings = result.settings
+    if "step" in settings:
+        out.append(f"step {_seconds(float(settings['step']))}")
+    out += [str(settings[name]) for name in ("integrator", "formulation") if name in settings]
+    if "stabilisation" in settings:
+        out.append(f"stabilisation {settings['stabilisation']}")
+    return out
+
+
+def trust_lines(trust: Trust) -> list[TrustLine]:
+    """The items of the trust report as the page shows them. The outcome stands above already."""
+    return [
+        TrustLine(NAMES.get(item.name, item.name), item.verdict, _statement(item), _gauge(item))
+        for item in trust.items
+        if item.name != "outcome"
+    ]
+
+
+def settings_table(result: Result) -> list[tuple[str, str]]:
+    """Every setting that was used."""
+    units = {"duration": "s", "step": "s", "output_interval": "s"}
+    return [(name.replace("_", " "), _shown(value, units.get(name, ""))) for name, value in result.settings.items()]
+
+
+def timing_table(result: Result) -> list[tuple[str, str]]:
+    """What the run took, and how far the assembly had to move."""
+    timing = result.timing
+    out = [(name.replace("_", " "), _shown(value, "")) for name, value in timing.items() if "seconds" not in name]
+    out += [
+        (name.replace("_seconds", " time"), _seconds(float(value)))
+        for name, value in timing.items()
+        if name.endswith("_seconds")
+    ]
+    if timing.get("steps") and timing.get("loop_seconds"):
+        out.append(("time per step", _seconds(timing["loop_seconds"] / timing["steps"])))
+    assembly = json.loads(str(result.attributes.get("assembly", "{}")))
+    if isinstance(assembly.get("gap"), float):
+        out.append(("gap before assembly", f"{assembly['gap']:.2g}{_row(assembly)}"))
+    if isinstance(assembly.get("moved"), float):
+        out.append(("moved by assembly", f"{assembly['moved']:.2g}"))
+    out.append(("frames", str(len(result.time))))
+    out.append(("nivel", str(result.attributes.get("nivel_version", ""))))
+    return out
+
+
+def _row(assembly: dict[str, Any]) -> str:
+    return f" ({assembly['gap_row']})" if assembly.get("gap_row") else ""
+
+
+def _statement(item: Item) -> str:
+    text = item.text.split(": ", maxsplit=1)[-1]
+    return text[:1].upper() + text[1:]
+
+
+def _gauge(item: Item) -> Gauge | None:
+    if item.fraction is None or item.green is None or item.amber is None:
+        return None
+    return Gauge(_percent(item.fraction), _percent(item.green), _percent(item.amber))
+
+
+def _percent(fraction: float) -> float:
+    if not math.isfinite(fraction):
+        return 100.0
+    decades = math.log10(max(fraction, 10.0**-DECADES))
+    return round(100.0 * min(max(1.0 + decades / DECADES, 0.0), 1.0), 2)
+
+
+def _shown(value: Any, unit: str) -> str:
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {_shown(each, '')}" for name, each in value.items())
+    if isinstance(value, float):
+        return _seconds(value) if unit == "s" else f"{value:.6g}"
+    return "–" if value is None else str(value)
+
+
+def _seconds(value: float) -> str:
+    """A time in the unit that suits it."""
+    if value == 0.0 or abs(value) >= 1.0:
+        return f"{value:.6g} s"
+    for factor, unit in ((1e3, "ms"), (1e6, "µs")):
+        if abs(value) * factor >= 1.0:
+            return f"{value * factor:.4g} {unit}"
+    return f"{value * 1e9:.4g} ns"
+
+
+def _plural(count: int, one: str, many: str) -> str:
+    return f"{count} {one if count == 1 else many}"
+
+
+def _sentence(text: str) -> str:
+    text = text[:1].upper() + text[1:]
+    return text if not text or text.endswith((".", "!", "?")) else f"{text}."

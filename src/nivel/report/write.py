@@ -1,0 +1,130 @@
+"""Write the report: one HTML file with everything in it."""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import ModelError
+from nivel.report.panels import Group, Panel, panels
+from nivel.report.peaks import peak_reactions
+from nivel.report.picture import machine_picture
+from nivel.report.story import facts, headline, settings_table, timing_table, trust_lines
+from nivel.report.symbols import joint_icon
+from nivel.report.thinning import Thinning
+from nivel.results.verdicts import RULES, THRESHOLDS
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+
+HERE = Path(__file__).parent
+POINTS = (400, 4000)  # of a curve: a screen is about 1000 wide, and one wants to zoom in
+ALL_POINTS = 600_000  # of all curves together: keeps the file below about 4 MB
+
+
+def write_report(result: Result, path: str | os.PathLike[str]) -> Path:
+    """Write the report of `result` to `path`; an existing file is replaced. The file needs no network and nothing beside it."""
+    target = Path(path)
+    text = report_html(result)
+    try:
+        target.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ModelError(f"the report {target} cannot be written: {(error.strerror or str(error)).lower()}") from error
+    return target
+
+
+def report_html(result: Result) -> str:
+    """The report as text."""
+    from jinja2 import Environment, FileSystemLoader
+
+    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment.filters["number"] = number
+    record = json.loads(str(result.attributes.get("machine_record", "{}")))
+    shown = panels(result)
+    return environment.get_template("page.html.j2").render(
+        result=result,
+        description=record.get("description") or "",
+        facts=facts(result),
+        headline=headline(result),
+        trust=result.trust,
+        trust_lines=trust_lines(result.trust),
+        thresholds=THRESHOLDS,
+        rules=RULES,
+        picture=_picture(result, record),
+        peaks=peak_reactions(result),
+        icon=joint_icon,
+        panels=shown,
+        data=_data(result, shown),
+        settings=settings_table(result),
+        timing=timing_table(result),
+        source=str(result.attributes.get("machine_source", "")),
+        **_bundled(),
+    )
+
+
+def number(value: float, digits: int = 4) -> str:
+    """A number as it stands in a sentence or a table."""
+    if value == 0.0 or not np.isfinite(value):
+        return f"{value:g}"
+    if 1e-3 <= abs(value) < 1e6:
+        return f"{value:.{digits}g}" if abs(value) < 10.0**digits else f"{value:.0f}"
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    return f"{float(mantissa):g}e{int(exponent)}"
+
+
+def _picture(result: Result, record: dict[str, Any]) -> str:
+    """The machine in its first frame; up is against gravity, along the nearest axis."""
+    if not len(result.time) or "position" not in result.variables:
+        return ""
+    gravity = np.array(record.get("gravity") or [0.0, 0.0, 0.0], dtype=float)
+    axis = int(np.argmax(np.abs(gravity)))
+    up = -np.sign(gravity[axis]) * np.eye(3)[axis] if gravity.any() else np.array([0.0, 0.0, 1.0])
+    first = slice(0, 1)
+    return machine_picture(result.scene, result.array("position", first)[0], result.array("orientation", first)[0], up)
+
+
+def _data(result: Result, shown: list[Panel]) -> str:
+    """JSON for the page: arrays as base64 of little-endian floats, the time in 64 bits, the rest in 32."""
+    curves = sum(len(group.curves) for panel in shown for group in panel.groups)
+    thin = Thinning(result.time, int(np.clip(ALL_POINTS // max(curves, 1), *POINTS)))
+    data = {
+        "time": _packed(thin.time, "<f8"),
+        "thinned": thin.frames,
+        "panels": [
+            {"title": panel.title, "log": panel.log, "groups": [_group(group, thin) for group in panel.groups]}
+            for panel in shown
+        ],
+    }
+    return json.dumps(data).replace("<", "\\u003c")
+
+
+def _group(group: Group, thin: Thinning) -> dict[str, Any]:
+    return {
+        "label": group.label,
+        "unit": group.unit,
+        "limits": [{"value": value, "tone": tone} for value, tone in group.limits],
+        "curves": [{"label": c.label, "tone": c.tone, "values": _packed(thin(c.values), "<f4")} for c in group.curves],
+    }
+
+
+def _packed(values: NDArray[np.float64], kind: str) -> str:
+    with np.errstate(over="ignore"):  # beyond 32 bits: drawn as a gap
+        return base64.b64encode(values.astype(kind).tobytes()).decode()
+
+
+def _bundled() -> dict[str, str]:
+    """Styles and scripts that the page carries."""
+    names = {
+        "page_style": "page.css",
+        "page_script": "page.js",
+        "uplot_style": "uplot/uPlot.min.css",
+        "uplot_script": "uplot/uPlot.iife.min.js",
+        "uplot_licence": "uplot/LICENSE",
+    }
+    return {key: (HERE / name).read_text(encoding="utf-8") for key, name in names.items()}

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from references import four_bar, heavy_top, one_dof, pendulum, slider_crank
+from references import andrews, four_bar, heavy_top, one_dof, pendulum, slider_crank
 
 LINKAGES = pytest.mark.parametrize("machine", [slider_crank, four_bar], ids=["slider-crank", "four-bar"])
 DURATION = {slider_crank: 8.0, four_bar: 4.0}
@@ -292,3 +292,9 @@ def test_iftomm_a01_rod_carries_three_weights_at_the_bottom():
     swing = pendulum.solve(np.array([0.0, pendulum.IFTOMM_A01.period / 4]))
     assert swing.rod_force[0] == pytest.approx(0.0, abs=1e-12)
     assert swing.rod_force[1] == pytest.approx(3 * 9.81, rel=1e-12)
+
+
+def test_andrews_squeezer_meets_its_published_end_values():
+    found = andrews.solve(np.array([0.0, 0.03]), spring=True)
+    np.testing.assert_allclose(found.q[-1], andrews.PUBLISHED, rtol=1e-9)
+    assert np.abs(andrews.point(andrews.LOOPS, found.q[-1])[0]).max() < 1e-12

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import deepcopy
 from typing import Any, Final
 
 from nivel.errors import Fault, ModelError
 from nivel.files.tree import Path, Tree, read_value
 from nivel.machine import MachineRecord
 from nivel.machine.record import field_words, unknown_word
+from nivel.machine.references import SECTIONS
 
-NAMED_SECTIONS: Final = ("bodies", "markers", "joints", "forces")
 TOP_WORDS: Final = ("format", "parameters", *field_words(MachineRecord))
 
 
 def override(tree: Tree, overrides: Mapping[str, object]) -> None:
-    """Put `overrides` (path with dots → value, texts as they would stand in the file) into `tree`; faults go to
-    `tree.faults`.
+    """Put `overrides` into `tree`: path with dots → value, texts as they would stand in the file.
+
+    Faults go to `tree.faults`.
     """
     for path, value in overrides.items():
         try:
-            _set(tree, path, read_value(value) if isinstance(value, str) else value)
+            _set(tree, path, read_value(value) if isinstance(value, str) else deepcopy(value))
         except ModelError as error:
             messages = "; ".join(fault.message for fault in error.faults)
             tree.faults.append(Fault(tree.file, 0, 0, path, f"{messages} (set from outside the file)"))
@@ -69,7 +71,7 @@ def _key(container: Any, path: Path, step: str) -> str | int:
         return int(step)
     if not isinstance(container, dict):
         raise ModelError(f"`{place}` is a single value and has no `{step}`")
-    if step not in container and len(path) == 1 and path[0] in (*NAMED_SECTIONS, "parameters"):
+    if step not in container and len(path) == 1 and path[0] in (*SECTIONS, "parameters"):
         raise ModelError(f"in `{place}`, {unknown_word(step, list(container), 'name')}")
     container.setdefault(step, None)
     return step

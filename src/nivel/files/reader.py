@@ -9,11 +9,12 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from nivel.errors import Fault, ModelError
-from nivel.files.overrides import NAMED_SECTIONS, override
+from nivel.files.overrides import override
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine import MachineRecord
 from nivel.machine.parameters import resolve
 from nivel.machine.quantity import FAULT, shown
+from nivel.machine.references import SECTIONS
 
 FORMAT: Final = 1
 
@@ -29,34 +30,32 @@ def read_machine(path: str | FilePath, *, overrides: Mapping[str, object] | None
 def parse_machine(
     text: str, file: str = "machine.yaml", *, overrides: Mapping[str, object] | None = None
 ) -> MachineRecord:
-    """The machine in the YAML `text`; `file` is the name that messages show, and its stem the default name of the
-    machine.
+    """The machine in the YAML `text`. Messages show the name `file`; its stem is the machine's default name.
 
     Raises ModelError.
     """
     tree = read_tree(text, file)
     override(tree, overrides or {})
-    _check_outline(tree)
+    broken = _check_outline(tree)
     parameters, faults = resolve(_section(tree, "parameters"))
     tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]
-    names = {section: list(_section(tree, section)) for section in NAMED_SECTIONS}
+    names = {section: list(_section(tree, section)) for section in SECTIONS}
     try:
         record = MachineRecord.model_validate(_as_lists(tree), context={"parameters": parameters})
     except ValidationError as error:
         for line in error.errors(include_url=False):
-            if line["type"] == FAULT:
+            path = _path_in_file(line["loc"], names)
+            if line["type"] == FAULT and path[:2] not in broken:
                 at_key = bool(line.get("ctx", {}).get("at_key"))
-                tree.faults.append(tree.fault(_path_in_file(line["loc"], names), line["msg"], at_key=at_key))
-        raise ModelError(_without_echoes(tree)) from None
+                tree.faults.append(tree.fault(path, line["msg"], at_key=at_key))
+        raise ModelError(tree.faults) from None
     if tree.faults:
         raise ModelError(tree.faults)
     return record
 
 
 def locate(text: str, path: str) -> tuple[int, int]:
-    """Line and column, from 1, of the element `path` (`joints.hinge.axis`) in the YAML `text`, or of what is around
-    it.
-    """
+    """Line and column, from 1, of the element `path` (`joints.hinge.axis`) in `text`, or of what is around it."""
     tree = read_tree(text, "")
     names = path.split(".") if path else []
     steps = tuple(int(step) if step.isdecimal() else step for step in names)
@@ -88,8 +87,8 @@ def read_text(path: str | FilePath) -> str:
         raise ModelError(Fault(file, line, column, "", message)) from None
 
 
-def _check_outline(tree: Tree) -> None:
-    """Refuse what is no machine file at all; collect faults of the sections.
+def _check_outline(tree: Tree) -> set[Path]:
+    """Refuse what is no machine file at all; collect faults of the sections. Returns the elements that are none.
 
     Raises ModelError.
     """
@@ -101,8 +100,7 @@ def _check_outline(tree: Tree) -> None:
         message = f"a machine file is a mapping that starts with `format: {FORMAT}`, not {shown(tree.data)}"
         raise ModelError([*tree.faults, tree.fault((), message)])
     _check_format(tree)
-    for section in (*NAMED_SECTIONS, "parameters"):
-        _check_section(tree, section)
+    return set().union(*(_check_section(tree, section) for section in (*SECTIONS, "parameters")))
 
 
 def _check_format(tree: Tree) -> None:
@@ -115,31 +113,35 @@ def _check_format(tree: Tree) -> None:
         raise ModelError([*tree.faults, tree.fault(("format",), message)])
 
 
-def _check_section(tree: Tree, section: str) -> None:
-    """A section is a mapping of names to mappings. What is not is reported and emptied: the rest can be read."""
+def _check_section(tree: Tree, section: str) -> set[Path]:
+    """A section is a mapping of names to mappings. What is not is reported and emptied, so that the rest can be read;
+    elements to which that happened are returned.
+    """
     content = tree.data.get(section)
-    if content is None:
+    if not isinstance(content, dict):
+        if content is not None:
+            message = f"a mapping from names to what they are was expected, got {shown(content)}"
+            tree.faults.append(tree.fault((section,), message))
         if section in tree.data:
             tree.data[section] = {}
-        return
-    if not isinstance(content, dict):
-        message = f"a mapping from names to what they are was expected, got {shown(content)}"
-        tree.faults.append(tree.fault((section,), message))
-        tree.data[section] = {}
-        return
+        return set()
     if section == "parameters":
-        return
-    for name, element in content.items():
-        if element is None:
-            content[name] = {}
-        elif not isinstance(element, dict):
-            tree.faults.append(tree.fault((section, name), f"a mapping was expected, got {shown(element)}"))
-            content[name] = {}
-        elif "name" in element:
-            del element["name"]
-            tree.faults.append(
-                tree.fault((section, name, "name"), f"the name is the key `{name}`; `name` must not be given")
-            )
+        return set()
+    return {(section, name) for name in content if not _check_element(tree, content, section, name)}
+
+
+def _check_element(tree: Tree, content: dict[str, Any], section: str, name: str) -> bool:
+    """Whether the element is a mapping; nothing (`crank:` alone) is an empty one."""
+    element = content[name]
+    if isinstance(element, dict):
+        if element.pop("name", None) is not None:
+            message = f"the name is the key `{name}`; `name` must not be given"
+            tree.faults.append(tree.fault((section, name, "name"), message))
+        return True
+    content[name] = {}
+    if element is not None:
+        tree.faults.append(tree.fault((section, name), f"a mapping was expected, got {shown(element)}"))
+    return element is None
 
 
 def _section(tree: Tree, section: str) -> dict[str, Any]:
@@ -152,7 +154,7 @@ def _as_lists(tree: Tree) -> dict[str, Any]:
     data.pop("parameters", None)
     if "simulation" in data and data["simulation"] is None:
         del data["simulation"]
-    for section in NAMED_SECTIONS:
+    for section in SECTIONS:
         if section in data:
             data[section] = [{"name": name, **element} for name, element in data[section].items()]
     data.setdefault("bodies", [])
@@ -165,14 +167,3 @@ def _path_in_file(location: tuple[int | str, ...], names: Mapping[str, list[str]
         return location
     rest = () if location[2:] == ("name",) else location[2:]
     return (location[0], names[str(location[0])][location[1]], *rest)
-
-
-def _without_echoes(tree: Tree) -> list[Fault]:
-    """The faults, without those that only follow from an element's being no mapping."""
-    broken = {fault.path for fault in tree.faults if fault.message.startswith("a mapping was expected")}
-    return [
-        fault
-        for fault in tree.faults
-        if not any(fault.path == path or fault.path.startswith(f"{path}.") for path in broken)
-        or fault.message.startswith("a mapping was expected")
-    ]

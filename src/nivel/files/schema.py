@@ -5,9 +5,9 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import Any
 
-from nivel.files.overrides import NAMED_SECTIONS
 from nivel.files.reader import FORMAT
 from nivel.machine import MachineRecord
+from nivel.machine.references import SECTIONS
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
 _QUANTITY = {"anyOf": [{"type": "number"}, {"type": "string"}]}
@@ -18,12 +18,14 @@ def schema() -> dict[str, Any]:
     machine = deepcopy(MachineRecord.model_json_schema(by_alias=True, mode="validation"))
     definitions, properties = machine["$defs"], machine["properties"]
     named = set()
-    for section in NAMED_SECTIONS:
+    for section in SECTIONS:
         items = properties[section].pop("items")
         named |= set(_references(items))
         properties[section] = {"type": ["object", "null"], "additionalProperties": items, "title": section}
     for name in named:
         _without_name(definitions[name])
+    for definition in definitions.values():
+        _with_type(definition)
     properties["simulation"] = {"anyOf": [properties["simulation"], {"type": "null"}]}
     machine["properties"] = {
         "format": {"const": FORMAT, "description": "version of the file format"},
@@ -48,5 +50,9 @@ def _without_name(definition: dict[str, Any]) -> None:
     """In a file the name is the key."""
     definition["properties"].pop("name", None)
     definition["required"] = [word for word in definition.get("required", []) if word != "name"]
-    if "type" in definition["properties"] and "type" not in definition["required"]:
-        definition["required"].append("type")
+
+
+def _with_type(definition: dict[str, Any]) -> None:
+    """Where the type tells which record it is, a file has to give it, although in Python the class does."""
+    if "const" in definition["properties"].get("type", {}):
+        definition["required"] = ["type", *definition.get("required", [])]

@@ -6,6 +6,7 @@ always texts. Aliases work; merge keys, tags and keys that stand twice are refus
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Hashable
 from dataclasses import dataclass, field
@@ -28,8 +29,7 @@ _PREFIX = "tag:yaml.org,2002:"
 
 @dataclass
 class Tree:
-    """The content of a file: `data` of dicts, lists and scalars; `places` of values and `keys` by path; `faults`
-    found on the way.
+    """The content of a file: `data` of dicts, lists and scalars; `places` of values and of `keys` by path; `faults`.
 
     A path under one of `outside` was set from outside the file and has no place in it.
     """
@@ -164,6 +164,6 @@ def _place_of_value(key: Node, value: Node) -> Place:
 
 
 def _integer(text: str) -> int | float:
-    if text[:2] in ("0o", "0x"):
-        return int(text[2:], 8 if text[1] == "o" else 16)
-    return int(text) if len(text) < 300 else float(text)  # Python refuses to read integers of thousands of digits
+    if len(text) > 300:  # Python refuses to read and write integers of thousands of digits
+        return math.inf
+    return int(text, 0) if text[:2] in ("0o", "0x") else int(text)

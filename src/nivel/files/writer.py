@@ -7,16 +7,16 @@ from typing import Any
 
 import yaml
 
-from nivel.files.overrides import NAMED_SECTIONS
 from nivel.files.reader import FORMAT
 from nivel.files.tree import INTEGER, NOT_FINITE, NULL, NUMBER, TRUTH
 from nivel.machine import Body, Expression, Inertia, MachineRecord, Record, SimulationSettings, Table
+from nivel.machine.references import SECTIONS
 
 
 def write_machine(record: MachineRecord) -> str:
     """YAML that `parse_machine` reads back to an equal record. Defaults are left out; everything is SI."""
     data = _plain(record)
-    for section in NAMED_SECTIONS:
+    for section in SECTIONS:
         if section in data:
             data[section] = {element.pop("name"): element for element in data[section]}
     return yaml.dump(
@@ -74,7 +74,7 @@ def _represent_line(dumper: _Dumper, value: _Line) -> yaml.MappingNode:
 
 
 def _represent_float(dumper: _Dumper, value: float) -> yaml.ScalarNode:
-    text = repr(value).removesuffix(".0")
+    text = repr(value).removesuffix(".0") if value else repr(value)  # -0 would be read as 0
     return dumper.represent_scalar(f"tag:yaml.org,2002:{'int' if INTEGER.fullmatch(text) else 'float'}", text)
 
 

@@ -1,5 +1,4 @@
-"""How expressions are read: from text to the tree of arithmetic.py. Own recursive descent; Python's `eval` sees
-nothing.
+"""How expressions are read: from text to the tree of arithmetic.py. Nothing is handed to Python's `eval`.
 
     sum     = term { (+ | -) term }
     term    = sign { (* | /) sign | unit }    a unit may follow a number, `)` or a unit directly: `10 cm`, `(1/2) in`

@@ -33,9 +33,7 @@ REPORTED = "nivel_reported"  # type of those that follow from a fault reported e
 
 
 def fault(message: str, *, at_key: bool = False) -> PydanticCustomError:
-    """A validation error whose text is `message`, ready for people; `at_key`: it is the key that is wrong, not its
-    value.
-    """
+    """A validation error whose text is `message`, ready for people; `at_key`: not the value is wrong but its key."""
     return PydanticCustomError(FAULT, "{message}", {"message": message, "at_key": at_key})
 
 
@@ -58,8 +56,9 @@ def bound_tree(text: str, parameters: Parameters) -> Node:
 
 
 def check_kind(text: str, its: Dimension | None, kind: str) -> None:
-    """Raises ExpressionError unless a quantity of dimension `its`, written as `text`, is of `kind`. A bare number
-    always is.
+    """Refuse a quantity of dimension `its`, written as `text`, that is not of `kind`. A bare number always is.
+
+    Raises ExpressionError.
     """
     article, unit, wanted = KINDS[kind]
     if its is None:
@@ -104,6 +103,8 @@ def shown(value: object) -> str:
         return "a mapping"
     if isinstance(value, list | tuple):
         return "a list"
+    if isinstance(value, int) and abs(value) > 1e40:
+        return "a number of more than 40 digits"  # Python does not write integers of thousands of digits
     text = str(value)
     return f"`{text}`" if len(text) <= 40 else f"`{text[:37]}…`"
 
@@ -126,7 +127,7 @@ class Quantity:
         except FaultyParameterError:
             raise reported() from None
         except ExpressionError as problem:
-            raise fault(_with_text(str(problem), value)) from None
+            raise expression_fault(problem, value) from None
         if self.positive and number <= 0:
             raise fault(f"{KINDS[self.kind][0]} greater than zero was expected, got {shown(value)}")
         return number
@@ -143,11 +144,12 @@ class Quantity:
         return {"anyOf": [number, {"type": "string"}], "description": meaning}
 
 
-def _with_text(problem: str, value: object) -> str:
-    """Say which text the problem is in, unless the message shows it already."""
-    if isinstance(value, str) and f"`{value.strip()}`" not in problem:
-        return f"{shown(value.strip())}: {problem}"
-    return problem
+def expression_fault(problem: ExpressionError, value: object) -> PydanticCustomError:
+    """`problem` with the text that it is in, unless the message shows it already."""
+    message = str(problem)
+    if isinstance(value, str) and f"`{value.strip()}`" not in message:
+        message = f"{shown(value.strip())}: {message}"
+    return fault(message)
 
 
 def listed(value: Any) -> Any:

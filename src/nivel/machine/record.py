@@ -22,6 +22,7 @@ from nivel.errors import Fault, ModelError
 from nivel.machine.quantity import FAULT, REPORTED, fault, reported, shown
 
 _NAME = re.compile(r"[^\W\d_][\w-]*")
+_ROUGHLY = r"^[^\s\d._-][^\s.]*$"  # in the schema: regular expressions of JSON know no classes of letters
 GROUND = "ground"
 
 
@@ -33,19 +34,16 @@ def _named(value: Any) -> str:
     return value
 
 
-Name = Annotated[str, BeforeValidator(_named), WithJsonSchema({"type": "string", "pattern": r"^\p{L}[\p{L}\p{N}_-]*$"})]
+Name = Annotated[str, BeforeValidator(_named), WithJsonSchema({"type": "string", "pattern": _ROUGHLY})]
 
 
 class Record(BaseModel):
-    """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as one
-    ModelError.
-    """
+    """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as a ModelError."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True, hide_input_in_errors=True)
     collection: ClassVar[str] = ""  # the section of the machine that holds such records
-    tagged: ClassVar[
-        Mapping[str, int]
-    ] = {}  # fields that are one of several records → where pydantic puts its tag in a location
+    # Fields that are one of several records, and where in the place of a fault pydantic puts the type that it chose.
+    tagged: ClassVar[Mapping[str, int]] = {}
 
     def __init__(self, /, **data: Any) -> None:
         try:
@@ -53,8 +51,7 @@ class Record(BaseModel):
         except ValidationError as error:
             raise ModelError(_faults(type(self), data, error)) from None
 
-    # Without this mark pydantic would call __init__ for nested records too, and lose the place of what is wrong in
-    # them.
+    # Without this mark pydantic would call __init__ for nested records too, and lose the places of faults in them.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
     def replace(self, **changes: Any) -> Self:
@@ -127,9 +124,9 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
             wanted = context.get("min_length", context.get("max_length"))
             return f"{wanted} entries were expected, got {'more' if count is None else count}"
         case "literal_error":
-            return unknown_word(str(line["input"]), re.findall(r"'([^']*)'", str(context["expected"])), "word")
+            return unknown_word(shown(line["input"]).strip("`"), _quoted(context["expected"]), "word")
         case "union_tag_invalid":
-            return unknown_word(str(context["tag"]), re.findall(r"'([^']*)'", str(context["expected_tags"])), "type")
+            return unknown_word(shown(context["tag"]).strip("`"), _quoted(context["expected_tags"]), "type")
         case "union_tag_not_found":
             if isinstance(line["input"], Mapping | Record):
                 return "`type` is missing"
@@ -137,6 +134,11 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
         case kind if kind in _SENTENCES:
             return _SENTENCES[kind].format(input=shown(line["input"]))
     return line["msg"]
+
+
+def _quoted(text: object) -> list[str]:
+    """The words in quotes in pydantic's list of what it expected."""
+    return re.findall(r"'([^']*)'", str(text))
 
 
 def field_words(record: type[Record]) -> list[str]:

@@ -28,7 +28,17 @@ from nivel.machine.arithmetic import (
 from nivel.machine.dimension import KINDS, Dimension
 from nivel.machine.grammar import parse
 from nivel.machine.measure import measure
-from nivel.machine.quantity import bound_tree, check_kind, fault, listed, read_quantity, reported, shown
+from nivel.machine.quantity import (
+    bound_tree,
+    check_kind,
+    expression_fault,
+    fault,
+    listed,
+    parameters_of,
+    read_quantity,
+    reported,
+    shown,
+)
 from nivel.machine.record import unknown_word
 
 
@@ -133,7 +143,7 @@ def _read_column(
         except FaultyParameterError:
             lines.append(_line((word, at), reported()))
         except ExpressionError as problem:
-            lines.append(_line((word, at), fault(str(problem))))
+            lines.append(_line((word, at), expression_fault(problem, entry)))
     return column
 
 
@@ -172,12 +182,11 @@ def _time_function(kind: str) -> Any:
 
     def read(value: Any, info: ValidationInfo) -> TimeFunction:
         try:
-            return read_time_function(value, kind, (info.context or {}).get("parameters", {}))
+            return read_time_function(value, kind, parameters_of(info))
         except FaultyParameterError:
             raise reported() from None
         except ExpressionError as problem:
-            text = f"`{value.strip()}`" if isinstance(value, str) else ""
-            raise fault(f"{text}: {problem}" if text and text not in str(problem) else str(problem)) from None
+            raise expression_fault(problem, value) from None
 
     column = {"type": "array", "items": _QUANTITY_SCHEMA}
     table = {

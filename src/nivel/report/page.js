@@ -6,6 +6,7 @@
   const colour = (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim();
   const font = `12px ${getComputedStyle(document.body).fontFamily}`;
   const HEIGHT = 250;
+  const FLOOR = 1e-18; // below round-off: a violation this small is drawn as this
 
   function floats(text, Kind) {
     const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -18,10 +19,10 @@
   const whole = [start, end > start ? end : start + 1];
   let range = whole;
 
-  // values that are not numbers, or zero on a logarithmic scale, are gaps
+  // values that are not numbers are gaps
   function values(curve, log) {
     if (!curve.decoded) {
-      curve.decoded = Array.from(floats(curve.values, Float32Array), (v) => (Number.isFinite(v) && (!log || v > 0) ? v : null));
+      curve.decoded = Array.from(floats(curve.values, Float32Array), (v) => (!Number.isFinite(v) ? null : log ? Math.max(v, FLOOR) : v));
     }
     return curve.decoded;
   }
@@ -84,7 +85,7 @@
     const axis = { stroke: () => colour("faint"), font, grid: { stroke: () => colour("grid"), width: 1 }, ticks: { show: false, size: 4 }, gap: 4 };
     const highest = Math.max(0, ...group.limits.filter((l) => l.tone === "green").map((l) => l.value));
     const y = panel.log
-      ? { distr: 3, range: (u, min, max) => uPlot.rangeLog(min ?? 1e-16, Math.max(max ?? 1e-15, 2 * highest), 10, true) }
+      ? { distr: 3, range: (u, min, max) => uPlot.rangeLog(Math.max(min ?? FLOOR, FLOOR), Math.max(max ?? FLOOR, 2 * highest, 10 * FLOOR), 10, true) }
       : { range: (u, min, max) => (min == null ? [-1, 1] : min === max ? [min - (Math.abs(min) || 1) * 0.1, max + (Math.abs(max) || 1) * 0.1] : uPlot.rangeNum(min, max, 0.08, true)) };
     return {
       width,
@@ -93,11 +94,11 @@
       cursor: { sync: { key: "nivel" }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 }, focus: { prox: 18 } },
       focus: { alpha: 0.3 },
       axes: [
-        { ...axis, values: (u, splits) => splits.map((v) => `${short(v)}`), label: "", size: 28 },
+        { ...axis, values: (u, splits) => splits.map((v) => short(v)), size: 26 },
         { ...axis, size: axisWidth, values: (u, splits) => splits.map((v) => (v == null ? "" : short(v))) },
       ],
       series: [
-        { label: "t", value: (u, v) => (v == null ? "" : `${+v.toPrecision(6)} s`) },
+        { label: "time", value: (u, v) => (v == null ? "" : `${+v.toPrecision(6)} s`) },
         ...group.curves.map((curve) => ({
           label: curve.label,
           stroke: () => colour(`tone-${/\d/.test(curve.tone) ? Number(curve.tone) % 8 : curve.tone}`),

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.report.panels import Group, Panel, panels
 from nivel.report.peaks import peak_reactions
-from nivel.report.picture import machine_picture
+from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
@@ -56,6 +56,7 @@ def report_html(result: Result) -> str:
         trust_lines=trust_lines(result.trust),
         thresholds=THRESHOLDS,
         rules=RULES,
+        picture_style=STYLE,
         picture=_picture(result, record),
         peaks=peak_reactions(result),
         icon=joint_icon,

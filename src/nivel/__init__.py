@@ -55,7 +55,25 @@ _HOME = {
     "Result": "nivel.results.result",
 }
 
-__all__ = [*_HOME, "__version__"]  # noqa: PLE0604
+__all__ = [
+    "Baumgarte",
+    "Body",
+    "Expression",
+    "Joint",
+    "Machine",
+    "MachineRecord",
+    "Marker",
+    "ModelError",
+    "NivelError",
+    "PointForce",
+    "Result",
+    "SimulationSettings",
+    "SolveError",
+    "Table",
+    "Torque",
+    "load",
+    "open_result",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -265,7 +265,7 @@ def force_record(component):
         ({"integrator": "rk5"}, "did you mean `rk4`"),
         ({"formulation": "newton"}, "did you mean `newton-euler`"),
         ({"stabilisation": "baumgart"}, "did you mean `baumgarte`"),
-        ({"stabilisation": False}, "the word `False` is not known"),
+        ({"stabilisation": False}, "the word `false` is not known"),
         ({"coordinates": "relative"}, "there are auto, absolute"),
         ({"baumgarte": {"alpha": 5, "beta": 5}}, "needs `stabilisation: baumgarte`"),
         ({"stabilisation": "baumgarte", "baumgarte": {"alpha": 5}}, "`beta` is missing"),
@@ -360,3 +360,8 @@ def test_json_and_pickle_bring_a_machine_back():
     assert MachineRecord.model_validate_json(FULL.model_dump_json(exclude_none=True, by_alias=True)) == FULL
     assert pickle.loads(pickle.dumps(FULL)) == FULL
     assert FULL.replace(name="other").name == "other"
+
+
+def test_numbers_beyond_all_bounds_are_refused_too():
+    assert "too large" in refused(Body, name="a", mass=10**5000, inertia=(1, 1, 1))
+    assert "more than 40 digits" in refused(machine, description=10**5000)

@@ -74,7 +74,8 @@ def _represent_line(dumper: _Dumper, value: _Line) -> yaml.MappingNode:
 
 
 def _represent_float(dumper: _Dumper, value: float) -> yaml.ScalarNode:
-    text = repr(value).removesuffix(".0") if value else repr(value)  # -0 would be read as 0
+    text = repr(value)
+    text = text if text == "-0.0" else text.removesuffix(".0")  # -0 would be read as 0
     return dumper.represent_scalar(f"tag:yaml.org,2002:{'int' if INTEGER.fullmatch(text) else 'float'}", text)
 
 

@@ -130,7 +130,7 @@ class Saddle(NamedTuple):
 class Control(NamedTuple):
     """Numbers that steer an evaluation."""
 
-    size: U1  # (4,) bodies, rank of C_q, positions nq, velocities nv
+    rank: U1  # (1,) independent rows
     stabilise: F1  # (4,) Baumgarte 2α and β²; tolerances of |C| and |Ċ| for the direct correction
     energy: F1  # (3,) kinetic and potential energy of the last observation, their sum at the start
     power: F1  # (2,) work of external forces and dissipation per second

@@ -29,7 +29,7 @@ def factorise_rows(record, width):
         S[saddle.pair[p, 2]] += total
     if saddle.dense.shape[0] > 0:
         gather(saddle)
-        failed = factorise_pivoted(saddle, np.int64(record.control.size[1]))
+        failed = factorise_pivoted(saddle, np.int64(record.control.rank[0]))
     else:
         failed = factorise(saddle)
     if failed >= 0:
@@ -42,7 +42,7 @@ def factorise_rows(record, width):
 def solve_rows(record):
     """Overwrite b with the solution of S x = b."""
     if record.saddle.dense.shape[0] > 0:
-        solve_pivoted(record.saddle, np.int64(record.control.size[1]))
+        solve_pivoted(record.saddle, np.int64(record.control.rank[0]))
     else:
         solve(record.saddle)
 

@@ -47,6 +47,24 @@
     return Math.ceil(Math.max(size, 34));
   }
 
+  // about seven powers of ten
+  function decades(u, index, min, max) {
+    const low = Math.ceil(Math.log10(min) - 1e-9);
+    const high = Math.floor(Math.log10(max) + 1e-9);
+    const step = Math.max(1, Math.ceil((high - low) / 7));
+    return Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, k) => Number(`1e${low + k * step}`));
+  }
+
+  // room around the curves, and never less than `floor`, so that round-off is drawn as a straight line
+  function span(min, max, floor) {
+    if (min == null) return [-1, 1];
+    const least = Math.max(floor, 1e-9 * Math.max(Math.abs(min), Math.abs(max)), 1e-30);
+    if (max - min >= least) return uPlot.rangeNum(min, max, 0.08, true);
+    const middle = 0.5 * (min + max);
+    const half = floor > 0 && max - min < floor ? 0.5 * floor : 0.1 * Math.max(Math.abs(middle), least);
+    return [middle - half, middle + half];
+  }
+
   function limitLines(limits) {
     return (u) => {
       const { ctx, bbox } = u;
@@ -86,7 +104,7 @@
     const highest = Math.max(0, ...group.limits.filter((l) => l.tone === "green").map((l) => l.value));
     const y = panel.log
       ? { distr: 3, range: (u, min, max) => uPlot.rangeLog(Math.max(min ?? FLOOR, FLOOR), Math.max(max ?? FLOOR, 2 * highest, 10 * FLOOR), 10, true) }
-      : { range: (u, min, max) => (min == null ? [-1, 1] : min === max ? [min - (Math.abs(min) || 1) * 0.1, max + (Math.abs(max) || 1) * 0.1] : uPlot.rangeNum(min, max, 0.08, true)) };
+      : { range: (u, min, max) => span(min, max, group.floor) };
     return {
       width,
       height: HEIGHT,
@@ -95,7 +113,7 @@
       focus: { alpha: 0.3 },
       axes: [
         { ...axis, values: (u, splits) => splits.map((v) => short(v)), size: 26 },
-        { ...axis, size: axisWidth, values: (u, splits) => splits.map((v) => (v == null ? "" : short(v))) },
+        { ...axis, size: axisWidth, ...(panel.log ? { splits: decades, filter: (u, splits) => splits } : {}), values: (u, splits) => splits.map((v) => (v == null ? "" : short(v))) },
       ],
       series: [
         { label: "time", value: (u, v) => (v == null ? "" : `${+v.toPrecision(6)} s`) },
@@ -157,7 +175,8 @@
   const watch = new ResizeObserver((entries) => {
     for (const { target } of entries) {
       const plot = plots.get(target.parentElement);
-      if (plot && target.clientWidth && plot.width !== target.clientWidth) plot.setSize({ width: target.clientWidth, height: HEIGHT });
+      if (!plot || !target.clientWidth || plot.width === target.clientWidth) continue;
+      setTimeout(() => plots.get(target.parentElement).setSize({ width: target.clientWidth, height: HEIGHT }));
     }
   });
   for (const card of cards) {

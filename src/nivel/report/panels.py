@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.report.peaks import NEGLIGIBLE, negligible
 from nivel.results.verdicts import THRESHOLDS
 
 if TYPE_CHECKING:
@@ -31,12 +32,17 @@ class Curve:
 
 @dataclass(frozen=True)
 class Group:
-    """Curves of one unit. limits : value → colour word of lines that the curves are held against."""
+    """Curves of one unit.
+
+    limits : (value, colour word) of lines that the curves are held against.
+    floor : the least height of the plot, in its unit: what is smaller is round-off and drawn flat.
+    """
 
     label: str
     unit: str
     curves: tuple[Curve, ...]
     limits: tuple[tuple[float, str], ...] = ()
+    floor: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -100,7 +106,8 @@ def _positions(result: Result) -> Panel | None:
     if "position" not in result.variables:
         return None
     values, bodies = result.array("position"), _some(result.coordinates["body"])
-    groups = tuple(Group(name, "m", tuple(_components(values[:, k]))) for k, name in bodies.shown)
+    floor = NEGLIGIBLE * result.trust.size
+    groups = tuple(Group(name, "m", tuple(_components(values[:, k])), floor=floor) for k, name in bodies.shown)
     return Panel("Body positions", groups, note=bodies.note)
 
 
@@ -130,21 +137,22 @@ def _reactions(result: Result, variable: str, title: str, word: str) -> Panel | 
     values, names, units = result.array(variable), result.coordinates["joint"], result.variables[variable].units
     magnitude = np.linalg.norm(values, axis=-1)
     peaks = np.max(np.nan_to_num(magnitude, nan=0.0, posinf=0.0), axis=0, initial=0.0)
-    if not np.any(peaks > 1e-12 * max(peaks.max(initial=0.0), 1e-300)):
+    floor = negligible(result)[variable]
+    if not np.any(peaks > floor):
         return None
     order = np.argsort(-peaks, kind="stable")[:TOGETHER]
     largest = tuple(Curve(names[k], magnitude[:, k], str(i)) for i, k in enumerate(sorted(order)))
-    groups = [Group("all, magnitude", units, largest)]
+    groups = [Group("all, magnitude", units, largest, floor=floor)]
     joints = _some(names)
     for k, name in joints.shown:
         curves = (Curve(word, magnitude[:, k], "0"), *_components(values[:, k]))
-        groups.append(Group(name, units, curves))
+        groups.append(Group(name, units, curves, floor=floor))
     return Panel(title, tuple(groups), note=joints.note)
 
 
 def _applied(result: Result) -> Panel | None:
     groups = []
-    for quantity, word in (("magnitude", "magnitude"), ("power", "power")):
+    for quantity, word in (("power", "power"), ("magnitude", "magnitude")):
         by_unit: dict[str, list[Curve]] = {}
         for name, variable in result.variables.items():
             if name.startswith("force.") and name.endswith(f".{quantity}"):

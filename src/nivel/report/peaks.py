@@ -12,10 +12,15 @@ from nivel.results.scales import blocks
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
+NEGLIGIBLE = 1e-9  # of the largest reaction in the machine, a torque counted as a force at its size: round-off
+
 
 @dataclass(frozen=True)
 class PeakReaction:
-    """Largest force [N] and torque [N m] between the bodies of a joint, with their times [s]; `unique` if they are."""
+    """Largest force [N] and torque [N m] between the bodies of a joint, with their times [s]; 0 where negligible.
+
+    unique : False where redundant constraints share the load in more than one way.
+    """
 
     joint: str
     kind: str
@@ -30,14 +35,25 @@ def peak_reactions(result: Result) -> list[PeakReaction]:
     """One line per joint, in the order of the machine."""
     if "joint_force" not in result.variables or not len(result.time):
         return []
-    names = result.coordinates["joint"]
     kinds = {joint["name"]: joint["type"] for joint in result.scene.get("joints", [])}
     shaky = set(result.trust.non_unique_joints)
-    force, torque = _peaks(result, "joint_force"), _peaks(result, "joint_torque")
+    floors = negligible(result)
+    force, torque = (
+        [(value, time) if value > floors[variable] else (0.0, 0.0) for value, time in _peaks(result, variable)]
+        for variable in ("joint_force", "joint_torque")
+    )
     return [
         PeakReaction(name, kinds.get(name, ""), *force[k], *torque[k], name not in shaky)
-        for k, name in enumerate(names)
+        for k, name in enumerate(result.coordinates["joint"])
     ]
+
+
+def negligible(result: Result) -> dict[str, float]:
+    """The force [N] and torque [N m] below which a reaction is round-off."""
+    size = result.trust.size
+    force, torque = (max((v for v, _ in _peaks(result, name)), default=0.0) for name in ("joint_force", "joint_torque"))
+    largest = max(force, torque / size)
+    return {"joint_force": NEGLIGIBLE * largest, "joint_torque": NEGLIGIBLE * largest * size}
 
 
 def _peaks(result: Result, variable: str) -> list[tuple[float, float]]:

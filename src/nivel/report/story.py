@@ -138,6 +138,7 @@ def _row(assembly: dict[str, Any]) -> str:
 
 def _statement(item: Item) -> str:
     text = item.text.split(": ", maxsplit=1)[-1]
+    text = text.replace("e-", "e\u2011")  # a line does not break within 1e-4
     return text[:1].upper() + text[1:]
 
 

@@ -109,6 +109,7 @@ def _group(group: Group, thin: Thinning) -> dict[str, Any]:
     return {
         "label": group.label,
         "unit": group.unit,
+        "floor": group.floor,
         "limits": [{"value": value, "tone": tone} for value, tone in group.limits],
         "curves": [{"label": c.label, "tone": c.tone, "values": _packed(thin(c.values), "<f4")} for c in group.curves],
     }

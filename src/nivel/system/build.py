@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,98 +42,6 @@ class MarkerTable:
         return len(self.body) - 1
 
 
-def build(machine: MachineRecord, equations: Equations) -> System:
-    """Arrays of `machine` for a formulation with these equations; poses and velocities as given, not yet assembled."""
-    index = {body.name: k for k, body in enumerate(machine.bodies)} | {GROUND: len(machine.bodies)}
-    poses = {body.name: placement(body) for body in machine.bodies}
-    markers = MarkerTable()
-    joints = _joints(machine, index, markers)
-    loads, functions = _loads(machine, index, markers)
-    bodies = _bodies(machine)
-    names = tuple(body.name for body in machine.bodies)
-    count = len(names)
-    joint_row_count = len(joints.names)
-    row_names = [*joints.names]
-    units = [*joints.units]
-    if equations.normalisation:
-        row_names += [f"{name}.euler_parameters" for name in names]
-        units += ["1"] * count
-    rows = len(row_names)
-    block = _blocks(joints.pairs, markers, count, equations, joint_row_count)
-    groups = [range(a, b) for a, b in joints.spans] + [[row] for row in range(joint_row_count, rows)]
-    elimination = plan([list(group) for group in groups], block[:, 0].tolist(), block[:, 3].tolist())
-    width = equations.velocities
-    layout = frame_layout(
-        names,
-        tuple(joint.name for joint in machine.joints),
-        tuple(joints.coordinate_names),
-        row_names,
-        [(load.name, "N" if load.type == "force" else "N m") for load in machine.forces],
-    )
-    table = _marker_arrays(markers)
-    q = np.concatenate([np.concatenate(poses[name]) for name in names]) if names else np.zeros(0)
-    size = _machine_size(q.reshape(-1, 7), table)
-    record = Record(
-        bodies=bodies,
-        markers=table,
-        constraints=_constraint_arrays(joints, rows),
-        joints=Joints(
-            first_marker=_index([pair[0] for pair in joints.first_and_second], 1),
-            rows=_index(joints.spans, 2),
-            coordinate=_index(joints.coordinates, 3),
-            turn=np.zeros((len(joints.coordinates), 3)),
-        ),
-        functions=functions,
-        loads=loads,
-        saddle=Saddle(
-            block=block,
-            pair=elimination.pair,
-            order=elimination.order,
-            S_start=elimination.S_start,
-            S_row=elimination.S_row,
-            L_start=elimination.L_start,
-            L_row=elimination.L_row,
-            P_start=elimination.P_start,
-            P_column=elimination.P_column,
-            P_entry=elimination.P_entry,
-            W=np.zeros((len(block), width)),
-            G=np.zeros((count, width, width)),
-            z=np.zeros((count, width)),
-            S=np.zeros(len(elimination.S_row)),
-            L=np.zeros(len(elimination.L_row)),
-            Dinv=np.zeros(rows),
-            y=np.zeros(rows),
-            b=np.zeros(rows),
-            dense=np.zeros((0, 0)),
-            null=np.zeros((0, 0)),
-            pivot=np.zeros(0, dtype=np.uint32),
-        ),
-        control=Control(
-            size=np.array([count, rows, 7 * count, width * count], dtype=np.uint32),
-            stabilise=np.zeros(4),
-            energy=np.zeros(3),
-            power=np.zeros(2),
-            failure=np.zeros(1, dtype=np.uint32),
-        ),
-    )
-    system = System(
-        record=record,
-        equations=equations,
-        layout=layout,
-        bodies=names,
-        joints=tuple(joint.name for joint in machine.joints),
-        rows=tuple(row_names),
-        row_joint=np.array(joints.owner, dtype=np.int64),
-        row_units=tuple(units),
-        coordinate_units=tuple(joints.coordinate_units),
-        size=size,
-        start=np.zeros(0),
-    )
-    velocity, angular_velocity_b = _velocities(machine.bodies)
-    object.__setattr__(system, "start", system.state(q, velocity, angular_velocity_b))
-    return system
-
-
 @dataclass
 class JointTables:
     """What the joints of a machine come to."""
@@ -148,6 +56,89 @@ class JointTables:
     coordinates: list[tuple[int, int, int]] = field(default_factory=list)
     coordinate_names: list[str] = field(default_factory=list)
     coordinate_units: list[str] = field(default_factory=list)
+
+
+def build(machine: MachineRecord, equations: Equations) -> System:
+    """Arrays of `machine` for a formulation with these equations; poses and velocities as given, not yet assembled."""
+    names = tuple(body.name for body in machine.bodies)
+    index = {name: k for k, name in enumerate((*names, GROUND))}
+    markers = MarkerTable()
+    joints = _joints(machine, index, markers)
+    loads, functions = _loads(machine, index, markers)
+    rows, units = [*joints.names], [*joints.units]
+    if equations.normalisation:
+        rows += [f"{name}.euler_parameters" for name in names]
+        units += ["1"] * len(names)
+    marker_arrays = _marker_arrays(markers)
+    poses = np.array([np.concatenate(placement(body)) for body in machine.bodies], dtype=float).reshape(-1, 7)
+    record = Record(
+        bodies=_bodies(machine),
+        markers=marker_arrays,
+        constraints=_constraint_arrays(joints, len(rows)),
+        joints=Joints(
+            first_marker=_index([pair[0] for pair in joints.first_and_second], 1),
+            rows=_index(joints.spans, 2),
+            coordinate=_index(joints.coordinates, 3),
+            turn=np.zeros((len(joints.coordinates), 3)),
+        ),
+        functions=functions,
+        loads=loads,
+        saddle=_saddle(joints, markers, len(names), len(rows), equations),
+        control=_control(len(rows)),
+    )
+    system = System(
+        record=record,
+        equations=equations,
+        layout=frame_layout(
+            names,
+            [joint.name for joint in machine.joints],
+            joints.coordinate_names,
+            rows,
+            [(load.name, "N" if load.type == "force" else "N m") for load in machine.forces],
+        ),
+        bodies=names,
+        joints=tuple(joint.name for joint in machine.joints),
+        rows=tuple(rows),
+        row_joint=np.array(joints.owner, dtype=np.int64),
+        row_units=tuple(units),
+        coordinate_units=tuple(joints.coordinate_units),
+        size=_machine_size(poses, marker_arrays),
+        start=np.zeros(0),
+    )
+    return replace(system, start=system.state(poses.ravel(), *_velocities(machine.bodies)))
+
+
+def _saddle(joints: JointTables, markers: MarkerTable, bodies: int, rows: int, equations: Equations) -> Saddle:
+    """Pattern and work arrays of the saddle-point system."""
+    block = _blocks(joints.pairs, markers, bodies, equations, len(joints.names))
+    groups = [list(range(a, b)) for a, b in joints.spans] + [[row] for row in range(len(joints.names), rows)]
+    elimination = plan(groups, block[:, 0].tolist(), block[:, 3].tolist())
+    width = equations.velocities
+    return Saddle(
+        block=block,
+        **vars(elimination),
+        W=np.zeros((len(block), width)),
+        G=np.zeros((bodies, width, width)),
+        z=np.zeros((bodies, width)),
+        S=np.zeros(len(elimination.S_row)),
+        L=np.zeros(len(elimination.L_row)),
+        Dinv=np.zeros(rows),
+        y=np.zeros(rows),
+        b=np.zeros(rows),
+        dense=np.zeros((0, 0)),
+        null=np.zeros((0, 0)),
+        pivot=np.zeros(0, dtype=np.uint32),
+    )
+
+
+def _control(rows: int) -> Control:
+    return Control(
+        rank=np.array([rows], dtype=np.uint32),
+        stabilise=np.zeros(4),
+        energy=np.zeros(3),
+        power=np.zeros(2),
+        failure=np.zeros(1, dtype=np.uint32),
+    )
 
 
 def _joints(machine: MachineRecord, index: dict[str, int], markers: MarkerTable) -> JointTables:

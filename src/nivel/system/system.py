@@ -74,7 +74,7 @@ class System:
                 dense=np.zeros((rows, rows)), null=np.zeros((rows, rows - rank)), pivot=np.zeros(rows, dtype=np.uint32)
             )
             record = record._replace(saddle=saddle)
-        record.control.size[1] = rank
+        record.control.rank[0] = rank
         return replace(self, record=record)
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import machines
 from nivel.analysis.assemble import assemble
@@ -11,8 +12,10 @@ from nivel.kernels.constraint import constraint_rows, constraint_values
 from nivel.kernels.marker import move_markers, place_markers
 from nivel.kernels.rigid import place_body
 from nivel.kernels.spatial import multiply
+from nivel.machine import Body, Joint, MachineRecord
 from nivel.system.joints import JOINTS
 from nivel.system.system import parameter_rates
+from running import run
 
 KINDS = pytest.mark.parametrize("kind", JOINTS)
 GROUND = pytest.mark.parametrize("ground", [False, True], ids=["two-bodies", "ground"])
@@ -125,3 +128,40 @@ def test_names_of_rows_and_coordinates(kind, rng):
     system = equations(machines.pair(kind, rng), "newton-euler").system
     assert system.rows == tuple(f"j.{name}" for name in JOINTS[kind].rows)
     assert system.layout.coordinates["joint_coordinate"] == tuple(f"j.{c.name}" for c in JOINTS[kind].coordinates)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in JOINTS if JOINTS[kind].coordinates])
+@GROUND
+def test_joint_coordinates_start_at_zero_and_are_the_integrals_of_their_rates(kind, ground, rng):
+    machine = machines.pair(kind, rng, ground=ground)
+    result = run(machine, duration=0.2, step=1e-3, output_interval=1e-3)
+    np.testing.assert_allclose(result.joint_coordinate[0], 0.0, atol=1e-12)
+    assert np.abs(result.joint_rate[0]).min() > 1e-2
+    for k in range(result.joint_coordinate.shape[1]):
+        spline = CubicSpline(result.time, result.joint_coordinate[:, k])
+        np.testing.assert_allclose(spline(result.time[5:-5], 1), result.joint_rate[5:-5, k], atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("kind", "options", "spin", "expected"),
+    [
+        ("revolute", {"axis": (0, 0, 1)}, (0, 0, 2.0), [2.0]),
+        ("cylindrical", {"axis": (0, 0, 1)}, (0, 0, 2.0), [2.0, 0.0]),
+        # the cross turns about its arm on the ground, x; the second body turns about its own arm, y
+        ("universal", {"axes": ((1, 0, 0), (0, 1, 0))}, (2.0, 0, 0), [2.0, 0.0]),
+        ("universal", {"axes": ((1, 0, 0), (0, 1, 0))}, (0, 3.0, 0), [0.0, 3.0]),
+    ],
+)
+def test_positive_joint_angles_turn_the_second_body_right_handed(kind, options, spin, expected):
+    body = Body(name="a", mass=1, inertia=(1, 1, 1), angular_velocity=spin)
+    joint = Joint(name="j", type=kind, bodies=("ground", "a"), point=(0, 0, 0), **options)
+    result = run(MachineRecord(name="m", bodies=(body,), joints=(joint,)), duration=1e-3)
+    np.testing.assert_allclose(result.joint_rate[0], expected, atol=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["cylindrical", "translational"])
+def test_positive_displacement_moves_the_second_body_along_the_first_axis(kind):
+    body = Body(name="a", mass=1, inertia=(1, 1, 1), velocity=(0, 0, 3.0))
+    joint = Joint(name="j", type=kind, bodies=("ground", "a"), point=(1, 0, 0), axis=(0, 0, 2))
+    result = run(MachineRecord(name="m", bodies=(body,), joints=(joint,)), duration=0.1)
+    np.testing.assert_allclose(result.joint_coordinate[:, -1], 3.0 * result.time, atol=1e-12)

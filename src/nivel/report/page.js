@@ -172,11 +172,12 @@
   }
 
   const cards = [...document.querySelectorAll(".plot")];
+  // the header is as wide as the plot, and does not change when the plot does
   const watch = new ResizeObserver((entries) => {
     for (const { target } of entries) {
-      const plot = plots.get(target.parentElement);
-      if (!plot || !target.clientWidth || plot.width === target.clientWidth) continue;
-      setTimeout(() => plots.get(target.parentElement).setSize({ width: target.clientWidth, height: HEIGHT }));
+      const card = target.parentElement;
+      const width = card.querySelector(".canvas").clientWidth;
+      if (width && plots.get(card).width !== width) plots.get(card).setSize({ width, height: HEIGHT });
     }
   });
   for (const card of cards) {
@@ -184,7 +185,7 @@
     card.querySelector("select")?.addEventListener("change", () => build(card));
     const place = card.querySelector(".canvas");
     touch(place, card);
-    watch.observe(place);
+    watch.observe(card.querySelector("header"));
   }
   document.getElementById("reset").addEventListener("click", () => setRange(...whole));
   if (data.thinned > 1) {

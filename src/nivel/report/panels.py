@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.report.peaks import NEGLIGIBLE, negligible
+from nivel.results.scales import bodies, rotated
 from nivel.results.verdicts import THRESHOLDS
 
 if TYPE_CHECKING:
@@ -55,18 +56,6 @@ class Panel:
     note: str = ""
 
 
-@dataclass
-class Elements:
-    """Elements of a dimension that are shown, and how many are not."""
-
-    shown: list[tuple[int, str]] = field(default_factory=list)
-    left_out: int = 0
-
-    @property
-    def note(self) -> str:
-        return f"{self.left_out} more in the result file" if self.left_out else ""
-
-
 def panels(result: Result) -> list[Panel]:
     """All panels of a result that have anything to show."""
     found = [
@@ -103,12 +92,26 @@ def _joint_coordinates(result: Result) -> Panel | None:
 
 
 def _positions(result: Result) -> Panel | None:
+    """Body origins; where one rests, the centre of mass of its body; bodies that rest altogether are left out."""
     if "position" not in result.variables:
         return None
-    values, bodies = result.array("position"), _some(result.coordinates["body"])
+    position, orientation = result.array("position"), result.array("orientation")
     floor = NEGLIGIBLE * result.trust.size
-    groups = tuple(Group(name, "m", tuple(_components(values[:, k])), floor=floor) for k, name in bodies.shown)
-    return Panel("Body positions", groups, note=bodies.note)
+    groups = []
+    for k, body in enumerate(bodies(result)):
+        name, values = result.coordinates["body"][k], position[:, k]
+        if not _moves(values, floor):
+            name = f"{name}, centre of mass"
+            values = values + rotated(orientation[:, k], np.array(body.get("centre_of_mass", [0.0, 0.0, 0.0])))
+        if _moves(values, floor):
+            groups.append(Group(name, "m", tuple(_components(values)), floor=floor))
+    return Panel("Body positions", tuple(groups[:GROUPS]), note=_left_out(len(groups)))
+
+
+def _moves(values: Array, floor: float) -> bool:
+    """Whether any component (n, 3) changes by more than `floor` in the frames that are numbers."""
+    known = values[np.isfinite(values).all(axis=1)]
+    return len(known) > 0 and float(np.ptp(known, axis=0).max()) > floor
 
 
 def _energies(result: Result) -> Panel | None:
@@ -143,11 +146,10 @@ def _reactions(result: Result, variable: str, title: str, word: str) -> Panel | 
     order = np.argsort(-peaks, kind="stable")[:TOGETHER]
     largest = tuple(Curve(names[k], magnitude[:, k], str(i)) for i, k in enumerate(sorted(order)))
     groups = [Group("all, magnitude", units, largest, floor=floor)]
-    joints = _some(names)
-    for k, name in joints.shown:
+    for k, name in enumerate(names[:GROUPS]):
         curves = (Curve(word, magnitude[:, k], "0"), *_components(values[:, k]))
         groups.append(Group(name, units, curves, floor=floor))
-    return Panel(title, tuple(groups), note=joints.note)
+    return Panel(title, tuple(groups), note=_left_out(len(names)))
 
 
 def _applied(result: Result) -> Panel | None:
@@ -195,8 +197,8 @@ def _violations(result: Result) -> Panel | None:
     return Panel("Constraint violations", tuple(groups), log=True) if groups else None
 
 
-def _some(names: tuple[str, ...]) -> Elements:
-    return Elements(list(enumerate(names))[:GROUPS], max(len(names) - GROUPS, 0))
+def _left_out(count: int) -> str:
+    return f"{count - GROUPS} more in the result file" if count > GROUPS else ""
 
 
 def _components(values: Array) -> Iterator[Curve]:

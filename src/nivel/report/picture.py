@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 
 WIDTH = 560.0  # pixels; names stay readable when a phone shows it at two thirds
 MANY_BODIES = 20
+ENOUGH = 70.0  # pixels from the middle of a corner to the next thing drawn: nobody needs more
 HEIGHTS = (260.0, 470.0)
 MARGIN = (54.0, 46.0)  # room for names and ground signs
 LIGHT = np.array([-0.45, 0.65, 0.61])  # where it comes from: right, up, towards the eye
@@ -244,12 +245,13 @@ def _draw_joint(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: di
 
 
 def _svg(drawing: Drawing, frame: Frame) -> str:
-    aids = _scale_bar(frame) + _triad(frame)
-    keep_free = [*drawing.points, *(np.array([x, frame.height - 14.0]) for x in (14.0, 34.0, 54.0, 74.0, 94.0))]
-    keep_free += [np.array([WIDTH - x, frame.height - y]) for x in (20.0, 45.0) for y in (20.0, 45.0)]
     lines = np.array(drawing.lines).reshape(-1, 2, 2)
+    triad, bar = _free_corners(np.array(drawing.points).reshape(-1, 2), lines, frame)
+    aids = _triad(frame, triad) + _scale_bar(frame, bar)
+    keep_free = [*drawing.points, *(triad + [10.0 * k, -10.0 * n] for k in (-1, 0, 1) for n in (-1, 0, 1))]
+    keep_free += [bar + [10.0 * k, 8.0] for k in range(-4, 5)]
     labels = sorted(drawing.labels, key=lambda label: label.kind == "body")
-    placed = place(labels, np.array(keep_free).reshape(-1, 2), lines, WIDTH, frame.height)
+    placed = place(labels, np.array(keep_free), lines, WIDTH, frame.height)
     texts = "".join(_text(each.label, *each.centre) for each in placed)
     parts = "".join(text for _, text in sorted(drawing.parts, key=lambda part: part[0]))
     box = f'viewBox="0 0 {WIDTH:.0f} {frame.height:.0f}"'
@@ -257,6 +259,21 @@ def _svg(drawing: Drawing, frame: Frame) -> str:
         f'<svg xmlns="http://www.w3.org/2000/svg" class="machine" {box} role="img" aria-label="picture of the machine">'
         f"<style>{STYLE}</style>{parts}{''.join(drawing.signs)}{aids}{texts}</svg>"
     )
+
+
+def _free_corners(points: Array, lines: Array, frame: Frame) -> tuple[Array, Array]:
+    """Middles of the two emptiest corners, for the axes and for the scale; bottom right and bottom left where these will do."""
+    left, right, top, bottom = 60.0, WIDTH - 40.0, 34.0, frame.height - 32.0
+    along = np.linspace(0.0, 1.0, 40)[None, :, None]
+    drawn = np.concatenate([points, (lines[:, :1] + along * (lines[:, 1:] - lines[:, :1])).reshape(-1, 2)])
+
+    def free(corner: Array) -> float:
+        return min(float(np.linalg.norm(drawn - corner, axis=1).min(initial=np.inf)), ENOUGH)
+
+    corners = [np.array(each) for each in ((right, bottom), (left, bottom), (right, top), (left, top))]
+    triad = max(corners, key=free)  # the first of equals
+    rest = [corner for corner in (corners[1], corners[0], corners[3], corners[2]) if corner is not triad]
+    return triad, max(rest, key=free)
 
 
 def _text(label: Label, x: float, y: float) -> str:
@@ -272,16 +289,21 @@ def _text(label: Label, x: float, y: float) -> str:
     return f'{leader}<text class="{label.kind}" x="{x:.1f}" y="{y + 0.35 * FONT:.1f}">{escape(label.text)}</text>'
 
 
-def _scale_bar(frame: Frame) -> str:
-    """A bar of a round length, bottom left."""
+def _scale_bar(frame: Frame, middle: Array) -> str:
+    """A bar of a round length."""
     metres = 90.0 / frame.scale
     power = 10.0 ** np.floor(np.log10(metres))
     length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= metres)
-    x, y = 14.0 + length * frame.scale, frame.height - 12.0
-    return (
-        f'<path class="aid-line" d="M14 {y - 4:.1f}V{y:.1f}H{x:.1f}V{y - 4:.1f}"/>'
-        f'<text class="aid" style="text-anchor:start" x="{x + 6:.1f}" y="{y + 1:.1f}">{_length(float(length))}</text>'
-    )
+    pixels = length * frame.scale
+    if middle[0] < 0.5 * WIDTH:
+        left = 14.0
+        text = f'<text class="aid" style="text-anchor:start" x="{left + pixels + 6:.1f}" y="{middle[1] + 21:.1f}">'
+    else:
+        left = WIDTH - 14.0 - pixels
+        text = f'<text class="aid" style="text-anchor:end" x="{left - 6:.1f}" y="{middle[1] + 21:.1f}">'
+    y = middle[1] + 20.0
+    path = f"M{left:.1f} {y - 4:.1f}V{y:.1f}H{left + pixels:.1f}V{y - 4:.1f}"
+    return f'<path class="aid-line" d="{path}"/>{text}{_length(float(length))}</text>'
 
 
 def _length(metres: float) -> str:
@@ -292,9 +314,9 @@ def _length(metres: float) -> str:
     return f"{metres * 1e3:g} mm" if metres >= 1e-3 else f"{metres * 1e6:g} µm"
 
 
-def _triad(frame: Frame) -> str:
-    """The global axes, bottom right; one seen end-on is left out."""
-    origin = np.array([WIDTH - 42.0, frame.height - 30.0])
+def _triad(frame: Frame, middle: Array) -> str:
+    """The global axes; one seen end-on is left out."""
+    origin = middle + [-4.0, 4.0]
     out = []
     for name, axis in zip("XYZ", np.eye(3), strict=True):
         direction = frame.view.on_screen(axis) * [1.0, -1.0]

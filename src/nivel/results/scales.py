@@ -44,7 +44,7 @@ def largest_speed(result: Readable) -> float:
     """Upper bound |v| + |ω| r of the speed of every joint point, centre of mass and body origin, over the run [m/s]."""
     if "velocity" not in result.variables:
         return 0.0
-    reach = np.array([_reach(body) for body in _bodies(result)])
+    reach = np.array([_reach(body) for body in bodies(result)])
     largest = 0.0
     for frames in blocks(result):
         v = np.linalg.norm(result.array("velocity", frames), axis=-1)
@@ -85,7 +85,7 @@ def _scene(result: Readable) -> dict[str, Any]:
     return json.loads(str(result.attributes.get("scene", "{}")))
 
 
-def _bodies(result: Readable) -> list[dict[str, Any]]:
+def bodies(result: Readable) -> list[dict[str, Any]]:
     """Bodies of the scene in the order of the result; a body that the scene does not know is a bare origin."""
     known = {body["name"]: body for body in _scene(result).get("bodies", [])}
     return [known.get(name, {}) for name in result.coordinates.get("body", ())]
@@ -108,7 +108,7 @@ def _points_in_space(result: Readable, frames: slice) -> Iterator[Array]:
     if "position" not in result.variables:
         return
     position, orientation = result.array("position", frames), result.array("orientation", frames)
-    for k, body in enumerate(_bodies(result)):
+    for k, body in enumerate(bodies(result)):
         local = _body_points(body)
         yield position[:, k, None, :] + rotated(orientation[:, k, None, :], local)
 

@@ -1,0 +1,82 @@
+"""What `nivel check` finds out, against what is known of the machines."""
+
+import numpy as np
+import pytest
+
+import machines
+from nivel.analysis.check import check
+from nivel.analysis.settings import complete
+from nivel.errors import ModelError
+from nivel.machine import Body, MachineRecord, SimulationSettings
+from nivel.system.joints import JOINTS
+
+
+def test_facts_of_the_slider_crank():
+    facts = check(machines.slider_crank())
+    assert facts.degrees_of_freedom == 1
+    assert facts.constraint_rows == 17
+    assert facts.redundant_rows == ()
+    hinge = facts.joints[0]
+    assert (hinge.first, hinge.second, hinge.free) == ("crank", "ground", 1)
+    np.testing.assert_allclose(hinge.axis, (1, 0, 0), atol=1e-12)
+    assert hinge.rows == ("hinge.s.x", "hinge.s.y", "hinge.s.z", "hinge.d1.xz", "hinge.d1.yz")
+    text = str(facts)
+    for word in (
+        "1 degree of freedom",
+        "crank → ground",
+        "right-handed",
+        "closed as given",
+        "every reaction is unique",
+    ):
+        assert word in text
+
+
+def test_redundancy_is_said_with_names():
+    text = str(check(machines.four_bar(second="revolute", third="revolute")))
+    assert "redundant: " in text
+    assert (
+        "reactions are not in: hinge, pin, pivot, sleeve" in text
+        or "reactions are not in: hinge, pin, sleeve, pivot" in text
+    )
+
+
+def test_velocities_that_do_not_fit_are_corrected_and_said():
+    from nivel.machine import Joint
+
+    machine = MachineRecord(
+        name="m",
+        bodies=(Body(name="a", mass=1, inertia=(1, 1, 1), velocity=(1, 0, 0)),),
+        joints=(Joint(name="j", type="spherical", bodies=("ground", "a"), point=(0, 0, 0)),),
+    )
+    facts = check(machine)
+    assert facts.velocity_change == (("a", pytest.approx(1.0), pytest.approx(0.0, abs=1e-12)),)
+    assert "velocity of a changed by 1 m/s" in str(facts)
+
+
+@pytest.mark.parametrize("kind", JOINTS)
+def test_every_joint_states_its_convention(kind):
+    convention = JOINTS[kind].convention
+    if not JOINTS[kind].coordinates:
+        assert convention == "no joint coordinate"
+    for coordinate in JOINTS[kind].coordinates:
+        assert f"{coordinate.name}:" in convention
+
+
+@pytest.mark.parametrize(
+    ("duration", "step", "interval", "steps", "every"),
+    [
+        (1.0, 1e-3, None, 1000, 1),
+        (8.0, 1e-3, 1e-2, 8000, 10),
+        (8.0, 1e-3, None, 8000, 8),
+        (0.25, 0.03, None, 9, 1),
+        (1.0, 0.1, 0.3, 10, 3),
+    ],
+)
+def test_steps_and_frames_of_a_run(duration, step, interval, steps, every):
+    settings = complete(SimulationSettings(duration=duration, step=step, output_interval=interval))
+    assert (settings.steps, settings.every) == (steps, every)
+
+
+def test_output_interval_between_two_multiples_is_refused_with_both():
+    with pytest.raises(ModelError, match=r"0\.009 or 0\.012"):
+        complete(SimulationSettings(duration=1.0, step=3e-3, output_interval=0.01))

@@ -14,12 +14,3 @@ from nivel.kernels.compile import leaf
 def real(x):
     """Real part: what a branch may look at."""
     return np.real(x)
-
-
-@leaf
-def norm(x):
-    """Euclidean length √(xᵀx) of a vector, without conjugation."""
-    total = x[0] * x[0]
-    for i in range(1, x.shape[0]):
-        total += x[i] * x[i]
-    return np.sqrt(total)

@@ -6,14 +6,6 @@ from nivel.kernels.compile import leaf
 
 
 @leaf
-def cross(a, b, out):
-    """out = a × b; `out` may be neither a nor b."""
-    out[0] = a[1] * b[2] - a[2] * b[1]
-    out[1] = a[2] * b[0] - a[0] * b[2]
-    out[2] = a[0] * b[1] - a[1] * b[0]
-
-
-@leaf
 def dot(a, b):
     """aᵀb of 3-vectors."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -24,13 +16,6 @@ def multiply(A, x, out):
     """out = A x; `out` may not be x."""
     for i in range(3):
         out[i] = A[i, 0] * x[0] + A[i, 1] * x[1] + A[i, 2] * x[2]
-
-
-@leaf
-def multiply_transposed(A, x, out):
-    """out = Aᵀ x; `out` may not be x."""
-    for i in range(3):
-        out[i] = A[0, i] * x[0] + A[1, i] * x[1] + A[2, i] * x[2]
 
 
 @leaf

@@ -6,12 +6,10 @@ from nivel.kernels.compile import entry
 from nivel.kernels.status import OK
 from nivel.march.run import EVALUATIONS, STEP, TIME, run_at, step_signature
 
-STAGES = 4
-
 
 @entry(step_signature)
 def rk4(evaluate, machine, history):
-    """Classical method of order 4 (Kutta 1901; report 44, eq. 100). `run.rate` is the first stage."""
+    """Classical method of order 4 (Kutta 1901; report 44, eq. 102). `run.rate` is the first stage."""
     run = run_at(history)
     t, h, y = run.clock[TIME], run.clock[STEP], run.y
     k1, k2, k3, k4, trial = run.rate, run.stages[0], run.stages[1], run.stages[2], run.stages[3]

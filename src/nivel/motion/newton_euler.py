@@ -17,7 +17,6 @@ from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.kernels.spatial import dot, multiply
 from nivel.kernels.status import OK
 
-POSITIONS, VELOCITIES = 7, 6
 WIDTH = 6
 
 

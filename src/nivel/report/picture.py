@@ -49,6 +49,7 @@ class Drawing:
     signs: list[str] = field(default_factory=list)
     labels: list[Label] = field(default_factory=list)
     points: list[Array] = field(default_factory=list)
+    covered: list[Array] = field(default_factory=list)
     lines: list[Array] = field(default_factory=list)
 
 
@@ -190,6 +191,7 @@ def _draw_solid(
             for s in np.linspace(0.0, 1.0, 14)
         )
         outline = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{r:.1f}" fill="none" stroke="{dark}" stroke-width="1"/>'
+        drawing.covered.append(np.array([[x - r, y], [x + r, y], [x, y - r], [x, y + r]]))
         drawing.parts.append((float(frame.view.depth(centre)), rings + outline))
         return
     seen = [face for face in parts if (pose[1] @ face.normal) @ frame.view.towards > 1e-9]
@@ -200,6 +202,7 @@ def _draw_solid(
         flat = frame.pixels(corners)
         outline = " ".join(f"{x:.1f},{y:.1f}" for x, y in flat)
         depth = float(frame.view.depth(corners).mean())
+        drawing.covered.append(flat)
         shape = f'<polygon points="{outline}" fill="{fill}" stroke="{fill}" stroke-width=".7" stroke-linejoin="round"/>'
         edges = "".join(
             f"M{flat[i][0]:.1f} {flat[i][1]:.1f}L{flat[j][0]:.1f} {flat[j][1]:.1f}"
@@ -246,10 +249,12 @@ def _draw_joint(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: di
 
 def _svg(drawing: Drawing, frame: Frame) -> str:
     lines = np.array(drawing.lines).reshape(-1, 2, 2)
-    triad, bar = _free_corners(np.array(drawing.points).reshape(-1, 2), lines, frame)
+    triad, bar = _free_corners(
+        np.concatenate([np.array(drawing.points).reshape(-1, 2), *drawing.covered]), lines, frame
+    )
     aids = _triad(frame, triad) + _scale_bar(frame, bar)
-    keep_free = [*drawing.points, *(triad + [10.0 * k, -10.0 * n] for k in (-1, 0, 1) for n in (-1, 0, 1))]
-    keep_free += [bar + [10.0 * k, 8.0] for k in range(-4, 5)]
+    keep_free = [*drawing.points, *(triad + np.array([10.0 * k, -10.0 * n]) for k in (-1, 0, 1) for n in (-1, 0, 1))]
+    keep_free += [bar + np.array([10.0 * k, 8.0]) for k in range(-4, 5)]
     labels = sorted(drawing.labels, key=lambda label: label.kind == "body")
     placed = place(labels, np.array(keep_free), lines, WIDTH, frame.height)
     texts = "".join(_text(each.label, *each.centre) for each in placed)
@@ -316,7 +321,7 @@ def _length(metres: float) -> str:
 
 def _triad(frame: Frame, middle: Array) -> str:
     """The global axes; one seen end-on is left out."""
-    origin = middle + [-4.0, 4.0]
+    origin = middle + np.array([-4.0, 4.0])
     out = []
     for name, axis in zip("XYZ", np.eye(3), strict=True):
         direction = frame.view.on_screen(axis) * [1.0, -1.0]

@@ -1,0 +1,102 @@
+"""The report in a real browser: no error, all plots drawn, one cursor and one time range for all of them."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import synthetic_run as pendulum
+from nivel.results import Memory
+
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
+pytestmark = pytest.mark.skipif(BROWSER is None, reason="no chromium on this machine to open the report in")
+
+# runs in the page: zooms the first plot with the mouse, looks at all, resets; what it saw goes into the title
+SCRIPT = """
+const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+const fire = (target, kind, x) => {
+  const box = target.getBoundingClientRect();
+  const at = { clientX: box.left + x * box.width, clientY: box.top + 40 };
+  target.dispatchEvent(new MouseEvent(kind, { bubbles: true, button: 0, detail: 1, movementX: 5, ...at }));
+};
+const canvases = [...document.querySelectorAll(".plot .canvas canvas")];
+const painted = canvases.map((c) => c.getContext("2d").getImageData(0, 0, c.width, c.height).data.some((v) => v > 0));
+const ranges = () => [...new Set(seen.map((u) => [u.scales.x.min, u.scales.x.max].join()))].map((r) => r.split(",").map(Number));
+(async () => {
+  const over = document.querySelector(".plot .u-over");
+  await wait(50);
+  const before = ranges();
+  fire(over, "mouseenter", 0.25); fire(over, "mousemove", 0.25); fire(over, "mousedown", 0.25);
+  fire(over, "mousemove", 0.4); fire(over, "mousemove", 0.5); fire(over, "mouseup", 0.5);
+  await wait(50);
+  const zoomed = ranges(), shown = !document.getElementById("reset").hidden;
+  fire(over, "mousemove", 0.5);
+  await wait(20);
+  const legends = [...document.querySelectorAll(".plot .u-legend")].map((legend) => legend.textContent);
+  fire(over, "dblclick", 0.5);
+  await wait(50);
+  const reset = ranges(), hidden = document.getElementById("reset").hidden;
+  const choice = document.querySelector(".plot select");
+  choice.value = "1"; choice.dispatchEvent(new Event("change"));
+  await wait(50);
+  document.title = JSON.stringify({ painted, before, zoomed, shown, legends, reset, hidden,
+    unit: choice.closest(".plot").querySelector(".unit").textContent,
+    wide: document.documentElement.scrollWidth - document.documentElement.clientWidth });
+})();
+"""
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("page")
+    memory = Memory()
+    memory.begin(pendulum.header())
+    memory.take(pendulum.frames(np.linspace(0.0, 8.0, 801)))
+    path = memory.close({"outcome": "done"}).report(folder / "run.html")
+    html = path.read_text(encoding="utf-8")
+    # every plot that is made is noted down, then the script is appended
+    html = html.replace('"use strict";\n  const data', '"use strict";\n  window.seen = [];\n  const data', 1)
+    html = html.replace("plots.set(card, plot);", "plots.set(card, plot); window.seen.push(plot);", 1)
+    (folder / "driven.html").write_text(html.replace("</body>", f"<script>{SCRIPT}</script></body>"), encoding="utf-8")
+    return folder
+
+
+def browse(page, width):
+    command = [BROWSER, "--headless=new", "--disable-gpu", "--hide-scrollbars", "--enable-logging=stderr", "--v=0"]
+    command += ["--no-sandbox"] * (os.geteuid() == 0) + [
+        f"--user-data-dir={page / 'profile'}",
+        f"--window-size={width},1200",
+    ]
+    command += ["--virtual-time-budget=4000", "--dump-dom", (page / "driven.html").as_uri()]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    said = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+    title = re.search(r"<title>(\{.*?\})</title>", done.stdout, re.DOTALL)
+    return said, json.loads(title[1].replace("&amp;", "&")) if title else None
+
+
+def test_the_report_works_in_a_browser(page):
+    said, seen = browse(page, 1200)
+    assert said == []
+    assert seen is not None
+    assert len(seen["painted"]) == 7
+    assert all(seen["painted"])
+    assert seen["before"] == [[0.0, 8.0]]
+    ((low, high),) = seen["zoomed"]  # one range for all plots
+    assert (low, high) == (pytest.approx(2.0, abs=0.1), pytest.approx(4.0, abs=0.1))
+    assert seen["reset"] == [[0.0, 8.0]]
+    assert (seen["shown"], seen["hidden"]) == (True, True)
+    for legend, unit in zip(seen["legends"][:4], ("rad", "m", "J", "J"), strict=True):
+        assert re.search(rf"\d {unit}", legend), legend  # all cursors are where the first is
+    assert seen["unit"] == "[rad/s]"
+    assert seen["wide"] == 0
+
+
+def test_the_report_fits_a_phone(page):
+    said, seen = browse(page, 400)
+    assert said == []
+    assert all(seen["painted"])
+    assert seen["wide"] == 0

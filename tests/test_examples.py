@@ -50,7 +50,11 @@ def test_andrews_squeezer_without_its_spring_follows_its_seven_angles():
     machine = nivel.load(EXAMPLES / "andrews-squeezer.yaml")
     result = machine.simulate()
     expected = andrews.solve(result.time, spring=False)
-    A = Rotation.from_quat(result.array("orientation").reshape(-1, 4), scalar_first=True).as_matrix().reshape(-1, 7, 3, 3)
+    A = (
+        Rotation.from_quat(result.array("orientation").reshape(-1, 4), scalar_first=True)
+        .as_matrix()
+        .reshape(-1, 7, 3, 3)
+    )
     offsets = np.array([body.centre_of_mass for body in machine.record.bodies])
     centres = result.array("position") + np.einsum("nbij,bj->nbi", A, offsets)
     np.testing.assert_allclose(centres[:, :, :2], expected.centres, atol=1e-10)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+
 import click
 
 from nivel.cli.options import file_argument, override_option

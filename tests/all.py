@@ -24,7 +24,7 @@ def main():
     run("ruff check", [*PYTHON, "ruff", "check", "."])
     run("ruff format", [*PYTHON, "ruff", "format", "--check", "."])
     run("import layers", [str(bin_folder / "lint-imports")])
-    run("pyright", [str(bin_folder / "pyright")])
+    run("pyright", [str(bin_folder / "pyright"), "--pythonpath", sys.executable])
     checked = {"NUMBA_BOUNDSCHECK": "1"}
     run("compile with bounds checking", [*PYTHON, "nivel", "warmup"], **checked)
     run("pytest", [*PYTHON, "pytest", "-n", "2", "-q", *sys.argv[1:]], **checked)

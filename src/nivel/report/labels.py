@@ -13,6 +13,8 @@ Box = tuple[float, float, float, float]  # left, top, right, bottom in pixels
 FONT = 13.0  # pixels
 LETTER = 0.58  # width of a letter over its height, on average
 CROWDED = 3.0  # cost above which a name is left out: it would hide more than it says
+MANY = 40  # names; then only those that find room close by are shown
+CLOSE_BY = 0.5
 DISTANCES = (15.0, 25.0, 38.0, 56.0)  # pixels from the point to the label
 ANGLES = np.deg2rad([-40.0, 40.0, -140.0, 140.0, 0.0, 180.0, -90.0, 90.0, -65.0, 65.0, -115.0, 115.0])
 
@@ -45,10 +47,11 @@ def place(labels: list[Label], points: Array, lines: Array, width: float, height
     points : (n, 2) signs to keep free. lines : (k, 2, 2) lines better not crossed. All in pixels.
     """
     placed: list[Placed] = []
+    limit = CROWDED if len(labels) <= MANY else CLOSE_BY
     for label in labels:
         found = [(_cost(label, box, far, placed, points, lines, width, height), box) for box, far in _candidates(label)]
         cost, box = min(found, key=lambda each: each[0])
-        if cost < CROWDED:
+        if cost < limit:
             placed.append(Placed(label, box))
     return placed
 

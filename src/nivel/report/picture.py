@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 
 WIDTH = 560.0  # pixels; names stay readable when a phone shows it at two thirds
 MANY_BODIES = 20
+ROOMY = 28.0  # pixels between points from which on signs have their full size
 ENOUGH = 70.0  # pixels from the middle of a corner to the next thing drawn: nobody needs more
 HEIGHTS = (260.0, 470.0)
 MARGIN = (54.0, 46.0)  # room for names and ground signs
@@ -61,6 +62,7 @@ class Frame:
     scale: float
     shift: Array
     height: float
+    sign: float  # scale of the signs: smaller where they stand close together
 
     def pixels(self, points: Array) -> Array:
         """(…, 2) right and down."""
@@ -83,8 +85,9 @@ def machine_picture(
     if not len(cloud) or not np.all(np.isfinite(cloud)):
         return ""
     turning, sliding = (_axes(scene, poses, kinds) for kinds in (("revolute", "cylindrical"), ("translational",)))
-    view = choose_view(_skeleton(scene, poses), turning, sliding, np.array(up, dtype=float))
-    frame = _frame(view, cloud)
+    skeleton = _skeleton(scene, poses)
+    view = choose_view(skeleton, turning, sliding, np.array(up, dtype=float))
+    frame = _frame(view, cloud, skeleton)
     drawing = Drawing()
     for k, body in enumerate(scene["bodies"]):
         facets = FACETS if len(scene["bodies"]) <= MANY_BODIES else FEW_FACETS
@@ -132,7 +135,7 @@ def _cloud(scene: dict[str, Any], poses: dict[str, tuple[Array, Array]]) -> Arra
     return np.concatenate([_skeleton(scene, poses), *shapes])
 
 
-def _frame(view: View, cloud: Array) -> Frame:
+def _frame(view: View, cloud: Array, skeleton: Array) -> Frame:
     flat = view.on_screen(cloud)
     low, size = flat.min(axis=0), np.ptp(flat, axis=0)
     room = np.array([WIDTH, HEIGHTS[1]]) - 2.0 * np.array(MARGIN)
@@ -141,7 +144,16 @@ def _frame(view: View, cloud: Array) -> Frame:
     height = float(np.clip(scale * size[1] + 2.0 * MARGIN[1], *HEIGHTS))
     middle = low + 0.5 * size
     shift = np.array([0.5 * WIDTH, 0.5 * height - 4.0]) - middle * [scale, -scale]
-    return Frame(view, scale, shift, height)
+    apart = scale * _usual_distance(view.on_screen(skeleton))
+    return Frame(view, scale, shift, height, float(np.clip(apart / ROOMY, 0.45, 1.0)))
+
+
+def _usual_distance(flat: Array) -> float:
+    """Median distance of points (n, 2) from their nearest neighbour elsewhere; infinite for less than two."""
+    flat = np.unique(np.round(flat, 12), axis=0)[:400]
+    distances = np.linalg.norm(flat[:, None] - flat[None, :], axis=-1)
+    np.fill_diagonal(distances, np.inf)
+    return float(np.median(distances.min(axis=1))) if len(flat) > 1 else np.inf
 
 
 def _draw_body(
@@ -151,13 +163,13 @@ def _draw_body(
     x, y = frame.pixels(centre)
     drawing.labels.append(Label(body["name"], x, y, "body"))
     joints = np.reshape(np.asarray(body.get("points", []), dtype=float), (-1, 3))
-    width = 6.6
+    width = 6.6 * frame.sign
     if body.get("shape"):
         _draw_solid(drawing, frame, solid(body["shape"], facets), pose, colour)
         drawing.lines += [frame.pixels(np.stack([centre, joint])) for joint in _in_space(pose, joints)]
-        joints, width = joints[_outside(body["shape"], joints)], 3.4  # a shape need not reach its joints
+        joints, width = joints[_outside(body["shape"], joints)], 3.4 * frame.sign  # a shape need not reach its joints
     else:
-        drawing.signs.append(centre_of_mass_sign(x, y))
+        drawing.signs.append(centre_of_mass_sign(x, y, frame.sign))
         drawing.points.append(np.array([x, y]))
     for joint in _in_space(pose, joints):
         ends = np.stack([centre, joint])
@@ -239,10 +251,10 @@ def _draw_joint(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: di
     x, y = (float(each) for each in frame.pixels(point))
     if "ground" in (first, second):
         sliding = joint["type"] in ("translational", "cylindrical") and np.hypot(*axis) > 0.35
-        drawing.signs.append(rail_sign(x, y, axis) if sliding else ground_sign(x, y))
+        drawing.signs.append(rail_sign(x, y, axis) if sliding else ground_sign(x, y, frame.sign))
         drawing.points += [np.array([x, y + 12.0]), np.array([x - 10.0, y + 19.0]), np.array([x + 10.0, y + 19.0])]
     title = f"<title>{escape(joint['name'])}: {escape(joint['type'])}, {escape(first)} – {escape(second)}</title>"
-    drawing.signs.append(f"<g>{title}{joint_sign(joint['type'], x, y, axis)}</g>")
+    drawing.signs.append(f"<g>{title}{joint_sign(joint['type'], x, y, axis, frame.sign)}</g>")
     drawing.points += [np.array([x, y]) + part * 13.0 * np.array(axis) for part in (-1.0, 0.0, 1.0)]
     drawing.labels.append(Label(joint["name"], x, y, "joint-name"))
 

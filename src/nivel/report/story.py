@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -138,7 +139,8 @@ def _row(assembly: dict[str, Any]) -> str:
 
 def _statement(item: Item) -> str:
     text = item.text.split(": ", maxsplit=1)[-1]
-    text = text.replace("e-", "e\u2011")  # a line does not break within 1e-4
+    text = text.replace("e-", "e\u2011")  # a line does not break within 1e-4, nor before a unit
+    text = re.sub(r"(?<=\d) (?=(m|s|J|m/s|1/s)\b)", "\u00a0", text)
     return text[:1].upper() + text[1:]
 
 

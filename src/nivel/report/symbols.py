@@ -10,7 +10,7 @@ END_ON = 0.35  # a joint axis whose projection is shorter than this fraction of 
 RADIUS = 6.5
 
 
-def joint_sign(kind: str, x: float, y: float, axis: tuple[float, float] = (0.0, 1.0)) -> str:
+def joint_sign(kind: str, x: float, y: float, axis: tuple[float, float] = (0.0, 1.0), scale: float = 1.0) -> str:
     """The sign of a joint at (x, y).
 
     axis : the joint axis on the screen, right and down, as long as it is seen (1: in the plane of the picture, 0: end-on).
@@ -26,7 +26,7 @@ def joint_sign(kind: str, x: float, y: float, axis: tuple[float, float] = (0.0, 
         "universal": _universal,
         "fixed": _fixed,
     }.get(kind, _spherical)(seen)
-    return f'<g transform="translate({x:.1f} {y:.1f}) rotate({angle:.1f})" class="joint">{body}</g>'
+    return f'<g transform="translate({x:.1f} {y:.1f}) rotate({angle:.1f}) scale({scale:.2f})" class="joint">{body}</g>'
 
 
 def _revolute(seen: bool) -> str:
@@ -60,11 +60,11 @@ def _fixed(seen: bool) -> str:
     return '<rect x="-5.5" y="-5.5" width="11" height="11" class="solid"/>'
 
 
-def ground_sign(x: float, y: float) -> str:
+def ground_sign(x: float, y: float, scale: float = 1.0) -> str:
     """Hatched ground under a joint at (x, y)."""
     hatch = "".join(f"M{k} 17l-5 6" for k in range(-10, 17, 5))
     return (
-        f'<g transform="translate({x:.1f} {y:.1f})" class="ground">'
+        f'<g transform="translate({x:.1f} {y:.1f}) scale({scale:.2f})" class="ground">'
         f'<path d="M0 0L-8 17H8Z" class="foot"/><path d="M-15 17H15"/><path d="{hatch}" class="hatch"/></g>'
     )
 
@@ -81,10 +81,10 @@ def rail_sign(x: float, y: float, axis: tuple[float, float]) -> str:
     )
 
 
-def centre_of_mass_sign(x: float, y: float) -> str:
+def centre_of_mass_sign(x: float, y: float, scale: float = 1.0) -> str:
     """The quartered circle."""
     return (
-        f'<g transform="translate({x:.1f} {y:.1f})" class="mass"><circle r="4.6"/>'
+        f'<g transform="translate({x:.1f} {y:.1f}) scale({scale:.2f})" class="mass"><circle r="4.6"/>'
         '<path d="M0 0V-4.6A4.6 4.6 0 0 1 4.6 0ZM0 0V4.6A4.6 4.6 0 0 1 -4.6 0Z" class="dot"/></g>'
     )
 

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 import synthetic_run as pendulum
+from nivel.report.frame import HEIGHTS, WIDTH
 from nivel.report.labels import Label, place
-from nivel.report.picture import HEIGHTS, WIDTH, machine_picture
+from nivel.report.picture import machine_picture
 from nivel.report.solids import Ball, solid
 from nivel.report.view import choose_view
 

@@ -75,7 +75,7 @@ def _joint_coordinates(result: Result) -> Panel | None:
     if "joint_coordinate" not in result.variables:
         return None
     names = result.coordinates[result.variables["joint_coordinate"].dims[1]]
-    groups = []
+    groups, most = [], 0
     for variable, words in (
         ("joint_coordinate", {"rad": "angles", "m": "displacements"}),
         ("joint_rate", {"rad/s": "angular rates", "m/s": "rates"}),
@@ -84,11 +84,12 @@ def _joint_coordinates(result: Result) -> Panel | None:
         suffix = "" if variable == "joint_coordinate" else ".rate"
         units = [result.units(f"{name}{suffix}") for name in names]
         for unit, word in words.items():
-            chosen = [k for k, own in enumerate(units) if own == unit][: 2 * TOGETHER]
+            chosen = [k for k, own in enumerate(units) if own == unit]
+            most, chosen = max(most, len(chosen)), chosen[: 2 * TOGETHER]
             curves = tuple(Curve(names[k], values[:, k], str(i)) for i, k in enumerate(chosen))
             if curves:
                 groups.append(Group(word, unit, curves))
-    return Panel("Joint coordinates", tuple(groups))
+    return Panel("Joint coordinates", tuple(groups), note=_left_out(most, 2 * TOGETHER))
 
 
 def _positions(result: Result) -> Panel | None:
@@ -145,7 +146,7 @@ def _reactions(result: Result, variable: str, title: str, word: str) -> Panel | 
         return None
     order = np.argsort(-peaks, kind="stable")[:TOGETHER]
     largest = tuple(Curve(names[k], magnitude[:, k], str(i)) for i, k in enumerate(sorted(order)))
-    groups = [Group("all, magnitude", units, largest, floor=floor)]
+    groups = [Group(_which(len(names)), units, largest, floor=floor)]
     for k, name in enumerate(names[:GROUPS]):
         curves = (Curve(word, magnitude[:, k], "0"), *_components(values[:, k]))
         groups.append(Group(name, units, curves, floor=floor))
@@ -194,11 +195,16 @@ def _violations(result: Result) -> Panel | None:
             if curves:
                 limits = ((threshold.green * scale, "green"), (threshold.amber * scale, "amber"))
                 groups.append(Group(f"{word}{level}", unit, curves, limits))
-    return Panel("Constraint violations", tuple(groups), log=True) if groups else None
+    note = f"the {TOGETHER} worst joints are shown" if len(result.coordinates.get("joint", ())) > TOGETHER else ""
+    return Panel("Constraint violations", tuple(groups), log=True, note=note) if groups else None
 
 
-def _left_out(count: int) -> str:
-    return f"{count - GROUPS} more in the result file" if count > GROUPS else ""
+def _left_out(count: int, shown: int = GROUPS) -> str:
+    return f"{count - shown} more in the result file" if count > shown else ""
+
+
+def _which(count: int) -> str:
+    return "all, magnitude" if count <= TOGETHER else f"the {TOGETHER} largest, magnitude"
 
 
 def _components(values: Array) -> Iterator[Curve]:

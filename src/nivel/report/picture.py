@@ -9,21 +9,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.report.aids import free_corners, scale_bar, triad_sign
+from nivel.report.frame import WIDTH, Frame, fit
 from nivel.report.labels import FONT, Label, place
+from nivel.report.shading import COLOURS, between, mixed, shaded
 from nivel.report.solids import FACETS, FEW_FACETS, Ball, Face, reach, solid
 from nivel.report.symbols import centre_of_mass_sign, ground_sign, joint_sign, rail_sign
-from nivel.report.view import View, choose_view
+from nivel.report.view import choose_view
 
 Array = NDArray[np.float64]
 
-WIDTH = 560.0  # pixels; names stay readable when a phone shows it at two thirds
 MANY_BODIES = 20
-ROOMY = 28.0  # pixels between points from which on signs have their full size
-ENOUGH = 70.0  # pixels from the middle of a corner to the next thing drawn: nobody needs more
-HEIGHTS = (260.0, 470.0)
-MARGIN = (54.0, 46.0)  # room for names and ground signs
-LIGHT = np.array([-0.45, 0.65, 0.61])  # where it comes from: right, up, towards the eye
-COLOURS = ("#5b86b4", "#cf7f4f", "#6fa17a", "#9274b0", "#c6a548", "#469c9f", "#bb6a86", "#7d8998")
 STYLE = """
 .machine{font:500 13px/1.2 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif;--paper:#fff;--ink:#1b2430;--soft:#6b7684}
 .machine .joint circle,.machine .joint rect{fill:var(--paper);stroke:var(--ink);stroke-width:1.6}
@@ -54,21 +50,6 @@ class Drawing:
     lines: list[Array] = field(default_factory=list)
 
 
-@dataclass(frozen=True)
-class Frame:
-    """From metres in space to pixels on the picture."""
-
-    view: View
-    scale: float
-    shift: Array
-    height: float
-    sign: float  # scale of the signs: smaller where they stand close together
-
-    def pixels(self, points: Array) -> Array:
-        """(…, 2) right and down."""
-        return self.view.on_screen(points) * [self.scale, -self.scale] + self.shift
-
-
 def machine_picture(
     scene: dict[str, Any], position: Array, orientation: Array, up: tuple[float, float, float] | Array = (0, 0, 1)
 ) -> str:
@@ -87,7 +68,7 @@ def machine_picture(
     turning, sliding = (_axes(scene, poses, kinds) for kinds in (("revolute", "cylindrical"), ("translational",)))
     skeleton = _skeleton(scene, poses)
     view = choose_view(skeleton, turning, sliding, np.array(up, dtype=float))
-    frame = _frame(view, cloud, skeleton)
+    frame = fit(view, cloud, skeleton)
     drawing = Drawing()
     for k, body in enumerate(scene["bodies"]):
         facets = FACETS if len(scene["bodies"]) <= MANY_BODIES else FEW_FACETS
@@ -135,27 +116,6 @@ def _cloud(scene: dict[str, Any], poses: dict[str, tuple[Array, Array]]) -> Arra
     return np.concatenate([_skeleton(scene, poses), *shapes])
 
 
-def _frame(view: View, cloud: Array, skeleton: Array) -> Frame:
-    flat = view.on_screen(cloud)
-    low, size = flat.min(axis=0), np.ptp(flat, axis=0)
-    room = np.array([WIDTH, HEIGHTS[1]]) - 2.0 * np.array(MARGIN)
-    scale = float(min(room / np.maximum(size, 1e-12)))
-    scale = min(scale, 1e9) if size.max() > 0.0 else 100.0
-    height = float(np.clip(scale * size[1] + 2.0 * MARGIN[1], *HEIGHTS))
-    middle = low + 0.5 * size
-    shift = np.array([0.5 * WIDTH, 0.5 * height - 4.0]) - middle * [scale, -scale]
-    apart = scale * _usual_distance(view.on_screen(skeleton))
-    return Frame(view, scale, shift, height, float(np.clip(apart / ROOMY, 0.45, 1.0)))
-
-
-def _usual_distance(flat: Array) -> float:
-    """Median distance of points (n, 2) from their nearest neighbour elsewhere; infinite for less than two."""
-    flat = np.unique(np.round(flat, 12), axis=0)[:400]
-    distances = np.linalg.norm(flat[:, None] - flat[None, :], axis=-1)
-    np.fill_diagonal(distances, np.inf)
-    return float(np.median(distances.min(axis=1))) if len(flat) > 1 else np.inf
-
-
 def _draw_body(
     drawing: Drawing, frame: Frame, body: dict[str, Any], pose: tuple[Array, Array], colour: str, facets: int
 ) -> None:
@@ -176,7 +136,7 @@ def _draw_body(
         (x1, y1), (x2, y2) = frame.pixels(ends)
         line = f'x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke-linecap="round"'
         depths = frame.view.depth(ends)
-        dark, depth = _mixed(colour, 0.0, 0.35), float(depths.min() if body.get("shape") else depths.mean())
+        dark, depth = mixed(colour, 0.0, 0.35), float(depths.min() if body.get("shape") else depths.mean())
         drawing.parts.append((depth - 1e-9, f'<line {line} stroke="{dark}" stroke-width="{width + 2.4:.1f}"/>'))
         drawing.parts.append((depth, f'<line {line} stroke="{colour}" stroke-width="{width:.1f}"/>'))
         drawing.lines.append(frame.pixels(ends))
@@ -196,10 +156,10 @@ def _draw_solid(
     if isinstance(parts, Ball):
         centre = _in_space(pose, parts.centre)[0]
         (x, y), r = frame.pixels(centre), parts.radius * frame.scale
-        bright, dark = _mixed(colour, 0.45, 0.0), _mixed(colour, 0.0, 0.4)
+        bright, dark = mixed(colour, 0.45, 0.0), mixed(colour, 0.0, 0.4)
         rings = "".join(
             f'<circle cx="{x - 0.36 * r * s:.1f}" cy="{y - 0.42 * r * s:.1f}" r="{r * (1 - 0.62 * s):.1f}" '
-            f'fill="{_between(colour, bright, s)}"/>'
+            f'fill="{between(colour, bright, s)}"/>'
             for s in np.linspace(0.0, 1.0, 14)
         )
         outline = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{r:.1f}" fill="none" stroke="{dark}" stroke-width="1"/>'
@@ -210,7 +170,7 @@ def _draw_solid(
     silhouette = _edges_seen_once(seen)
     for k, face in enumerate(seen):
         corners = _in_space(pose, face.corners)
-        fill = _shaded(colour, pose[1] @ face.normal, frame.view)
+        fill = shaded(colour, pose[1] @ face.normal, frame.view)
         flat = frame.pixels(corners)
         outline = " ".join(f"{x:.1f},{y:.1f}" for x, y in flat)
         depth = float(frame.view.depth(corners).mean())
@@ -221,7 +181,7 @@ def _draw_solid(
             for i, j in ((i, (i + 1) % len(flat)) for i in range(len(flat)))
             if face.outlined[i] or (k, i) in silhouette
         )
-        dark = _mixed(colour, 0.0, 0.45)
+        dark = mixed(colour, 0.0, 0.45)
         line = (
             f'<path d="{edges}" stroke="{dark}" stroke-width="1" stroke-linecap="round" fill="none"/>' if edges else ""
         )
@@ -261,10 +221,8 @@ def _draw_joint(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: di
 
 def _svg(drawing: Drawing, frame: Frame) -> str:
     lines = np.array(drawing.lines).reshape(-1, 2, 2)
-    triad, bar = _free_corners(
-        np.concatenate([np.array(drawing.points).reshape(-1, 2), *drawing.covered]), lines, frame
-    )
-    aids = _triad(frame, triad) + _scale_bar(frame, bar)
+    triad, bar = free_corners(np.concatenate([np.array(drawing.points).reshape(-1, 2), *drawing.covered]), lines, frame)
+    aids = triad_sign(frame, triad) + scale_bar(frame, bar)
     keep_free = [*drawing.points, *(triad + np.array([10.0 * k, -10.0 * n]) for k in (-1, 0, 1) for n in (-1, 0, 1))]
     keep_free += [bar + np.array([10.0 * k, 8.0]) for k in range(-4, 5)]
     labels = sorted(drawing.labels, key=lambda label: label.kind == "body")
@@ -278,21 +236,6 @@ def _svg(drawing: Drawing, frame: Frame) -> str:
     )
 
 
-def _free_corners(points: Array, lines: Array, frame: Frame) -> tuple[Array, Array]:
-    """Middles of the two emptiest corners, for the axes and for the scale; bottom right and bottom left where these will do."""
-    left, right, top, bottom = 60.0, WIDTH - 40.0, 34.0, frame.height - 32.0
-    along = np.linspace(0.0, 1.0, 40)[None, :, None]
-    drawn = np.concatenate([points, (lines[:, :1] + along * (lines[:, 1:] - lines[:, :1])).reshape(-1, 2)])
-
-    def free(corner: Array) -> float:
-        return min(float(np.linalg.norm(drawn - corner, axis=1).min(initial=np.inf)), ENOUGH)
-
-    corners = [np.array(each) for each in ((right, bottom), (left, bottom), (right, top), (left, top))]
-    triad = max(corners, key=free)  # the first of equals
-    rest = [corner for corner in (corners[1], corners[0], corners[3], corners[2]) if corner is not triad]
-    return triad, max(rest, key=free)
-
-
 def _text(label: Label, x: float, y: float) -> str:
     far = np.hypot(label.x - x, label.y - y)
     leader = ""
@@ -304,58 +247,3 @@ def _text(label: Label, x: float, y: float) -> str:
         )
         leader = f'<path class="leader" d="M{start[0]:.1f} {start[1]:.1f}L{stop[0]:.1f} {stop[1]:.1f}"/>'
     return f'{leader}<text class="{label.kind}" x="{x:.1f}" y="{y + 0.35 * FONT:.1f}">{escape(label.text)}</text>'
-
-
-def _scale_bar(frame: Frame, middle: Array) -> str:
-    """A bar of a round length."""
-    metres = 90.0 / frame.scale
-    power = 10.0 ** np.floor(np.log10(metres))
-    length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= metres)
-    pixels = length * frame.scale
-    if middle[0] < 0.5 * WIDTH:
-        left = 14.0
-        text = f'<text class="aid" style="text-anchor:start" x="{left + pixels + 6:.1f}" y="{middle[1] + 21:.1f}">'
-    else:
-        left = WIDTH - 14.0 - pixels
-        text = f'<text class="aid" style="text-anchor:end" x="{left - 6:.1f}" y="{middle[1] + 21:.1f}">'
-    y = middle[1] + 20.0
-    path = f"M{left:.1f} {y - 4:.1f}V{y:.1f}H{left + pixels:.1f}V{y - 4:.1f}"
-    return f'<path class="aid-line" d="{path}"/>{text}{_length(float(length))}</text>'
-
-
-def _length(metres: float) -> str:
-    if metres >= 1000.0:
-        return f"{metres / 1000.0:g} km"
-    if metres >= 1.0:
-        return f"{metres:g} m"
-    return f"{metres * 1e3:g} mm" if metres >= 1e-3 else f"{metres * 1e6:g} µm"
-
-
-def _triad(frame: Frame, middle: Array) -> str:
-    """The global axes; one seen end-on is left out."""
-    origin = middle + np.array([-4.0, 4.0])
-    out = []
-    for name, axis in zip("XYZ", np.eye(3), strict=True):
-        direction = frame.view.on_screen(axis) * [1.0, -1.0]
-        if np.linalg.norm(direction) < 0.2:
-            continue
-        tip, mark = origin + 22.0 * direction, origin + (22.0 + 9.0 / np.linalg.norm(direction)) * direction
-        out.append(f'<path class="aid-line" d="M{origin[0]:.1f} {origin[1]:.1f}L{tip[0]:.1f} {tip[1]:.1f}"/>')
-        out.append(f'<text class="aid" x="{mark[0]:.1f}" y="{mark[1] + 4:.1f}">{name}</text>')
-    return "".join(out)
-
-
-def _shaded(colour: str, normal: Array, view: View) -> str:
-    facing = float(np.array([normal @ view.right, normal @ view.up, normal @ view.towards]) @ LIGHT)
-    return _mixed(colour, 0.34 * max(facing, 0.0), 0.22 * max(0.35 - facing, 0.0))
-
-
-def _mixed(colour: str, white: float, black: float) -> str:
-    rgb = np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)], dtype=float)
-    rgb = (rgb + white * (255.0 - rgb)) * (1.0 - black)
-    return "#" + "".join(f"{round(each):02x}" for each in rgb)
-
-
-def _between(first: str, second: str, share: float) -> str:
-    a, b = (np.array([int(c[k : k + 2], 16) for k in (1, 3, 5)], dtype=float) for c in (first, second))
-    return "#" + "".join(f"{round(each):02x}" for each in a + share * (b - a))

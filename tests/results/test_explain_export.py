@@ -1,0 +1,78 @@
+"""`nivel explain` and `nivel export` on the command line."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import synthetic_run as pendulum
+from nivel.cli import main
+from nivel.results import Store
+from nivel.results.trust import Facts, assess
+
+TIME = np.linspace(0.0, 1.0, 11)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """A working directory with a result in it."""
+    monkeypatch.chdir(tmp_path)
+    sink = Store(tmp_path / "run.nc")
+    sink.begin(pendulum.header(machine="swing [/bold]"))  # what looks like markup is a name
+    sink.take(pendulum.frames(TIME))
+    sink.close({"outcome": "done", "trust": assess(sink.result(), Facts("done", 1)).to_json()})
+    return tmp_path
+
+
+def nivel(*arguments):
+    return CliRunner().invoke(main, [str(each) for each in arguments])
+
+
+def test_explain_says_every_number_and_every_reason(folder):
+    done = nivel("explain", "run.nc")
+    text = " ".join(done.stdout.split())
+    assert done.exit_code == 0
+    assert "swing [/bold]: 0 to 1 s, 11 frames" in text
+    assert "trust: green" in text
+    kinetic = pendulum.histories(TIME)["kinetic_energy"].max()
+    assert f"of the largest kinetic energy {kinetic:.3g} J (green below 1e-4, amber below 1e-2)" in text
+    assert "a micrometre" in text
+
+
+def test_explain_as_json(folder):
+    data = json.loads(nivel("explain", "run.nc", "--json").stdout)
+    assert data["verdict"] == "green"
+    assert data["degrees_of_freedom"] == 1
+
+
+def test_export_writes_beside_nothing_but_here(folder):
+    done = nivel("export", "run.nc", "--csv")
+    assert done.exit_code == 0
+    assert (folder / "run.csv").read_text(encoding="utf-8").startswith("time [s],arm.position.x [m]")
+    assert nivel("export", "run.nc", "--csv").exit_code == 2
+    assert nivel("export", "run.nc", "--csv", "--force").exit_code == 0
+
+
+def test_export_of_a_choice_to_a_file_and_to_standard_output(folder):
+    assert nivel("export", "run.nc", "--csv", "out.csv", "--select", "hinge.angle, *.rate").exit_code == 0
+    header = (folder / "out.csv").read_text(encoding="utf-8").splitlines()[0]
+    assert header == "time [s],hinge.angle [rad],hinge.angle.rate [rad/s]"
+    shown = nivel("export", "run.nc", "--csv", "-", "--select", "kinetic_energy").stdout.splitlines()
+    assert shown[0] == "time [s],kinetic_energy [J]"
+    assert len(shown) == 1 + len(TIME)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["explain", "nothing.nc"], "there is no result file nothing.nc"),
+        (["export", "run.nc"], "say in which format"),
+        (["export", "run.nc", "--csv", "--select", "hinge.angel"], "did you mean `hinge.angle`"),
+        (["export", "run.nc", "--csv", "nowhere/out.csv"], "cannot be written: no such file or directory"),
+    ],
+)
+def test_faults_are_the_users_and_said(folder, arguments, said):
+    done = nivel(*arguments)
+    assert done.exit_code == 2
+    assert said in done.stderr

@@ -122,7 +122,7 @@ def main():
     path = sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent / "examples" / "slider-crank.yaml"
     prepared = prepare(nivel.load(path).record, "newton-euler")
     system, address = prepared.motion.system, prepared.motion.handle.address
-    system.record.control.stabilise[2:] = 1e-13 * system.size
+    system.record.control.stabilise[2:] = 1e-13
     y, out = prepared.assembly.y.copy(), np.zeros_like(prepared.assembly.y)
     ne.evaluate(address, 0.0, y, out)
     solve = measure(solution, address, y, out)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from nivel.analysis.compilation import compile_path
 from nivel.analysis.listener import Listener
 from nivel.errors import ModelError
-from nivel.files.reader import locate, read_machine
+from nivel.files.reader import locate, parse_machine, read_text
 from nivel.files.writer import write_machine
 from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
 
@@ -191,8 +191,8 @@ def load(path: str | PathLike[str], overrides: Mapping[str, str] | None = None) 
 
     Raises ModelError with every fault of the file, each with its line.
     """
-    record = read_machine(fspath(path), overrides=dict(overrides or {}))
-    return Machine.from_record(record, Path(fspath(path)).read_text(encoding="utf-8"), fspath(path))
+    text = read_text(fspath(path))
+    return Machine.from_record(parse_machine(text, fspath(path), overrides=dict(overrides or {})), text, fspath(path))
 
 
 def _place(source: str, path: str) -> dict[str, int]:

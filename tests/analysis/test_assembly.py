@@ -121,3 +121,54 @@ def test_opposite_axes_are_refused():
     )
     with pytest.raises(ModelError, match="opposite"):
         assemble(machine, equations(machine, "newton-euler"))
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e3])
+def test_closing_does_not_depend_on_the_size_of_the_machine(size):
+    """Two links of one size, fixed ends 0.05 % too close or too far: the first closes to round-off, the second is refused."""
+
+    def link(name, x):
+        inertia = (0.1 * size**2,) * 3
+        return Body(name=name, mass=1, inertia=inertia, position=(x * size, 0.1 * size, 0))
+
+    def at(body, x):
+        return Marker(body=body, position=(x * size, 0, 0))
+
+    def chain(span):
+        return MachineRecord(
+            name="chain",
+            bodies=(link("a", 0.5), link("b", 1.5)),
+            joints=(
+                Joint(name="left", type="spherical", markers=(Marker(body="ground"), at("a", -0.5))),
+                Joint(name="middle", type="spherical", markers=(at("a", 0.5), at("b", -0.5))),
+                Joint(name="right", type="spherical", markers=(at("b", 0.5), at("ground", span))),
+            ),
+        )
+
+    short = chain(1.9)
+    motion = equations(short, "newton-euler")
+    motion.evaluate(0.0, assemble(short, motion).y)
+    assert np.abs(motion.system.record.constraints.C).max() < 1e-11 * size
+    long = chain(2.001)
+    with pytest.raises(ModelError, match="cannot be closed"):
+        assemble(long, equations(long, "newton-euler"))
+
+
+def test_parallel_arms_of_a_universal_joint_say_which_marker_to_turn():
+    machine = MachineRecord(
+        name="cross",
+        bodies=(Body(name="a", mass=1, inertia=(1, 1, 1)),),
+        joints=(Joint(name="u", type="universal", markers=(Marker(body="ground"), Marker(body="a"))),),
+    )
+    with pytest.raises(ModelError, match=r"u\.d1\.zz are 90 deg away from a right angle; turn one"):
+        assemble(machine, equations(machine, "newton-euler"))
+
+
+def test_numbers_out_of_range_are_refused():
+    machine = MachineRecord(
+        name="far",
+        bodies=(Body(name="a", mass=1, inertia=(1, 1, 1), position=(1e200, 0, 0)),),
+        joints=(Joint(name="j", type="revolute", bodies=("ground", "a"), point=(0, 0, 0), axis=(0, 0, 1)),),
+    )
+    with pytest.raises(ModelError):
+        assemble(machine, equations(machine, "newton-euler"))

@@ -80,3 +80,14 @@ def test_steps_and_frames_of_a_run(duration, step, interval, steps, every):
 def test_output_interval_between_two_multiples_is_refused_with_both():
     with pytest.raises(ModelError, match=r"0\.009 or 0\.012"):
         complete(SimulationSettings(duration=1.0, step=3e-3, output_interval=0.01))
+
+
+@pytest.mark.parametrize(("duration", "step"), [(1.0, 1e-300), (1e300, 1e-3), (1e300, 1e-300), (1.0, 1e-18)])
+def test_more_steps_than_a_machine_can_take_are_refused(duration, step):
+    with pytest.raises(ModelError, match="steps"):
+        complete(SimulationSettings(duration=duration, step=step))
+
+
+def test_orientation_is_shown_in_degrees():
+    body = Body(name="a", mass=1, inertia=(1, 1, 1), orientation={"axis": [0, 0, 1], "angle": "30 deg"})
+    assert "turned 30 deg about (0, 0, 1)" in str(check(MachineRecord(name="m", bodies=(body,))))

@@ -10,13 +10,15 @@ from nivel.analysis.equations import MotionEquations, moved
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import JOINTS
-from nivel.system.system import Array
+from nivel.system.system import Array, System
 
 ITERATIONS = 100
-# Constraints hold to this share of the machine's length [m] and, for directions, to this angle [rad].
+# Constraints hold to this share of the scale of their row: the machine's length, or 1 for cosines.
 CLOSED = 1e-12
-# A row that cannot be closed better than this is named.
+# A row that cannot be closed better than this share is named.
 OPEN = 1e-9
+# Changes below this share of the machine's length, of one radian, of the largest velocity are round-off and not told.
+ROUND_OFF = 1e-12
 # Machines larger than this many entries of C_q are solved iteratively.
 DENSE_ENTRIES = 1_000_000
 
@@ -41,21 +43,27 @@ def assemble(machine: MachineRecord, motion: MotionEquations, t: float = 0.0) ->
 
     Raises ModelError naming every joint row that cannot be closed with its gap, and joints whose axes end up opposite.
     """
+    with np.errstate(over="ignore", invalid="ignore"):  # numbers too large end as joints that stay open
+        return _assemble(machine, motion, t)
+
+
+def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Assembly:
     system = motion.system
     y = system.start.copy()
     given = y[: system.positions].copy()
     gap, gap_row = 0.0, ""
     rows = slice(0, system.joint_rows)
-    C = system.record.constraints.C
+    C, scale = system.record.constraints.C, system.record.constraints.scale[rows]
     for iteration in range(ITERATIONS + 1):
         motion.evaluate(t, y)
         violation = C[rows]
         if not np.all(np.isfinite(violation)):
             break
+        share = np.abs(violation) / scale
         if iteration == 0 and len(violation):
-            worst = int(np.argmax(np.abs(violation)))
+            worst = int(np.argmax(share))
             gap, gap_row = float(abs(violation[worst])), system.rows[worst]
-        if not len(violation) or np.abs(violation).max() <= CLOSED * max(1.0, system.size):
+        if not len(violation) or share.max() <= CLOSED:
             break
         change = _least_change(motion, -violation)
         # a step of more than half a radian or half the machine is outside the linear range
@@ -67,18 +75,25 @@ def assemble(machine: MachineRecord, motion: MotionEquations, t: float = 0.0) ->
     motion.evaluate(t, y)
     _refuse_open_joints(machine, motion)
     y, velocity_change = _consistent_velocities(motion, t, y)
-    return Assembly(y, gap, gap_row, _moves(system.bodies, given, y[: system.positions]), velocity_change)
+    return Assembly(y, gap, gap_row, _moves(system, given, y[: system.positions]), velocity_change)
 
 
 def _least_change(motion: MotionEquations, target: Array) -> Array:
-    """Least x with C_q x = target, lengths of x in units of the machine's length."""
+    """Least x with C_q x = target, lengths of x in units of the machine's length; rows are weighed by their scales."""
+    system = motion.system
     if not np.any(target):
-        return np.zeros(6 * motion.system.body_count)
+        return np.zeros(6 * system.body_count)
+    scale = system.record.constraints.scale[: len(target)]
     J = motion.jacobian().reshape(len(target), -1, 6)
-    J[:, :, :3] *= motion.system.size
-    J = J.reshape(len(target), -1)
+    J[:, :, :3] *= system.size
+    J = J.reshape(len(target), -1) / scale[:, None]
+    target = target / scale
     if J.size <= DENSE_ENTRIES:
-        return np.asarray(np.linalg.lstsq(J, target, rcond=1e-10)[0], dtype=np.float64)
+        try:
+            return np.asarray(np.linalg.lstsq(J, target, rcond=1e-10)[0], dtype=np.float64)
+        except np.linalg.LinAlgError:
+            message = "the positions and lengths of the machine are too far apart in size to compute with"
+            raise ModelError(Fault("", 0, 0, "machine", message)) from None
     from scipy.sparse import csr_matrix
     from scipy.sparse.linalg import lsmr
 
@@ -90,56 +105,63 @@ def _consistent_velocities(
 ) -> tuple[Array, tuple[tuple[str, float, float], ...]]:
     system, bodies = motion.system, motion.system.record.bodies
     count = system.body_count
-    velocity, angular = bodies.Rdot[:count].copy(), bodies.omega_b[:count].copy()
-    given = np.hstack([velocity, angular])
-    if system.joint_rows:
-        change = _least_change(motion, -system.record.constraints.Cdot[: system.joint_rows]).reshape(count, 6)
-        change[:, :3] *= system.size
-        change[np.abs(change) < 1e-15 * (1.0 + np.abs(given))] = 0.0
-    else:
-        change = np.zeros((count, 6))
+    # lengths in units of the machine's length, so that metres and radians can be compared
+    given = np.hstack([bodies.Rdot[:count] / system.size, bodies.omega_b[:count]])
+    change = _least_change(motion, -system.record.constraints.Cdot[: system.joint_rows]).reshape(count, 6)
+    change[np.abs(change) <= ROUND_OFF * np.abs(given).max(initial=0.0)] = 0.0
     new = given + change
+    new[:, :3] *= system.size
+    change[:, :3] *= system.size
     assembled = system.state(y[: system.positions], new[:, :3], new[:, 3:])
-    moves = zip(
-        system.bodies, np.linalg.norm(change[:, :3], axis=1), np.linalg.norm(change[:, 3:], axis=1), strict=True
-    )
     motion.evaluate(t, assembled)
-    return assembled, tuple((name, float(d), float(a)) for name, d, a in moves if d > 0.0 or a > 0.0)
+    return assembled, _named(system.bodies, change[:, :3], change[:, 3:], 0.0, 0.0)
 
 
-def _moves(names: tuple[str, ...], given: Array, q: Array) -> tuple[tuple[str, float, float], ...]:
+def _named(
+    names: tuple[str, ...], lengths: Array, angles: Array, least_length: float, least_angle: float
+) -> tuple[tuple[str, float, float], ...]:
+    """(name, length, angle) of the bodies whose vectors are longer than the least ones."""
+    sizes = zip(names, np.linalg.norm(lengths, axis=1), np.linalg.norm(angles, axis=1), strict=True)
+    return tuple((name, float(d), float(a)) for name, d, a in sizes if d > least_length or a > least_angle)
+
+
+def _moves(system: System, given: Array, q: Array) -> tuple[tuple[str, float, float], ...]:
     before, after = given.reshape(-1, 7), q.reshape(-1, 7)
-    distance = np.linalg.norm(after[:, :3] - before[:, :3], axis=1)
-    # |2 sin(half the angle)| of the turn between two unit quaternions, either sign
-    chord = np.minimum(
-        np.linalg.norm(after[:, 3:] - before[:, 3:], axis=1), np.linalg.norm(after[:, 3:] + before[:, 3:], axis=1)
-    )
-    angle = 4.0 * np.arcsin(np.clip(chord / 2.0, 0.0, 1.0))
-    return tuple(
-        (name, float(d), float(a)) for name, d, a in zip(names, distance, angle, strict=True) if d > 1e-14 or a > 1e-14
-    )
+    # twice the vector part of the turn between two unit quaternions; its length is 2 sin(angle/2)
+    e0, e = before[:, 3:4], before[:, 4:]
+    f0, f = after[:, 3:4], after[:, 4:]
+    half = e0 * f - f0 * e - np.cross(e, f)
+    length = np.linalg.norm(half, axis=1, keepdims=True)
+    angle = 2.0 * np.arcsin(np.clip(length, 0.0, 1.0))
+    turn = np.divide(half, length, out=np.zeros_like(half), where=length > 0.0) * angle
+    return _named(system.bodies, after[:, :3] - before[:, :3], turn, ROUND_OFF * system.size, ROUND_OFF)
 
 
 def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations) -> None:
     system, record = motion.system, motion.system.record
-    violation = record.constraints.C[: system.joint_rows]
+    share = np.abs(record.constraints.C / record.constraints.scale)[: system.joint_rows]
     faults = []
     for j, joint in enumerate(machine.joints):
         rows = np.flatnonzero(system.row_joint == j)
-        worst = max(rows, key=lambda row: abs(violation[row]))
-        path = f"joints.{joint.name}"
-        if not abs(violation[worst]) <= OPEN * max(1.0, system.size):
-            unit = system.row_units[worst].replace("1", "rad")
-            message = f"cannot be closed: a gap of {abs(violation[worst]):.6g} {unit} is left at {system.rows[worst]}"
-            faults.append(
-                Fault(
-                    "", 0, 0, path, message + "; check the positions of its bodies and the lengths between their joints"
-                )
-            )
+        worst = int(rows[np.argmax(share[rows])])
+        if not share[worst] <= OPEN:
+            faults.append(Fault("", 0, 0, f"joints.{joint.name}", _gap(system, worst)))
         elif JOINTS[joint.type].parallel:
             first, second = record.joints.first_marker[j], record.joints.first_marker[j] + 1
             if record.markers.A[first, :, 2] @ record.markers.A[second, :, 2] < 0.0:
                 message = "the z axes of its two markers point in opposite directions; turn one of them round"
-                faults.append(Fault("", 0, 0, path, message))
+                faults.append(Fault("", 0, 0, f"joints.{joint.name}", message))
     if faults:
         raise ModelError(faults)
+
+
+def _gap(system: System, row: int) -> str:
+    """What is left open at a row, and what to look at."""
+    left = abs(float(system.record.constraints.C[row]))
+    name = system.rows[row]
+    if system.row_units[row] == "m":
+        advice = "check the positions of its bodies and the lengths between their joints"
+        return f"cannot be closed: a gap of {left:.6g} m is left at {name}; {advice}"
+    angle = np.degrees(np.arcsin(min(left, 1.0)))
+    advice = "turn one of its markers (the name says which axis of the first is perpendicular to which of the second)"
+    return f"cannot be closed: the two directions of {name} are {angle:.4g} deg away from a right angle; {advice}"

@@ -12,7 +12,7 @@ from nivel.analysis.settings import RunSettings, complete
 from nivel.machine.force import PointForce, Torque
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import JOINTS
-from nivel.system.system import System
+from nivel.system.system import Array, System
 
 
 @dataclass(frozen=True)
@@ -33,12 +33,17 @@ class JointFacts:
 
 @dataclass(frozen=True)
 class BodyFacts:
-    """One body: mass [kg], principal inertias about the centre of mass [kg m²], assembled position of its frame [m]."""
+    """One body: mass [kg], principal inertias about the centre of mass [kg m²], assembled frame: position [m], turn.
+
+    The turn from the global axes is an angle [rad] about a unit axis.
+    """
 
     name: str
     mass: float
     principal_inertia: tuple[float, ...]
     position: tuple[float, ...]
+    axis: tuple[float, ...]
+    angle: float
 
 
 @dataclass(frozen=True)
@@ -78,7 +83,9 @@ def _lines(facts: Check) -> Iterator[str]:
     yield "bodies"
     for body in facts.bodies:
         inertia = _vector(body.principal_inertia)
-        yield f"  {body.name}: {body.mass:.6g} kg, principal inertia {inertia} kg m², frame at {_vector(body.position)} m"
+        turned = f", turned {np.degrees(body.angle):.6g} deg about {_vector(body.axis)}" if body.angle > 1e-12 else ""
+        place = f"frame at {_vector(body.position)} m{turned}"
+        yield f"  {body.name}: {body.mass:.6g} kg, principal inertia {inertia} kg m², {place}"
     if facts.joints:
         yield "joints (first body → second body)"
     for joint in facts.joints:
@@ -117,8 +124,9 @@ def _redundancy_lines(facts: Check) -> Iterator[str]:
 
 
 def _vector(values: tuple[float, ...]) -> str:
-    # + 0.0 turns -0 into 0
-    return "(" + ", ".join(f"{round(value, 12) + 0.0:.6g}" for value in values) + ")"
+    """Components; those at round-off of the largest are shown as 0."""
+    largest = max(abs(value) for value in values)
+    return "(" + ", ".join(f"{value if abs(value) > 1e-12 * largest else 0.0:.6g}" for value in values) + ")"
 
 
 def check(machine: MachineRecord) -> Check:
@@ -144,6 +152,7 @@ def check(machine: MachineRecord) -> Check:
                 float(record.bodies.mass[k]),
                 tuple(np.linalg.eigvalsh(record.bodies.inertia_b[k]).tolist()),
                 tuple(record.bodies.R[k].tolist()),
+                *_turn(record.bodies.theta[k]),
             )
             for k, name in enumerate(system.bodies)
         ),
@@ -159,6 +168,14 @@ def check(machine: MachineRecord) -> Check:
         velocity_change=assembly.velocity_change,
         settings=settings,
     )
+
+
+def _turn(theta: Array) -> tuple[tuple[float, ...], float]:
+    """Axis and angle [0, π] of Euler parameters (4,)."""
+    theta = theta if theta[0] >= 0.0 else -theta
+    sine = float(np.linalg.norm(theta[1:]))
+    axis = theta[1:] / sine if sine > 0.0 else np.array([0.0, 0.0, 1.0])
+    return tuple(axis.tolist()), 2.0 * float(np.arctan2(sine, theta[0]))
 
 
 def _loaded_body(machine: MachineRecord, load: PointForce | Torque) -> str:

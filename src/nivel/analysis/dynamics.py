@@ -92,7 +92,7 @@ def march(
     system = prepared.motion.system
     stabilisation = STABILISATIONS[settings.stabilisation]
     alpha, beta = settings.baumgarte or (None, None)
-    system.record.control.stabilise[:] = stabilisation.coefficients(settings.step, alpha, beta, system.size)
+    system.record.control.stabilise[:] = stabilisation.coefficients(settings.step, alpha, beta)
     kernels, formulation = prepared.motion.kernels, FORMULATIONS[settings.formulation]
     correct = import_module(formulation.correction).correct if stabilisation.CORRECTS else kernels.keep
     facts = INTEGRATORS[settings.integrator]

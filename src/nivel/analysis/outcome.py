@@ -29,15 +29,35 @@ def failure(motion: MotionEquations, status: int, time: float, step: float, y: A
         message = f"stopped at t = {time:.6g} s: the constraint {row} depends on the others here, the machine is in a singular position"
         advice = (
             f"Look at {_owner(row)} in this position: two links in line, or a loop folded flat? Start the run elsewhere, "
-            f"or move a joint by a small amount so that the machine does not pass through it exactly."
+            f"or move a joint by a small amount so that the machine does not pass through it exactly. "
+            f"A body whose inertia is many orders too small for its mass looks the same."
         )
         return message, advice
     assert status == NOT_FINITE
+    broken = _broken_load(motion, time, step, y)
+    if broken:
+        name, at = broken
+        message = f"stopped at t = {time:.6g} s: the force {name} is not a number at t = {at:.6g} s"
+        return (
+            message,
+            f"Look at the expression of {name}: a division by zero, or a root or logarithm of a negative number?",
+        )
     motion.evaluate(time, y)
     where = _worst(motion)
     message = f"stopped at t = {time:.6g} s: the state after a step of {step:.3g} s is no longer a number; {where}"
     advice = f"Try a smaller step, for instance --step {step / 10:.3g}; if it stops at the same time, look at the forces near it."
     return message, advice
+
+
+def _broken_load(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, float] | None:
+    """The first load that is not a finite number at a time that the step from `time` looks at, and that time."""
+    names = [v.name.split(".")[1] for v in motion.system.layout.variables if v.name.endswith(".magnitude")]
+    for at in (time, time + 0.5 * step, time + step):
+        motion.evaluate(at, y)
+        for name, magnitude in zip(names, motion.system.record.loads.magnitude, strict=True):
+            if not np.isfinite(magnitude):
+                return name, at
+    return None
 
 
 def _drifted(motion: MotionEquations) -> bool:

@@ -13,6 +13,8 @@ from nivel.motion.catalogue import FORMULATIONS
 
 # Without an output interval: the shortest multiple of the step that gives at most this many frames.
 FRAMES = 1000
+# More steps than this are a slip of the pen: at a microsecond each they take more than ten days.
+MOST_STEPS = 1e12
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,10 @@ def complete(settings: SimulationSettings) -> RunSettings:
         word = getattr(settings, field)
         if word not in known:
             faults.append(_fault(field, f"'{word}' is not known; known are {', '.join(known)}"))
+    if not settings.duration <= MOST_STEPS * settings.step:
+        wanted = f"a duration of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
+        faults.append(_fault("step", f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step"))
+        raise ModelError(faults)
     steps = max(1, ceil(settings.duration / settings.step * (1.0 - 1e-12)))
     every = _every(settings, steps, faults)
     if faults:

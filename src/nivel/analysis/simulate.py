@@ -99,7 +99,14 @@ def _attributes(
         "outcome": "running",
         "coordinate_units": json.dumps(dict(zip(coordinates, system.coordinate_units, strict=True))),
         "constraint_units": json.dumps(dict(zip(system.rows, system.row_units, strict=True))),
-        "assembly": json.dumps({"gap": assembly.gap, "gap_row": assembly.gap_row, "moved": assembly.moved}),
+        "assembly": json.dumps(
+            {
+                "gap": assembly.gap,
+                "gap_row": assembly.gap_row,
+                "moved": assembly.moved,
+                "velocity_change": assembly.velocity_change,
+            }
+        ),
     }
 
 

@@ -35,9 +35,9 @@ def command(result: str, target: str | None, select: tuple[str, ...], force: boo
     """
     import sys
 
-    from nivel.errors import ModelError
     from nivel.results import Result
     from nivel.results.csv_table import columns, write_table
+    from nivel.results.target import check_target
 
     if target is None:
         raise click.UsageError("say in which format: --csv [FILE]")
@@ -47,7 +47,6 @@ def command(result: str, target: str | None, select: tuple[str, ...], force: boo
         write_table(opened, columns(opened, names), sys.stdout)
         return
     path = Path(Path(result).with_suffix(".csv").name) if target == BESIDE else Path(target)
-    if path.exists() and not force:
-        raise ModelError(f"the file {path} exists already; it is replaced with --force")
+    check_target(path, "table", force=force, sources=[Path(result)])
     opened.export_csv(path, names)
     click.echo(f"table: {path}", err=True)

@@ -146,7 +146,19 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
         f"[bold]{result.name}[/bold]: {result.outcome}, {result.time[-1] if len(result.time) else 0:.6g} s simulated in "
         f"{timing['steps']} steps, {timing['loop_seconds']:.3g} s of computing ({per_step:.1f} µs a step)"
     )
+    for line in _assembly_lines(result):
+        console.print(line)
     console.print(f"trust: [{colour}]{trust.verdict}[/{colour}]")
     for item in trust.items:
         console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
     console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
+
+
+def _assembly_lines(result: Result) -> Iterator[str]:
+    """What the start differs from the file in: nothing is changed silently."""
+    assembly = json.loads(str(result.attributes.get("assembly", "{}")))
+    for name, distance, angle in assembly.get("moved", []):
+        why = f"to close {assembly['gap_row']}, open by {assembly['gap']:.3g} as given"
+        yield f"assembly: {name} was moved by {distance:.3g} m and {angle:.3g} rad {why}"
+    for name, speed, rate in assembly.get("velocity_change", []):
+        yield f"assembly: the velocity of {name} was changed by {speed:.3g} m/s and {rate:.3g} rad/s to fit the joints"

@@ -58,6 +58,7 @@ class Constraints(NamedTuple):
     s: U2  # (·, 3) first marker, second marker, first row
     d1: U2  # (·, 5) first marker, its axis, second marker, its axis, row
     d2: U2  # (·, 4) first marker, its axis, second marker, row
+    scale: F1  # (K,) what a violation is measured by: the length of the machine [m], or 1 for cosines
     # work
     C: F1  # (K,)
     Cdot: F1  # (K,)
@@ -131,7 +132,7 @@ class Control(NamedTuple):
     """Numbers that steer an evaluation."""
 
     rank: U1  # (1,) independent rows
-    stabilise: F1  # (4,) Baumgarte 2α and β²; tolerances of |C| and |Ċ| for the direct correction
+    stabilise: F1  # (4,) Baumgarte 2α and β²; tolerances of |C|/scale and |Ċ|/scale for the direct correction
     energy: F1  # (3,) kinetic and potential energy of the last observation, their sum at the start
     power: F1  # (2,) work of external forces and dissipation per second
     failure: U1  # (1,) row that could not be eliminated

@@ -90,9 +90,10 @@ def correction(record, violation, width):
 
 
 @stage
-def exceeds(violation, tolerance):
-    """Whether any entry is larger than `tolerance` in size."""
+def exceeds(violation, scale, tolerance):
+    """Whether any entry is larger in size than `tolerance` times its scale."""
     for row in range(violation.shape[0]):
-        if violation[row] > tolerance or violation[row] < -tolerance:
+        limit = tolerance * scale[row]
+        if violation[row] > limit or violation[row] < -limit:
             return True
     return False

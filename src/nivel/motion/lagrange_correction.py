@@ -19,7 +19,7 @@ def correct(machine, t, y):
     """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137).
 
     The change is least in the mass metric M + μ θ θᵀ instead of the report's unit weights; see `newton_euler.correct`.
-    A level within its tolerance (control.stabilise[2:4]) is left alone.
+    A level within its tolerance (control.stabilise[2:4], as a share of the row's scale) is left alone.
     """
     record = record_at(machine)
     constraints, saddle = record.constraints, record.saddle
@@ -30,8 +30,8 @@ def correct(machine, t, y):
         read_velocities(record, y)
         constraint_rows(record.bodies, record.markers, constraints)
         normalisation_rows(record, y)
-        at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, tolerance[2])
-        if not at_positions and not exceeds(constraints.Cdot, tolerance[3]):
+        at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, constraints.scale, tolerance[2])
+        if not at_positions and not exceeds(constraints.Cdot, constraints.scale, tolerance[3]):
             return OK
         if not factorised:
             factorise_mass(record, y)
@@ -39,7 +39,7 @@ def correct(machine, t, y):
             status = factorise_rows(record, WIDTH)
             if status != OK:
                 return status
-        factorised = not exceeds(constraints.C, NEAR * tolerance[2])
+        factorised = not exceeds(constraints.C, constraints.scale, NEAR * tolerance[2])
         correction(record, constraints.C if at_positions else constraints.Cdot, WIDTH)
         first = 0 if at_positions else 7 * nb
         for b in range(nb):

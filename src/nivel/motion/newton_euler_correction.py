@@ -20,7 +20,7 @@ def correct(machine, t, y):
     """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137).
 
     The report's pseudo-inverse weighs metres and radians alike; here the change is least in the mass metric, which does not depend
-    on units and uses the same matrix S. A level within its tolerance (control.stabilise[2:4]) is left alone.
+    on units and uses the same matrix S. A level within its tolerance (control.stabilise[2:4], as a share of the row's scale) is left alone.
     """
     record = record_at(machine)
     bodies, saddle, constraints = record.bodies, record.saddle, record.constraints
@@ -31,15 +31,15 @@ def correct(machine, t, y):
         normalise(record, y)
         read_velocities(record, y)
         constraint_rows(bodies, record.markers, constraints)
-        at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, tolerance[2])
-        if not at_positions and not exceeds(constraints.Cdot, tolerance[3]):
+        at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, constraints.scale, tolerance[2])
+        if not at_positions and not exceeds(constraints.Cdot, constraints.scale, tolerance[3]):
             return OK
         if not factorised:
             whiten_rows(record)
             status = factorise_rows(record, WIDTH)
             if status != OK:
                 return status
-        factorised = not exceeds(constraints.C, NEAR * tolerance[2])
+        factorised = not exceeds(constraints.C, constraints.scale, NEAR * tolerance[2])
         correction(record, constraints.C if at_positions else constraints.Cdot, WIDTH)
         for b in range(nb):
             unwhiten(bodies, saddle, b)

@@ -18,6 +18,7 @@ from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
+from nivel.results.target import keep_sources
 from nivel.results.verdicts import RULES, THRESHOLDS
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ ALL_POINTS = 600_000  # of all curves together: keeps the file below about 4 MB
 def write_report(result: Result, path: str | os.PathLike[str]) -> Path:
     """Write the report of `result` to `path`; an existing file is replaced. The file needs no network and nothing beside it."""
     target = Path(path)
+    keep_sources(target, "report", [result.path] if result.path else [])
     text = report_html(result)
     try:
         target.write_text(text, encoding="utf-8")

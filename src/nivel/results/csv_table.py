@@ -14,6 +14,7 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.results.names import unknown_name
+from nivel.results.target import keep_sources
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -22,8 +23,9 @@ BLOCK = 4096  # frames turned into text at once
 
 
 def write_csv(result: Result, path: str | os.PathLike[str], select: Iterable[str] = ()) -> Path:
-    """Write the table to `path`; an existing file is replaced. See `columns` for `select`."""
+    """Write the table to `path`; an existing file is replaced, but not that of the result. See `columns` for `select`."""
     target = Path(path)
+    keep_sources(target, "table", [result.path] if result.path else [])
     chosen = columns(result, select)
     try:
         with target.open("w", encoding="utf-8", newline="") as file:

@@ -17,11 +17,12 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import ModelError
+from nivel.errors import ModelError, SolveError
 from nivel.march.sink import Header
 from nivel.results.contents import resolved, shape_of
 from nivel.results.space import Space
 from nivel.results.stored import StoredContents, opened
+from nivel.results.target import check_target
 from nivel.system.layout import Variable
 
 if TYPE_CHECKING:
@@ -33,15 +34,17 @@ RUNNING_CHUNK = 64 * 1024  # bytes: a chunk that is not full is written again at
 FINAL_CHUNK = 512 * 1024  # bytes: reading the history of one body touches few chunks, reading all of them is fast
 FINAL_ROWS = 16 * 1024  # frames of a chunk, at most: long runs can be read in parts
 HEADER = 256 * 1024  # bytes
+LAST_WORDS = 32 * 1024  # bytes kept free, so that a file that cannot grow any more can still say why
 INDEX = 4096  # bytes
+NO_ROOM = "Free some space, write elsewhere (--out), or keep fewer frames (--output-interval)."
 COMPRESSION_LEVEL = 2  # gzip after shuffle: higher levels save about 3 % more and take twice as long
 
 
 class Store:
     """Sink that writes a result file: `begin`, `take` …, then `close` gives the result.
 
-    An existing file is replaced only with `force`. What is wrong with the path raises ModelError here, before anything
-    is computed.
+    An existing file is replaced only with `force`; a folder, a device or a pipe never is. What is wrong with the path
+    raises ModelError here, before anything is computed; what fails later, on a full disk for instance, SolveError.
     """
 
     def __init__(self, path: str | os.PathLike[str], force: bool = False) -> None:
@@ -59,6 +62,7 @@ class Store:
         self._variables = [(variable, shape_of(variable, coordinates)) for variable in variables.values()]
         try:
             if self._force:
+                _check_path(self.path, force=True)  # what stood there when the run began may have been replaced
                 self.path.unlink(missing_ok=True)  # who reads the old file keeps it
             self._file = h5py.File(self.path, "x", libver="latest", locking="best-effort", track_order=True)
             self._space = Space(self.path, self._file)
@@ -80,7 +84,7 @@ class Store:
         if self._space is None:
             raise RuntimeError("a sink must begin before it takes frames")
         try:
-            self._space.ensure(2 * frames.nbytes + self._chunks)
+            self._space.ensure(2 * frames.nbytes + self._chunks + LAST_WORDS)
         except OSError as error:
             raise self._given_up(_reason(error)) from error
         for variable, shape in self._variables:
@@ -89,13 +93,17 @@ class Store:
         _append(self._file["time"], frames[:, 0])
         self._file.flush()
 
-    def _given_up(self, reason: str) -> ModelError:
+    def _given_up(self, reason: str) -> SolveError:
         """Close the file as it is; it says why it ends there."""
-        failure = f"the result file {self.path} cannot be written further: {reason}"
+        from nivel.results.result import Result
+
         self._finish()
-        with h5py.File(self.path, "r+", locking="best-effort") as file:
-            file.attrs.update({"outcome": "failed", "failure": failure})
-        return ModelError(f"{failure}; it is readable up to the frame before")
+        times = StoredContents(self.path).read("time")
+        until = float(times[-1]) if len(times) else 0.0
+        readable = f"it is readable up to t = {until:.6g} s" if len(times) else "it holds no frame"
+        failure = f"the result file {self.path} cannot be written further: {reason}; {readable}"
+        _note(self.path, {"outcome": "failed", "failure": failure, "advice": NO_ROOM})
+        return SolveError(failure, time=until, advice=NO_ROOM, result=Result(StoredContents(self.path)))
 
     def _finish(self) -> None:
         if self._space is not None:
@@ -125,18 +133,33 @@ def rewrite(path: Path, attributes: Attributes) -> None:
     When this fails, for instance because the disk is full, the file stays as it was, with the new attributes if they
     find place.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
+    start = path.name.encode()[:100].decode(errors="ignore")  # the name of a file has 255 bytes at most
+    temporary = path.with_name(f".{start}.{os.getpid()}.part")
     try:
         _write_final(path, temporary, attributes)
         temporary.replace(path)
     except OSError as error:
         temporary.unlink(missing_ok=True)
-        try:
-            with h5py.File(path, "r+", locking="best-effort") as file:
-                file.attrs.update(attributes)
-        except OSError:
-            pass
-        raise ModelError(f"the result file {path} is complete but could not be compressed: {_reason(error)}") from error
+        _note(path, attributes)
+        raise _not_compressed(path, _reason(error)) from error
+
+
+def _not_compressed(path: Path, reason: str) -> SolveError:
+    from nivel.results.result import Result
+
+    result = Result(StoredContents(path))
+    message = f"the result file {path} is complete but could not be compressed: {reason}"
+    return SolveError(message, time=float(result.time[-1]) if len(result.time) else 0.0, result=result)
+
+
+def _note(path: Path, attributes: Attributes) -> None:
+    """Write attributes into the file at `path`, which nobody writes, if they find place."""
+    try:
+        with h5py.File(path, "r+", locking="best-effort") as file:
+            Space(path, file).ensure(sum(4 * len(str(value)) for value in attributes.values()) + INDEX)
+            file.attrs.update(attributes)
+    except OSError:
+        pass
 
 
 def _write_final(source_path: Path, path: Path, attributes: Attributes) -> None:
@@ -225,16 +248,11 @@ def _header_size(attributes: Attributes) -> int:
 
 def _check_path(path: Path, force: bool) -> None:
     folder = path.parent
-    if not folder.exists():
+    if not os.path.exists(folder):  # noqa: PTH110 - not Path.exists, which raises where the name is too long
         raise ModelError(f"there is no folder {folder} for the result file {path.name}")
-    if not folder.is_dir():
+    if not os.path.isdir(folder):  # noqa: PTH112
         raise ModelError(f"{folder} is not a folder, so the result file {path.name} cannot be written there")
-    if path.is_dir():
-        raise ModelError(
-            f"{path} is a folder; the name of a result file was expected, for instance {path / 'result.nc'}"
-        )
-    if path.exists() and not force:
-        raise ModelError(f"the result file {path} exists already; it is replaced with --force (in Python: force=True)")
+    check_target(path, "result file", force=force)
     if not os.access(folder, os.W_OK):
         raise ModelError(f"nothing may be written into the folder {folder}: permission denied")
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.errors import Fault, ModelError
 from nivel.kernels.load import BODY_AXES, FORCE, GLOBAL_AXES, TORQUE
 from nivel.kernels.record import Bodies, Constraints, Control, Functions, Joints, Loads, Markers, Record, Saddle
 from nivel.machine.body import Body
@@ -24,6 +25,8 @@ from nivel.system.system import Array, Equations, System
 
 GROUND = "ground"
 NORMALISATION_SIDE = 2
+# [m] a tenth of a light year: squares and products of longer machines leave the range of numbers
+LARGEST = 1e15
 
 
 @dataclass
@@ -71,10 +74,11 @@ def build(machine: MachineRecord, equations: Equations) -> System:
         units += ["1"] * len(names)
     marker_arrays = _marker_arrays(markers)
     poses = np.array([np.concatenate(placement(body)) for body in machine.bodies], dtype=float).reshape(-1, 7)
+    size = _machine_size(poses, marker_arrays)
     record = Record(
         bodies=_bodies(machine),
         markers=marker_arrays,
-        constraints=_constraint_arrays(joints, len(rows)),
+        constraints=_constraint_arrays(joints, [size if unit == "m" else 1.0 for unit in units]),
         joints=Joints(
             first_marker=_index([pair[0] for pair in joints.first_and_second], 1),
             rows=_index(joints.spans, 2),
@@ -102,7 +106,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
         row_joint=np.array(joints.owner, dtype=np.int64),
         row_units=tuple(units),
         coordinate_units=tuple(joints.coordinate_units),
-        size=_machine_size(poses, marker_arrays),
+        size=size,
         start=np.zeros(0),
     )
     return replace(system, start=system.state(poses.ravel(), *_velocities(machine.bodies)))
@@ -251,7 +255,8 @@ def _marker_arrays(markers: MarkerTable) -> Markers:
     )
 
 
-def _constraint_arrays(joints: JointTables, rows: int) -> Constraints:
+def _constraint_arrays(joints: JointTables, scale: list[float]) -> Constraints:
+    rows = len(scale)
     J = np.zeros((len(joints.names), 12))
     for _, _, row in joints.tables["s"]:
         for axis in range(3):
@@ -261,6 +266,7 @@ def _constraint_arrays(joints: JointTables, rows: int) -> Constraints:
         s=_index(joints.tables["s"], 3),
         d1=_index(joints.tables["d1"], 5),
         d2=_index(joints.tables["d2"], 4),
+        scale=np.array(scale, dtype=float),
         C=np.zeros(rows),
         Cdot=np.zeros(rows),
         gamma=np.zeros(rows),
@@ -292,10 +298,19 @@ def _velocities(records: tuple[Body, ...]) -> tuple[Array, Array]:
 
 
 def _machine_size(poses: Array, markers: Markers) -> float:
-    """Largest distance from a marker to its body's frame, or between frames [m]; 1 m where all is at one point."""
+    """Largest extent of the frames or of the points on a body along an axis [m]; 1 m where all is at one point.
+
+    Raises ModelError above LARGEST.
+    """
     spread = float(np.ptp(poses[:, :3], axis=0).max()) if len(poses) else 0.0
-    reach = float(np.linalg.norm(markers.position_b, axis=1).max()) if len(markers.position_b) else 0.0
-    return max(spread, reach) or 1.0
+    reach = float(np.abs(markers.position_b).max(initial=0.0))
+    size = max(spread, reach) or 1.0
+    if not size <= LARGEST:
+        message = (
+            f"the machine is {size:.3g} m long, the limit is {LARGEST:.0e} m: look for a slip in a position or a unit"
+        )
+        raise ModelError(Fault("", 0, 0, "bodies", message))
+    return size
 
 
 def _index(values: object, columns: int) -> NDArray[np.uint32]:

@@ -5,11 +5,8 @@ from __future__ import annotations
 CORRECTS = False
 
 
-def coefficients(
-    step: float, alpha: float | None, beta: float | None, size: float
-) -> tuple[float, float, float, float]:
+def coefficients(step: float, alpha: float | None, beta: float | None) -> tuple[float, float, float, float]:
     """(2α, β², 0, 0); without own α, β [1/s] those of eq. 111, α = 1/Δt and β = √2/Δt."""
-    del size
     if alpha is None or beta is None:
         return 2.0 / step, 2.0 / step**2, 0.0, 0.0
     return 2.0 * alpha, beta**2, 0.0, 0.0

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 CORRECTS = True
 
-# Violations below this share of the machine's length (per second, for rates) are round-off of the evaluation, and left alone.
+# Violations below this share of the machine's length or of a cosine's 1 (per second, for rates) are round-off, and left alone.
 TOLERANCE = 1e-13
 
 
-def coefficients(
-    step: float, alpha: float | None, beta: float | None, size: float
-) -> tuple[float, float, float, float]:
-    """(0, 0, tolerance of |C| [m], tolerance of |Ċ| [m/s]) for a machine of length `size` [m]."""
+def coefficients(step: float, alpha: float | None, beta: float | None) -> tuple[float, float, float, float]:
+    """(0, 0, tolerance of |C|, tolerance of |Ċ|), shares of the scales of the rows."""
     del step, alpha, beta
-    return 0.0, 0.0, TOLERANCE * size, TOLERANCE * size
+    return 0.0, 0.0, TOLERANCE, TOLERANCE

@@ -5,9 +5,7 @@ from __future__ import annotations
 CORRECTS = False
 
 
-def coefficients(
-    step: float, alpha: float | None, beta: float | None, size: float
-) -> tuple[float, float, float, float]:
+def coefficients(step: float, alpha: float | None, beta: float | None) -> tuple[float, float, float, float]:
     """All zero."""
-    del step, alpha, beta, size
+    del step, alpha, beta
     return 0.0, 0.0, 0.0, 0.0

@@ -156,7 +156,8 @@ def main() -> None:
     parser.add_argument("--step", type=float, default=1e-3, help="step [s]")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the rows there as well")
     options = parser.parse_args()
-    console = Console()
+    # a pipe has no width of its own
+    console = Console() if sys.stdout.isatty() else Console(width=150)
     cases = list(runs(options.peer, options.step))
     with console.status("compiling"):
         for case in cases:

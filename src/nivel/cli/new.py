@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from typing import Final
 
@@ -23,7 +24,7 @@ SCHEMA_NAME: Final = "nivel.schema.json"
 )
 def command(name: Path, force: bool, with_schema: bool) -> None:
     """Write NAME.yaml: a small machine with comments, ready for `nivel run NAME.yaml`."""
-    target = name if name.suffix == SUFFIX else name.with_name(name.name + SUFFIX)
+    target = _target(name)
     text = new_machine(target.stem)
     if with_schema:
         text = f"# yaml-language-server: $schema={SCHEMA_NAME}\n{text}"
@@ -31,6 +32,12 @@ def command(name: Path, force: bool, with_schema: bool) -> None:
     if with_schema:
         _write(target.with_name(SCHEMA_NAME), _schema_text(), force=True)
     click.echo(f"{target} is written; run it with: nivel run {target}", err=True)
+
+
+def _target(name: Path) -> Path:
+    if not name.name or os.path.isdir(name):  # noqa: PTH112 - not Path.is_dir, which raises where the name is too long
+        raise ModelError(f"'{name}' is a folder; the name of a machine was expected, for instance {name / 'crane.yaml'}")
+    return name if name.suffix == SUFFIX else name.with_name(name.name + SUFFIX)
 
 
 def new_machine(name: str) -> str:

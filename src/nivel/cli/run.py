@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from nivel.cli.failures import say_faults
 from nivel.cli.options import file_argument, override_option, quiet_option
 
 if TYPE_CHECKING:
@@ -58,13 +59,14 @@ def command(
     failed, 130 interrupted; what was computed is kept in every case.
     """
     from nivel.api import load
-    from nivel.errors import SolveError
+    from nivel.errors import ModelError, SolveError
 
     loaded = load(machine, overrides)
     target = Path(out) if out is not None else Path(f"{loaded.name}.nc")
-    report = None if no_report else target.with_suffix(".html")
-    _refuse_to_replace(report, target, force)
+    report = None if no_report else _beside(target)
+    _refuse_to_replace(report, target, force, Path(machine))
     failure: SolveError | None = None
+    unwritten: ModelError | None = None
     with _listener(quiet) as listener:
         try:
             result = loaded.simulate(
@@ -83,28 +85,47 @@ def command(
         except SolveError as error:
             failure = error
             result: Any = error.result
-        if report is not None:
+        if report is not None and result is not None:
             listener.say("writing the report")
-            result.report(report)
-    if as_json:
+            try:
+                result.report(report)
+            except ModelError as error:
+                if failure is None:
+                    raise
+                unwritten = error  # the failure counts: it decides about the exit code
+    if as_json and result is not None:
         click.echo(json.dumps(result.summary(), indent=2))
-    if not quiet:
-        _say(result, target, report)
+    if not quiet and result is not None:
+        _say(result, target, None if unwritten else report)
+    if unwritten is not None:
+        say_faults(unwritten)
     if failure is not None:
         raise failure
     if result.outcome == "interrupted":
         raise KeyboardInterrupt
 
 
-def _refuse_to_replace(report: Path | None, target: Path, force: bool) -> None:
+def _beside(target: Path) -> Path:
+    """The report of the result file `target`."""
     from nivel.errors import ModelError
+
+    if target.name in ("", ".."):
+        raise ModelError(f"'{target}' is a folder; the name of a result file was expected, for instance result.nc")
+    return target.with_suffix(".html")
+
+
+def _refuse_to_replace(report: Path | None, target: Path, force: bool, machine: Path) -> None:
+    """Refuse files that exist, unless they may be replaced; the machine file is never written over."""
+    from nivel.errors import ModelError
+    from nivel.results.target import check_target
 
     if report is not None and report == target:
         raise ModelError(
             f"{target}: the result is a NetCDF file and the report would be written over it; use a name ending in .nc"
         )
-    if report is not None and report.exists() and not force:
-        raise ModelError(f"the report {report} exists already; use --force to replace it, or --out for another name")
+    check_target(target, "result file", force=force, sources=[machine])
+    if report is not None:
+        check_target(report, "report", force=force, sources=[machine])
 
 
 @contextmanager
@@ -140,12 +161,12 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
     console = Console(stderr=True, highlight=False)
     trust = result.trust
     timing = result.timing
-    per_step = 1e6 * timing["loop_seconds"] / max(timing["steps"], 1)
     colour = COLOURS[trust.verdict]
-    console.print(
-        f"[bold]{result.name}[/bold]: {result.outcome}, {result.time[-1] if len(result.time) else 0:.6g} s simulated in "
-        f"{timing['steps']} steps, {timing['loop_seconds']:.3g} s of computing ({per_step:.1f} µs a step)"
-    )
+    done = f"[bold]{result.name}[/bold]: {result.outcome}, {result.time[-1] if len(result.time) else 0:.6g} s simulated"
+    if timing:  # not where the run was broken off
+        per_step = 1e6 * timing["loop_seconds"] / max(timing["steps"], 1)
+        done += f" in {timing['steps']} steps, {timing['loop_seconds']:.3g} s of computing ({per_step:.1f} µs a step)"
+    console.print(done)
     for line in _assembly_lines(result):
         console.print(line)
     console.print(f"trust: [{colour}]{trust.verdict}[/{colour}]")

@@ -103,6 +103,16 @@ def finite(value: SupportsFloat) -> float:
     return number
 
 
+def given(value: SupportsFloat) -> float:
+    """`value`, which stood as a number where it was read, as a float.
+
+    Raises ExpressionError for inf, nan and integers beyond the range of floats.
+    """
+    if isinstance(value, float) and math.isinf(value):
+        raise ExpressionError("a finite number was expected, got one that is infinite or too large")
+    return finite(value)
+
+
 def names(node: Node) -> set[str]:
     """The unbound names in `node`."""
     match node:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationError, model_validator
+from pydantic_core import InitErrorDetails
 
 from nivel.machine.inertia import InertiaTensor, impossible, mass_properties
 from nivel.machine.orientation import Orientation
@@ -53,7 +54,7 @@ class Body(Record):
             why = impossible(mass_properties(self).inertia)
             if why:
                 shifted = " about the centre of mass" if self.inertia_about == "origin" else ""
-                raise fault(f"`inertia`{shifted}: {why}")
+                raise _at("inertia", f"`inertia`{shifted}: {why}")
         return self
 
     def _check_sources_of_inertia(self) -> None:
@@ -62,7 +63,7 @@ class Body(Record):
                 raise fault("`density` needs a `shape`")
             for name in ("mass", "centre_of_mass", "inertia"):
                 if getattr(self, name) is not None:
-                    raise fault(f"`{name}` follows from `shape` and `density` and must not be given")
+                    raise _at(name, f"`{name}` follows from `shape` and `density` and must not be given")
         elif self.mass is None:
             raise fault("`mass` is missing: give `mass` and `inertia`, or `shape` with `density` or `mass`")
         elif self.inertia is None:
@@ -79,3 +80,10 @@ class Body(Record):
         for name in ("position", "orientation"):
             if getattr(self, name) is not None:
                 raise fault(f"`{name}` follows from the shape's `from` and `to` and must not be given")
+
+
+def _at(field: str, message: str) -> ValidationError:
+    """A fault of one field that shows only when others are known."""
+    return ValidationError.from_exception_data(
+        Body.__name__, [InitErrorDetails(type=fault(message), loc=(field,), input=None)]
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Final, Self
 
 from pydantic import BeforeValidator, ModelWrapValidatorHandler, ValidationError, WithJsonSchema, model_validator
 from pydantic_core import InitErrorDetails
@@ -17,11 +17,16 @@ from nivel.machine.references import reference_faults
 from nivel.machine.settings import SimulationSettings
 
 
+LONGEST_NAME: Final = 100  # characters: the files of a run are named after the machine
+
+
 def _title(value: Any) -> str:
     if not isinstance(value, str) or not value.strip():
         raise fault(f"a name was expected, got {shown(value)}")
     if any(character in '/\\<>:"|?*' or not character.isprintable() for character in value):
         raise fault(f"`{value}` cannot be the name of a result file, which is named after the machine")
+    if len(value.strip()) > LONGEST_NAME:
+        raise fault(f"a name of at most {LONGEST_NAME} characters was expected, got {len(value.strip())}: {shown(value)}")
     return value.strip()
 
 

@@ -12,7 +12,7 @@ from nivel.machine.arithmetic import (
     Number,
     bind,
     evaluate,
-    finite,
+    given,
     names,
     uses_time,
 )
@@ -52,7 +52,7 @@ def _tree(name: str, value: object) -> Node:
             raise ExpressionError("a parameter cannot change with `time`")
         return tree
     if isinstance(value, int | float) and not isinstance(value, bool):
-        return Number(finite(value))
+        return Number(given(value))
     raise ExpressionError("a number, a quantity such as `10 cm`, or an expression was expected")
 
 

@@ -21,7 +21,7 @@ from nivel.machine.arithmetic import (
     Parameters,
     bind,
     evaluate,
-    finite,
+    given,
     uses_time,
 )
 from nivel.machine.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
@@ -85,7 +85,7 @@ def read_quantity(value: object, kind: str, parameters: Parameters) -> float:
         check_kind(value.strip(), its, kind)
         return number
     if isinstance(value, Real) and not isinstance(value, bool):
-        return finite(value)
+        return given(value)
     if hasattr(value, "item") and getattr(value, "shape", None) == ():  # a NumPy scalar or array without axes
         return read_quantity(value.item(), kind, parameters)  # type: ignore[attr-defined]
     article, unit, _ = KINDS[kind]

@@ -13,6 +13,7 @@ from nivel.results.verdicts import Item, Trust, Verdict
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
+SHOWN_CHANGES = 20  # bodies that the assembly changed; more are counted
 DECADES = 16  # of a gauge, down from 1: round-off of double precision
 
 HEADLINES: dict[str, tuple[Verdict, str]] = {
@@ -113,7 +114,7 @@ def settings_table(result: Result) -> list[tuple[str, str]]:
 
 
 def timing_table(result: Result) -> list[tuple[str, str]]:
-    """What the run took, and how far the assembly had to move."""
+    """What the run took."""
     timing = result.timing
     out = [(name.replace("_", " "), _shown(value, "")) for name, value in timing.items() if "seconds" not in name]
     out += [
@@ -123,18 +124,33 @@ def timing_table(result: Result) -> list[tuple[str, str]]:
     ]
     if timing.get("steps") and timing.get("loop_seconds"):
         out.append(("time per step", _seconds(timing["loop_seconds"] / timing["steps"])))
-    assembly = json.loads(str(result.attributes.get("assembly", "{}")))
-    if isinstance(assembly.get("gap"), float):
-        out.append(("gap before assembly", f"{assembly['gap']:.2g}{_row(assembly)}"))
-    if isinstance(assembly.get("moved"), float):
-        out.append(("moved by assembly", f"{assembly['moved']:.2g}"))
     out.append(("frames", str(len(result.time))))
     out.append(("nivel", str(result.attributes.get("nivel_version", ""))))
     return out
 
 
-def _row(assembly: dict[str, Any]) -> str:
-    return f" ({assembly['gap_row']})" if assembly.get("gap_row") else ""
+def assembly_lines(result: Result) -> list[str]:
+    """What the assembly changed of the given start: each body it moved, then each initial velocity it changed."""
+    assembly = json.loads(str(result.attributes.get("assembly", "{}")))
+    moved, changed = assembly.get("moved") or [], assembly.get("velocity_change") or []
+    gap = f"open by up to {_amount(assembly.get('gap', 0.0), 'm or rad')} as given"
+    why = f" to close the joints, {gap} (row {assembly['gap_row']})" if assembly.get("gap_row") else ""
+    lines = [f"{name} was moved by {_both(d, 'm', a, 'rad')}{why}" for name, d, a in moved]
+    lines += [
+        f"The velocity of {name} was changed by {_both(v, 'm/s', w, 'rad/s')} to fit the joints"
+        for name, v, w in changed
+    ]
+    return lines if len(lines) <= SHOWN_CHANGES else [*lines[:SHOWN_CHANGES], f"and {len(lines) - SHOWN_CHANGES} more"]
+
+
+def _both(length: float, length_unit: str, angle: float, angle_unit: str) -> str:
+    """A shift and a turn, or the one of them that there is."""
+    parts = [_amount(value, unit) for value, unit in ((length, length_unit), (angle, angle_unit)) if value > 0.0]
+    return " and ".join(parts) or _amount(0.0, length_unit)
+
+
+def _amount(value: float, unit: str) -> str:
+    return f"{value:.3g}\u00a0{unit}".replace("e-", "e\u2011")
 
 
 def _statement(item: Item) -> str:

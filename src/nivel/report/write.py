@@ -15,7 +15,7 @@ from nivel.errors import ModelError
 from nivel.report.panels import Group, Panel, panels
 from nivel.report.peaks import peak_reactions
 from nivel.report.picture import STYLE, machine_picture
-from nivel.report.story import facts, headline, settings_table, timing_table, trust_lines
+from nivel.report.story import assembly_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
 from nivel.results.target import keep_sources
@@ -41,6 +41,7 @@ def write_report(result: Result, path: str | os.PathLike[str]) -> Path:
     return target
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a run beyond all bounds is drawn with gaps
 def report_html(result: Result) -> str:
     """The report as text."""
     from jinja2 import Environment, FileSystemLoader
@@ -56,6 +57,7 @@ def report_html(result: Result) -> str:
         headline=headline(result),
         trust=result.trust,
         trust_lines=trust_lines(result.trust),
+        assembly=assembly_lines(result),
         thresholds=THRESHOLDS,
         rules=RULES,
         picture_style=STYLE,

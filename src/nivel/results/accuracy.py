@@ -8,6 +8,7 @@ from nivel.results.scales import Readable, machine_size
 from nivel.results.trust import Peak
 
 
+@np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
 def step_halving(result: Readable, finer: Readable, order: int) -> Peak:
     """Estimated largest error of the positions of `result` [m], with its body and time.
 
@@ -27,7 +28,7 @@ def step_halving(result: Readable, finer: Readable, order: int) -> Peak:
     apart = np.minimum(
         np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)
     )  # θ and -θ are the same orientation
-    difference = np.maximum(moved, 2.0 * apart * machine_size(result))
+    difference = np.maximum(moved, 2.0 * apart * machine_size(result)[0])
     k, body = np.unravel_index(int(np.argmax(difference)), difference.shape)
     error = float(difference[k, body]) / (1.0 - 0.5**order)
     return Peak(error, result.coordinates["body"][body], float(time[k]))

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.verdicts import ENERGY_FLOOR, SIZE_FLOOR
+from nivel.results.verdicts import ENERGY_FLOOR, EXTENT_FLOOR, POINT_SIZE, REST
 
 Array = NDArray[np.float64]
 BLOCK = 16 * 1024  # frames read at once: a long run need not fit in memory
@@ -29,15 +29,39 @@ class Readable(Protocol):
     def array(self, name: str, frames: slice = ...) -> Array: ...
 
 
-def machine_size(result: Readable) -> float:
-    """Diagonal of the box around all joint points, centres of mass and body origins in the first frame [m]."""
-    points = list(_points_in_space(result, slice(0, 1)))
-    ground = _scene(result).get("ground_points", [])
-    together = [each.reshape(-1, 3) for each in points] + [np.reshape(ground, (-1, 3))]
-    cloud = np.concatenate(together)
-    cloud = cloud[np.isfinite(cloud).all(axis=1)]
-    extent = float(np.linalg.norm(np.ptp(cloud, axis=0))) if len(cloud) else 0.0
-    return max(extent, SIZE_FLOOR)
+def machine_size(result: Readable) -> tuple[float, str]:
+    """The length [m], never zero, that distances are compared with, and what it is: see `verdicts.RULES`."""
+    extent = _extent(result, [slice(0, 1)])
+    if extent > 0.0:
+        return extent, "machine's size"
+    path = _extent(result, blocks(result))
+    return (path, "extent of its path") if path > 0.0 else (POINT_SIZE, "length taken for a single point at rest")
+
+
+def _extent(result: Readable, parts: Iterable[slice]) -> float:
+    """Diagonal of the box around all joint points, centres of mass and body origins in these frames [m]; 0 where all
+    of them are one point.
+    """
+    least, largest = np.full(3, np.inf), np.full(3, -np.inf)
+    ground = np.array(_scene(result).get("ground_points", []), dtype=float).reshape(-1, 3)
+    for frames in parts:
+        for points in [ground, *_points_in_space(result, frames)]:
+            known = points.reshape(-1, 3)
+            known = known[np.isfinite(known).all(axis=1)]
+            least = np.minimum(least, known.min(axis=0, initial=np.inf))
+            largest = np.maximum(largest, known.max(axis=0, initial=-np.inf))
+    if not np.all(least <= largest):
+        return 0.0
+    extent = float(np.linalg.norm(largest - least))
+    away = float(np.linalg.norm(np.maximum(np.abs(least), np.abs(largest))))
+    return extent if np.isfinite(extent) and extent > EXTENT_FLOOR * away else 0.0
+
+
+def speed_of_rest(result: Readable, size: float) -> float:
+    """Largest speed [m/s] of a machine that counts as at rest during the run; one frame alone counts as a second."""
+    time = result.time
+    span = float(time[-1] - time[0]) if len(time) else 0.0
+    return REST * size / (span if span > 0.0 else 1.0)
 
 
 def largest_speed(result: Readable) -> float:
@@ -54,14 +78,18 @@ def largest_speed(result: Readable) -> float:
     return largest
 
 
-def largest_energy(result: Readable) -> tuple[float, str]:
-    """The energy [J] that the energy error is compared with, and what it is: see `verdicts.RULES`."""
+def largest_energy(result: Readable, size: float) -> tuple[float, str]:
+    """The energy [J] that the energy error is compared with, and what it is: see `verdicts.RULES`. It may be zero.
+
+    size : of the machine [m].
+    """
+    at_rest = max(_largest(result, "potential_energy", lambda e: e), _largest_load(result, size))
     candidates = [
         ("largest kinetic energy", _largest(result, "kinetic_energy", lambda e: e)),
         ("largest change of potential energy", _largest(result, "potential_energy", lambda e: e - e[0])),
         ("largest work of external forces", _largest(result, "external_work", lambda e: e)),
         ("largest dissipated energy", _largest(result, "dissipated_energy", lambda e: e)),
-        ("smallest energy that counts", ENERGY_FLOOR * (1.0 + _largest(result, "potential_energy", lambda e: e))),
+        ("smallest energy that counts", ENERGY_FLOOR * at_rest),
     ]
     kind, value = max(candidates, key=lambda each: each[1])
     return value, kind
@@ -72,6 +100,21 @@ def blocks(result: Readable) -> Iterator[slice]:
     count = len(result.time)
     for start in range(0, count, BLOCK):
         yield slice(start, min(start + BLOCK, count))
+
+
+def _largest_load(result: Readable, size: float) -> float:
+    """Largest reaction or applied force times the size, or torque [J]."""
+    largest = 0.0
+    for name, variable in result.variables.items():
+        if name not in ("joint_force", "joint_torque") and not (
+            name.startswith("force.") and name.endswith(".magnitude")
+        ):
+            continue
+        arm = size if variable.units == "N" else 1.0
+        for frames in blocks(result):
+            values = np.abs(result.array(name, frames))
+            largest = max(largest, arm * float(np.max(values, initial=0.0, where=np.isfinite(values))))
+    return largest
 
 
 def _largest(result: Readable, name: str, change: Callable[[Array], Array]) -> float:

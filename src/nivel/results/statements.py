@@ -31,12 +31,16 @@ def statements(trust: Trust, failure: str) -> Iterator[Item]:
 
 
 def _energy_item(trust: Trust) -> Item:
-    fraction = trust.energy_error_max / trust.energy_scale
-    said = (
-        f"error {_number(fraction)} of the {trust.energy_scale_kind} {_number(trust.energy_scale)} J"
-        if math.isfinite(fraction)
-        else f"the energy is not a number any more from t = {trust.energy_error_time:.6g} s on"
-    )
+    error, scale = trust.energy_error_max, trust.energy_scale
+    fraction = error / scale if scale > 0.0 else 0.0 if error == 0.0 else math.nan if math.isnan(error) else math.inf
+    if not math.isfinite(error):
+        said = f"the energy is not a number any more from t = {trust.energy_error_time:.6g} s on"
+    elif scale > 0.0:
+        said = f"error {_number(fraction)} of the {trust.energy_scale_kind} {_number(scale)} J"
+    else:
+        said = (
+            "no energy anywhere, and no error" if error == 0.0 else f"error {_number(error)} J where there is no energy"
+        )
     return _numeric("energy", f"Energy: {said}", fraction, trust.energy_error_time)
 
 
@@ -44,7 +48,7 @@ def _violation_item(trust: Trust) -> Item:
     length = trust.constraint_violation_units == "m"
     fraction = trust.constraint_violation_max / (trust.size if length else 1.0)
     value = f"{_number(trust.constraint_violation_max)} m, " if length else ""
-    scale = f" of the machine's size {_number(trust.size)} m" if length else " as a cosine"
+    scale = f" of the {_size(trust)}" if length else " as a cosine"
     said = f"Joints: open by at most {value}{_number(fraction)}{scale}"
     row, time = trust.constraint_violation_row, trust.constraint_violation_time
     return _numeric("violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
@@ -54,10 +58,13 @@ def _rate_item(trust: Trust) -> Item:
     length = trust.constraint_rate_violation_units == "m/s"
     scale = trust.speed if length else trust.speed / trust.size
     fraction = trust.constraint_rate_violation_max / scale
-    against = f"largest speed {_number(trust.speed)} m/s" if length else f"largest speed over size {_number(scale)} 1/s"
+    said_scale = f"{_number(scale)} {trust.constraint_rate_violation_units}"
+    against = f"the largest speed {'' if length else 'over size '}{said_scale}"
+    if trust.at_rest:
+        against = f"{said_scale}, the least that counts: the machine is at rest"
     units = trust.constraint_rate_violation_units
     value = _number(trust.constraint_rate_violation_max)
-    said = f"Joint rates: off by at most {value} {units}, {_number(fraction)} of the {against}"
+    said = f"Joint rates: off by at most {value} {units}, {_number(fraction)} of {against}"
     row, time = trust.constraint_rate_violation_row, trust.constraint_rate_violation_time
     return _numeric("rate_violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
 
@@ -65,12 +72,10 @@ def _rate_item(trust: Trust) -> Item:
 def _accuracy_item(trust: Trust, estimate: float) -> Item:
     fraction = estimate / trust.size
     moved = f"half the step moves nothing by more than {_number(estimate)} m"
-    said = f"Accuracy: {moved}, {_number(fraction)} of the machine's size"
+    said = f"Accuracy: {moved}, {_number(fraction)} of the {_size(trust)}"
     where = f", largest at {trust.accuracy_body}" if trust.accuracy_body else ""
     when = f" at t = {trust.accuracy_time:.6g} s" if trust.accuracy_time is not None else ""
-    return _numeric(
-        "accuracy", f"{said} {_number(trust.size)} m{where}{when}", fraction, trust.accuracy_time, trust.accuracy_body
-    )
+    return _numeric("accuracy", f"{said}{where}{when}", fraction, trust.accuracy_time, trust.accuracy_body)
 
 
 def _freedom_item(trust: Trust) -> Item:
@@ -98,6 +103,10 @@ def _redundancy_item(trust: Trust) -> Item:
     )
     text = f"Redundancy: {repeats} ({rows}). The motion is unique; {unsure} (green when none, amber otherwise)"
     return Item("redundancy", "amber", text)
+
+
+def _size(trust: Trust) -> str:
+    return f"{trust.size_kind} {_number(trust.size)} m"
 
 
 def _numeric(name: str, text: str, fraction: float, time: float | None, row: str = "") -> Item:

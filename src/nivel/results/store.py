@@ -155,11 +155,18 @@ def _not_compressed(path: Path, reason: str) -> SolveError:
 def _note(path: Path, attributes: Attributes) -> None:
     """Write attributes into the file at `path`, which nobody writes, if they find place."""
     try:
-        with h5py.File(path, "r+", locking="best-effort") as file:
-            Space(path, file).ensure(sum(4 * len(str(value)) for value in attributes.values()) + INDEX)
-            file.attrs.update(attributes)
+        file = h5py.File(path, "r+", locking="best-effort")
+    except OSError:
+        return
+    space = Space(path, file)
+    try:
+        space.ensure(INDEX + sum(4 * len(str(value)) for value in attributes.values()))
+        file.attrs.update(attributes)
     except OSError:
         pass
+    finally:
+        file.flush()
+        space.close()
 
 
 def _write_final(source_path: Path, path: Path, attributes: Attributes) -> None:

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size
+from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
 from nivel.results.statements import statements
-from nivel.results.verdicts import SPEED_FLOOR, Trust, worst
+from nivel.results.verdicts import Trust, worst
 
 __all__ = ["Facts", "Peak", "Trust", "assess", "peak", "worst_row"]
 
@@ -44,11 +44,14 @@ class Facts:
     failure: str = ""
 
 
+@np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
 def assess(result: Readable, facts: Facts) -> Trust:
     """The trust report of a run: what its histories show, the facts, and the verdicts."""
-    size = machine_size(result)
-    speed = max(largest_speed(result), SPEED_FLOOR * size)
-    energy_scale, energy_scale_kind = largest_energy(result)
+    size, size_kind = machine_size(result)
+    speed, slowest = largest_speed(result), speed_of_rest(result, size)
+    at_rest = speed < slowest
+    speed = max(speed, slowest)
+    energy_scale, energy_scale_kind = largest_energy(result, size)
     energy = peak(result, "energy_error")
     violation, violation_units = worst_row(result, "constraint_violation", {"m": 1.0 / size, "1": 1.0})
     rate, rate_units = worst_row(result, "constraint_rate_violation", {"m": 1.0 / speed, "1": size / speed})
@@ -75,6 +78,8 @@ def assess(result: Readable, facts: Facts) -> Trust:
         accuracy_estimate=facts.accuracy.value if facts.accuracy else None,
         accuracy_body=facts.accuracy.row if facts.accuracy else "",
         accuracy_time=facts.accuracy.time if facts.accuracy else None,
+        size_kind=size_kind,
+        at_rest=at_rest,
     )
     items = tuple(statements(trust, facts.failure))
     return replace(trust, items=items, verdict=worst(items))

@@ -55,17 +55,24 @@ THRESHOLDS = {
     ),
 }
 
-SIZE_FLOOR = 1e-3  # m: a single point has no extent; a millimetre keeps the fractions finite
-SPEED_FLOOR = 1e-3  # 1/s times the size: a machine at rest has no speed; crossing its own size in 1000 s counts as rest
-ENERGY_FLOOR = 1e-9  # times (1 J + largest potential energy): round-off of a machine at rest stays below green
+EXTENT_FLOOR = 1e-12  # of the distance from the global origin: round-off of points that are one
+REST = 1e-3  # of the size, travelled in the time of the run: a machine that stays below it is at rest
+ENERGY_FLOOR = (
+    1e-9  # of the potential energy, or of a load times the size: round-off of a machine at rest is below green
+)
+POINT_SIZE = 1.0  # m: a single point that never moves has no size; said wherever it is used
 
 RULES = {
     "energy_scale": "the largest kinetic energy, or the largest change of potential energy, work of external forces or "
-    "dissipated energy where one of these is larger; at least 1e-9 of (1 J + largest potential energy)",
-    "size": "the diagonal of the box around all joint points, centres of mass and body origins in the first frame; at "
-    "least 1e-3 m. Constraint rows that are cosines of angles are compared with 1",
-    "speed": "the largest speed of any joint point, centre of mass or body origin (upper bound |v| + |ω| r); at least "
-    "1e-3 of the size per second. Rates of cosines of angles are compared with speed / size",
+    "dissipated energy where one of these is larger; at least 1e-9 of the largest potential energy or of the largest load "
+    "times the size: the round-off of a machine at rest. There is no fixed number of joules: where all energies are zero, "
+    "an error of zero is a fraction of zero",
+    "size": "the diagonal of the box around all joint points, centres of mass and body origins in the first frame. "
+    "Where all of them are one point: of the box around its path; where it never moves, 1 m by convention. Constraint rows "
+    "that are cosines of angles are compared with 1",
+    "speed": "the largest speed of any joint point, centre of mass or body origin (upper bound |v| + |ω| r). A "
+    "machine that travels less than 1e-3 of its size in the time of the run at this speed is at rest, and compared with the "
+    "speed that would. Rates of cosines of angles are compared with speed / size",
 }
 
 
@@ -93,6 +100,8 @@ class Trust:
 
     Rows are named as in the machine (`hinge.s.x`), times are in seconds. Violations are in `…_units`: m or 1 (a
     cosine).
+    size_kind : what `size` is, to be said after "the". at_rest : `speed` is not that of the machine, which is at rest,
+    but the least speed that counts.
     degrees_of_freedom : None where the run did not live to tell.
     """
 
@@ -118,6 +127,8 @@ class Trust:
     accuracy_estimate: float | None = None
     accuracy_body: str = ""
     accuracy_time: float | None = None
+    size_kind: str = "machine's size"
+    at_rest: bool = False
     items: tuple[Item, ...] = ()
 
     def to_json(self) -> str:

@@ -108,3 +108,12 @@ def test_csv_of_a_result_is_read_back(tmp_path):
     result.export_csv(tmp_path / "pendulum.csv", select=["bob.position"])
     rows = list(csv.reader((tmp_path / "pendulum.csv").read_text(encoding="utf-8").splitlines()))
     assert len(rows) > len(result.time)
+
+
+def test_result_is_never_written_over_its_own_machine(tmp_path):
+    path = tmp_path / "machine.yaml"
+    text = (EXAMPLES / "simple-pendulum.yaml").read_text(encoding="utf-8")
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(nivel.ModelError, match="made from"):
+        nivel.load(path).simulate(out=path, force=True, duration=0.01)
+    assert path.read_text(encoding="utf-8") == text

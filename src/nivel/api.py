@@ -117,7 +117,10 @@ class Machine:
         )
         # after the kernels: what follows imports them
         from nivel.analysis.simulate import simulate
+        from nivel.results.target import keep_sources
 
+        if out is not None and self.file:
+            keep_sources(Path(fspath(out)), "result file", [Path(self.file)])
         with self._faults_in_file():
             return simulate(
                 chosen.record,

@@ -108,13 +108,29 @@ class TestNew:
         assert read_machine("crane.yaml")
 
     @pytest.mark.parametrize(
-        ("name", "part"), [("no/such/folder", "cannot be written"), ("a:b", "name of a result file")]
+        ("name", "part"),
+        [
+            ("no/such/folder", "cannot be written"),
+            ("a:b", "name of a result file"),
+            ("", "is a folder"),
+            (".", "is a folder"),
+            ("..", "is a folder"),
+            ("x" * 101, "at most 100 characters"),
+            ("x" * 300, "at most 100 characters"),
+        ],
     )
     def test_impossible_names(self, name, part):
         refused = nivel("new", name)
         assert refused.exit_code == 2
         assert part in refused.stderr
         assert not list(Path.cwd().iterdir())
+
+    def test_a_folder_is_no_name(self):
+        Path("machines").mkdir()
+        refused = nivel("new", "machines")
+        assert refused.exit_code == 2
+        assert "is a folder" in refused.stderr
+        assert not Path("machines.yaml").exists()
 
 
 def told(error, capsys):

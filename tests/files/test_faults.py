@@ -67,10 +67,12 @@ FAULTS = {
     "impossible inertia": (
         "[0.022, 0.513, 0.526]",
         "[0.022, 0.513, 5.26]",
-        -3,
-        "bodies.crank",
+        0,
+        "bodies.crank.inertia",
         "about the body z axis",
     ),
+    "infinite mass": ("mass: 21 kg", "mass: .inf", 0, "bodies.crank.mass", "a finite number was expected"),
+    "endless name": ("format: 1\n", f"format: 1\nname: {'x' * 101}\n", 1, "name", "at most 100 characters"),
     "two inertias": ("[0.022, 0.513, 0.526]", "[0.022, 0.513]", 0, "bodies.crank.inertia", "a list of 2"),
     "inertia with units of mass": (
         "[0.022, 0.513, 0.526]",
@@ -105,8 +107,8 @@ FAULTS = {
     "density and mass": (
         "    density: 7850 kg/m^3",
         "    density: 7850\n    mass: 1",
-        -2,
-        "bodies.rod",
+        1,
+        "bodies.rod.mass",
         "`mass` follows",
     ),
     "key of a nested mapping": (

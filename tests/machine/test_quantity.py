@@ -13,8 +13,9 @@ from nivel.machine.quantity import read_quantity
 from nivel.machine.unit import UNITS, _ask_pint, unit
 
 
-@pytest.mark.parametrize("name", [name for name in UNITS if name not in ("°", "rev")])
+@pytest.mark.parametrize("name", [name for name in UNITS if name not in ("°", "rev", "Nm", "kNm")])
 def test_the_table_of_units_agrees_with_pint(name):
+    # pint takes `Nm` for the number of yarn
     asked = _ask_pint(name)
     assert asked is not None
     assert asked.dimension == UNITS[name].dimension
@@ -112,3 +113,10 @@ def test_a_unit_without_multiplication_is_refused():
     for name in ("degC", "degF", "dB", "nonsense", "_", "a" * 300):
         with pytest.raises(ValueError, match="is not known"):
             unit(name)
+
+
+def test_newton_metres_may_be_written_together():
+    from nivel.machine import Torque
+
+    torque = Torque(name="t", body="b", vector=("10 Nm", "2 kNm", "3 N m"))
+    assert torque.vector == (10.0, 2000.0, 3.0)

@@ -141,6 +141,36 @@ def test_a_run_that_ends_in_nan_has_a_report():
     assert "not a number any more from t = 1.5 s" in words(html)
 
 
+def test_a_run_beyond_all_bounds_has_a_report_without_warnings():
+    huge = {name: values * 1e300 for name, values in pendulum.histories(TIME).items() if name != "orientation"}
+    huge["joint_force"][7] = np.inf
+    assert "No: see what is red" in words(report_html(run(outcome="failed", **huge)))
+
+
+def test_what_the_assembly_changed_stands_with_the_trust():
+    assembly = {
+        "gap": 0.001,
+        "gap_row": "hinge.s.x",
+        "moved": [["arm", 0.0005, 0.0], ["rod", 0.0, 1.5e-5]],
+        "velocity_change": [["arm", 0.25, 2.0]],
+    }
+    text = words(report_html(run(attributes={"assembly": json.dumps(assembly)}))).replace("\u00a0", " ")
+    start, end = text.index("Redundancy"), text.index("Peak reactions")
+    shown = text[start:end]
+    assert "Changed at the start" in shown
+    assert (
+        "arm was moved by 0.0005 m to close the joints, open by up to 0.001 m or rad as given (row hinge.s.x)" in shown
+    )
+    assert "rod was moved by 1.5e-05 rad" in shown
+    assert "The velocity of arm was changed by 0.25 m/s and 2 rad/s to fit the joints" in shown
+
+
+@pytest.mark.parametrize("assembly", [None, {"gap": 0.0, "gap_row": "", "moved": [], "velocity_change": []}])
+def test_an_assembly_that_changed_nothing_is_not_mentioned(assembly):
+    attributes = {} if assembly is None else {"assembly": json.dumps(assembly)}
+    assert "Changed at the start" not in words(report_html(run(attributes=attributes)))
+
+
 def test_names_and_texts_are_shown_not_run():
     nasty = '</script><script>alert("x")</script>'
     html = report_html(run(attributes={"machine": nasty, "machine_source": nasty, "failure": nasty}))

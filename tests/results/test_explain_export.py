@@ -1,6 +1,9 @@
 """`nivel explain` and `nivel export` on the command line."""
 
 import json
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -8,7 +11,8 @@ from click.testing import CliRunner
 
 import synthetic_run as pendulum
 from nivel.cli import main
-from nivel.results import Store
+from nivel.errors import ModelError
+from nivel.results import Result, Store
 from nivel.results.trust import Facts, assess
 
 TIME = np.linspace(0.0, 1.0, 11)
@@ -76,3 +80,39 @@ def test_faults_are_the_users_and_said(folder, arguments, said):
     done = nivel(*arguments)
     assert done.exit_code == 2
     assert said in done.stderr
+
+
+def test_a_result_is_never_written_over_by_what_is_made_from_it(folder):
+    before = (folder / "run.nc").read_bytes()
+    (folder / "link.csv").symlink_to("run.nc")
+    os.link(folder / "run.nc", folder / "same.csv")
+    for name in ("run.nc", "link.csv", "same.csv"):
+        refused = nivel("export", "run.nc", "--csv", name, "--force")
+        assert refused.exit_code == 2
+        assert "would be written over run.nc" in refused.stderr
+        with pytest.raises(ModelError, match="would be written over"):
+            Result.open("run.nc").export_csv(name)
+        with pytest.raises(ModelError, match="would be written over"):
+            Result.open("run.nc").report(name)
+    assert (folder / "run.nc").read_bytes() == before
+
+
+def test_a_table_replaces_files_only(folder):
+    (folder / "out.csv").mkdir()
+    refused = nivel("export", "run.nc", "--csv", "out.csv", "--force")
+    assert refused.exit_code == 2
+    assert "is a folder" in refused.stderr
+
+
+@pytest.mark.skipif(os.name == "nt", reason="POSIX pipes")
+def test_a_reader_that_has_enough_is_no_failure(folder):
+    sink = Store(folder / "long.nc")
+    sink.begin(pendulum.header())
+    sink.take(pendulum.frames(np.linspace(0.0, 1.0, 5001)))  # more than a pipe holds
+    sink.close({"outcome": "done"})
+    command = [sys.executable, "-m", "nivel", "export", "long.nc", "--csv", "-"]
+    with subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout.readline().startswith(b"time [s]")
+        process.stdout.close()
+        assert process.stderr.read() == b""
+        assert process.wait(timeout=60) == 0

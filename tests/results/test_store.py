@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import synthetic_run as pendulum
-from nivel.errors import ModelError
+from nivel.errors import ModelError, SolveError
 from nivel.results import Memory, Result, Store
 from nivel.results.store import rewrite
 
@@ -175,8 +175,10 @@ def test_a_rewrite_that_fails_leaves_the_file_readable(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "replace", full)
-    with pytest.raises(ModelError, match="could not be compressed: no space left on device"):
+    with pytest.raises(SolveError, match="could not be compressed: no space left on device") as caught:
         store.close({"outcome": "done"})
+    assert caught.value.time == TIME[-1]
+    assert len(caught.value.result.time) == len(TIME)
     assert [each.name for each in tmp_path.iterdir()] == ["run.nc"]
     result = Result.open(tmp_path / "run.nc")
     assert_same_numbers(result)
@@ -197,9 +199,11 @@ def test_a_full_disk_is_said_and_what_was_written_stays(tmp_path):
         [sys.executable, "-c", source], capture_output=True, text=True, preexec_fn=small_disk, check=False
     )
     assert run.returncode == 1
-    assert "cannot be written further: file too large; it is readable up to the frame before" in run.stderr
     result = Result.open(path)
     assert len(result.time) > 0
+    said = f"cannot be written further: file too large; it is readable up to t = {result.time[-1]:.6g} s"
+    assert f"SolveError: the result file {path} {said}" in run.stderr
+    assert "--output-interval" in result.advice
     assert_same_numbers(result, len(result.time))
     assert result.outcome == "failed"
     assert "file too large" in result.failure
@@ -230,6 +234,34 @@ def test_nothing_is_computed_for_a_path_that_cannot_work(tmp_path):
     with pytest.raises(ModelError, match="exists already; it is replaced with --force"):
         Store(tmp_path / "there.nc")
     assert (tmp_path / "there.nc").stat().st_size == 0
+    with pytest.raises(ModelError, match="cannot be written: file name too long"):
+        Store(tmp_path / f"{'x' * 300}.nc")
+    with pytest.raises(ModelError, match="there is no folder"):
+        Store(tmp_path / ("x" * 300) / "run.nc")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="POSIX special files")
+def test_force_replaces_files_only(tmp_path):
+    os.mkfifo(tmp_path / "pipe.nc")
+    (tmp_path / "link.nc").symlink_to("/dev/null")
+    (tmp_path / "folder.nc").mkdir()
+    for name, said in (("pipe", "is a pipe"), ("link", "is a device"), ("folder", "is a folder")):
+        with pytest.raises(ModelError, match=said):
+            Store(tmp_path / f"{name}.nc", force=True)
+    assert {each.name for each in tmp_path.iterdir()} == {"pipe.nc", "link.nc", "folder.nc"}
+
+
+def test_what_took_the_place_of_the_file_meanwhile_is_kept(tmp_path):
+    path = tmp_path / "run.nc"
+    store = Store(path, force=True)
+    os.mkfifo(path)
+    with pytest.raises(ModelError, match="is a pipe"):
+        store.begin(pendulum.header())
+    assert path.is_fifo()
+
+
+def test_a_file_name_of_any_length_that_the_system_takes(tmp_path):
+    assert_same_numbers(stored(tmp_path / f"{'x' * 252}.nc"))
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")

@@ -213,3 +213,84 @@ def test_step_halving_compares_equal_times():
     finer = np.linspace(0.0, 2.0, 401)
     assert step_halving(run(), run(finer), order=4).value < 1e-15
     assert step_halving(run(), run(finer[:200]), order=4).value < 1e-15  # a finer run that stopped early
+
+
+def assessed(length, mass, duration, error):
+    """The pendulum in other units of length, mass and time, with an energy error of the fraction `error`."""
+    histories = pendulum.histories(TIME)
+    energy = mass * length**2 / duration**2
+    rows = np.array([length if units == "m" else 1.0 for units in pendulum.ROWS.values()])
+    factors = {"position": length, "velocity": length / duration, "angular_velocity": 1.0 / duration}
+    factors |= {"kinetic_energy": energy, "potential_energy": energy, "joint_force": energy / length}
+    factors |= {"constraint_violation": rows, "constraint_rate_violation": rows / duration}
+    scene = pendulum.scene()
+    scene["bodies"][0]["points"] = [[-length * pendulum.LENGTH, 0, 0]]
+    other = {name: values * factors.get(name, 1.0) for name, values in histories.items()}
+    other["energy_error"] = np.full(len(TIME), error * energy * histories["kinetic_energy"].max())
+    return assess(run(TIME * duration, {"scene": json.dumps(scene)}, **other), Facts("done", 1))
+
+
+@pytest.mark.parametrize(("error", "verdict"), [(1e-9, "green"), (1e-3, "amber"), (1.0, "red")])
+@pytest.mark.parametrize("units", [(1e-6, 1e-15, 1e-3), (1e-9, 1e-20, 1e-9), (1e3, 1e9, 1e6)])
+def test_a_machine_of_any_size_mass_and_pace_has_the_same_verdicts(units, error, verdict):
+    plain, other = assessed(1.0, 1.0, 1.0, error), assessed(*units, error)
+    assert other.verdict == plain.verdict == verdict
+    fractions = [[each.fraction for each in trust.items if each.fraction is not None] for trust in (plain, other)]
+    np.testing.assert_allclose(*fractions, rtol=1e-9)
+
+
+def still(**histories):
+    """Histories of a machine in which nothing is, moves or happens."""
+    nothing = {name: np.zeros_like(values) for name, values in pendulum.histories(TIME).items()}
+    return nothing | {"orientation": np.tile([1.0, 0, 0, 0], (len(TIME), 1))} | histories
+
+
+def test_where_there_is_no_energy_only_no_error_is_none():
+    found = item(assess(run(**still()), Facts("done", 1)), "energy")
+    assert (found.verdict, found.fraction) == ("green", 0.0)
+    assert "no energy anywhere, and no error" in found.text
+    found = item(assess(run(**still(energy_error=spike(1, 0, 3, 1e-30))), Facts("done", 1)), "energy")
+    assert found.verdict == "red"
+    assert "error 1e-30 J where there is no energy" in found.text
+
+
+def test_round_off_of_a_loaded_machine_at_rest_is_green_at_any_height():
+    load = np.tile([0.0, 20.0, 0.0], (len(TIME), 1))
+    trust = assess(run(**still(joint_force=load, energy_error=spike(1, 0, 3, 1e-15))), Facts("done", 1))
+    assert item(trust, "energy").verdict == "green"
+    assert trust.energy_scale == pytest.approx(1e-9 * 20.0 * pendulum.SIZE)
+
+
+def test_a_machine_at_rest_is_said_to_be():
+    trust = assess(run(**still(constraint_rate_violation=spike(5, 0, 3, 1e-17))), Facts("done", 1))
+    assert trust.at_rest
+    assert "the machine is at rest" in item(trust, "rate_violation").text
+    assert "largest speed" not in item(trust, "rate_violation").text
+    assert not assess(run(), Facts("done", 1)).at_rest
+    assert "of the largest speed" in item(assess(run(), Facts("done", 1)), "rate_violation").text
+
+
+def test_a_single_point_is_compared_with_its_path_or_with_a_metre():
+    scene = {"scene": json.dumps({"bodies": [{"name": "arm"}]})}
+    off = spike(5, 0, 3, 1e-9)
+    path = np.zeros((len(TIME), 1, 3))
+    path[:, 0, 0] = 0.1 + 3e-6 * TIME
+    trust = assess(run(attributes=scene, position=path, constraint_violation=off), Facts("done", 1))
+    assert trust.size == pytest.approx(6e-6)
+    assert "of the extent of its path 6e-6 m" in item(trust, "violation").text
+    path[:, 0, 0] = 0.1 + 1e-17 * TIME  # round-off is no path
+    trust = assess(run(attributes=scene, position=path, constraint_violation=off), Facts("done", 1))
+    assert trust.size == 1.0
+    assert "of the length taken for a single point at rest 1 m" in item(trust, "violation").text
+
+
+def test_a_run_beyond_all_bounds_is_red_without_warnings():
+    huge = pendulum.histories(TIME)["velocity"] * 1e300
+    huge[7] = np.inf
+    trust = assess(
+        run(velocity=huge, kinetic_energy=np.full(len(TIME), np.inf), energy_error=np.full(len(TIME), np.inf)),
+        Facts("failed"),
+    )
+    assert trust.verdict == "red"
+    position = pendulum.histories(TIME)["position"] * 1e300
+    assert step_halving(run(position=position), run(), order=4).value > 1e200

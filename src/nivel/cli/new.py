@@ -35,8 +35,10 @@ def command(name: Path, force: bool, with_schema: bool) -> None:
 
 
 def _target(name: Path) -> Path:
-    if not name.name or os.path.isdir(name):  # noqa: PTH112 - not Path.is_dir, which raises where the name is too long
-        raise ModelError(f"'{name}' is a folder; the name of a machine was expected, for instance {name / 'crane.yaml'}")
+    if not name.name or os.path.isdir(name):  # Path.is_dir raises where the name is too long
+        raise ModelError(
+            f"'{name}' is a folder; the name of a machine was expected, for instance {name / 'crane.yaml'}"
+        )
     return name if name.suffix == SUFFIX else name.with_name(name.name + SUFFIX)
 
 

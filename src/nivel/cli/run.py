@@ -101,7 +101,7 @@ def command(
         say_faults(unwritten)
     if failure is not None:
         raise failure
-    if result.outcome == "interrupted":
+    if result is not None and result.outcome == "interrupted":
         raise KeyboardInterrupt
 
 

@@ -16,7 +16,6 @@ from nivel.machine.record import Record, entry, restated
 from nivel.machine.references import reference_faults
 from nivel.machine.settings import SimulationSettings
 
-
 LONGEST_NAME: Final = 100  # characters: the files of a run are named after the machine
 
 
@@ -26,7 +25,9 @@ def _title(value: Any) -> str:
     if any(character in '/\\<>:"|?*' or not character.isprintable() for character in value):
         raise fault(f"`{value}` cannot be the name of a result file, which is named after the machine")
     if len(value.strip()) > LONGEST_NAME:
-        raise fault(f"a name of at most {LONGEST_NAME} characters was expected, got {len(value.strip())}: {shown(value)}")
+        raise fault(
+            f"a name of at most {LONGEST_NAME} characters was expected, got {len(value.strip())}: {shown(value)}"
+        )
     return value.strip()
 
 

@@ -64,6 +64,8 @@ UNITS: dict[str, Unit] = {
     "MN": Unit(1e6, _FORCE),
     "kgf": Unit(9.80665, _FORCE),
     "lbf": Unit(4.4482216152605, _FORCE),
+    "Nm": Unit(1.0, _ENERGY),
+    "kNm": Unit(1e3, _ENERGY),
     "J": Unit(1.0, _ENERGY),
     "kJ": Unit(1e3, _ENERGY),
     "W": Unit(1.0, _POWER),

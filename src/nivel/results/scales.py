@@ -81,8 +81,10 @@ def largest_speed(result: Readable) -> float:
 def largest_energy(result: Readable, size: float) -> tuple[float, str]:
     """The energy [J] that the energy error is compared with, and what it is: see `verdicts.RULES`. It may be zero.
 
-    size : of the machine [m].
+    size : of the machine [m]. A run without frames has no energy: 0 J of no kind.
     """
+    if not len(result.time):
+        return 0.0, ""
     at_rest = max(_largest(result, "potential_energy", lambda e: e), _largest_load(result, size))
     candidates = [
         ("largest kinetic energy", _largest(result, "kinetic_energy", lambda e: e)),

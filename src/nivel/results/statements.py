@@ -37,6 +37,8 @@ def _energy_item(trust: Trust) -> Item:
         said = f"the energy is not a number any more from t = {trust.energy_error_time:.6g} s on"
     elif scale > 0.0:
         said = f"error {_number(fraction)} of the {trust.energy_scale_kind} {_number(scale)} J"
+    elif not trust.energy_scale_kind:
+        said = "nothing was computed"
     else:
         said = (
             "no energy anywhere, and no error" if error == 0.0 else f"error {_number(error)} J where there is no energy"

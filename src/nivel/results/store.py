@@ -255,9 +255,9 @@ def _header_size(attributes: Attributes) -> int:
 
 def _check_path(path: Path, force: bool) -> None:
     folder = path.parent
-    if not os.path.exists(folder):  # noqa: PTH110 - not Path.exists, which raises where the name is too long
+    if not os.path.exists(folder):  # Path.exists raises where the name is too long
         raise ModelError(f"there is no folder {folder} for the result file {path.name}")
-    if not os.path.isdir(folder):  # noqa: PTH112
+    if not os.path.isdir(folder):
         raise ModelError(f"{folder} is not a folder, so the result file {path.name} cannot be written there")
     check_target(path, "result file", force=force)
     if not os.access(folder, os.W_OK):

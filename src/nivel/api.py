@@ -73,8 +73,9 @@ class Machine:
         """Name of the machine."""
         return self.record.name
 
-    def check(self) -> Check:
+    def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
+        compile_path(self.record.simulation.formulation, "", "", listener or Listener())
         from nivel.analysis.check import check
 
         with self._faults_in_file():

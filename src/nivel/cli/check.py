@@ -19,9 +19,10 @@ def command(machine: str, overrides: dict[str, str], as_json: bool) -> None:
 
     Shows every joint with its first and second body, its zero and its positive direction. Exit code 2 with every fault that was found.
     """
+    from nivel.analysis.listener import Listener
     from nivel.api import load
 
-    facts = load(machine, overrides).check()
+    facts = load(machine, overrides).check(listener=Listener(lambda text, _total: click.echo(text, err=True)))
     if as_json:
         click.echo(json.dumps(dataclasses.asdict(facts), indent=2))
     else:

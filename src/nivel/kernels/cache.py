@@ -36,9 +36,9 @@ def directory() -> Path:
     return path
 
 
-def is_warm(entry: str) -> bool:
-    """Whether a compiled kernel whose index file name contains `entry` is in the cache."""
-    return any(directory().glob(f"**/*{entry}*.nbi"))
+def is_warm(module: str) -> bool:
+    """Whether compiled kernels of `module` (the last part of its name) are in the cache."""
+    return any(directory().glob(f"**/{module}.*.nbi"))
 
 
 def install() -> None:

@@ -1,0 +1,29 @@
+"""What the words know and what the numbers know are the same lists."""
+
+from typing import get_args
+
+from nivel.machine.force import PointForce, Torque
+from nivel.machine.joint import JointType
+from nivel.machine.settings import SimulationSettings
+from nivel.march.catalogue import INTEGRATORS
+from nivel.march.stabilise.catalogue import STABILISATIONS
+from nivel.motion.catalogue import FORMULATIONS
+from nivel.system.joints import JOINTS
+
+
+def words(field):
+    return set(get_args(SimulationSettings.model_fields[field].annotation))
+
+
+def test_every_joint_that_a_file_may_name_is_built_and_the_other_way_round():
+    assert set(get_args(JointType)) == set(JOINTS)
+
+
+def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():
+    assert words("integrator") == set(INTEGRATORS)
+    assert words("formulation") == set(FORMULATIONS)
+    assert words("stabilisation") == set(STABILISATIONS)
+
+
+def test_forces_have_the_types_that_the_builder_knows():
+    assert {PointForce.model_fields["type"].default, Torque.model_fields["type"].default} == {"force", "torque"}

@@ -137,3 +137,16 @@ def test_pendulum_meets_the_benchmark(formulation):
     np.testing.assert_allclose(result.position[:, 0], expected.position, atol=1e-6)
     np.testing.assert_allclose(result.joint_force[:, 0], -expected.hinge_force, atol=1e-5)
     assert np.abs(result.energy_error).max() < 1e-7
+
+
+@FORMULATIONS
+def test_own_baumgarte_coefficients_hold_back_the_drift(formulation):
+    """With α = β = 20/s, two decades below those of the step, the drift stays bounded and the order four is kept."""
+    settings = {"duration": 4.0, "step": 2e-3, "output_interval": 0.05, "formulation": formulation}
+    drift = run(machines.slider_crank(), stabilisation="none", **settings)
+    fed = run(machines.slider_crank(), stabilisation="baumgarte", baumgarte={"alpha": 20, "beta": 20}, **settings)
+    assert np.abs(fed.constraint_violation[-1]).max() < 0.1 * np.abs(drift.constraint_violation[-1]).max()
+    solve = slider_crank_reference.solve
+    own = {"stabilisation": "baumgarte", "baumgarte": {"alpha": 20, "beta": 20}, "formulation": formulation}
+    slope, errors = order(machines.slider_crank(), [8e-3, 4e-3, 2e-3, 1e-3], solve, 2.0, **own)
+    assert slope > 3.7, errors

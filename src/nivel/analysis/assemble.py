@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.equations import MotionEquations, moved
+from nivel.analysis.equations import MotionEquations, change_between, moved
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import JOINTS
@@ -15,6 +15,8 @@ from nivel.system.system import Array, System
 ITERATIONS = 100
 # Constraints hold to this share of the scale of their row: the machine's length, or 1 for cosines.
 CLOSED = 1e-12
+# Longest step of an iteration, in radians and machine lengths.
+LONGEST = 0.5
 # A row that cannot be closed better than this share is named.
 OPEN = 1e-9
 # Changes below this share of the machine's length, of one radian, of the largest velocity are round-off and not told.
@@ -51,31 +53,52 @@ def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Asse
     system = motion.system
     y = system.start.copy()
     given = y[: system.positions].copy()
-    gap, gap_row = 0.0, ""
-    rows = slice(0, system.joint_rows)
-    C, scale = system.record.constraints.C, system.record.constraints.scale[rows]
-    for iteration in range(ITERATIONS + 1):
-        motion.evaluate(t, y)
-        violation = C[rows]
-        if not np.all(np.isfinite(violation)):
-            break
-        share = np.abs(violation) / scale
-        if iteration == 0 and len(violation):
-            worst = int(np.argmax(share))
-            gap, gap_row = float(abs(violation[worst])), system.rows[worst]
-        if not len(violation) or share.max() <= CLOSED:
-            break
-        change = _least_change(motion, -violation)
-        # a step of more than half a radian or half the machine is outside the linear range
-        length = float(np.abs(change).max())
-        limit = 0.5
-        change *= min(1.0, limit / length) if length > 0.0 else 0.0
-        change.reshape(-1, 6)[:, :3] *= system.size
-        y[: system.positions] = moved(y[: system.positions], change)
-    motion.evaluate(t, y)
+    gap, gap_row = _largest_gap(motion, t, y)
+    close_positions(motion, t, y)
     _refuse_open_joints(machine, motion)
     y, velocity_change = _consistent_velocities(motion, t, y)
     return Assembly(y, gap, gap_row, _moves(system, given, y[: system.positions]), velocity_change)
+
+
+def _largest_gap(motion: MotionEquations, t: float, y: Array) -> tuple[float, str]:
+    """Largest violation of a joint row at y, measured by the scales of the rows, and its name."""
+    system = motion.system
+    motion.evaluate(t, y)
+    violation = np.abs(system.record.constraints.C[: system.joint_rows])
+    if not len(violation):
+        return 0.0, ""
+    worst = int(np.argmax(violation / system.record.constraints.scale[: system.joint_rows]))
+    return float(violation[worst]), system.rows[worst]
+
+
+def close_positions(motion: MotionEquations, t: float, y: Array) -> bool:
+    """Move the positions in the state y as little as possible onto the constraints, in place; whether all rows are closed.
+
+    Where they cannot be closed, y is the best position found. The record is left evaluated at y.
+    """
+    system = motion.system
+    rows = slice(0, system.joint_rows)
+    C, scale = system.record.constraints.C, system.record.constraints.scale[rows]
+    best, least = y.copy(), np.inf
+    for _ in range(ITERATIONS):
+        motion.evaluate(t, y)
+        violation = C[rows]
+        if not np.all(np.isfinite(violation)):
+            return False
+        size = float(np.linalg.norm(violation / scale))
+        if size < least:
+            best, least = y.copy(), size
+        if np.max(np.abs(violation) / scale, initial=0.0) <= CLOSED:
+            return True
+        change = _least_change(motion, -violation)
+        # a step of more than half a radian or half the machine is outside the linear range
+        length = float(np.abs(change).max())
+        change *= min(1.0, LONGEST / length) if length > 0.0 else 0.0
+        change.reshape(-1, 6)[:, :3] *= system.size
+        y[: system.positions] = moved(y[: system.positions], change)
+    y[:] = best
+    motion.evaluate(t, y)
+    return bool(np.max(np.abs(C[rows]) / scale, initial=0.0) <= OPEN)
 
 
 def _least_change(motion: MotionEquations, target: Array) -> Array:
@@ -126,15 +149,8 @@ def _named(
 
 
 def _moves(system: System, given: Array, q: Array) -> tuple[tuple[str, float, float], ...]:
-    before, after = given.reshape(-1, 7), q.reshape(-1, 7)
-    # twice the vector part of the turn between two unit quaternions; its length is 2 sin(angle/2)
-    e0, e = before[:, 3:4], before[:, 4:]
-    f0, f = after[:, 3:4], after[:, 4:]
-    half = e0 * f - f0 * e - np.cross(e, f)
-    length = np.linalg.norm(half, axis=1, keepdims=True)
-    angle = 2.0 * np.arcsin(np.clip(length, 0.0, 1.0))
-    turn = np.divide(half, length, out=np.zeros_like(half), where=length > 0.0) * angle
-    return _named(system.bodies, after[:, :3] - before[:, :3], turn, ROUND_OFF * system.size, ROUND_OFF)
+    change = change_between(given, q)
+    return _named(system.bodies, change[:, :3], change[:, 3:], ROUND_OFF * system.size, ROUND_OFF)
 
 
 def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations) -> None:

@@ -124,8 +124,7 @@ def march(
                 break
     if status not in (BUDGET_SPENT, BUFFER_FULL, DONE):
         finished.outcome = "failed"
-        y = run.previous if np.all(np.isfinite(run.previous)) else run.y
-        message, advice = failure(prepared.motion, status, float(run.clock[TIME]), settings.step, y)
+        message, advice = failure(prepared.motion, status, float(run.clock[TIME]), settings.step, run.previous)
         finished.failure = (message, advice, float(run.clock[TIME]))
     finished.timing = {
         "steps": int(run.counter[DONE_STEPS]),
@@ -159,6 +158,7 @@ def _start(prepared: Prepared, settings: RunSettings, stages: int) -> Run:
         y=y,
         rate=np.zeros_like(y),
         previous=y.copy(),
+        scratch=np.zeros_like(y),
         stages=np.zeros((stages, len(y))),
         frames=np.zeros((rows, width)),
     )

@@ -67,3 +67,16 @@ def moved(q: Array, change: Array) -> Array:
     q[:, 3:] += parameter_rates(q[:, 3:], change[:, 3:])
     q[:, 3:] /= np.linalg.norm(q[:, 3:], axis=1, keepdims=True)
     return q.ravel()
+
+
+def change_between(before: Array, after: Array) -> Array:
+    """Tangent change (B, 6) from positions `before` (7 B,) to `after`: translation [m], body-axis rotation vector [rad]."""
+    p, q = before.reshape(-1, 7), after.reshape(-1, 7)
+    # vector part of the turn between two unit quaternions: its length is sin(angle/2)
+    e0, e, f0, f = p[:, 3:4], p[:, 4:], q[:, 3:4], q[:, 4:]
+    half = e0 * f - f0 * e - np.cross(e, f)
+    half = np.where(np.sum(p[:, 3:] * q[:, 3:], axis=1, keepdims=True) < 0.0, -half, half)
+    sine = np.linalg.norm(half, axis=1, keepdims=True)
+    angle = 2.0 * np.arcsin(np.clip(sine, 0.0, 1.0))
+    turn = np.divide(half, sine, out=np.zeros_like(half), where=sine > 0.0) * angle
+    return np.hstack([q[:, :3] - p[:, :3], turn])

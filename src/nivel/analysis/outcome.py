@@ -10,7 +10,7 @@ from nivel.system.system import Array
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
 NEAR_SINGULAR = 1e-6
-# A violation above this share of the machine's length is not round-off or truncation: the step was too large for the motion.
+# A violation above this share of its scale is not round-off or truncation: the step was too large for the motion.
 DRIFTED = 1e-2
 
 
@@ -62,7 +62,8 @@ def _broken_load(motion: MotionEquations, time: float, step: float, y: Array) ->
 
 def _drifted(motion: MotionEquations) -> bool:
     """Whether the state last evaluated has left its constraints."""
-    return bool(np.abs(motion.system.record.constraints.C).max(initial=0.0) > DRIFTED * motion.system.size)
+    constraints = motion.system.record.constraints
+    return bool(np.max(np.abs(constraints.C) / constraints.scale, initial=0.0) > DRIFTED)
 
 
 def _far_from_singular(motion: MotionEquations) -> bool:
@@ -83,8 +84,8 @@ def _worst(motion: MotionEquations) -> str:
     system, record = motion.system, motion.system.record
     violation = np.abs(record.constraints.C)
     if len(violation) and np.any(np.isfinite(violation)):
-        row = int(np.nanargmax(violation))
-        units = system.row_units[row]
+        row = int(np.nanargmax(violation / record.constraints.scale))
+        units = "m" if system.row_units[row] == "m" else "(a cosine)"
         where = f"the largest violation before it is {violation[row]:.3g} {units} at {system.rows[row]}"
         joint = system.rows[row].split(".")[0]
         rates = [name for name in system.layout.coordinates["joint_coordinate"] if name.startswith(f"{joint}.")]

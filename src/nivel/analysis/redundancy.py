@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.equations import MotionEquations, moved
+from nivel.analysis.assemble import close_positions
+from nivel.analysis.equations import MotionEquations, change_between, moved
 from nivel.kernels.status import OK
 from nivel.system.system import Array
 
@@ -90,18 +91,25 @@ def _dependent_rows(J: Array) -> tuple[int, list[int]]:
 
 
 def _rank_nearby(motion: MotionEquations, t: float, y: Array, J: Array, rank: int) -> int:
-    """Rank a little aside along a free motion: larger than `rank` where only this position is singular."""
+    """Rank a little aside along a free motion, joints closed again: larger than `rank` where only this position is singular."""
     system = motion.system
     _, _, Vt = np.linalg.svd(J)
     free = Vt[rank:]
     if not len(free):
         return rank
-    direction = free.T @ np.random.default_rng(0).standard_normal(len(free))
-    direction *= ASIDE / np.linalg.norm(direction)
-    change = direction.reshape(-1, 6).copy()
+    share = np.random.default_rng(0).standard_normal(len(free))
+    share *= ASIDE / np.linalg.norm(share)
+    change = (free.T @ share).reshape(-1, 6)
     change[:, :3] *= system.size
     aside = y.copy()
     aside[: system.positions] = moved(y[: system.positions], change.ravel())
-    motion.evaluate(t, aside)
-    nearby = int(np.sum(np.linalg.svd(_scaled(motion), compute_uv=False) > ASIDE**2))
-    return max(rank, nearby) if nearby > rank else rank
+    opened = aside[: system.positions].copy()
+    # without closing, the open joints alone would make redundant rows look independent
+    closed = close_positions(motion, t, aside)
+    reached = change_between(y[: system.positions], aside[: system.positions])
+    reached[:, :3] /= system.size
+    if not closed or np.linalg.norm(free @ reached.ravel() - share) > 0.1 * ASIDE:
+        # a motion of the first order only, as of two links stretched out between two pins: closing leads back
+        aside[: system.positions] = opened
+        motion.evaluate(t, aside)
+    return max(rank, int(np.sum(np.linalg.svd(_scaled(motion), compute_uv=False) > ASIDE**2)))

@@ -54,8 +54,7 @@ def unfed_evaluation(evaluate, machine, history):
     if twice_alpha == 0.0 and beta_squared == 0.0:
         return OK
     feedback[0], feedback[1] = 0.0, 0.0
-    # `previous` is free here: it is written before the next step
-    status = evaluate(machine, run.clock[TIME], run.y, run.previous)
+    status = evaluate(machine, run.clock[TIME], run.y, run.scratch)
     feedback[0], feedback[1] = twice_alpha, beta_squared
     run.counter[EVALUATIONS] += 1
     return status
@@ -81,6 +80,8 @@ def advance(evaluate, correct, step, machine, history):
         if due and counter[FRAMES] == run.frames.shape[0]:
             return BUFFER_FULL
         if counter[EVALUATED] == 0:
+            for i in range(run.y.shape[0]):
+                run.previous[i] = run.y[i]
             status = evaluate(machine, clock[TIME], run.y, run.rate)
             counter[EVALUATIONS] += 1
             if status != OK:
@@ -103,8 +104,6 @@ def advance(evaluate, correct, step, machine, history):
         if budget == 0:
             return BUDGET_SPENT
         budget -= 1
-        for i in range(run.y.shape[0]):
-            run.previous[i] = run.y[i]
         clock[STEP] = time_of(run, n + 1) - clock[TIME] if n + 1 == counter[ALL_STEPS] else h
         status = step(evaluate, machine, history)
         clock[STEP] = h

@@ -26,7 +26,8 @@ class Run(NamedTuple):
     counter: I1
     y: F1  # (ny,) state
     rate: F1  # (ny,) ẏ at the accepted state
-    previous: F1  # (ny,) the accepted state before the last step: where a failed step started
+    previous: F1  # (ny,) the accepted state: where a failed step started
+    scratch: F1  # (ny,) rates that nobody needs
     stages: F2  # (·, ny) work and history of the integrator
     frames: F2  # (capacity, width) output
 

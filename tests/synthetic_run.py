@@ -18,7 +18,8 @@ SIZE = LENGTH  # the joint point and the centre of mass are 0.5 m apart
 
 
 def layout() -> FrameLayout:
-    return frame_layout(["arm"], ["hinge"], ["hinge.angle"], list(ROWS), [("push", "N")])
+    outputs = [("force.push.magnitude", "N", "magnitude"), ("force.push.power", "W", "power into the machine")]
+    return frame_layout(["arm"], ["hinge"], ["hinge.angle"], list(ROWS), outputs)
 
 
 def scene(shape=None):

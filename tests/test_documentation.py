@@ -10,16 +10,37 @@ from nivel.analysis.check import check
 from nivel.cli.failures import fault_line
 from nivel.errors import ModelError
 from nivel.files import parse_machine
-from nivel.files.overrides import TOP_WORDS
-from nivel.machine import Body, Joint, JointType, MachineRecord, Marker, PointForce, SimulationSettings, Torque
+from nivel.files.mass_file import KEY as MASS_PROPERTIES
+from nivel.files.outline import FILE_WORDS, TOP_WORDS
+from nivel.files.writer import write_machine
+from nivel.machine import (
+    AssemblySettings,
+    Belt,
+    Body,
+    Driver,
+    Gear,
+    Joint,
+    JointType,
+    LinearCoupling,
+    MachineRecord,
+    Marker,
+    Material,
+    Rack,
+    Sensor,
+    SimulationSettings,
+)
 from nivel.machine.arithmetic import CONSTANTS, FUNCTIONS, ExpressionError, Number
 from nivel.machine.dimension import KINDS
+from nivel.machine.forces import FORCES
 from nivel.machine.inertia import Inertia
 from nivel.machine.orientation import SEQUENCES, Orientation
+from nivel.machine.python_law import KEYS as LAW_KEYS
 from nivel.machine.quantity import read_quantity
 from nivel.machine.record import field_words
+from nivel.machine.sensor import COORDINATE_QUANTITIES, MARKER_QUANTITIES
 from nivel.machine.settings import Baumgarte
 from nivel.machine.shape import Box, Cylinder, Sphere, Tube
+from nivel.machine.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN_QUANTITIES
 from nivel.machine.unit import UNITS
 from nivel.system.joints import JOINTS
 
@@ -36,8 +57,10 @@ def blocks(text, language):
 
 def section(title):
     """The text under a heading of the page, with its subsections."""
-    level, rest = re.search(rf"^(#+) {re.escape(title)}\n(.*)", PAGE, re.MULTILINE | re.DOTALL).groups()
-    return re.split(rf"^#{{1,{len(level)}}} ", rest, maxsplit=1, flags=re.MULTILINE)[0]
+    bare = re.sub(r"^```.*?^```$", lambda block: re.sub("#", " ", block[0]), PAGE, flags=re.MULTILINE | re.DOTALL)
+    found = re.search(rf"^(#+) {re.escape(title)}\n", bare, re.MULTILINE)
+    following = re.compile(rf"^#{{1,{len(found[1])}}} ", re.MULTILINE).search(bare, found.end())
+    return PAGE[found.end() : following.start() if following else None]
 
 
 def rows(text):
@@ -60,6 +83,12 @@ def words(text):
     return {word for each in code(text) for word in re.findall(r"[\w-]+|°", each)}
 
 
+def force_table(force):
+    """Rows under the heading of a force's table."""
+    (text,) = re.findall(rf"^\| `type: {force.model_fields['type'].default}` .*\n((?:\|.*\n)+)", PAGE, re.MULTILINE)
+    return rows(text)
+
+
 MACHINES = [
     pytest.param(text, id=f"{name}-{number}")
     for name, page in (("machine-files", PAGE), ("readme", README))
@@ -68,12 +97,25 @@ MACHINES = [
 ]
 
 
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with the files of the page: those that begin with their name."""
+    folder = tmp_path_factory.mktemp("page")
+    for text in (*blocks(PAGE, "yaml"), *blocks(PAGE, "python")):
+        name = re.match(rf"(?:{START})?# (\S+\.(?:yaml|py))\n", text)
+        if name:
+            (folder / name[1]).write_text(text, encoding="utf-8")
+    return folder
+
+
 @pytest.mark.parametrize("text", MACHINES)
-def test_machine_works(text):
-    facts = check(parse_machine(text))
+def test_machine_works(text, folder):
+    machine = parse_machine(text, str(folder / "machine.yaml"), allow_code=True)
+    facts = check(machine)
     assert facts.degrees_of_freedom > 0
-    assert not facts.moved
     assert not facts.redundant_rows
+    assert not facts.moved or machine.drivers or any(joint.start for joint in machine.joints)
+    assert parse_machine(write_machine(machine), str(folder / "machine.yaml"), allow_code=True) == machine
 
 
 def test_every_snippet_of_the_reference_is_a_whole_machine():
@@ -89,16 +131,29 @@ def test_every_snippet_of_the_reference_is_a_whole_machine():
         ("Bodies", Body),
         ("Markers", Marker),
         ("Joints", Joint),
-        ("Forces", PointForce),
-        ("Forces", Torque),
+        ("Drivers", Driver),
+        ("Sensors", Sensor),
+        ("Assembly", AssemblySettings),
         ("Simulation", SimulationSettings),
     ],
     ids=lambda value: value if isinstance(value, str) else value.__name__,
 )
 def test_every_key_has_its_row(title, record):
-    """`name` is the key of the element, and the type of a force stands in the heading of its table."""
-    missing = set(field_words(record)) - first_column(title) - {"name"} - ({"type"} if title == "Forces" else set())
-    assert not missing
+    """`name` is the key of the element."""
+    assert not set(field_words(record)) - first_column(title) - {"name"}
+
+
+@pytest.mark.parametrize("force", FORCES, ids=lambda force: force.__name__)
+def test_every_key_of_a_force_has_its_row_with_its_default(force):
+    """The type stands in the heading of the table."""
+    cells = {word: row for row in force_table(force) for word in code(row[0])}
+    assert set(cells) == set(field_words(force)) - {"name", "type"}
+    for key, field in force.model_fields.items():
+        if isinstance(field.default, float):
+            assert float(cells[key][2]) == field.default
+        elif field.is_required() and key not in ("name", "type"):
+            assert cells[key][2].startswith("must be given")
+    assert set(force.outputs) <= words(section("Forces"))
 
 
 @pytest.mark.parametrize(
@@ -110,6 +165,7 @@ def test_every_key_has_its_row(title, record):
         ("Shapes", Cylinder),
         ("Shapes", Tube),
         ("Shapes", Sphere),
+        ("Contact", Material),
         ("Simulation", Baumgarte),
     ],
     ids=lambda value: value if isinstance(value, str) else value.__name__,
@@ -119,7 +175,9 @@ def test_every_key_of_a_part_is_mentioned(title, record):
 
 
 def test_every_section_is_described():
-    assert set(TOP_WORDS) == first_column("Shape of a file")
+    assert {*TOP_WORDS, *FILE_WORDS} == first_column("Shape of a file")
+    assert MASS_PROPERTIES in first_column("Bodies")
+    assert {*FILE_WORDS, MASS_PROPERTIES, "python"} == first_column("Several files")
     assert {"format", "parameters", *field_words(MachineRecord)} == set(TOP_WORDS)
 
 
@@ -127,17 +185,44 @@ def test_every_type_is_described():
     assert set(get_args(JointType)) == set(JOINTS) <= first_column("Joints")
     for record in (Box, Cylinder, Tube, Sphere):
         assert record.model_fields["type"].default in first_column("Shapes")
-    for record in (PointForce, Torque):
-        assert f"type: {record.model_fields['type'].default}" in first_column("Forces")
+    for coupling in (Gear, Belt, Rack, LinearCoupling):
+        (row,) = [
+            cells for cells in rows(section("Couplings")) if cells[0] == f"`{coupling.model_fields['type'].default}`"
+        ]
+        keys = set(field_words(coupling)) - {"name", "type"}
+        assert keys <= words(row[1])
+
+
+def test_everything_that_can_be_measured_is_described():
+    measured = rows(section("Sensors"))
+    for form, quantities in (("marker", MARKER_QUANTITIES), ("coordinate", COORDINATE_QUANTITIES)):
+        assert [f"`{form}`", ", ".join(f"`{word}`" for word in quantities)] in [row[:2] for row in measured]
+    symbols = words(section("Symbols"))
+    assert {
+        *POINT_QUANTITIES,
+        *TURN_QUANTITIES,
+        *(word for its in SENSOR_QUANTITIES.values() for word in its),
+    } <= symbols
+
+
+def test_keys_of_python_functions_are_described():
+    assert {"python", *LAW_KEYS} == first_column("Python functions")
 
 
 @pytest.mark.parametrize("kind", JOINTS)
 def test_joint_table_is_that_of_the_program(kind):
-    (row,) = [cells for cells in rows(section("Joints")) if cells[0] == f"`{kind}`"]
+    (row,) = [cells for cells in rows(section("Joints")) if cells[0] == f"`{kind}`" and len(cells) == 5]
     _, _, free, constraints, coordinates = row
     assert int(free) == JOINTS[kind].free
     assert tuple(code(constraints)) == JOINTS[kind].rows
     assert code(coordinates) == [coordinate.name for coordinate in JOINTS[kind].coordinates]
+
+
+def test_every_kind_of_row_is_described():
+    described = first_column("Joints")
+    kinds = {re.sub(r"[xyz]+$", "", row) for kind in JOINTS.values() for row in kind.rows if "." in row}
+    assert kinds <= {re.sub(r"[xyz]+$", "", word) for word in described}
+    assert {row for kind in JOINTS.values() for row in kind.rows if "." not in row} <= described
 
 
 def test_every_joint_coordinate_has_its_zero_and_direction():

@@ -2,12 +2,13 @@
 
 from typing import get_args
 
-from nivel.machine.force import PointForce, Torque
-from nivel.machine.joint import JointType
+from nivel.machine.forces import FORCES as RECORDS
+from nivel.machine.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings import SimulationSettings
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
+from nivel.system.forces import FORCES
 from nivel.system.joints import JOINTS
 
 
@@ -17,6 +18,8 @@ def words(field):
 
 def test_every_joint_that_a_file_may_name_is_built_and_the_other_way_round():
     assert set(get_args(JointType)) == set(JOINTS)
+    for name, joint in JOINTS.items():
+        assert tuple(coordinate.name for coordinate in joint.coordinates) == JOINT_COORDINATES[name]
 
 
 def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():
@@ -26,4 +29,4 @@ def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():
 
 
 def test_forces_have_the_types_that_the_builder_knows():
-    assert {PointForce.model_fields["type"].default, Torque.model_fields["type"].default} == {"force", "torque"}
+    assert {record.model_fields["type"].default for record in RECORDS} == set(FORCES)

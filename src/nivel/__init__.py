@@ -23,16 +23,33 @@ if TYPE_CHECKING:
     from nivel.errors import ModelError as ModelError
     from nivel.errors import NivelError as NivelError
     from nivel.errors import SolveError as SolveError
+    from nivel.machine import AssemblySettings as AssemblySettings
     from nivel.machine import Baumgarte as Baumgarte
+    from nivel.machine import Belt as Belt
     from nivel.machine import Body as Body
+    from nivel.machine import Bushing as Bushing
+    from nivel.machine import Contact as Contact
+    from nivel.machine import Driver as Driver
     from nivel.machine import Expression as Expression
+    from nivel.machine import Friction as Friction
+    from nivel.machine import Gear as Gear
     from nivel.machine import Joint as Joint
+    from nivel.machine import JointSpringDamper as JointSpringDamper
+    from nivel.machine import LinearCoupling as LinearCoupling
     from nivel.machine import MachineRecord as MachineRecord
     from nivel.machine import Marker as Marker
+    from nivel.machine import Motor as Motor
+    from nivel.machine import PairForce as PairForce
     from nivel.machine import PointForce as PointForce
+    from nivel.machine import PythonLaw as PythonLaw
+    from nivel.machine import Rack as Rack
+    from nivel.machine import Sensor as Sensor
     from nivel.machine import SimulationSettings as SimulationSettings
+    from nivel.machine import SpringDamper as SpringDamper
+    from nivel.machine import Stop as Stop
     from nivel.machine import Table as Table
     from nivel.machine import Torque as Torque
+    from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
     from nivel.results.result import Result as Result
 
 _HOME = {
@@ -42,35 +59,69 @@ _HOME = {
     "ModelError": "nivel.errors",
     "NivelError": "nivel.errors",
     "SolveError": "nivel.errors",
+    "AssemblySettings": "nivel.machine",
     "Baumgarte": "nivel.machine",
+    "Belt": "nivel.machine",
     "Body": "nivel.machine",
+    "Bushing": "nivel.machine",
+    "Contact": "nivel.machine",
+    "Driver": "nivel.machine",
     "Expression": "nivel.machine",
+    "Friction": "nivel.machine",
+    "Gear": "nivel.machine",
     "Joint": "nivel.machine",
+    "JointSpringDamper": "nivel.machine",
+    "LinearCoupling": "nivel.machine",
     "MachineRecord": "nivel.machine",
     "Marker": "nivel.machine",
+    "Motor": "nivel.machine",
+    "PairForce": "nivel.machine",
     "PointForce": "nivel.machine",
+    "PythonLaw": "nivel.machine",
+    "Rack": "nivel.machine",
+    "Sensor": "nivel.machine",
     "SimulationSettings": "nivel.machine",
+    "SpringDamper": "nivel.machine",
+    "Stop": "nivel.machine",
     "Table": "nivel.machine",
     "Torque": "nivel.machine",
+    "TorsionalSpringDamper": "nivel.machine",
     "Result": "nivel.results.result",
 }
 
 __all__ = [
+    "AssemblySettings",
     "Baumgarte",
+    "Belt",
     "Body",
+    "Bushing",
+    "Contact",
+    "Driver",
     "Expression",
+    "Friction",
+    "Gear",
     "Joint",
+    "JointSpringDamper",
+    "LinearCoupling",
     "Machine",
     "MachineRecord",
     "Marker",
     "ModelError",
+    "Motor",
     "NivelError",
+    "PairForce",
     "PointForce",
+    "PythonLaw",
+    "Rack",
     "Result",
+    "Sensor",
     "SimulationSettings",
     "SolveError",
+    "SpringDamper",
+    "Stop",
     "Table",
     "Torque",
+    "TorsionalSpringDamper",
     "load",
     "open_result",
 ]

@@ -15,7 +15,18 @@ from nivel.analysis.listener import Listener
 from nivel.errors import ModelError
 from nivel.files.reader import locate, parse_machine, read_text
 from nivel.files.writer import write_machine
-from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
+from nivel.machine import (
+    AssemblySettings,
+    Body,
+    Coupling,
+    Driver,
+    Force,
+    Joint,
+    MachineRecord,
+    Marker,
+    Sensor,
+    SimulationSettings,
+)
 
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
@@ -41,8 +52,12 @@ class Machine:
         bodies: Sequence[Body] = (),
         markers: Sequence[Marker] = (),
         joints: Sequence[Joint] = (),
-        forces: Sequence[PointForce | Torque] = (),
+        couplings: Sequence[Coupling] = (),
+        drivers: Sequence[Driver] = (),
+        forces: Sequence[Force] = (),
+        sensors: Sequence[Sensor] = (),
         gravity: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        assembly: AssemblySettings | None = None,
         simulation: SimulationSettings | None = None,
         description: str = "",
     ) -> None:
@@ -53,7 +68,11 @@ class Machine:
             bodies=tuple(bodies),
             markers=tuple(markers),
             joints=tuple(joints),
+            couplings=tuple(couplings),
+            drivers=tuple(drivers),
             forces=tuple(forces),
+            sensors=tuple(sensors),
+            assembly=assembly or AssemblySettings(),
             simulation=simulation or SimulationSettings(),
         )
         self.source = ""
@@ -75,7 +94,7 @@ class Machine:
 
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
-        compile_path(self.record.simulation.formulation, "", "", listener or Listener())
+        compile_path(self.record, self.record.simulation.formulation, "", "", listener or Listener())
         from nivel.analysis.check import check
 
         with self._faults_in_file():
@@ -114,7 +133,7 @@ class Machine:
         chosen = self.with_settings({key: value for key, value in given.items() if value is not None})
         settings = chosen.record.simulation
         compile_seconds = compile_path(
-            settings.formulation, settings.integrator, settings.stabilisation, listener or Listener()
+            chosen.record, settings.formulation, settings.integrator, settings.stabilisation, listener or Listener()
         )
         # after the kernels: what follows imports them
         from nivel.analysis.simulate import simulate
@@ -190,13 +209,15 @@ class Machine:
         return f"<Machine {record.name}: {', '.join(parts)}>"
 
 
-def load(path: str | PathLike[str], overrides: Mapping[str, str] | None = None) -> Machine:
+def load(path: str | PathLike[str], overrides: Mapping[str, str] | None = None, *, allow_code: bool = False) -> Machine:
     """Read a machine file. `overrides` replace values by path, e.g. ``{"bodies.crank.mass": "22 kg"}``.
 
+    allow_code : laws of the machine may be Python functions, which run with all your rights.
     Raises ModelError with every fault of the file, each with its line.
     """
-    text = read_text(fspath(path))
-    return Machine.from_record(parse_machine(text, fspath(path), overrides=dict(overrides or {})), text, fspath(path))
+    text, file = read_text(fspath(path)), fspath(path)
+    record = parse_machine(text, file, overrides=dict(overrides or {}), allow_code=allow_code)
+    return Machine.from_record(record, text, file)
 
 
 def _place(source: str, path: str) -> dict[str, int]:

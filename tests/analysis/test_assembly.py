@@ -9,8 +9,8 @@ import machines
 from nivel.analysis.assemble import assemble
 from nivel.analysis.equations import equations
 from nivel.errors import ModelError
-from nivel.machine import Body, Joint, MachineRecord, Marker
-from nivel.system.joints import JOINTS
+from nivel.machine import AssemblySettings, Body, Joint, MachineRecord, Marker
+from nivel.system.joints import JOINTS, Combination
 
 
 def test_data_rounded_to_a_millimetre_are_closed():
@@ -41,6 +41,7 @@ def test_given_values_move_least():
             Body(name=n, mass=m, inertia=(1, 1, 1), position=(x, 0, 0)) for n, m, x in (("a", 1, 0), ("b", 50, 0.02))
         ),
         joints=(Joint(name="pin", type="spherical", markers=(Marker(body="a"), Marker(body="b"))),),
+        assembly=AssemblySettings(largest_gap=0.03),
     )
     motion = equations(machine, "newton-euler")
     q = assemble(machine, motion).y[:14].reshape(2, 7)
@@ -56,7 +57,7 @@ def test_disturbed_positions_and_velocities_become_consistent(kind, formulation,
     frames = MachineRecord(
         name="near",
         bodies=(machine.bodies[0], near),
-        joints=(Joint(name="j", type=kind, markers=tuple(_as_marker(machine, k) for k in range(2))),),
+        joints=(machine.joints[0].replace(**_by_markers(machine)),),
     )
     motion = equations(frames, formulation)
     assembly = assemble(frames, motion)
@@ -64,7 +65,15 @@ def test_disturbed_positions_and_velocities_become_consistent(kind, formulation,
     constraints = motion.system.record.constraints
     assert np.abs(constraints.C).max() < 2e-12
     assert np.abs(constraints.Cdot).max() < 1e-11
-    assert assembly.gap > 1e-4
+    # what keeps the value that it has as placed is not open
+    if not all(isinstance(basic, Combination) for basic in JOINTS[kind].constraints):
+        assert assembly.gap > 1e-4
+
+
+def _by_markers(machine):
+    """The fields of its joint with markers in place of points and axes."""
+    places = dict.fromkeys(("bodies", "point", "points", "axis", "axes", "x_axis"))
+    return places | {"markers": tuple(_as_marker(machine, k) for k in range(2))}
 
 
 def _as_marker(machine, side):
@@ -98,6 +107,7 @@ def test_loop_that_cannot_be_closed_is_named_with_its_gap():
                 markers=(Marker(body="b", position=(0.5, 0, 0)), Marker(body="ground", position=(3, 0, 0))),
             ),
         ),
+        assembly=AssemblySettings(largest_gap=2.0),
     )
     motion = equations(machine, "newton-euler")
     with pytest.raises(ModelError) as caught:
@@ -160,7 +170,7 @@ def test_parallel_arms_of_a_universal_joint_say_which_marker_to_turn():
         bodies=(Body(name="a", mass=1, inertia=(1, 1, 1)),),
         joints=(Joint(name="u", type="universal", markers=(Marker(body="ground"), Marker(body="a"))),),
     )
-    with pytest.raises(ModelError, match=r"u\.d1\.zz are 90 deg away from a right angle; turn one"):
+    with pytest.raises(ModelError, match=r"u\.d1\.zz is open by 90 deg.*turn one of its markers"):
         assemble(machine, equations(machine, "newton-euler"))
 
 

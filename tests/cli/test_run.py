@@ -166,7 +166,7 @@ def test_faults_of_the_assembly_have_their_line(folder):
     assert done.returncode == 2
     assert "open.yaml:7:" in done.stderr
     assert "joints.far" in done.stderr
-    assert "cannot be closed" in done.stderr
+    assert "far.s.x is open by 4.5 m" in done.stderr
 
 
 def test_failed_computation_ends_with_code_three_and_a_readable_result(folder):

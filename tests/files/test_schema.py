@@ -1,26 +1,52 @@
 """The JSON schema that editors use."""
 
+import pytest
+
 from nivel.files import schema
-from nivel.machine import Body, Joint, MachineRecord, SimulationSettings
+from nivel.files.outline import FILE_WORDS
+from nivel.machine import Body, Joint, MachineRecord, Sensor, SimulationSettings
+from nivel.machine.coupling import Belt, Gear, LinearCoupling, Rack
+from nivel.machine.forces import FORCES
+from nivel.machine.references import SECTIONS
 
 SCHEMA = schema()
+OF_FILES = {"Body": {"mass_properties"}}  # keys that only files have
+
+
+def definition(record):
+    return SCHEMA["$defs"][record.__name__]
 
 
 def test_sections_are_mappings_by_name():
-    assert set(SCHEMA["properties"]) == {"format", "parameters", *MachineRecord.model_fields}
-    assert SCHEMA["required"] == ["format", "bodies"]
-    for section, record in {"bodies": Body, "joints": Joint}.items():
-        items = SCHEMA["properties"][section]["additionalProperties"]
-        definition = SCHEMA["$defs"][items["$ref"].rsplit("/", 1)[1]]
-        assert set(definition["properties"]) == set(record.model_fields) - {"name"}
-        assert definition["additionalProperties"] is False
+    assert set(SCHEMA["properties"]) == {"format", "parameters", *FILE_WORDS, *MachineRecord.model_fields}
+    assert SCHEMA["required"] == ["format"]
+    for section in SECTIONS:
+        assert SCHEMA["properties"][section]["type"] == ["object", "null"]
+
+
+@pytest.mark.parametrize("record", [Body, Joint, Sensor, *FORCES], ids=lambda record: record.__name__)
+def test_elements_have_the_keys_of_their_records_but_no_name(record):
+    its = definition(record)
+    assert set(its["properties"]) == set(record.model_fields) - {"name"} | OF_FILES.get(record.__name__, set())
+    assert "name" not in its["required"]
+    assert its["additionalProperties"] is False
+
+
+@pytest.mark.parametrize(
+    ("section", "records"), [("forces", FORCES), ("couplings", (Gear, Belt, Rack, LinearCoupling))]
+)
+def test_elements_of_several_types_are_told_apart_by_the_type(section, records):
+    choices = SCHEMA["properties"][section]["additionalProperties"]["oneOf"]
+    assert {choice["$ref"].rsplit("/", 1)[1] for choice in choices} == {record.__name__ for record in records}
+    for record in records:
+        assert "type" in definition(record)["required"]
 
 
 def test_quantities_are_numbers_or_texts_and_say_their_unit():
-    step = SCHEMA["$defs"]["SimulationSettings"]["properties"]["step"]
+    step = definition(SimulationSettings)["properties"]["step"]
     assert {"type": "string"} in step["anyOf"]
     assert "time in s" in step["description"]
-    assert set(SCHEMA["$defs"]["SimulationSettings"]["properties"]) == set(SimulationSettings.model_fields)
+    assert set(definition(SimulationSettings)["properties"]) == set(SimulationSettings.model_fields)
 
 
 def test_keys_are_those_of_the_file():

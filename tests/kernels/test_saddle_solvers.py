@@ -32,6 +32,7 @@ def saddle_of(C, blocks, groups, redundant=0):
     empty = np.zeros((0, 0))
     saddle = Saddle(
         block=np.array([(r, 0, 0, b) for r, b in blocks], dtype=np.uint32),
+        blocks=np.array([len(blocks)], dtype=np.uint32),
         pair=elimination.pair,
         order=elimination.order,
         S_start=elimination.S_start,

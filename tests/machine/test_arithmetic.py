@@ -7,7 +7,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nivel.machine.arithmetic import FUNCTIONS, ExpressionError, bind, evaluate, fold, render
+from nivel.machine.arithmetic import (
+    FUNCTIONS,
+    ExpressionError,
+    Number,
+    Signal,
+    bind,
+    evaluate,
+    fold,
+    names,
+    render,
+    signals,
+    varies,
+)
 from nivel.machine.grammar import parse
 
 PYTHON = {
@@ -139,7 +151,13 @@ def test_reads_as_people_mean_it(text, expected):
         ("(-8)^(1/3)", "not a real number"),
         ("1 $ 2", "`$` is not understood"),
         ("__import__('os')", "`'` is not understood"),
-        ("a.b", "`.` is not understood"),
+        ("a.b", "`a.b` is only known while the machine moves"),
+        ("a.b.c", "`a.b.c` has more than one dot"),
+        ("a .b", "`.` is not understood"),
+        ("2 a.b", "`*` is missing before `a.b`"),
+        ("a.b(2)", "there is no function `a.b`"),
+        ("2 + left-hinge.angle", "rename it to `left_hinge`"),
+        ("left*hinge.angle", "`left` is neither a parameter nor a unit"),
         ("if 2", "`2` was not expected"),
         ("lenght", "neither a parameter nor a unit"),
         ("5 kgs", "did you mean `kg`"),
@@ -158,3 +176,41 @@ def test_refuses_with_the_reason(text, part):
 
 def test_the_longest_expression_that_is_read_is_also_computed():
     assert value("+".join(["1"] * 200)) == 200.0
+
+
+def test_dotted_names_are_signals():
+    tree = parse("-20*hinge.angle_rate + spring.length^2*hinge.angle_rate - k*time")
+    assert signals(tree) == ("hinge.angle_rate", "spring.length")
+    assert names(tree) == {"k"}
+    bound = bind(tree, {"k": Number(3.0), "hinge": Number(7.0)})
+    assert evaluate(bound, 2.0, {"hinge.angle_rate": 0.5, "spring.length": 2.0}) == -10 + 2 - 6
+    assert render(bound) == "-20.0*hinge.angle_rate + spring.length**2.0*hinge.angle_rate - 3.0*time"
+    assert parse(render(bound)) == bound
+
+
+@pytest.mark.parametrize(("text", "expected"), [("2*pi", False), ("k", False), ("sin(time)", True), ("1 - a.x", True)])
+def test_varies_with_time_and_signals(text, expected):
+    assert varies(parse(text)) is expected
+
+
+def test_local_symbols_are_signals_only_where_they_are_allowed():
+    assert bind(parse("length"), {}, ("length", "rate")) == Signal("length")
+    assert bind(parse("length"), {"length": Number(2.0)}) == Number(2.0)
+    with pytest.raises(ExpressionError, match="`length` is a parameter and has a meaning of its own here"):
+        bind(parse("2*length"), {"length": Number(2.0)}, ("length", "rate"))
+    with pytest.raises(ExpressionError, match="did you mean `length`"):
+        bind(parse("lenght"), {}, ("length", "rate"))
+
+
+def test_what_varies_is_not_folded():
+    assert render(fold(bind(parse("2*3*tip.x + 4^2"), {}))) == "6.0*tip.x + 16.0"
+
+
+dotted = st.sampled_from(["hinge.angle", "tip.vx", "a_1.x"])
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.recursive(st.one_of(numbers, dotted), _larger, max_leaves=12))
+def test_rendered_signals_are_read_back(text):
+    tree = bind(parse(text), {})
+    assert bind(parse(render(tree)), {}) == tree

@@ -307,7 +307,10 @@ PIN = {"name": "pin", "type": "spherical", **POINT}
         ),
         ({"forces": (PointForce(name="f", marker="tip", vector=(0, 0, 0)),)}, "there is no marker `tip`"),
         ({"forces": (Torque(name="f", body="tip", vector=(0, 0, 0)),)}, "forces.f.body: there is no body `tip`"),
-        ({"forces": ({"name": "f", "type": "spring"},)}, "the type `spring` is not known; there are force, torque"),
+        (
+            {"forces": ({"name": "f", "type": "spring"},)},
+            "the type `spring` is not known; did you mean `spring-damper`?",
+        ),
         ({"forces": ({"name": "f"},)}, "`type` is missing"),
         (
             {

@@ -4,6 +4,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
+from nivel.machine.joint import JOINT_KINDS
 from nivel.system.joints import JOINTS
 
 GRAVITY = (0.0, -9.81, 0.0)
@@ -26,18 +27,35 @@ def random_body(name, rng, *, centre=True):
     )
 
 
+PARALLEL_LINK = "revolute-cylindrical, parallel"
+KINDS = (*JOINTS, PARALLEL_LINK)
+
+
+def composition(kind):
+    """What a joint of `kind` is made of."""
+    return JOINTS["revolute-cylindrical"].when_parallel if kind == PARALLEL_LINK else JOINTS[kind]
+
+
 def joint_at(name, kind, first, second, rng, point=None):
-    """A joint of `kind` between two bodies at a random point and direction."""
+    """A joint of `kind` between two bodies at random points and directions."""
+    joint_type = "revolute-cylindrical" if kind == PARALLEL_LINK else kind
+    facts = JOINT_KINDS[joint_type]
     point = tuple(rng.uniform(-1, 1, 3)) if point is None else point
     z = rng.standard_normal(3)
     x = np.cross(z, rng.standard_normal(3))
-    options = {}
-    if kind == "universal":
-        options["axes"] = (tuple(z), tuple(x))
-    elif kind in ("revolute", "cylindrical", "translational"):
+    options = {"point": point}
+    if "points" in facts.place:
+        options = {"points": (point, tuple(point + rng.uniform(0.3, 1, 3)))}
+    if "axes" in facts.place:
+        skew = z if kind == PARALLEL_LINK else rng.standard_normal(3)
+        options["axes"] = (tuple(z), tuple(skew if joint_type == "revolute-cylindrical" else x))
+    if "axis" in facts.place:
         options["axis"] = tuple(z)
+    if "x_axis" in facts.may:
         options["x_axis"] = tuple(x)
-    return Joint(name=name, type=kind, bodies=(first, second), point=point, **options)
+    if "pitch" in facts.size:
+        options["pitch"] = 0.7
+    return Joint(name=name, type=joint_type, bodies=(first, second), **options)
 
 
 def pair(kind, rng, *, ground=False):
@@ -54,11 +72,12 @@ def pair(kind, rng, *, ground=False):
 
 
 def tree(rng):
-    """A chain of all joint kinds from the ground, its bodies off their centres of mass."""
-    names = [f"b{k}" for k in range(len(JOINTS))]
+    """A chain of many joint kinds from the ground, its bodies off their centres of mass."""
+    kinds = ("spherical", "universal", "revolute", "cylindrical", "translational", "fixed", "planar", "screw")
+    names = [f"b{k}" for k in range(len(kinds))]
     bodies = tuple(random_body(name, rng) for name in names)
     joints = tuple(
-        joint_at(f"j{k}", kind, "ground" if k == 0 else names[k - 1], names[k], rng) for k, kind in enumerate(JOINTS)
+        joint_at(f"j{k}", kind, "ground" if k == 0 else names[k - 1], names[k], rng) for k, kind in enumerate(kinds)
     )
     return MachineRecord(name="tree", bodies=bodies, joints=joints, gravity=GRAVITY)
 

@@ -34,7 +34,7 @@ def solved(machine, formulation, spin=None):
     state = system.state(state[: 7 * count], v[:, :3], v[:, 3:])
     assert motion.holds(0.3, state)
     vdot = np.hstack([record.bodies.Rddot[:count], record.bodies.alpha_b[:count]])
-    return vdot, record.constraints.lam[: system.joint_rows].copy(), motion
+    return vdot, record.constraints.lam[: system.machine_rows].copy(), motion
 
 
 @EACH
@@ -52,7 +52,7 @@ def test_accelerations_solve_the_saddle_point_system_about_the_frame_origin(name
     vdot, lam, motion = solved(MACHINES[name](), "newton-euler")
     record = motion.system.record
     bodies = record.bodies
-    count, rows = motion.system.body_count, motion.system.joint_rows
+    count, rows = motion.system.body_count, motion.system.machine_rows
     M, Q = np.zeros((6 * count, 6 * count)), np.zeros(6 * count)
     for b in range(count):
         A, m, c_b, w_b = bodies.A[b], bodies.mass[b], bodies.centre_b[b], bodies.omega_b[b]

@@ -9,7 +9,7 @@ import numpy as np
 
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.settings import RunSettings, complete
-from nivel.machine.force import PointForce, Torque
+from nivel.machine.forces import Between, BetweenMarkers, Contact, End, ForceElement, PointForce
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import JOINTS
 from nivel.system.system import Array, System
@@ -54,7 +54,7 @@ class Check:
     gravity: tuple[float, ...]
     bodies: tuple[BodyFacts, ...]
     joints: tuple[JointFacts, ...]
-    forces: tuple[tuple[str, str, str], ...]  # name, type, body
+    forces: tuple[tuple[str, str, str], ...]  # name, type, what it acts on
     degrees_of_freedom: int
     constraint_rows: int
     redundant_rows: tuple[str, ...]
@@ -98,8 +98,8 @@ def _lines(facts: Check) -> Iterator[str]:
         yield f"  {kind}: {convention}"
     if facts.forces:
         yield "forces"
-    for name, kind, body in facts.forces:
-        yield f"  {name}: {kind} on {body}"
+    for name, kind, what in facts.forces:
+        yield f"  {name}: {kind} on {what}"
     yield from _assembly_lines(facts)
     yield from _redundancy_lines(facts)
 
@@ -139,7 +139,7 @@ def check(machine: MachineRecord) -> Check:
 
     prepared.motion.evaluate(0.0, assembly.y)
     frame = np.zeros(system.layout.width)
-    observe(prepared.motion.handle.address, assembly.y, frame)
+    observe(prepared.motion.handle.address, 0.0, assembly.y, frame)
     columns = next(v.columns for v in system.layout.variables if v.name == "joint_coordinate")
     labels = system.layout.coordinates["joint_coordinate"]
     values = dict(zip(labels, zip(frame[columns].tolist(), system.coordinate_units, strict=True), strict=True))
@@ -157,9 +157,9 @@ def check(machine: MachineRecord) -> Check:
             for k, name in enumerate(system.bodies)
         ),
         joints=tuple(_joint(system, k, joint.name, joint.type, values) for k, joint in enumerate(machine.joints)),
-        forces=tuple((load.name, load.type, _loaded_body(machine, load)) for load in machine.forces),
+        forces=tuple((force.name, force.type, acts_on(machine, force)) for force in machine.forces),
         degrees_of_freedom=redundancy.degrees_of_freedom,
-        constraint_rows=system.joint_rows,
+        constraint_rows=system.machine_rows,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
         gap=assembly.gap,
@@ -178,10 +178,23 @@ def _turn(theta: Array) -> tuple[tuple[float, ...], float]:
     return tuple(axis.tolist()), 2.0 * float(np.arctan2(sine, theta[0]))
 
 
-def _loaded_body(machine: MachineRecord, load: PointForce | Torque) -> str:
-    if load.body is not None:
-        return load.body
-    return next(marker.body for marker in machine.markers if marker.name == load.marker)
+def acts_on(machine: MachineRecord, force: ForceElement) -> str:
+    """What a force acts on, in words: bodies, or a joint coordinate."""
+    bodies = {marker.name: marker.body for marker in machine.markers}
+
+    def body(end: End) -> str:
+        return bodies[end] if isinstance(end, str) else end.body
+
+    match force:
+        case Between() | BetweenMarkers():
+            return " and ".join(body(end) for end in force.ends)
+        case PointForce(marker=str() as marker):
+            return bodies[marker]
+        case Contact(bodies=None, body=name, plane=plane) if plane is not None:
+            return f"{name} and {body(plane)}"
+        case Contact(bodies=tuple() as pair):
+            return " and ".join(pair)
+    return str(getattr(force, "coordinate", None) or getattr(force, "body", ""))
 
 
 def _joint(system: System, k: int, name: str, kind: str, values: dict[str, tuple[float, str]]) -> JointFacts:

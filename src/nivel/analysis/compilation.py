@@ -4,23 +4,28 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
+from time import perf_counter
 
 from nivel.analysis.listener import Listener
 from nivel.kernels import cache
+from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
+from nivel.system.forces import FORCES
+
+LOADS = ("force", "torque")
 
 
-def compile_path(formulation: str, integrator: str, stabilisation: str, listener: Listener) -> float:
-    """Import the kernel modules of a run; tell the listener about each that is not in the cache.
+def compile_path(
+    machine: MachineRecord, formulation: str, integrator: str, stabilisation: str, listener: Listener
+) -> float:
+    """Import the kernel modules of a run of `machine`; tell the listener about each that is not in the cache.
 
     A check has no integrator and no stabilisation: empty names. Unknown names are left alone. Returns the wall time [s].
     """
-    from time import perf_counter
-
     begin = perf_counter()
-    parts = [("nivel.kernels.observe", "output")]
+    parts = [("nivel.kernels.observe", "output"), *_rare_parts(machine)]
     if formulation in FORMULATIONS:
         parts.insert(0, (FORMULATIONS[formulation].module, f"the equations of motion, {formulation}"))
         if stabilisation in STABILISATIONS and STABILISATIONS[stabilisation].CORRECTS:
@@ -35,3 +40,16 @@ def compile_path(formulation: str, integrator: str, stabilisation: str, listener
             listener.say(f"compiling {what} ({place}; only the first run does this)")
         import_module(module)
     return perf_counter() - begin
+
+
+def _rare_parts(machine: MachineRecord) -> list[tuple[str, str]]:
+    """Modules of what only some machines have: kinds of forces, measured coordinates, friction, sensors."""
+    families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
+    parts = [(f"nivel.kernels.forces.{family}", f"forces: {family}") for family in families]
+    if machine.drivers or machine.couplings or machine.sensors or any(f.type not in LOADS for f in machine.forces):
+        parts.append(("nivel.kernels.measure", "measured coordinates"))
+    if any(force.type == "friction" for force in machine.forces):
+        parts.append(("nivel.kernels.friction", "friction"))
+    if machine.sensors:
+        parts.append(("nivel.kernels.sensor", "sensors"))
+    return parts

@@ -20,6 +20,8 @@ from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
+from nivel.machine.coordinate_reference import resolve
+from nivel.machine.forces import Friction
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.run import (
@@ -43,15 +45,18 @@ from nivel.motion.catalogue import FORMULATIONS
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
 CHUNK = 0.05
 BUFFER_BYTES = 1_000_000
+# Stiction stops a joint within this many steps.
+STICK_STEPS = 2.0
 
 
 @dataclass(frozen=True)
 class Prepared:
-    """A machine ready to run: its equations, its assembled state, its redundancy."""
+    """A machine ready to run: its equations, its assembled state, its redundancy, the number of its drivers."""
 
     motion: MotionEquations
     assembly: Assembly
     redundancy: Redundancy
+    drivers: int
 
 
 @dataclass
@@ -64,7 +69,10 @@ class Finished:
 
 
 def prepare(machine: MachineRecord, formulation: str) -> Prepared:
-    """Build and assemble `machine`. Raises ModelError where it cannot be closed or starts in a singular position."""
+    """Build and assemble `machine`.
+
+    Raises ModelError where it cannot be closed, starts in a singular position, or has friction of no certain load.
+    """
     motion = equations(machine, formulation)
     assembly = assemble(machine, motion)
     redundancy = analyse(motion, 0.0, assembly.y)
@@ -72,8 +80,26 @@ def prepare(machine: MachineRecord, formulation: str) -> Prepared:
         rows = ", ".join(redundancy.singular_rows)
         message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby; start it a little aside"
         raise ModelError(Fault("", 0, 0, "machine", message))
+    _refuse_uncertain_loads(machine, redundancy)
     rank = len(motion.system.rows) - len(redundancy.redundant_rows)
-    return Prepared(MotionEquations(motion.system.known_rank(rank), motion.kernels), assembly, redundancy)
+    motion = MotionEquations(motion.system.known_rank(rank), motion.kernels)
+    return Prepared(motion, assembly, redundancy, len(machine.drivers))
+
+
+def _refuse_uncertain_loads(machine: MachineRecord, redundancy: Redundancy) -> None:
+    """Friction whose normal load is a reaction that the equations do not determine: the motion would be one of many."""
+    faults = []
+    for force in machine.forces:
+        if isinstance(force, Friction) and force.normal_load is None:
+            joint, _ = resolve(force.coordinate, machine.joints)
+            if joint in redundancy.non_unique_joints:
+                message = (
+                    f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(redundancy.redundant_rows)} "
+                    f"repeat other constraints; give a `normal_load`, or replace joints until nothing is redundant"
+                )
+                faults.append(Fault("", 0, 0, f"forces.{force.name}.coordinate", message))
+    if faults:
+        raise ModelError(faults)
 
 
 def march(
@@ -136,7 +162,7 @@ def march(
 
 
 def _start(prepared: Prepared, settings: RunSettings, stages: int) -> Run:
-    """History of a run at its start: energies referred to the assembled state, joint angles counted from it."""
+    """History of a run at its start: energies referred to the assembled state, joint angles followed from it, nothing remembered."""
     system = prepared.motion.system
     y = prepared.assembly.y.copy()
     width = system.layout.width
@@ -145,11 +171,16 @@ def _start(prepared: Prepared, settings: RunSettings, stages: int) -> Run:
     clock[STEP], clock[END] = settings.step, settings.duration
     count = np.zeros(COUNTS, dtype=np.int64)
     count[ALL_STEPS], count[EVERY], count[LAST_FRAME] = settings.steps, settings.every, -1
-    system.record.joints.turn[:] = 0.0
+    record = system.record
+    record.coordinates.reference[:] = prepared.assembly.reference
+    record.elements.memory[:] = 0.0
+    record.elements.proposal[:] = 0.0
+    record.friction.force[:] = 0.0
+    record.control.stick[0] = STICK_STEPS * settings.step
     system.record.control.energy[:] = 0.0
     prepared.motion.evaluate(0.0, y)
     observe: Any = import_module("nivel.kernels.observe").observe
-    observe(prepared.motion.handle.address, y, np.zeros(width))
+    observe(prepared.motion.handle.address, 0.0, y, np.zeros(width))
     energy = system.record.control.energy
     energy[2] = energy[0] + energy[1]
     return Run(

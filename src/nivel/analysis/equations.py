@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
@@ -11,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.handle import Handle
+from nivel.kernels.record import NONE
 from nivel.kernels.status import OK
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS
@@ -40,23 +42,43 @@ class MotionEquations:
         return self.evaluate(t, y)[0] == OK
 
     def jacobian(self) -> NDArray[np.float64]:
-        """C_q of the joint rows (R, 6 B) for the state last evaluated, with respect to (Ṙ, ω̄) of each body [-, m]."""
+        """C_q (R, 6 B) of joints, couplings and drivers in the state last evaluated, for (Ṙ, ω̄) of each body [-, m]."""
         record, system = self.system.record, self.system
-        block = record.saddle.block[record.saddle.block[:, 1] < 2].astype(int)
-        row, side, marker, body = block.T
-        rows = record.constraints.J.reshape(-1, 2, 6)[row, side]
-        f, n = rows[:, :3], rows[:, 3:]
+        block = record.saddle.block[: int(record.saddle.blocks[0])]
+        row, part, marker, body = block[block[:, 1] != NONE].astype(int).T
+        out = np.zeros((system.machine_rows, system.body_count, 6))
+        np.add.at(out, (row, body), self._on_bodies(record.constraints.J[part], marker, body))
+        return out.reshape(system.machine_rows, 6 * system.body_count)
+
+    def coordinate_jacobian(self, coordinates: Sequence[int]) -> Array:
+        """Derivatives (n, 6 B) of coordinates that are measured in every evaluation, as `jacobian`."""
+        record, count = self.system.record, self.system.body_count
+        out = np.zeros((len(coordinates), count + 1, 6))
+        for n, q in enumerate(coordinates):
+            marker = record.coordinates.what[q, 1:3].astype(int)
+            body = record.markers.body[marker].astype(int)
+            np.add.at(out[n], body, self._on_bodies(record.coordinates.J[2 * q : 2 * q + 2], marker, body))
+        return out[:, :count].reshape(len(coordinates), 6 * count)
+
+    def _on_bodies(self, parts: Array, marker: Any, body: Any) -> Array:
+        """Parts (n, 6) of rows with respect to (ṙ, ω) of markers as parts with respect to (Ṙ, ω̄) of their bodies."""
+        f, n, record = parts[:, :3], parts[:, 3:], self.system.record
         n_b = np.einsum("kji,kj->ki", record.bodies.A[body], n + np.cross(record.markers.u[marker], f))
-        out = np.zeros((system.joint_rows, system.body_count, 6))
-        np.add.at(out, (row, body), np.hstack([f, n_b]))
-        return out.reshape(system.joint_rows, 6 * system.body_count)
+        return np.hstack([f, n_b])
 
 
 def equations(machine: MachineRecord, formulation: str) -> MotionEquations:
     """Numbers and compiled equations of `machine` in absolute coordinates; compiles on first use."""
     facts = FORMULATIONS[formulation]
     system = build(machine, Equations(facts.velocities, facts.normalisation))
-    return MotionEquations(system, import_module(facts.module))
+    motion = MotionEquations(system, import_module(facts.module))
+    if system.as_placed.any():
+        # a combination is constant at the value that it has as the machine is placed
+        motion.evaluate(0.0, system.start)
+        constraints = system.record.constraints
+        rows = constraints.combination[system.as_placed, 0]
+        constraints.offset[system.as_placed] = constraints.C[rows]
+    return motion
 
 
 def moved(q: Array, change: Array) -> Array:

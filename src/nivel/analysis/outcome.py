@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.analysis.equations import MotionEquations
-from nivel.kernels.status import NOT_FINITE, SINGULAR
+from nivel.kernels.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, NOT_FINITE, SINGULAR
 from nivel.system.system import Array
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
@@ -33,6 +33,25 @@ def failure(motion: MotionEquations, status: int, time: float, step: float, y: A
             f"A body whose inertia is many orders too small for its mass looks the same."
         )
         return message, advice
+    if status == FRICTION_DIVERGES:
+        name = motion.system.frictions[int(record.control.failure[0])]
+        message = (
+            f"stopped at t = {time:.6g} s: no friction {name} is consistent with the reactions that it causes: the joint jams, or its "
+            f"normal load would grow without bounds"
+        )
+        advice = (
+            f"Look at {name}: a smaller coefficient, a longer bearing_length or a smaller radius; or give its normal_load. "
+            f"With Coulomb friction and rigid bodies some positions have no solution (Painlevé)."
+        )
+        return message, advice
+    if status == BRISTLE_TOO_FAST:
+        name = motion.system.frictions[int(record.control.failure[0])]
+        message = (
+            f"stopped at t = {time:.6g} s: at this speed the bristles of {name} relax faster than a step of {step:.3g} s can follow; "
+            f"the friction would be wrong from here on"
+        )
+        advice = f"Try a smaller step, for instance --step {step / 4:.3g}; or a smaller bristle_stiffness of {name}."
+        return message, advice
     assert status == NOT_FINITE
     broken = _broken_load(motion, time, step, y)
     if broken:
@@ -40,7 +59,7 @@ def failure(motion: MotionEquations, status: int, time: float, step: float, y: A
         message = f"stopped at t = {time:.6g} s: the force {name} is not a number at t = {at:.6g} s"
         return (
             message,
-            f"Look at the expression of {name}: a division by zero, or a root or logarithm of a negative number?",
+            f"Look at the law of {name}: a division by zero, or a root or logarithm of a negative number?",
         )
     motion.evaluate(time, y)
     where = _worst(motion)
@@ -50,12 +69,14 @@ def failure(motion: MotionEquations, status: int, time: float, step: float, y: A
 
 
 def _broken_load(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, float] | None:
-    """The first load that is not a finite number at a time that the step from `time` looks at, and that time."""
-    names = [v.name.split(".")[1] for v in motion.system.layout.variables if v.name.endswith(".magnitude")]
+    """The first force that is not a finite number at a time that the step from `time` looks at, and that time."""
+    outputs = motion.system.record.outputs.value
+    names = [v.name for v in motion.system.layout.variables][-len(outputs) :] if len(outputs) else []
+    magnitudes = [(k, name.split(".")[1]) for k, name in enumerate(names) if name.endswith(".magnitude")]
     for at in (time, time + 0.5 * step, time + step):
         motion.evaluate(at, y)
-        for name, magnitude in zip(names, motion.system.record.loads.magnitude, strict=True):
-            if not np.isfinite(magnitude):
+        for k, name in magnitudes:
+            if not np.isfinite(outputs[k]):
                 return name, at
     return None
 
@@ -85,7 +106,7 @@ def _worst(motion: MotionEquations) -> str:
     violation = np.abs(record.constraints.C)
     if len(violation) and np.any(np.isfinite(violation)):
         row = int(np.nanargmax(violation / record.constraints.scale))
-        units = "m" if system.row_units[row] == "m" else "(a cosine)"
+        units = {"m": "m", "rad": "rad"}.get(system.row_units[row], "(a cosine)")
         where = f"the largest violation before it is {violation[row]:.3g} {units} at {system.rows[row]}"
         joint = system.rows[row].split(".")[0]
         rates = [name for name in system.layout.coordinates["joint_coordinate"] if name.startswith(f"{joint}.")]

@@ -37,8 +37,8 @@ class Redundancy:
 def analyse(motion: MotionEquations, t: float, y: Array) -> Redundancy:
     """Rank of the constraints at state y, which must be assembled."""
     system = motion.system
-    rows = system.joint_rows
-    freedoms = 6 * system.body_count
+    rows = system.machine_rows
+    freedoms = system.freedoms
     if motion.evaluate(t, y)[0] == OK and _certainly_independent(motion):
         return Redundancy(freedoms - rows, rows, (), (), ())
     J = _scaled(motion)
@@ -49,12 +49,12 @@ def analyse(motion: MotionEquations, t: float, y: Array) -> Redundancy:
     names = tuple(system.rows[row] for row in dependent)
     U, _, _ = np.linalg.svd(J)
     loose = np.abs(U[:, rank:]).max(axis=1) > 1e-6
-    joints = sorted({int(system.row_joint[row]) for row in np.flatnonzero(loose)})
+    joints = dict.fromkeys(system.row_owner[row] for row in np.flatnonzero(loose))
     return Redundancy(
         freedoms - rank,
         rank,
         names,
-        tuple(system.joints[j] for j in joints),
+        tuple(joints),
         names[: nearby - rank] if nearby > rank else (),
     )
 
@@ -69,7 +69,7 @@ def _certainly_independent(motion: MotionEquations) -> bool:
 
 def _scaled(motion: MotionEquations) -> Array:
     """C_q with lengths in units of the machine's length and rows of unit length."""
-    J = motion.jacobian().reshape(motion.system.joint_rows, -1, 6).copy()
+    J = motion.jacobian().reshape(motion.system.machine_rows, -1, 6).copy()
     J[:, :, :3] *= motion.system.size
     J = J.reshape(len(J), -1)
     return J / np.linalg.norm(J, axis=1, keepdims=True)

@@ -7,14 +7,15 @@ import json
 
 import click
 
-from nivel.cli.options import file_argument, override_option
+from nivel.cli.options import allow_code_option, file_argument, override_option
 
 
 @click.command(short_help="Check and assemble a machine; say what it is.")
 @file_argument("machine")
 @override_option
+@allow_code_option
 @click.option("--json", "as_json", is_flag=True, help="Print the facts as JSON on standard output.")
-def command(machine: str, overrides: dict[str, str], as_json: bool) -> None:
+def command(machine: str, overrides: dict[str, str], allow_code: bool, as_json: bool) -> None:
     """Check MACHINE: read it, assemble it, count its freedoms.
 
     Shows every joint with its first and second body, its zero and its positive direction. Exit code 2 with every fault that was found.
@@ -22,7 +23,9 @@ def command(machine: str, overrides: dict[str, str], as_json: bool) -> None:
     from nivel.analysis.listener import Listener
     from nivel.api import load
 
-    facts = load(machine, overrides).check(listener=Listener(lambda text, _total: click.echo(text, err=True)))
+    facts = load(machine, overrides, allow_code=allow_code).check(
+        listener=Listener(lambda text, _total: click.echo(text, err=True))
+    )
     if as_json:
         click.echo(json.dumps(dataclasses.asdict(facts), indent=2))
     else:

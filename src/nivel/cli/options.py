@@ -33,4 +33,8 @@ override_option = click.option(
     help="Set any value of the machine file, e.g. bodies.crank.mass='22 kg'. May be repeated.",
 )
 
+allow_code_option = click.option(
+    "--allow-code", is_flag=True, help="Laws of the machine may be Python functions; they run with all your rights."
+)
+
 quiet_option = click.option("--quiet", is_flag=True, help="Say nothing on standard error but errors.")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.failures import say_faults
-from nivel.cli.options import file_argument, override_option, quiet_option
+from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
 
 if TYPE_CHECKING:
     from nivel.analysis.listener import Listener
@@ -30,6 +30,7 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 @click.option("--coordinates", metavar="NAME", help="auto or absolute.")
 @click.option("--stabilisation", metavar="NAME", help="none, baumgarte or direct.")
 @override_option
+@allow_code_option
 @click.option("--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here.")
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 @click.option("--verify", is_flag=True, help="Run again with half the step and estimate the accuracy.")
@@ -46,6 +47,7 @@ def command(
     coordinates: str | None,
     stabilisation: str | None,
     overrides: dict[str, str],
+    allow_code: bool,
     out: str | None,
     force: bool,
     verify: bool,
@@ -61,7 +63,7 @@ def command(
     from nivel.api import load
     from nivel.errors import ModelError, SolveError
 
-    loaded = load(machine, overrides)
+    loaded = load(machine, overrides, allow_code=allow_code)
     target = Path(out) if out is not None else Path(f"{loaded.name}.nc")
     report = None if no_report else _beside(target)
     _refuse_to_replace(report, target, force, Path(machine))

@@ -4,36 +4,74 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from copy import deepcopy
-from typing import Any, Final
+from typing import Any
 
 from nivel.errors import Fault, ModelError
+from nivel.files.outline import FILE_WORDS, TOP_WORDS
 from nivel.files.tree import Path, Tree, read_value
-from nivel.machine import MachineRecord
-from nivel.machine.record import field_words, unknown_word
+from nivel.machine.record import unknown_word
 from nivel.machine.references import SECTIONS
 
-TOP_WORDS: Final = ("format", "parameters", *field_words(MachineRecord))
+
+def in_order(overrides: Mapping[str, object]) -> tuple[dict[str, object], dict[str, object], dict[str, object]]:
+    """Those about the file and what it includes; those that name files of mass properties; and the others. Each group
+    can be set once the files are read that the group before names.
+    """
+    groups: tuple[dict[str, object], ...] = ({}, {}, {})
+    for path, value in overrides.items():
+        steps = [step.strip() for step in path.split(".")]
+        groups[0 if steps[0] in ("format", "include") else 1 if steps[-1] == "mass_properties" else 2][path] = value
+    return groups[0], groups[1], groups[2]
 
 
 def override(tree: Tree, overrides: Mapping[str, object]) -> None:
     """Put `overrides` into `tree`: path with dots → value, texts as they would stand in the file.
 
-    Faults go to `tree.faults`.
+    What is about an element of an assembly's part is left in `tree.for_parts`. Faults go to `tree.faults`.
     """
     for path, value in overrides.items():
         try:
-            _set(tree, path, read_value(value) if isinstance(value, str) else deepcopy(value))
+            steps = [step.strip() for step in path.split(".")]
+            assembly = _assembly(tree, steps)
+            if assembly is None:
+                _set(tree, path, steps, read_value(value) if isinstance(value, str) else deepcopy(value))
+            else:
+                name, inner = assembly
+                tree.for_parts.setdefault(name, {})[inner] = value
         except ModelError as error:
             messages = "; ".join(fault.message for fault in error.faults)
             tree.faults.append(Fault(tree.file, 0, 0, path, f"{messages} (set from outside the file)"))
 
 
-def _set(tree: Tree, dotted: str, value: Any) -> None:
-    steps = [step.strip() for step in dotted.split(".")]
+def _assembly(tree: Tree, steps: list[str]) -> tuple[str, str] | None:
+    """The assembly that makes the element which `steps` lead to, and the path in its part; None if this file has the
+    element itself.
+    """
+    if len(steps) < 3 or steps[0] not in SECTIONS or not isinstance(tree.data, dict):
+        return None
+    own, assemblies = tree.data.get(steps[0]), tree.data.get("assemblies")
+    if not isinstance(assemblies, dict) or (isinstance(own, dict) and steps[1] in own):
+        return None
+    prefixes = {name: prefix_of(name, given) for name, given in assemblies.items()}
+    fitting = [name for name, prefix in prefixes.items() if steps[1].startswith(prefix) and steps[1] != prefix]
+    if not fitting:
+        return None
+    name = max(fitting, key=lambda each: len(prefixes[each]))
+    return name, ".".join([steps[0], steps[1].removeprefix(prefixes[name]), *steps[2:]])
+
+
+def prefix_of(name: str, given: Any) -> str:
+    """What stands before the names of the elements that the assembly `name` makes."""
+    prefix = given.get("prefix") if isinstance(given, dict) else None
+    return prefix if isinstance(prefix, str) else f"{name}_"
+
+
+def _set(tree: Tree, dotted: str, steps: list[str], value: Any) -> None:
     if not all(steps):
         raise ModelError(f"`{dotted}` is not a path such as `bodies.crank.mass` or `simulation.step`")
-    if steps[0] not in TOP_WORDS:
-        raise ModelError(unknown_word(steps[0], TOP_WORDS, "section"))
+    words = (*TOP_WORDS, *FILE_WORDS)
+    if steps[0] not in words:
+        raise ModelError(unknown_word(steps[0], words, "section"))
     if not isinstance(tree.data, dict):
         return  # reported when the file is read
     container, path = tree.data, ()
@@ -71,7 +109,7 @@ def _key(container: Any, path: Path, step: str) -> str | int:
         return int(step)
     if not isinstance(container, dict):
         raise ModelError(f"`{place}` is a single value and has no `{step}`")
-    if step not in container and len(path) == 1 and path[0] in (*SECTIONS, "parameters"):
+    if step not in container and len(path) == 1 and path[0] in (*SECTIONS, "parameters", "assemblies"):
         raise ModelError(f"in `{place}`, {unknown_word(step, list(container), 'name')}")
     container.setdefault(step, None)
     return step

@@ -5,8 +5,11 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import Any
 
-from nivel.files.reader import FORMAT
-from nivel.machine import MachineRecord
+from nivel.files.assembly import Assembly
+from nivel.files.include import Include
+from nivel.files.mass_file import KEY as MASS_PROPERTIES
+from nivel.files.outline import FORMAT
+from nivel.machine import MachineRecord, Record
 from nivel.machine.references import SECTIONS
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -14,9 +17,13 @@ _QUANTITY = {"anyOf": [{"type": "number"}, {"type": "string"}]}
 
 
 def schema() -> dict[str, Any]:
-    """JSON schema (2020-12) of the YAML form: the record's, with mappings by name, `format` and `parameters`."""
+    """JSON schema (2020-12) of the YAML form: the record's, with mappings by name, `format`, `parameters` and other
+    files.
+    """
     machine = deepcopy(MachineRecord.model_json_schema(by_alias=True, mode="validation"))
     definitions, properties = machine["$defs"], machine["properties"]
+    included, assembly = _definition(Include, definitions), _definition(Assembly, definitions)
+    definitions["Body"]["properties"][MASS_PROPERTIES] = {"type": "string", "description": "file with mass and inertia"}
     named = set()
     for section in SECTIONS:
         items = properties[section].pop("items")
@@ -26,7 +33,9 @@ def schema() -> dict[str, Any]:
         _without_name(definitions[name])
     for definition in definitions.values():
         _with_type(definition)
-    properties["simulation"] = {"anyOf": [properties["simulation"], {"type": "null"}]}
+    for word in ("assembly", "simulation"):
+        properties[word] = {"anyOf": [properties[word], {"type": "null"}]}
+    one = [{"type": "string"}, included]
     machine["properties"] = {
         "format": {"const": FORMAT, "description": "version of the file format"},
         "parameters": {
@@ -34,10 +43,27 @@ def schema() -> dict[str, Any]:
             "additionalProperties": _QUANTITY,
             "description": "named numbers for use in every quantity; they may use each other",
         },
+        "include": {
+            "anyOf": [*one, {"type": "array", "items": {"anyOf": one}}],
+            "description": "files whose sections stand in this one",
+        },
+        "assemblies": {
+            "type": ["object", "null"],
+            "additionalProperties": assembly,
+            "description": "parts that stand in files of their own",
+        },
         **properties,
     }
-    machine["required"] = ["format", "bodies"]
+    machine["required"] = ["format"]
     return {"$schema": _DRAFT, **machine, "title": "nivel machine"}
+
+
+def _definition(record: type[Record], definitions: dict[str, Any]) -> dict[str, str]:
+    """Put the schema of `record` into `definitions` and refer to it."""
+    its = record.model_json_schema(by_alias=True, mode="validation")
+    definitions |= its.pop("$defs", {})
+    definitions[record.__name__] = its
+    return {"$ref": f"#/$defs/{record.__name__}"}
 
 
 def _references(items: dict[str, Any]) -> list[str]:

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
 from nivel.errors import Fault, ModelError
-from nivel.files.nodes import DEEPEST, Mapping, Node, NotYamlError, Place, Scalar, Sequence, compose
+from nivel.files import nodes
+from nivel.files.nodes import DEEPEST, Node, NotYamlError, Place, Scalar, Sequence, compose
 
 Path = tuple[str | int, ...]
 
@@ -31,7 +32,10 @@ _PREFIX = "tag:yaml.org,2002:"
 class Tree:
     """The content of a file: `data` of dicts, lists and scalars; `places` of values and of `keys` by path; `faults`.
 
-    A path under one of `outside` was set from outside the file and has no place in it.
+    What stands under one of `files` came from that file. A path under one of `outside` was set from outside the file
+    and has no place in it. What is wrong under one of `broken` follows from a fault that has been reported. Names that
+    start with one of `unread` would come from files that could not be read. `for_parts`: values to be set in the part of
+    an assembly, by its name.
     """
 
     file: str
@@ -39,18 +43,62 @@ class Tree:
     places: dict[Path, Place] = field(default_factory=dict)
     keys: dict[Path, Place] = field(default_factory=dict)
     faults: list[Fault] = field(default_factory=list)
+    files: dict[Path, str] = field(default_factory=dict)
     outside: set[Path] = field(default_factory=set)
+    broken: set[Path] = field(default_factory=set)
+    unread: set[str] = field(default_factory=set)
+    for_parts: dict[str, dict[str, object]] = field(default_factory=dict)
 
     def fault(self, path: Path, message: str, *, at_key: bool = False) -> Fault:
         """`message` with the place of `path`, or of the nearest element around it that stands in the file."""
         words = ".".join(map(str, path))
-        if any(path[:end] in self.outside for end in range(len(path) + 1)):
+        if self.is_outside(path):
             return Fault(self.file, 0, 0, words, f"{message} (set from outside the file)")
         for end in range(len(path), -1, -1):
             place = (self.keys if at_key else self.places).get(path[:end]) or self.places.get(path[:end])
             if place is not None:
-                return Fault(self.file, *place, words, message)
+                return Fault(self.file_of(path[:end]), *place, words, message)
         return Fault(self.file, 1, 1, words, message)
+
+    def report(self, path: Path, message: str, *, at_key: bool = False) -> None:
+        """Collect the fault, and let nothing that follows from it be reported."""
+        self.faults.append(self.fault(path, message, at_key=at_key))
+        self.broken.add(path)
+
+    def is_outside(self, path: Path) -> bool:
+        """Whether what stands at `path` was set from outside the file."""
+        return any(path[:end] in self.outside for end in range(len(path) + 1))
+
+    def is_broken(self, path: Path) -> bool:
+        """Whether a fault at `path` follows from another that has been reported."""
+        return any(path[:end] in self.broken for end in range(len(path) + 1))
+
+    def file_of(self, path: Path) -> str:
+        """The file in which `path` stands."""
+        for end in range(len(path), 0, -1):
+            if path[:end] in self.files:
+                return self.files[path[:end]]
+        return self.file
+
+    def place_of(self, path: Path) -> str:
+        """Where `path` stands, for people: ``parts.yaml:4:3``."""
+        fault = self.fault(path, "")
+        return f"{fault.file}:{fault.line}:{fault.column}" if fault.line else "what is set from outside the file"
+
+    def graft(self, other: Tree, moves: Mapping[Path, Path]) -> None:
+        """Take over the places of parts of `other`. `moves`: paths there, all of one length, and what they are here."""
+        length = len(next(iter(moves), ()))
+        for mine, theirs in ((self.places, other.places), (self.keys, other.keys)):
+            for path, place in theirs.items():
+                if path[:length] in moves:
+                    mine[(*moves[path[:length]], *path[length:])] = place
+        for origin, target in moves.items():
+            self.files[target] = other.file_of(origin)
+        for path, file in other.files.items():
+            if path[:length] in moves:
+                self.files[(*moves[path[:length]], *path[length:])] = file
+        for mine, theirs in ((self.outside, other.outside), (self.broken, other.broken)):
+            mine |= {(*moves[path[:length]], *path[length:]) for path in theirs if path[:length] in moves}
 
 
 def read_tree(text: str, file: str) -> Tree:
@@ -106,11 +154,11 @@ class _Reader:
             self.report(path, "this alias leads back to itself")
             return None
         self.open.add(id(node))
-        data = self.mapping(node, path) if isinstance(node, Mapping) else self.sequence(node, path)
+        data = self.mapping(node, path) if isinstance(node, nodes.Mapping) else self.sequence(node, path)
         self.open.discard(id(node))
         return data
 
-    def mapping(self, node: Mapping, path: Path) -> dict[str, Any]:
+    def mapping(self, node: nodes.Mapping, path: Path) -> dict[str, Any]:
         data: dict[str, Any] = {}
         for key_node, value_node in node.pairs:
             place = key_node.place

@@ -7,9 +7,9 @@ from typing import Any
 
 import yaml
 
-from nivel.files.reader import FORMAT
+from nivel.files.outline import FORMAT
 from nivel.files.tree import INTEGER, NOT_FINITE, NULL, NUMBER, TRUTH
-from nivel.machine import Body, Expression, Inertia, MachineRecord, Record, SimulationSettings, Table
+from nivel.machine import Body, Expression, Inertia, MachineRecord, PythonLaw, Record, SimulationSettings, Table
 from nivel.machine.references import SECTIONS
 
 
@@ -30,18 +30,21 @@ def write_machine(record: MachineRecord) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Records as mappings without defaults, tuples as lists."""
+    """Records as mappings without defaults, tuples as lists; what holds Python text takes several lines."""
     match value:
         case Inertia(xy=0.0, xz=0.0, yz=0.0):
             return [value.xx, value.yy, value.zz]
         case Record():
             return _fields(value)
         case Table():
-            return _Line(times=list(value.times), values=list(value.values))
+            return _Line(value.written())
+        case PythonLaw():
+            return {key: entry for key, entry in value.written().items() if entry != ""}
         case Expression(text):
             return text
         case tuple():
-            return [_plain(entry) for entry in value]
+            entries = [_plain(entry) for entry in value]
+            return _Column(entries) if any(map(_is_tall, entries)) else entries
     return value
 
 
@@ -52,12 +55,21 @@ def _fields(record: Record) -> dict[str, Any]:
         if name == "type" or value != field.get_default(call_default_factory=True):
             plain[field.alias or name] = _plain(value)
     kind = {"type": plain.pop("type")} if "type" in plain else {}
-    in_lines = isinstance(record, MachineRecord | Body | SimulationSettings)
+    in_lines = isinstance(record, MachineRecord | Body | SimulationSettings) or any(map(_is_tall, plain.values()))
     return {**kind, **plain} if in_lines else _Line({**kind, **plain})
 
 
 class _Line(dict[str, Any]):
     """A mapping to be written in one line, between braces."""
+
+
+class _Column(list[Any]):
+    """A list to be written with one entry below the other."""
+
+
+def _is_tall(plain: Any) -> bool:
+    """Whether a plain value takes several lines."""
+    return type(plain) is dict or isinstance(plain, _Column)
 
 
 class _Dumper(yaml.SafeDumper):
@@ -73,6 +85,14 @@ def _represent_line(dumper: _Dumper, value: _Line) -> yaml.MappingNode:
     return dumper.represent_mapping("tag:yaml.org,2002:map", value.items(), flow_style=True)
 
 
+def _represent_column(dumper: _Dumper, value: _Column) -> yaml.SequenceNode:
+    return super(_Dumper, dumper).represent_sequence("tag:yaml.org,2002:seq", value, flow_style=False)
+
+
+def _represent_text(dumper: _Dumper, value: str) -> yaml.ScalarNode:
+    return dumper.represent_scalar("tag:yaml.org,2002:str", value, style="|" if "\n" in value else None)
+
+
 def _represent_float(dumper: _Dumper, value: float) -> yaml.ScalarNode:
     text = repr(value)
     text = text if text == "-0.0" else text.removesuffix(".0")  # -0 would be read as 0
@@ -81,6 +101,8 @@ def _represent_float(dumper: _Dumper, value: float) -> yaml.ScalarNode:
 
 _Dumper.add_representer(float, _represent_float)
 _Dumper.add_representer(_Line, _represent_line)
+_Dumper.add_representer(_Column, _represent_column)
+_Dumper.add_representer(str, _represent_text)
 _RULES = (("null", NULL), ("bool", TRUTH), ("int", INTEGER), ("float", NUMBER), ("float", NOT_FINITE))
 for _tag, _pattern in _RULES:
     _Dumper.add_implicit_resolver(f"tag:yaml.org,2002:{_tag}", re.compile(rf"(?:{_pattern.pattern})\Z"), None)

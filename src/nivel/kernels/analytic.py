@@ -14,3 +14,16 @@ from nivel.kernels.compile import leaf
 def real(x):
     """Real part: what a branch may look at."""
     return np.real(x)
+
+
+@leaf
+def arctan2(y, x):
+    """Angle of the point (x, y): np.arctan2, which does not know complex numbers, and of these its analytic continuation."""
+    if np.abs(real(x)) >= np.abs(real(y)):
+        angle = np.arctan(y / x)
+        if real(x) < 0.0:
+            angle += np.pi if real(y) >= 0.0 else -np.pi
+    else:
+        angle = -np.arctan(x / y)
+        angle += 0.5 * np.pi if real(y) > 0.0 else -0.5 * np.pi
+    return angle

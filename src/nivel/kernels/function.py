@@ -1,50 +1,108 @@
-"""Functions of time: a constant, a table, or compiled code reached through its address."""
+"""Functions of time and of other signals: a constant, a table, or compiled code reached through its address."""
 
 from __future__ import annotations
 
+import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.compile import leaf, stage
 
-CONSTANT, TABLE, COMPILED = 0, 1, 2
+# kinds of functions; a held table keeps its end values outside, an extended one its end pieces
+CONSTANT, TABLE_HELD, TABLE_EXTENDED, COMPILED = 0, 1, 2, 3
+# kinds of signals: index and component say of what
+NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY = 0, 1, 2, 3, 4, 5, 6
 
 
 @intrinsic
-def call_address(typingctx, address, t):
-    """Call a C function double(double) at `address` (uint64); about 3 ns, and the caller never recompiles."""
-    signature = types.float64(types.uint64, types.float64)
+def call_law(typingctx, address, arguments, first):
+    """Call a C function double(double *) at `address` (uint64) with the array's entries from `first` on; about 3 ns."""
+    signature = types.float64(types.uint64, arguments, types.int64)
 
     def generate(context, builder, sig, args):
         double = context.get_value_type(types.float64)
-        kind = ir.FunctionType(double, [double])
+        kind = ir.FunctionType(double, [double.as_pointer()])
+        data = context.make_array(sig.args[1])(context, builder, args[1]).data
         pointer = builder.inttoptr(args[0], kind.as_pointer())
-        return builder.call(pointer, [args[1]])
+        return builder.call(pointer, [builder.gep(data, [args[2]])])
 
     return signature, generate
 
 
 @leaf
-def evaluate_function(functions, k, t):
-    """Value of function k at time t [s]. Tables are linear between their points and constant outside them."""
-    kind = functions.kind[k]
-    if kind == CONSTANT:
-        return functions.value[k]
-    if kind == COMPILED:
-        return call_address(functions.address[k], t)  # type: ignore[call-arg]
-    low, high = functions.table[k, 0], functions.table[k, 1]
-    times, values = functions.times, functions.values
-    if t <= times[low]:
-        return values[low]
-    if t >= times[high - 1]:
-        return values[high - 1]
-    high -= 1
+def knot_before(functions, k, x):
+    """The last knot of table k at or before x; its first knot where there is none."""
+    low, high = np.int64(functions.table[k, 0]), np.int64(functions.table[k, 1])
+    knots = functions.knots
     while high - low > 1:
         middle = (low + high) // 2
-        if times[middle] <= t:
+        if knots[middle] <= x:
             low = middle
         else:
             high = middle
-    share = (t - times[low]) / (times[low + 1] - times[low])
-    return values[low] + share * (values[low + 1] - values[low])
+    return low
+
+
+@leaf
+def table_value(functions, k, x):
+    """(f, f', f'') of table k at x."""
+    knot = knot_before(functions, k, x)
+    c = functions.coefficients[knot]
+    s = x - functions.knots[knot]
+    if s < 0.0 and functions.kind[k] == TABLE_HELD:
+        return c[0], 0.0, 0.0
+    value = c[0] + s * (c[1] + s * (c[2] + s * c[3]))
+    return value, c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]), 2.0 * c[2] + 6.0 * s * c[3]
+
+
+@stage
+def read_arguments(record, k, t):
+    """Put the signals that function k depends on into its places of `arguments`."""
+    functions = record.functions
+    for a in range(functions.span[k, 0], functions.span[k, 1]):
+        kind, index, component = functions.argument[a, 0], functions.argument[a, 1], functions.argument[a, 2]
+        place = functions.argument[a, 3]
+        if kind == TIME:
+            functions.arguments[place] = t
+        elif kind == COORDINATE:
+            functions.arguments[place] = record.coordinates.value[index]
+        elif kind == RATE:
+            functions.arguments[place] = record.coordinates.rate[index]
+        elif kind == POSITION:
+            functions.arguments[place] = record.markers.r[index, component]
+        elif kind == VELOCITY:
+            functions.arguments[place] = record.markers.rdot[index, component]
+        elif kind == ANGULAR_VELOCITY:
+            functions.arguments[place] = record.bodies.omega[record.markers.body[index], component]
+
+
+@stage
+def evaluate_function(record, k, t):
+    """Value of function k at time t [s] in the state whose signals are in the record."""
+    functions = record.functions
+    kind = functions.kind[k]
+    if kind == CONSTANT:
+        return functions.value[k]
+    read_arguments(record, k, t)
+    first = np.int64(functions.span[k, 2])
+    if kind == COMPILED:
+        return call_law(functions.address[k], functions.arguments, first)  # type: ignore[call-arg]
+    value, _, _ = table_value(functions, k, functions.arguments[first])
+    return value
+
+
+@stage
+def evaluate_motion(record, k, t):
+    """(f, f', f'') of function k, a motion: one of time alone. Compiled ones leave f', f'' behind their arguments."""
+    functions = record.functions
+    kind = functions.kind[k]
+    if kind == CONSTANT:
+        return functions.value[k], 0.0, 0.0
+    read_arguments(record, k, t)
+    first = np.int64(functions.span[k, 2])
+    if kind == COMPILED:
+        value = call_law(functions.address[k], functions.arguments, first)  # type: ignore[call-arg]
+        behind = first + np.int64(functions.span[k, 1]) - np.int64(functions.span[k, 0])
+        return value, functions.arguments[behind], functions.arguments[behind + 1]
+    return table_value(functions, k, functions.arguments[first])

@@ -1,8 +1,9 @@
 """The numbers of one machine: what every kernel reads and where it leaves its result.
 
-Capital counts in the comments: B bodies, M markers, R joint rows, K constraint rows of the formulation (R, plus one
-normalisation row a body for *lagrange*), N blocks of C_q. Body B (the last, index nb) is the ground. Vectors are in global axes
-unless the name ends in `_b` (axes of the body). Symbols: NOTATION.md.
+Capital counts in the comments: B bodies, M markers, Q coordinates, K constraint rows of the formulation (those of joints,
+couplings and drivers, plus one normalisation row a body for *lagrange*), P parts and N blocks of C_q, E forces, X frictions.
+Body B (the last, index nb) is the ground. Vectors are in global axes unless the name ends in `_b` (axes of the body).
+Symbols: NOTATION.md.
 """
 
 from __future__ import annotations
@@ -52,18 +53,39 @@ class Markers(NamedTuple):
     bias: F2  # (M, 3) [m/s²] acceleration of the point when the body's Rddot and alpha are zero
 
 
-class Constraints(NamedTuple):
-    """Basic constraints, one table a kind, and their rows."""
+class Coordinates(NamedTuple):
+    """Scalars measured between two markers: joint coordinates, lengths of springs, what drivers prescribe."""
 
-    s: U2  # (·, 3) first marker, second marker, first row
-    d1: U2  # (·, 5) first marker, its axis, second marker, its axis, row
-    d2: U2  # (·, 4) first marker, its axis, second marker, row
-    scale: F1  # (K,) what a violation is measured by: the length of the machine [m], or 1 for cosines
+    what: U2  # (Q, 4) kind, first marker, second marker, axis; see `nivel.kernels.coordinate`
+    active: U1  # those that constraints, forces or laws need
+    reference: F1  # (Q,) [rad] angle at the last accepted state: angles are followed from there
+    # work, of the active ones
+    value: F1  # (Q,) [m or rad]
+    rate: F1  # (Q,)
+    bias: F1  # (Q,) second derivative when the accelerations of the bodies are zero
+    J: F2  # (2 Q + 2, 6) rate = J[2k] (ṙ, ω of the first marker) + J[2k + 1] (those of the second); the last two are work
+
+
+class Constraints(NamedTuple):
+    """Basic constraints, one table a kind, and their rows.
+
+    Every row has parts: what multiplies the six velocities (ṙ, ω) of one marker.
+    """
+
+    s: U2  # (·, 4) first marker, second marker, first row, first part
+    d1: U2  # (·, 6) first marker, its axis, second marker, its axis, row, part
+    d2: U2  # (·, 5) first marker, its axis, second marker, row, part
+    combination: U2  # (·, 6) row, first term, one past the last, function or NONE, first part, one past the last
+    term: U2  # (·, 3) coordinate, part of its first marker, part of its second
+    factor: F1  # (·,) of each term
+    offset: F1  # (combinations,) Σ factor coordinate - offset - f(t) = 0
+    motion: F1  # (combinations,) f'(t), work
+    scale: F1  # (K,) what a violation is measured by: the length of the machine [m], or 1 for cosines and angles
     # work
     C: F1  # (K,)
     Cdot: F1  # (K,)
-    gamma: F1  # (K,) right-hand side of C_q v̇ = γ
-    J: F2  # (R, 12) row of C_q with respect to (ṙ, ω) of the first marker and of the second
+    gamma: F1  # (K + X,) right-hand side of C_q v̇ = γ; the last X are those of the extra rows of friction
+    J: F2  # (P, 6) parts of the rows of C_q
     lam: F1  # (K,) multipliers: M v̇ + C_qᵀ λ = Q
 
 
@@ -72,29 +94,78 @@ class Joints(NamedTuple):
 
     first_marker: U1  # (joints,)
     rows: U2  # (joints, 2) first row, one past the last
-    coordinate: U2  # (coordinates, 3) kind, first marker, second marker
-    turn: F2  # (coordinates, 3) cosine and sine at the last accepted step, full turns since the start
+    part: U1  # (joint rows,) part of the joint's first marker
+    coordinate: U1  # indices of Coordinates
 
 
 class Functions(NamedTuple):
-    """Functions of time: constants, tables, compiled expressions."""
+    """Constants, piecewise polynomials, compiled expressions and laws; of time or of other signals."""
 
     kind: U1  # (·,)
     value: F1  # (·,) the constant
-    table: U2  # (·, 2) first entry of times/values, one past the last
-    times: F1
-    values: F1
+    table: U2  # (·, 2) first knot, one past the last
+    knots: F1
+    coefficients: F2  # (knots, 4) of powers of the distance from the knot; those of the last knot hold beyond it
+    argument: U2  # (·, 4) signal kind, index, component, place in `arguments`
+    span: U2  # (functions, 3) first argument, one past the last, first place
+    arguments: F1  # values of the arguments, then two places for the derivatives of a motion
     address: A1  # (·,) of a compiled function
 
 
-class Loads(NamedTuple):
-    """Point forces and torques of the user."""
+class Elements(NamedTuple):
+    """Forces, sorted by family. A family is one compiled function, `family_signature`, called for all its elements.
 
-    what: U2  # (·, 3) kind (0 force, 1 torque), marker, axes (0 global, 1 body)
-    functions: U2  # (·, 3) one function a component
+    Columns of `columns` and `number` are named in the family's file.
+    """
+
+    address: A1  # (families,)
+    span: U2  # (families, 2) first element, one past the last
+    columns: U2  # (E, ·) markers, coordinates, functions, states, first output
+    number: F2  # (E, ·)
+    memory: F2  # (E, ·) what an element keeps from accepted state to accepted state
+    proposal: F2  # (E, ·) the memory that the state last evaluated would leave
+    state: F1  # (nx,) first-order states, copied from y
+    state_rate: F1  # (nx,)
+
+
+class Friction(NamedTuple):
+    """Friction in joints: its forces depend on the reactions that depend on them. One extra row of C_q an element."""
+
+    columns: U2  # (X, ·) columns named in `nivel.kernels.friction`
+    number: F2  # (X, ·)
+    part: U2  # (X, 2) parts of the coordinate's two markers
+    block: U2  # (X, 2) first block of `saddle.block`, one past the last
     # work
-    magnitude: F1  # (·,) [N or N m]
-    power: F1  # (·,) [W]
+    force: F1  # (X,) effort on the coordinate; where the next iteration starts
+    S: F2  # (X, X) acceleration of coordinate i for a unit effort on j
+    response: F2  # (X, K) multipliers for a unit effort
+    change: F3  # (X, B, width) whitened accelerations for a unit effort
+    free: F1  # (X,) acceleration of the coordinate without friction
+    lam: F1  # (K,) multipliers without friction
+    anchor: F1  # (X,) effort of the last evaluation
+    jacobian: F2  # (X, X) of the iteration
+    work: F2  # (3, X)
+
+
+class Outputs(NamedTuple):
+    """What forces, drivers and sensors report: one number each in a frame."""
+
+    value: F1
+    combination: (
+        U2  # (combinations, 2) first output of the effort (and power) of a coupling or driver or NONE, has power
+    )
+
+
+class Sensors(NamedTuple):
+    """What is measured for the results; columns named in `nivel.kernels.sensor`."""
+
+    columns: U2  # (sensors, ·)
+
+
+class Hooks(NamedTuple):
+    """Addresses of what only some machines need, or zero: see `family_signature`."""
+
+    address: A1  # (3,) measure, friction, sense
 
 
 class Saddle(NamedTuple):
@@ -104,7 +175,8 @@ class Saddle(NamedTuple):
     S is a sum of dot products. S and its factor L D Lᵀ are in elimination order.
     """
 
-    block: U2  # (N, 4) row, side (0 first marker, 1 second, 2 normalisation), marker, body
+    block: U2  # (N, 4) row, part of C_q (or NONE: normalisation), marker, body; those of extra rows last
+    blocks: U1  # (1,) number of those of constraint rows
     pair: U2  # (·, 3) block, block, entry of S
     order: U1  # (K,) order[k] is the row eliminated as k-th
     S_start: U1  # (K+1,) column k of the upper triangle
@@ -135,7 +207,9 @@ class Control(NamedTuple):
     stabilise: F1  # (4,) Baumgarte 2α and β²; tolerances of |C|/scale and |Ċ|/scale for the direct correction
     energy: F1  # (3,) kinetic and potential energy of the last observation, their sum at the start
     power: F1  # (2,) work of external forces and dissipation per second
-    failure: U1  # (1,) row that could not be eliminated
+    stored: F1  # (1,) [J] elastic energy of the forces
+    stick: F1  # (1,) [s] time within which stiction stops a joint
+    failure: U1  # (1,) row that could not be eliminated, friction that did not converge
 
 
 class Record(NamedTuple):
@@ -143,11 +217,16 @@ class Record(NamedTuple):
 
     bodies: Bodies
     markers: Markers
+    coordinates: Coordinates
     constraints: Constraints
     joints: Joints
     functions: Functions
-    loads: Loads
+    elements: Elements
+    friction: Friction
     saddle: Saddle
+    sensors: Sensors
+    outputs: Outputs
+    hooks: Hooks
     control: Control
 
 
@@ -155,4 +234,10 @@ record_type = numba_type(Record)
 record_at = reader(record_type)
 state_type = types.Array(types.float64, 1, "C")
 evaluate_signature = types.int64(address_type, types.float64, state_type, state_type)
+observe_signature = types.void(address_type, types.float64, state_type, state_type)
 correct_signature = types.int64(address_type, types.float64, state_type)
+# address of the record, number of the family (0 for a hook), time → status
+family_signature = types.int64(address_type, types.int64, types.float64)
+
+NONE = 0xFFFFFFFF  # an index that points nowhere
+MEASURE, FRICTION, SENSE = 0, 1, 2  # entries of Hooks.address

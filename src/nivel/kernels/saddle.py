@@ -55,7 +55,7 @@ def multipliers(record, width):
     b = saddle.b
     for row in range(b.shape[0]):
         b[row] = twice_alpha * constraints.Cdot[row] + beta_squared * constraints.C[row] - constraints.gamma[row]
-    for k in range(saddle.block.shape[0]):
+    for k in range(saddle.blocks[0]):
         row, body = saddle.block[k, 0], saddle.block[k, 3]
         total = b[row]
         for i in range(width):
@@ -70,7 +70,7 @@ def multipliers(record, width):
 @stage
 def subtract_rows(saddle, width):
     """z -= Wᵀ b."""
-    for k in range(saddle.block.shape[0]):
+    for k in range(saddle.blocks[0]):
         row, body = saddle.block[k, 0], saddle.block[k, 3]
         for i in range(width):
             saddle.z[body, i] -= saddle.W[k, i] * saddle.b[row]

@@ -1,49 +1,93 @@
 """Machines in words: frozen, typed records with units, defaults and bounds. Nothing here computes a motion."""
 
+from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.body import Body
+from nivel.machine.coordinate_reference import resolve
+from nivel.machine.coupling import Belt, Coupling, Gear, LinearCoupling, Rack
 from nivel.machine.dimension import KINDS
-from nivel.machine.force import Force, PointForce, Torque
+from nivel.machine.driver import Driver
+from nivel.machine.forces import (
+    Bushing,
+    Contact,
+    Force,
+    Friction,
+    GlobalPoint,
+    JointSpringDamper,
+    Material,
+    Motor,
+    PairForce,
+    PointForce,
+    SpringDamper,
+    Stop,
+    Torque,
+    TorsionalSpringDamper,
+)
 from nivel.machine.inertia import Inertia, MassProperties, mass_properties
-from nivel.machine.joint import Joint, JointType
+from nivel.machine.joint import JOINT_COORDINATES, Joint, JointType
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
 from nivel.machine.orientation import Orientation, euler_parameters, rotation_matrix
 from nivel.machine.placement import frame_from_axes, initial_velocity, marker_frame, placement
 from nivel.machine.record import GROUND, Record
+from nivel.machine.sensor import Sensor
 from nivel.machine.settings import Baumgarte, SimulationSettings
 from nivel.machine.shape import Box, Cylinder, Shape, Sphere, Tube
-from nivel.machine.time_function import Expression, Table, TimeFunction
+from nivel.machine.symbols import find_symbol
+from nivel.machine.time_function import Expression, PythonLaw, Table, TimeFunction
 
 __all__ = [
     "GROUND",
+    "JOINT_COORDINATES",
     "KINDS",
+    "AssemblySettings",
     "Baumgarte",
+    "Belt",
     "Body",
     "Box",
+    "Bushing",
+    "Contact",
+    "Coupling",
     "Cylinder",
+    "Driver",
     "Expression",
     "Force",
+    "Friction",
+    "Gear",
+    "GlobalPoint",
     "Inertia",
     "Joint",
+    "JointSpringDamper",
     "JointType",
+    "LinearCoupling",
     "MachineRecord",
     "Marker",
     "MassProperties",
+    "Material",
+    "Motor",
     "Orientation",
+    "PairForce",
     "PointForce",
+    "PythonLaw",
+    "Rack",
     "Record",
+    "Sensor",
     "Shape",
     "SimulationSettings",
     "Sphere",
+    "SpringDamper",
+    "Stop",
     "Table",
     "TimeFunction",
     "Torque",
+    "TorsionalSpringDamper",
     "Tube",
     "euler_parameters",
+    "find_symbol",
     "frame_from_axes",
     "initial_velocity",
     "marker_frame",
     "mass_properties",
     "placement",
+    "resolve",
     "rotation_matrix",
 ]

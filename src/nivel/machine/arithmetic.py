@@ -1,13 +1,13 @@
 """The small arithmetic of machine files as a tree: ``2*length + 5 mm``, ``7850 kg/m^3``, ``10 + 3*sin(2*pi*time)``.
 
-grammar.py makes trees of texts. Here names are bound to parameters and units, and what does not depend on time
-becomes a number.
+grammar.py makes trees of texts. Here names are bound to parameters and units, and what does not vary becomes a number.
+What varies is `time` and signals: what the machine itself does, such as `hinge.angle_rate`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Final, SupportsFloat
@@ -18,6 +18,14 @@ from nivel.machine.unit import UNITS, UnknownUnitError, unit
 
 class ExpressionError(ValueError):
     """The text cannot be read or computed; the message says where and why."""
+
+
+class UnknownNameError(ExpressionError):
+    """`name` is neither a parameter nor a unit."""
+
+    def __init__(self, name: str, hint: str) -> None:
+        super().__init__(f"`{name}` is neither a parameter nor a unit{hint}")
+        self.name = name
 
 
 class FaultyParameterError(Exception):
@@ -38,8 +46,15 @@ class Time:
 
 
 @dataclass(frozen=True)
+class Signal:
+    """Something that the machine does: `hinge.angle`, or a local symbol such as `length` in the law of a spring."""
+
+    path: str
+
+
+@dataclass(frozen=True)
 class Name:
-    """A parameter, constant or unit that is not bound yet."""
+    """A parameter, constant, unit or local symbol that is not bound yet."""
 
     text: str
 
@@ -66,7 +81,7 @@ class Call:
     arguments: tuple[Node, ...]
 
 
-Node = Number | Time | Name | Negative | Operation | Call
+Node = Number | Time | Signal | Name | Negative | Operation | Call
 Parameters = Mapping[str, Number | None]  # None marks a parameter at fault
 
 CONSTANTS: Final = {"pi": math.pi, "e": math.e}
@@ -87,6 +102,7 @@ FUNCTIONS: Final[dict[str, tuple[Callable[..., float], tuple[int, int]]]] = {  #
 }
 TIME: Final = "time"
 RESERVED: Final = frozenset({TIME, *CONSTANTS, *FUNCTIONS})
+LOCAL_SYMBOLS: Final = ("length", "angle", "value", "rate")  # where a spring's law may use them they are signals
 
 
 def finite(value: SupportsFloat) -> float:
@@ -113,52 +129,81 @@ def given(value: SupportsFloat) -> float:
     return finite(value)
 
 
+def leaves(node: Node) -> Iterator[Node]:
+    """The parts of `node` that have no parts, from left to right."""
+    match node:
+        case Negative(operand):
+            yield from leaves(operand)
+        case Operation(_, left, right):
+            yield from leaves(left)
+            yield from leaves(right)
+        case Call(_, arguments):
+            for argument in arguments:
+                yield from leaves(argument)
+        case _:
+            yield node
+
+
 def names(node: Node) -> set[str]:
-    """The unbound names in `node`."""
-    match node:
-        case Name(text):
-            return {text}
-        case Negative(operand):
-            return names(operand)
-        case Operation(_, left, right):
-            return names(left) | names(right)
-        case Call(_, arguments):
-            return set().union(*(names(argument) for argument in arguments))
-        case _:
-            return set()
+    """The unbound names in `node`; signals are none."""
+    return {leaf.text for leaf in leaves(node) if isinstance(leaf, Name)}
 
 
-def uses_time(node: Node) -> bool:
-    match node:
-        case Negative(operand):
-            return uses_time(operand)
-        case Operation(_, left, right):
-            return uses_time(left) or uses_time(right)
-        case Call(_, arguments):
-            return any(uses_time(argument) for argument in arguments)
-        case _:
-            return isinstance(node, Time)
+def signals(node: Node) -> tuple[str, ...]:
+    """The paths of the signals in `node`, each once, in the order in which they stand."""
+    return tuple(dict.fromkeys(leaf.path for leaf in leaves(node) if isinstance(leaf, Signal)))
 
 
-def bind(node: Node, parameters: Parameters) -> Node:
-    """`node` with every name replaced by what it stands for: a parameter, else a constant, else a unit.
+def varies(node: Node) -> bool:
+    """Whether `node` depends on time or on a signal."""
+    return any(isinstance(leaf, Time | Signal) for leaf in leaves(node))
 
-    Raises ExpressionError for an unknown name, FaultyParameterError for one that has no value because of its own fault.
+
+uses_time = varies
+
+
+def bind(node: Node, parameters: Parameters, local: Collection[str] = ()) -> Node:
+    """`node` with every name replaced by what it stands for: one of the `local` symbols, else a parameter, a constant
+    or a unit.
+
+    Raises ExpressionError for an unknown name or one with two meanings, FaultyParameterError for one that has no value
+    because of its own fault.
     """
     match node:
+        case Name(text) if text in local:
+            if text in parameters:
+                raise ExpressionError(
+                    f"`{text}` is a parameter and has a meaning of its own here; rename the parameter"
+                )
+            return Signal(text)
         case Name(text):
-            return _value_of(text, parameters)
+            return _value_of(text, parameters, local)
         case Negative(operand):
-            return Negative(bind(operand, parameters))
+            return Negative(bind(operand, parameters, local))
         case Operation(symbol, left, right):
-            return Operation(symbol, bind(left, parameters), bind(right, parameters))
+            try:
+                return Operation(symbol, bind(left, parameters, local), bind(right, parameters, local))
+            except UnknownNameError as problem:
+                raise _hinting_at_hyphen(problem, node) from None
         case Call(function, arguments):
-            return Call(function, tuple(bind(argument, parameters) for argument in arguments))
+            return Call(function, tuple(bind(argument, parameters, local) for argument in arguments))
         case _:
             return node
 
 
-def _value_of(name: str, parameters: Parameters) -> Number:
+def _hinting_at_hyphen(problem: UnknownNameError, node: Operation) -> ExpressionError:
+    """`problem`, found in `node`, which may be meant as one symbol: `left-hinge.angle`."""
+    before, after = list(leaves(node.left))[-1], next(leaves(node.right))
+    if node.symbol != "-" or before != Name(problem.name) or not isinstance(after, Signal):
+        return problem
+    element = after.path.partition(".")[0]
+    return ExpressionError(
+        f"{problem}; and the name `{problem.name}-{element}` cannot stand in an expression, where `-` is the minus sign:"
+        f" rename it to `{problem.name}_{element}`"
+    )
+
+
+def _value_of(name: str, parameters: Parameters, local: Collection[str]) -> Number:
     if name in parameters:
         value = parameters[name]
         if value is None:
@@ -169,18 +214,20 @@ def _value_of(name: str, parameters: Parameters) -> Number:
     try:
         return Number(*unit(name))
     except UnknownUnitError:
-        near = get_close_matches(name, [*parameters, *RESERVED, *UNITS], n=1, cutoff=0.6)
+        near = get_close_matches(name, [*local, *parameters, *RESERVED, *UNITS], n=1, cutoff=0.6)
         hint = f"; did you mean `{near[0]}`?" if near else ""
-        raise ExpressionError(f"`{name}` is neither a parameter nor a unit{hint}") from None
+        raise UnknownNameError(name, hint) from None
 
 
-def evaluate(node: Node, time: float = math.nan) -> float:
+def evaluate(node: Node, time: float = math.nan, values: Mapping[str, float] | None = None) -> float:
     """The number that `node` stands for at `time` [s], in SI units. Names must be bound.
+
+    values : the value of each signal by its path, SI
 
     Raises ExpressionError where there is none (division by zero, the root of a negative number, overflow).
     """
     try:
-        value = _evaluate(node, time)
+        value = _evaluate(node, time, values or {})
     except ZeroDivisionError:
         raise ExpressionError("division by zero") from None
     except OverflowError:
@@ -192,18 +239,22 @@ def evaluate(node: Node, time: float = math.nan) -> float:
     return finite(value)
 
 
-def _evaluate(node: Node, time: float) -> float:
+def _evaluate(node: Node, time: float, values: Mapping[str, float]) -> float:
     match node:
         case Number(value, _):
             return value
         case Time():
             return time
+        case Signal(path):
+            if path not in values:
+                raise ExpressionError(f"`{path}` is only known while the machine moves")
+            return values[path]
         case Negative(operand):
-            return -_evaluate(operand, time)
+            return -_evaluate(operand, time, values)
         case Operation(symbol, left, right):
-            return _operate(symbol, _evaluate(left, time), _evaluate(right, time))
+            return _operate(symbol, _evaluate(left, time, values), _evaluate(right, time, values))
         case Call(function, arguments):
-            return float(FUNCTIONS[function][0](*(_evaluate(argument, time) for argument in arguments)))
+            return float(FUNCTIONS[function][0](*(_evaluate(argument, time, values) for argument in arguments)))
         case Name(text):
             raise ExpressionError(f"`{text}` has no value")
 
@@ -225,8 +276,8 @@ def _operate(symbol: str, left: float, right: float) -> float:
 
 
 def fold(node: Node) -> Node:
-    """`node` with every part that does not depend on time replaced by one bare number."""
-    if not uses_time(node):
+    """`node` with every part that does not vary replaced by one bare number."""
+    if not varies(node):
         return Number(evaluate(node))
     match node:
         case Negative(operand):
@@ -254,7 +305,7 @@ def _render(node: Node) -> tuple[str, int]:
             return repr(value), _SIGN if math.copysign(1, value) < 0 else _ATOM
         case Time():
             return TIME, _ATOM
-        case Name(text):
+        case Signal(text) | Name(text):
             return text, _ATOM
         case Negative(operand):
             return f"-{_within(operand, _SIGN)}", _SIGN

@@ -3,27 +3,33 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
+from nivel.machine.checked import Problem
 from nivel.machine.placement import PARALLEL, angle_between
-from nivel.machine.quantity import fault
 
 Triple = tuple[float, float, float]
 
 
-def check_direction(name: str, direction: Triple | None) -> None:
-    """Refuse a zero vector."""
+def no_direction(name: str, direction: Triple | None) -> Iterator[Problem]:
+    """Whether `direction`, the field `name`, is a zero vector."""
     if direction is not None and not any(direction):
-        raise fault(f"`{name}` has no direction: it is zero")
+        yield Problem((name,), f"`{name}` has no direction: it is zero")
 
 
-def check_axis_pair(axis: Triple | None, x_axis: Triple | None) -> None:
-    """`x_axis` needs an `axis` and is not parallel to it."""
-    check_direction("axis", axis)
-    check_direction("x_axis", x_axis)
-    if x_axis is None:
+def bad_axis_pair(axis: Triple | None, x_axis: Triple | None) -> Iterator[Problem]:
+    """Whether a direction is zero, and whether `x_axis` lacks an `axis` or is parallel to it."""
+    zero = [*no_direction("axis", axis), *no_direction("x_axis", x_axis)]
+    yield from zero
+    if x_axis is None or zero:
         return
     if axis is None:
-        raise fault("`x_axis` needs an `axis` (the z axis)")
-    angle = angle_between(axis, x_axis)
-    if min(angle, math.pi - angle) < PARALLEL:
-        raise fault("`x_axis` is parallel to `axis`; it must point elsewhere")
+        yield Problem(("x_axis",), "`x_axis` needs an `axis` (the z axis)")
+    elif parallel(axis, x_axis):
+        yield Problem(("x_axis",), "`x_axis` is parallel to `axis`; it must point elsewhere")
+
+
+def parallel(first: Triple, second: Triple) -> bool:
+    """Whether two directions, not zero, lie along one line."""
+    angle = angle_between(first, second)
+    return min(angle, math.pi - angle) < PARALLEL

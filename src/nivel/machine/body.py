@@ -1,23 +1,37 @@
-"""A rigid body in words."""
+"""A rigid body, or a point mass, in words."""
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from collections.abc import Iterator
+from typing import ClassVar, Final, Literal
 
-from pydantic import Field, ValidationError, model_validator
-from pydantic_core import InitErrorDetails
+from pydantic import Field
 
-from nivel.machine.inertia import InertiaTensor, impossible, mass_properties
+from nivel.machine.checked import Checked, Problem, superfluous
+from nivel.machine.coefficient import PositiveNumber, Truth
+from nivel.machine.inertia import InertiaTensor, impossible, mass_properties, volume
 from nivel.machine.orientation import Orientation
-from nivel.machine.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector, fault
-from nivel.machine.record import GROUND, Name, Record
+from nivel.machine.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector
+from nivel.machine.record import GROUND, Name
 from nivel.machine.shape import Shape, Sphere
 
+LIGHTEST: Final = 1e-2  # [kg/m³] mean density below which a unit must have slipped: a hundredth of that of air
+DENSEST: Final = 1e5  # [kg/m³] and above which: four times that of the densest metal
 
-class Body(Record):
+_OF_A_RIGID_BODY: Final = (
+    "centre_of_mass",
+    "inertia",
+    "orientation",
+    "angular_velocity",
+    "angular_velocity_body",
+    "density",
+)
+
+
+class Body(Checked):
     """A rigid body. Its frame may be anywhere; the centre of mass is given in it.
 
-    It has mass and inertia, or a shape and a density, or a shape and a mass.
+    It has mass and inertia, or a shape and a density, or a shape and a mass. A point mass has a mass alone.
     """
 
     collection: ClassVar[str] = "bodies"
@@ -41,49 +55,67 @@ class Body(Record):
     angular_velocity_body: AngularVelocityVector | None = Field(default=None, description="body axes")
     shape: Shape | None = None
     density: Density | None = None
+    point_mass: Truth = Field(default=False, description="a mass at a point, which does not turn")
+    hold: Truth = Field(default=False, description="the assembly does not move it")
+    assembly_weight: PositiveNumber = Field(default=1.0, description="how unwilling it is to be moved by the assembly")
 
-    @model_validator(mode="after")
-    def _makes_sense(self) -> Body:
+    def problems(self) -> Iterator[Problem]:
         if self.name == GROUND:
-            raise fault(f"`{GROUND}` is the fixed world and cannot be a body")
-        self._check_sources_of_inertia()
+            yield Problem((), f"`{GROUND}` is the fixed world and cannot be a body")
+        if self.point_mass:
+            yield from self._problems_of_point_mass()
+            return
+        yield from self._problems_of_inertia()
         if self.angular_velocity is not None and self.angular_velocity_body is not None:
-            raise fault("give `angular_velocity` (global axes) or `angular_velocity_body` (body axes), not both")
-        self._check_placement()
-        if self.inertia is not None:
-            why = impossible(mass_properties(self).inertia)
-            if why:
-                shifted = " about the centre of mass" if self.inertia_about == "origin" else ""
-                raise _at("inertia", f"`inertia`{shifted}: {why}")
-        return self
+            yield Problem((), "give `angular_velocity` (global axes) or `angular_velocity_body` (body axes), not both")
+        if self.shape is not None and not isinstance(self.shape, Sphere) and self.shape.from_ is not None:
+            for name in ("position", "orientation"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, "follows from the shape's `from` and `to` and must not be given")
+        yield from self._problems_of_density()
 
-    def _check_sources_of_inertia(self) -> None:
+    def _problems_of_point_mass(self) -> Iterator[Problem]:
+        if self.mass is None:
+            yield Problem((), "`mass` is missing: a point mass is given by its `mass`")
+        for name in _OF_A_RIGID_BODY:
+            if getattr(self, name) is not None:
+                yield superfluous(name, "does not belong to a point mass, which has a `mass` at its origin and no turn")
+        if self.inertia_about == "origin":
+            yield superfluous("inertia_about", "does not belong to a point mass, which has no inertia")
+        if self.shape is not None and not isinstance(self.shape, Sphere):
+            yield Problem(("shape",), f"a point mass is drawn as a sphere, not as a {self.shape.type}")
+        elif self.shape is not None and self.shape.centre is not None and any(self.shape.centre):
+            yield Problem(("shape", "centre"), "the sphere of a point mass has its centre at the mass")
+
+    def _problems_of_inertia(self) -> Iterator[Problem]:
         if self.density is not None:
             if self.shape is None:
-                raise fault("`density` needs a `shape`")
-            for name in ("mass", "centre_of_mass", "inertia"):
-                if getattr(self, name) is not None:
-                    raise _at(name, f"`{name}` follows from `shape` and `density` and must not be given")
+                yield Problem(("density",), "`density` needs a `shape`")
+            else:
+                for name in ("mass", "centre_of_mass", "inertia"):
+                    if getattr(self, name) is not None:
+                        yield superfluous(name, "follows from `shape` and `density` and must not be given")
         elif self.mass is None:
-            raise fault("`mass` is missing: give `mass` and `inertia`, or `shape` with `density` or `mass`")
-        elif self.inertia is None:
-            if self.shape is None:
-                raise fault("`inertia` is missing: give `inertia` or a `shape` to compute it from")
-            if self.centre_of_mass is not None:
-                raise fault("`centre_of_mass` follows from `shape`; give `inertia` as well, or remove it")
+            yield Problem((), "`mass` is missing: give `mass` and `inertia`, or `shape` with `density` or `mass`")
+        elif self.inertia is None and self.shape is None:
+            yield Problem((), "`inertia` is missing: give `inertia` or a `shape` to compute it from")
+        elif self.inertia is None and self.centre_of_mass is not None:
+            message = "`centre_of_mass` follows from `shape`; give `inertia` as well, or remove it"
+            yield Problem(("centre_of_mass",), message, at_key=True)
         if self.inertia is None and self.inertia_about == "origin":
-            raise fault("`inertia_about` belongs to an `inertia`, and none is given")
+            yield superfluous("inertia_about", "belongs to an `inertia`, and none is given")
+        if self.inertia is not None and self.mass is not None:
+            why = impossible(mass_properties(self).inertia)
+            shifted = " about the centre of mass" if self.inertia_about == "origin" else ""
+            if why:
+                yield Problem(("inertia",), f"`inertia`{shifted}: {why}")
 
-    def _check_placement(self) -> None:
-        if self.shape is None or isinstance(self.shape, Sphere) or self.shape.from_ is None:
+    def _problems_of_density(self) -> Iterator[Problem]:
+        if self.density is not None and not LIGHTEST <= self.density <= DENSEST:
+            yield Problem(("density",), f"a density of {self.density:.3g} kg/m^3: a slip of a unit?")
+        if self.shape is None or self.mass is None or self.density is not None:
             return
-        for name in ("position", "orientation"):
-            if getattr(self, name) is not None:
-                raise fault(f"`{name}` follows from the shape's `from` and `to` and must not be given")
-
-
-def _at(field: str, message: str) -> ValidationError:
-    """A fault of one field that shows only when others are known."""
-    return ValidationError.from_exception_data(
-        Body.__name__, [InitErrorDetails(type=fault(message), loc=(field,), input=None)]
-    )
+        mean = self.mass / volume(self.shape)
+        if not LIGHTEST <= mean <= DENSEST:
+            message = f"a mass of {self.mass:.6g} kg with this shape gives a density of {mean:.3g} kg/m^3"
+            yield Problem(("mass",), f"{message}: a slip of a unit?")

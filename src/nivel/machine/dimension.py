@@ -88,6 +88,15 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "volume": ("a volume", "m^3", dimension(m=3)),
     "pressure": ("a pressure", "Pa", dimension(kg=1, m=-1, s=-2)),
     "power": ("a power", "W", dimension(kg=1, m=2, s=-3)),
+    "stiffness": ("a stiffness", "N/m", dimension(kg=1, s=-2)),
+    "damping": ("a damping coefficient", "N*s/m", dimension(kg=1, s=-1)),
+    "torsional stiffness": ("a torsional stiffness", "N*m/rad", dimension(kg=1, m=2, s=-2, rad=-1)),
+    "torsional damping": ("a torsional damping coefficient", "N*m*s/rad", dimension(kg=1, m=2, s=-1, rad=-1)),
+    "force per angle": ("a force per angle", "N/rad", dimension(kg=1, m=1, s=-2, rad=-1)),
+    "force per angular velocity": ("a force per angular velocity", "N*s/rad", dimension(kg=1, m=1, s=-1, rad=-1)),
+    "impulse": ("an impulse", "N*s", dimension(kg=1, m=1, s=-1)),
+    "stiffness per load": ("a stiffness per load", "1/m", dimension(m=-1)),
+    "damping per load": ("a damping per load", "s/m", dimension(m=-1, s=1)),
 }
 
 

@@ -4,7 +4,8 @@
     term    = sign { (* | /) sign | unit }    a unit may follow a number, `)` or a unit directly: `10 cm`, `(1/2) in`
     sign    = [ + | - ] sign | power
     power   = atom [ (^ | **) sign ]          to the right first, and before the sign: -2^2 = -4, as in Python
-    atom    = number | name | function ( sum, … ) | ( sum )
+    atom    = number | name | signal | function ( sum, … ) | ( sum )
+    signal  = name . name                     without spaces: `hinge.angle`
     unit    = name [ (^ | **) sign ]
 
 A unit multiplies what stands before it in its term, so `3/8 in` is three eighths of an inch and `pi/2 rad` a quarter
@@ -27,6 +28,7 @@ from nivel.machine.arithmetic import (
     Node,
     Number,
     Operation,
+    Signal,
     Time,
     finite,
 )
@@ -35,7 +37,8 @@ from nivel.machine.unit import UNITS
 _MOST_TOKENS = 400  # trees are walked by recursion: this and _DEEPEST keep them far from Python's limit
 _DEEPEST = 60
 _TOKEN = re.compile(
-    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[^\W\d]\w*|°)|(?P<symbol>\*\*|[-+*/^(),]))"
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|"
+    r"(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*|°)|(?P<symbol>\*\*|[-+*/^(),]))"
 )
 
 
@@ -116,7 +119,9 @@ class _Parser:
         name = self.take()
         if self.symbol() == "(":
             raise ExpressionError(f"`*` is missing before `{name}`")
-        return self.raised(Time() if name == TIME else Name(name))
+        if "." in name:
+            raise ExpressionError(f"`*` is missing before `{name}`")
+        return self.raised(_named(name))
 
     def atom(self) -> Node:
         kind = self.kind()
@@ -126,7 +131,7 @@ class _Parser:
             name = self.take()
             if self.symbol() == "(":
                 return self.call(name)
-            return Time() if name == TIME else Name(name)
+            return _named(name)
         if self.symbol() == "(":
             self.take()
             node = self.sum()
@@ -175,6 +180,14 @@ class _Parser:
         if self.at >= len(self.tokens):
             return ExpressionError(f"the expression ends too early{hint}")
         return ExpressionError(f"`{self.tokens[self.at][1]}` was not expected here{hint}")
+
+
+def _named(name: str) -> Node:
+    if "." not in name:
+        return Time() if name == TIME else Name(name)
+    if name.count(".") > 1:
+        raise ExpressionError(f"`{name}` has more than one dot; `ELEMENT.QUANTITY` was expected, such as `hinge.angle`")
+    return Signal(name)
 
 
 def _tokens(text: str) -> list[tuple[str, str]]:

@@ -86,7 +86,9 @@ class MassProperties:
 
 
 def mass_properties(body: Body) -> MassProperties:
-    """As given, or those of the homogeneous shape."""
+    """As given, or those of the homogeneous shape; of a point mass the mass alone."""
+    if body.point_mass:
+        return MassProperties(float(body.mass or 0.0), np.zeros(3), np.zeros((3, 3)))
     if body.inertia is None:
         return _of_homogeneous_shape(body)
     mass = float(body.mass or 0.0)

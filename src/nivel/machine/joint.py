@@ -1,38 +1,134 @@
-"""A joint in words: which two bodies, where, and what motion stays free."""
+"""A joint in words: which two bodies, where, and what motion stays free.
+
+What a joint of each type is placed by, and its coordinates, are the facts of JOINT_KINDS.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, ClassVar, Final, Literal
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar, Final, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import Field
 
-from nivel.machine.axes import check_axis_pair, check_direction
-from nivel.machine.marker import Marker
+from nivel.machine.axes import bad_axis_pair, no_direction, parallel
+from nivel.machine.checked import Checked, Problem, superfluous
+from nivel.machine.marker import TwoMarkers
 from nivel.machine.placement import angle_between
-from nivel.machine.quantity import Direction, Position, fault, shown
-from nivel.machine.record import Name, Record
+from nivel.machine.quantity import Angle, AngularVelocity, Direction, Length, Position, PositiveLength, Velocity
+from nivel.machine.record import Name, Record, unknown_word
 
-JointType = Literal["spherical", "universal", "revolute", "cylindrical", "translational", "fixed"]
+JointType = Literal[
+    "spherical",
+    "universal",
+    "revolute",
+    "cylindrical",
+    "translational",
+    "fixed",
+    "planar",
+    "point-on-line",
+    "point-on-plane",
+    "screw",
+    "distance",
+    "spherical-spherical",
+    "revolute-spherical",
+    "revolute-cylindrical",
+    "revolute-translational",
+]
 
-WITH_AXIS: Final = ("revolute", "cylindrical", "translational")
 PERPENDICULAR: Final = 1e-3  # [rad] by which the two axes of a universal joint may miss the right angle
 
 
-def _name_or_marker(value: Any) -> Any:
-    if isinstance(value, str | Marker | dict):
-        return value
-    raise fault(f"the name of a marker, or a marker {{body: …, position: …}}, was expected, got {shown(value)}")
+@dataclass(frozen=True)
+class JointKind:
+    """What a joint of one type is given by.
+
+    place : keys that it needs beside `bodies` where it is placed by points. may : keys that it may have there.
+    size : keys that it needs however it is placed. may_size : keys that it may have however it is placed.
+    coordinates : names of its joint coordinates. held : the joint itself holds these coordinates.
+    axes : what the two `axes` are to each other.
+    """
+
+    place: tuple[str, ...]
+    coordinates: tuple[str, ...] = ()
+    may: tuple[str, ...] = ()
+    size: tuple[str, ...] = ()
+    may_size: tuple[str, ...] = ()
+    held: tuple[str, ...] = ()
+    axes: Literal["", "perpendicular", "not parallel"] = ""
 
 
-_MarkerPlace = Annotated[Name | Marker, BeforeValidator(_name_or_marker)]
+_ROD: Final = JointKind(("points",), ("distance",), may_size=("distance",), held=("distance",))
+
+JOINT_KINDS: Final[dict[str, JointKind]] = {
+    "spherical": JointKind(("point",)),
+    "universal": JointKind(("point", "axes"), ("angle_1", "angle_2"), axes="perpendicular"),
+    "revolute": JointKind(("point", "axis"), ("angle",), may=("x_axis",)),
+    "cylindrical": JointKind(("point", "axis"), ("angle", "displacement"), may=("x_axis",)),
+    "translational": JointKind(("point", "axis"), ("displacement",), may=("x_axis",)),
+    "fixed": JointKind(("point",)),
+    "planar": JointKind(("point", "axis"), ("x", "y", "angle"), may=("x_axis",)),
+    "point-on-line": JointKind(("point", "axis"), ("displacement",), may=("x_axis",)),
+    "point-on-plane": JointKind(("point", "axis"), ("x", "y"), may=("x_axis",)),
+    "screw": JointKind(("point", "axis"), ("angle", "displacement"), may=("x_axis",), size=("pitch",)),
+    "distance": _ROD,
+    "spherical-spherical": _ROD,
+    "revolute-spherical": JointKind(("points", "axis"), ("angle",), may=("x_axis",)),
+    "revolute-cylindrical": JointKind(("points", "axes")),
+    "revolute-translational": JointKind(("point", "axes"), ("angle", "displacement"), axes="not parallel"),
+}
+JOINT_COORDINATES: Final = {name: kind.coordinates for name, kind in JOINT_KINDS.items()}
+
+_PLACE: Final = ("point", "points", "axis", "axes", "x_axis")
+_SIZE: Final = ("pitch", "distance")
+_INSTEAD: Final = {"point": "points", "points": "point", "axis": "axes", "axes": "axis"}
+_WANTED: Final = {
+    "point": "one",
+    "points": "two, one on each body",
+    "axis": "one, e.g. [0, 0, 1]",
+    "axes": "two, e.g. [[0, 1, 0], [0, 0, 1]]",
+    "pitch": "one: the advance per turn, e.g. 5 mm",
+}
 
 
-class Joint(Record):
+class CoordinateValues(Record):
+    """Values of joint coordinates by name."""
+
+    angle: Angle | None = None
+    angle_1: Angle | None = None
+    angle_2: Angle | None = None
+    displacement: Length | None = None
+    x: Length | None = None
+    y: Length | None = None
+
+    @property
+    def given(self) -> dict[str, float]:
+        """The coordinates that have a value [m, rad]."""
+        return {name: value for name in type(self).model_fields if (value := getattr(self, name)) is not None}
+
+
+class CoordinateRates(Record):
+    """Rates of joint coordinates by name."""
+
+    angle: AngularVelocity | None = None
+    angle_1: AngularVelocity | None = None
+    angle_2: AngularVelocity | None = None
+    displacement: Velocity | None = None
+    x: Velocity | None = None
+    y: Velocity | None = None
+
+    @property
+    def given(self) -> dict[str, float]:
+        """The coordinates that have a rate [m/s, rad/s]."""
+        return {name: value for name in type(self).model_fields if (value := getattr(self, name)) is not None}
+
+
+class Joint(Checked):
     """Two bodies that can move against each other only in the way of the `type`.
 
-    Placed by `bodies` and a global `point` (and `axis` or `axes`) at the bodies' given positions, or by two
-    `markers`, whose z axes are the joint's axis. The first body comes first in both.
+    Placed by `bodies` and a global `point` (or `points`, with `axis` or `axes`) at the bodies' given positions, or by
+    two `markers`, whose z axes are the joint's axis. The first body comes first in both.
     """
 
     collection: ClassVar[str] = "joints"
@@ -40,52 +136,96 @@ class Joint(Record):
     name: Name
     type: JointType
     bodies: tuple[Name, Name] | None = Field(default=None, description="first and second body; one may be `ground`")
-    markers: tuple[_MarkerPlace, _MarkerPlace] | None = Field(
-        default=None, description="on the first and second body: names or markers"
-    )
+    markers: TwoMarkers | None = Field(default=None, description="on the first and second body: names or markers")
     point: Position | None = Field(default=None, description="of the joint, global")
-    axis: Direction | None = Field(
-        default=None, description="of revolute, cylindrical, translational; global, of any length"
+    points: tuple[Position, Position] | None = Field(
+        default=None, description="of a joint between two points: on the first body, on the second; global"
     )
+    axis: Direction | None = Field(default=None, description="of the joint; global, of any length")
     axes: tuple[Direction, Direction] | None = Field(
         default=None,
-        description="cross of a universal joint: arm on the first body, arm on the second; global, perpendicular",
+        description="of a joint with two axes: on the first body, on the second; global; perpendicular in a universal one",
     )
     x_axis: Direction | None = Field(
         default=None, description="where the joint's x axis points, made perpendicular to `axis`; global"
     )
+    pitch: Length | None = Field(default=None, description="of a screw, advance per turn; negative: left-handed")
+    distance: PositiveLength | None = Field(default=None, description="held between the points; default as placed")
+    start: CoordinateValues | None = Field(default=None, description="of joint coordinates, held by the assembly")
+    start_rates: CoordinateRates | None = Field(default=None, description="of joint coordinates at the start")
 
-    @model_validator(mode="after")
-    def _makes_sense(self) -> Joint:
-        if self.markers is not None:
-            for name in ("bodies", "point", "axis", "axes", "x_axis"):
-                if getattr(self, name) is not None:
-                    raise fault(f"`{name}` must not be given with `markers`, which say where the joint is")
-            return self
-        if self.bodies is None or self.point is None:
-            raise fault("a joint needs `bodies` and a `point`, or two `markers`")
-        if self.bodies[0] == self.bodies[1]:
-            raise fault(f"`bodies`: a joint needs two different bodies, got `{self.bodies[0]}` twice")
-        self._check_axes()
-        return self
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the joint coordinates."""
+        return JOINT_COORDINATES[self.type]
 
-    def _check_axes(self) -> None:
-        if self.type in WITH_AXIS and self.axis is None:
-            raise fault(f"`axis` is missing: a {self.type} joint at a point needs one")
-        if self.type == "universal" and self.axes is None:
-            raise fault("`axes` is missing: a universal joint at a point needs two, e.g. [[0, 1, 0], [0, 0, 1]]")
-        if self.type not in WITH_AXIS and (self.axis is not None or self.x_axis is not None):
-            word = "axis" if self.axis is not None else "x_axis"
-            hint = "; its two arms are `axes`" if self.type == "universal" else ""
-            raise fault(f"a {self.type} joint has no `{word}`{hint}")
-        if self.type != "universal" and self.axes is not None:
-            raise fault(f"a {self.type} joint has no `axes`{'; write `axis`' if self.type in WITH_AXIS else ''}")
-        check_axis_pair(self.axis, self.x_axis)
-        if self.axes is not None:
-            for axis in self.axes:
-                check_direction("axes", axis)
-            angle = angle_between(*self.axes)
-            if abs(angle - math.pi / 2) > PERPENDICULAR:
-                raise fault(
-                    f"`axes` of a universal joint are perpendicular; these are {math.degrees(angle):.4g} deg apart"
-                )
+    def problems(self) -> Iterator[Problem]:
+        kind = JOINT_KINDS[self.type]
+        yield from self._problems_by_markers() if self.markers is not None else self._problems_by_points(kind)
+        for key in _SIZE:
+            if key not in (*kind.size, *kind.may_size) and self._gives(key):
+                yield superfluous(key, f"does not belong to a {self.type} joint")
+        for key in kind.size:
+            if not self._gives(key):
+                yield self._missing(key)
+        if self.pitch == 0:
+            yield Problem(("pitch",), "`pitch` is zero: a joint that only turns is revolute")
+        yield from self._problems_of_start(kind)
+
+    def _gives(self, key: str) -> bool:
+        return getattr(self, key) is not None
+
+    def _missing(self, key: str) -> Problem:
+        return Problem((), f"`{key}` is missing: a {self.type} joint needs {_WANTED[key]}")
+
+    def _problems_by_markers(self) -> Iterator[Problem]:
+        for key in ("bodies", *_PLACE):
+            if self._gives(key):
+                yield superfluous(key, "must not be given with `markers`, which say where the joint is")
+
+    def _problems_by_points(self, kind: JointKind) -> Iterator[Problem]:
+        where = kind.place[0]
+        if self.bodies is None or not self._gives(where):
+            what = "a `point`" if where == "point" else "`points`"
+            yield Problem((), f"a {self.type} joint needs `bodies` and {what}, or two `markers`")
+        if self.bodies is not None and self.bodies[0] == self.bodies[1]:
+            yield Problem(("bodies",), f"`bodies`: a joint needs two different bodies, got `{self.bodies[0]}` twice")
+        for key in kind.place[1:]:
+            if not self._gives(key):
+                yield self._missing(key)
+        allowed = (*kind.place, *kind.may)
+        for key in _PLACE:
+            if self._gives(key) and key not in allowed:
+                instead = _INSTEAD.get(key, "")
+                hint = f"; write `{instead}`" if instead in allowed else ""
+                yield Problem((key,), f"a {self.type} joint has no `{key}`{hint}", at_key=True)
+        if "axis" in allowed:
+            yield from bad_axis_pair(self.axis, self.x_axis) if self.axis is not None else ()
+        if "axes" in allowed:
+            yield from self._problems_of_axes(kind)
+        needs_line = "points" in allowed and "axes" not in allowed and self.distance is None
+        if needs_line and self.points is not None and self.points[0] == self.points[1]:
+            yield Problem(("points",), "the two `points` are the same; the line between them has no direction")
+
+    def _problems_of_axes(self, kind: JointKind) -> Iterator[Problem]:
+        if self.axes is None:
+            return
+        zero = [problem for axis in self.axes for problem in no_direction("axes", axis)]
+        yield from zero[:1]
+        if zero:
+            return
+        angle = angle_between(*self.axes)
+        if kind.axes == "perpendicular" and abs(angle - math.pi / 2) > PERPENDICULAR:
+            apart = f"{math.degrees(angle):.4g} deg apart"
+            yield Problem(("axes",), f"`axes` of a {self.type} joint are perpendicular; these are {apart}")
+        if kind.axes == "not parallel" and parallel(*self.axes):
+            yield Problem(("axes",), f"`axes` of a {self.type} joint are not parallel; these are")
+
+    def _problems_of_start(self, kind: JointKind) -> Iterator[Problem]:
+        free = [name for name in kind.coordinates if name not in kind.held]
+        for key in ("start", "start_rates"):
+            values: CoordinateValues | CoordinateRates | None = getattr(self, key)
+            for name in values.given if values is not None else ():
+                if name not in free:
+                    message = f"for a {self.type} joint {unknown_word(name, free, 'coordinate')}"
+                    yield Problem((key, name), message, at_key=True)

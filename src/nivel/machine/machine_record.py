@@ -2,18 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Any, Final, Self
 
-from pydantic import BeforeValidator, ModelWrapValidatorHandler, ValidationError, WithJsonSchema, model_validator
+from pydantic import (
+    BeforeValidator,
+    ModelWrapValidatorHandler,
+    ValidationError,
+    ValidationInfo,
+    WithJsonSchema,
+    model_validator,
+)
 from pydantic_core import InitErrorDetails
 
+from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.body import Body
-from nivel.machine.force import Force
+from nivel.machine.checked import Checked, Problem
+from nivel.machine.coordinate_uses import with_whole_coordinates
+from nivel.machine.coupling import Coupling
+from nivel.machine.driver import Driver
+from nivel.machine.forces import Force
 from nivel.machine.joint import Joint
 from nivel.machine.marker import Marker
-from nivel.machine.quantity import AccelerationVector, fault, shown
-from nivel.machine.record import Record, entry, restated
+from nivel.machine.point_masses import problems_of_points
+from nivel.machine.quantity import AccelerationVector, fault, parameters_of, shown
+from nivel.machine.record import entry, restated
 from nivel.machine.references import reference_faults
+from nivel.machine.sensor import Sensor
 from nivel.machine.settings import SimulationSettings
 
 LONGEST_NAME: Final = 100  # characters: the files of a run are named after the machine
@@ -34,10 +49,10 @@ def _title(value: Any) -> str:
 Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"})]
 
 
-class MachineRecord(Record):
+class MachineRecord(Checked):
     """Everything nivel is told about a machine. SI, angles in radians."""
 
-    tagged = {"forces": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "forces": 2}  # noqa: RUF012
 
     name: Title
     description: str = ""
@@ -45,14 +60,20 @@ class MachineRecord(Record):
     bodies: tuple[Body, ...]
     markers: tuple[Marker, ...] = ()
     joints: tuple[Joint, ...] = ()
+    couplings: tuple[Coupling, ...] = ()
+    drivers: tuple[Driver, ...] = ()
     forces: tuple[Force, ...] = ()
+    sensors: tuple[Sensor, ...] = ()
+    assembly: AssemblySettings = AssemblySettings()
     simulation: SimulationSettings = SimulationSettings()
 
     @model_validator(mode="wrap")
     @classmethod
-    def _in_plain_words(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+    def _in_plain_words(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:
         """Faults of all parts, and names that lead nowhere, in one error."""
-        lines = [InitErrorDetails(type=fault(text), loc=place, input=None) for place, text in reference_faults(data)]
+        data = with_whole_coordinates(data)
+        faults = reference_faults(data, parameters_of(info))
+        lines = [InitErrorDetails(type=fault(text), loc=place, input=None) for place, text in faults]
         if entry(data, "bodies") in ((), []):
             lines.append(InitErrorDetails(type=fault("a machine needs at least one body"), loc=("bodies",), input=None))
         try:
@@ -62,3 +83,6 @@ class MachineRecord(Record):
         if lines:
             raise ValidationError.from_exception_data(cls.__name__, lines)
         return record
+
+    def problems(self) -> Iterator[Problem]:
+        yield from problems_of_points(self)

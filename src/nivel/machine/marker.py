@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Iterator
+from typing import Annotated, Any, ClassVar
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field
 
-from nivel.machine.axes import check_axis_pair
+from nivel.machine.axes import bad_axis_pair
+from nivel.machine.checked import Checked, Problem
 from nivel.machine.orientation import Orientation
-from nivel.machine.quantity import Direction, Position, fault
-from nivel.machine.record import Name, Record
+from nivel.machine.quantity import Direction, Position, fault, shown
+from nivel.machine.record import GROUND, Name
 
 
-class Marker(Record):
+class Marker(Checked):
     """A point and axes fixed in a body. Joints act along the marker's z axis.
 
     Its axes are turned by `orientation`, or have z along `axis` and x along `x_axis` made perpendicular; default the
@@ -21,16 +23,27 @@ class Marker(Record):
 
     collection: ClassVar[str] = "markers"
 
-    name: Name | None = Field(default=None, description="not needed where the marker stands inside a joint")
+    name: Name | None = Field(default=None, description="not needed where the marker stands inside an element")
     body: Name = Field(description="a body, or `ground`")
     position: Position = Field(default=(0.0, 0.0, 0.0), description="in the body frame")
     orientation: Orientation | None = Field(default=None, description="of the marker in the body frame")
     axis: Direction | None = Field(default=None, description="z axis of the marker in the body frame, of any length")
     x_axis: Direction | None = Field(default=None, description="x axis, made perpendicular to `axis`")
 
-    @model_validator(mode="after")
-    def _one_way(self) -> Marker:
+    def problems(self) -> Iterator[Problem]:
+        if self.name == GROUND:
+            yield Problem(("name",), f"`{GROUND}` is the fixed world and cannot be a marker")
         if self.orientation is not None and (self.axis is not None or self.x_axis is not None):
-            raise fault("give `orientation` or `axis`, not both")
-        check_axis_pair(self.axis, self.x_axis)
-        return self
+            yield Problem(("orientation",), "give `orientation` or `axis`, not both")
+            return
+        yield from bad_axis_pair(self.axis, self.x_axis)
+
+
+def _name_or_marker(value: Any) -> Any:
+    if isinstance(value, str | Marker | dict):
+        return value
+    raise fault(f"the name of a marker, or a marker {{body: …, position: …}}, was expected, got {shown(value)}")
+
+
+MarkerPlace = Annotated[Name | Marker, BeforeValidator(_name_or_marker)]
+TwoMarkers = tuple[MarkerPlace, MarkerPlace]

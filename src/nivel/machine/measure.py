@@ -1,8 +1,17 @@
-"""The dimension of an expression, and whether it makes sense: lengths are not added to masses, no sine is of metres."""
+"""The dimension of an expression, and whether it makes sense: lengths are not added to masses, no sine is of metres.
+
+`time` and each signal may count as a bare number, as in `sin(2*pi*time)`, or as a quantity, as in `5 N/s * time`.
+A dimension by name belongs to signals that are quantities; a `rate` is of a length or of an angle.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from itertools import islice, product
+from typing import Final
+
 from nivel.machine.arithmetic import (
+    TIME,
     Call,
     ExpressionError,
     Name,
@@ -10,49 +19,98 @@ from nivel.machine.arithmetic import (
     Node,
     Number,
     Operation,
+    Signal,
     Time,
     evaluate,
-    uses_time,
+    leaves,
+    signals,
+    varies,
 )
-from nivel.machine.dimension import Dimension, described, dimension, known, power, product, without_angle
+from nivel.machine.dimension import Dimension, described, dimension, known, power, without_angle
+from nivel.machine.dimension import product as product_of
 
-_RADIAN = dimension(rad=1)
+_RADIAN: Final = dimension(rad=1)
+_SECOND: Final = dimension(s=1)
+_METRE: Final = dimension(m=1)
+_SPEED: Final = dimension(m=1, s=-1)
+_TURN_RATE: Final = dimension(rad=1, s=-1)
+_MOST_READINGS: Final = 2000
+
+# The dimension of a variable in one reading; None for a bare number, which it also is where it is not listed.
+Reading = Mapping[str, Dimension | None]
 
 
-def measure(node: Node, *, time: Dimension | None = None) -> Dimension | None:
-    """Dimension of `node`; None for a bare number. `time` is the dimension that the variable `time` is given.
+def signal_dimensions(path: str) -> tuple[Dimension, ...]:
+    """What the signal `path` may measure, by its last name; empty where that name does not tell."""
+    last = path.rpartition(".")[2]
+    match last:
+        case "displacement" | "distance" | "length" | "x" | "y" | "z":
+            return (_METRE,)
+        case "vx" | "vy" | "vz":
+            return (_SPEED,)
+        case "wx" | "wy" | "wz":
+            return (_TURN_RATE,)
+        case "rate":
+            return (_SPEED, _TURN_RATE)
+        case "value":
+            return (_METRE, _RADIAN)
+    if last.endswith("_rate"):
+        of = signal_dimensions(last.removesuffix("_rate"))
+        return tuple(tuple(a + b for a, b in zip(one, power(_SECOND, -1) or (), strict=True)) for one in of)
+    return (_RADIAN,) if last.startswith("angle") else ()
+
+
+def readings(node: Node) -> Iterator[Reading]:
+    """The ways to take the variables of `node`, likely ones first: all bare, all quantities, then each either way."""
+    choices: dict[str, tuple[Dimension | None, ...]] = {
+        path: (None, *signal_dimensions(path)) for path in signals(node)
+    }
+    if any(isinstance(leaf, Time) for leaf in leaves(node)):
+        choices[TIME] = (None, _SECOND)
+    yield {}
+    quantities = [options[1:] or options for options in choices.values()]
+    for options in (quantities, list(choices.values())):
+        for chosen in islice(product(*options), _MOST_READINGS):
+            yield dict(zip(choices, chosen, strict=True))
+
+
+def measure(node: Node, reading: Reading | None = None) -> Dimension | None:
+    """Dimension of `node` in one reading of its variables; None for a bare number.
 
     Raises ExpressionError where dimensions clash.
     """
+    reading = reading or {}
     match node:
         case Number(_, its):
             return None if its is None else known(its)
         case Time():
-            return time
+            return reading.get(TIME)
+        case Signal(path):
+            return reading.get(path)
         case Negative(operand):
-            return measure(operand, time=time)
+            return measure(operand, reading)
         case Call(function, arguments):
-            return _of_call(function, [measure(argument, time=time) for argument in arguments])
+            return _of_call(function, [measure(argument, reading) for argument in arguments])
         case Operation(symbol, left, right):
-            return _of_operation(symbol, left, right, time)
+            return _of_operation(symbol, left, right, reading)
         case Name(text):
             raise ExpressionError(f"`{text}` has no value")
 
 
-def _of_operation(symbol: str, left: Node, right: Node, time: Dimension | None) -> Dimension | None:
-    first, second = measure(left, time=time), measure(right, time=time)
+def _of_operation(symbol: str, left: Node, right: Node, reading: Reading) -> Dimension | None:
+    first, second = measure(left, reading), measure(right, reading)
     match symbol:
         case "+" | "-":
             return _same(first, second, "added" if symbol == "+" else "subtracted")
         case "*":
-            return product(first, second)
+            return product_of(first, second)
         case "/":
-            return product(first, power(second, -1))
+            return product_of(first, power(second, -1))
     if without_angle(second) != without_angle(None):
         raise ExpressionError(f"an exponent is a pure number, not {described(second)}")
     if first is None:
         return None
-    if uses_time(right):
+    if varies(right):
         raise ExpressionError("a quantity with a unit cannot be raised to a power that changes with time")
     return power(first, evaluate(right))
 

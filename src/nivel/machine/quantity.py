@@ -7,22 +7,26 @@ file come in through the validation context: ``{"parameters": {"radius": Number(
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from numbers import Real
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from nivel.machine.arithmetic import (
+    LOCAL_SYMBOLS,
     ExpressionError,
     FaultyParameterError,
     Node,
     Parameters,
+    UnknownNameError,
     bind,
     evaluate,
     given,
-    uses_time,
+    signals,
+    varies,
 )
 from nivel.machine.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.grammar import parse
@@ -30,6 +34,9 @@ from nivel.machine.measure import measure
 
 FAULT = "nivel"  # type of the validation errors that carry a finished sentence
 REPORTED = "nivel_reported"  # type of those that follow from a fault reported elsewhere
+
+Kind = str | tuple[str, ...]  # a key of KINDS, or several of which one must fit
+ANY: Kind = ()  # whatever it measures
 
 
 def fault(message: str, *, at_key: bool = False) -> PydanticCustomError:
@@ -47,39 +54,67 @@ def parameters_of(info: ValidationInfo) -> Parameters:
     return (info.context or {}).get("parameters", {})
 
 
-def bound_tree(text: str, parameters: Parameters) -> Node:
-    """The tree of `text` with parameters, constants and units put in.
+def bound_tree(text: str, parameters: Parameters, local: Collection[str] = ()) -> Node:
+    """The tree of `text` with parameters, constants, units and `local` symbols put in.
 
     Raises ExpressionError, FaultyParameterError.
     """
-    return bind(parse(text), parameters)
+    try:
+        return bind(parse(text), parameters, local)
+    except UnknownNameError as problem:
+        if problem.name not in LOCAL_SYMBOLS:
+            raise
+        raise ExpressionError(f"{problem} (only the `law` of a spring knows its `{problem.name}`)") from None
 
 
-def check_kind(text: str, its: Dimension | None, kind: str) -> None:
+def kinds_of(kind: Kind) -> tuple[str, ...]:
+    """The keys of KINDS of which one must fit; none where anything does."""
+    return (kind,) if isinstance(kind, str) else kind
+
+
+def expected_kind(kind: Kind) -> str:
+    """``a force (N) or a torque (N*m)``."""
+    return " or ".join(_with_unit(*KINDS[one][:2]) for one in kinds_of(kind)) or "a number or a quantity"
+
+
+def _with_unit(article: str, unit: str) -> str:
+    return f"{article} ({unit})" if unit != "1" else article
+
+
+def check_kind(text: str, its: Dimension | None, kind: Kind) -> None:
     """Refuse a quantity of dimension `its`, written as `text`, that is not of `kind`. A bare number always is.
 
     Raises ExpressionError.
     """
-    article, unit, wanted = KINDS[kind]
-    if its is None:
+    clashes = [_clash(its, KINDS[one][2]) for one in kinds_of(kind)]
+    if "" in clashes or not clashes:
         return
-    expected = f"{article} ({unit})" if unit != "1" else article
-    # Angles vanish where SI lets them (rad/s × m = m/s), but where one is asked for, another power of it is a mistake.
+    if "turns" in clashes:
+        raise ExpressionError(
+            f"`{text}` counts turns; {expected_kind(kind)} was expected: write `rev/s`, `rpm` or `rad/s`"
+        )
+    raise ExpressionError(f"`{text}` is {described(its)}; {expected_kind(kind)} was expected")
+
+
+def _clash(its: Dimension | None, wanted: Dimension) -> Literal["", "other", "turns"]:
+    """How `its` clashes with what is `wanted`.
+
+    Angles vanish where SI lets them (rad/s × m = m/s), but where one is asked for, another power of it is a mistake.
+    """
+    if its is None:
+        return ""
     if without_angle(its) != without_angle(wanted) or (is_angular(its) and is_angular(wanted) and its != wanted):
-        raise ExpressionError(f"`{text}` is {described(its)}; {expected} was expected")
-    if is_angular(wanted) and counts_turns(its):
-        raise ExpressionError(f"`{text}` counts turns; {expected} was expected: write `rev/s`, `rpm` or `rad/s`")
+        return "other"
+    return "turns" if is_angular(wanted) and counts_turns(its) else ""
 
 
-def read_quantity(value: object, kind: str, parameters: Parameters) -> float:
-    """`value` as a finite SI number of `kind`, a key of KINDS.
+def read_quantity(value: object, kind: Kind, parameters: Parameters) -> float:
+    """`value` as a finite SI number of `kind`.
 
     Raises ExpressionError, FaultyParameterError.
     """
     if isinstance(value, str):
-        tree = bound_tree(value, parameters)
-        if uses_time(tree):
-            raise ExpressionError("`time` may only be used in the components of forces and torques")
+        tree = constant_tree(value, parameters)
         its = measure(tree)
         number = evaluate(tree)
         check_kind(value.strip(), its, kind)
@@ -88,9 +123,20 @@ def read_quantity(value: object, kind: str, parameters: Parameters) -> float:
         return given(value)
     if hasattr(value, "item") and getattr(value, "shape", None) == ():  # a NumPy scalar or array without axes
         return read_quantity(value.item(), kind, parameters)  # type: ignore[attr-defined]
-    article, unit, _ = KINDS[kind]
-    expected = f"{article} ({unit})" if unit != "1" else article
-    raise ExpressionError(f"{expected} was expected, got {shown(value)}")
+    raise ExpressionError(f"{expected_kind(kind)} was expected, got {shown(value)}")
+
+
+def constant_tree(text: str, parameters: Parameters) -> Node:
+    """The tree of `text`, in which nothing may vary.
+
+    Raises ExpressionError, FaultyParameterError.
+    """
+    tree = bound_tree(text, parameters)
+    if signals(tree):
+        raise ExpressionError(f"`{signals(tree)[0]}` may only be used where a value may vary: in forces and sensors")
+    if varies(tree):
+        raise ExpressionError("`time` may only be used where a value may vary: in forces, drivers and sensors")
+    return tree
 
 
 def shown(value: object) -> str:

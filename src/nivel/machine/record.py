@@ -21,7 +21,7 @@ from pydantic_core import ErrorDetails, InitErrorDetails
 from nivel.errors import Fault, ModelError
 from nivel.machine.quantity import FAULT, REPORTED, fault, reported, shown
 
-_NAME = re.compile(r"[^\W\d_][\w-]*")
+NAME = re.compile(r"[^\W\d_][\w-]*")
 _ROUGHLY = r"^[^\s\d._-][^\s.]*$"  # in the schema: regular expressions of JSON know no classes of letters
 GROUND = "ground"
 
@@ -29,7 +29,7 @@ GROUND = "ground"
 def _named(value: Any) -> str:
     if not isinstance(value, str):
         raise fault(f"a name was expected, got {shown(value)}")
-    if not _NAME.fullmatch(value):
+    if not NAME.fullmatch(value):
         raise fault(f"`{value}` is not a name: a name starts with a letter and has letters, digits, `-` and `_` only")
     return value
 

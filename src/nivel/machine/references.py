@@ -1,85 +1,174 @@
-"""Whether the bodies and markers that a machine mentions exist. Reads raw data too: one fault hides no other."""
+"""Whether everything that a machine mentions exists. Reads raw data too: one fault hides no other."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from difflib import get_close_matches
-from typing import Any
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, Final
 
-from nivel.machine.record import GROUND, Record, entry
+from nivel.machine.arithmetic import Parameters
+from nivel.machine.coordinate_reference import unknown_name
+from nivel.machine.coordinate_uses import coordinate_faults
+from nivel.machine.forces import FORCES, Contact
+from nivel.machine.forces.contact import SHAPES_ON_PLANE
+from nivel.machine.index import SECTIONS, Index, Place, as_list, elements
+from nivel.machine.point_masses import point_mass_faults
+from nivel.machine.record import GROUND, Record, entry, unknown_word
+from nivel.machine.symbols import symbol_faults
 
-Place = tuple[str | int, ...]
-SECTIONS = ("bodies", "markers", "joints", "forces")
+__all__ = ["SECTIONS", "reference_faults"]
+
+Faults = Iterator[tuple[Place, str]]
+
+WITH_ROWS: Final = ("joints", "couplings", "drivers")  # their rows are called NAME.…, so they share their names
+_OUTPUTS: Final = {force.model_fields["type"].default: force.outputs for force in FORCES}
+_SHAPES: Final = ("box", "cylinder", "sphere", "tube")
 
 
-def reference_faults(machine: Any) -> Iterator[tuple[Place, str]]:
+def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faults:
     """Place and message of every name that is used twice or mentioned in vain. `machine` is a record, or what it is
-    made of.
+    made of, with the `parameters` of its file.
     """
-    for section in SECTIONS:
-        yield from _twice(section, _elements(machine, section))
-    bodies = {name: name for name in _names(machine, "bodies")} | {GROUND: GROUND}
-    markers = {
-        str(name): entry(each, "body") for each in _elements(machine, "markers") if (name := entry(each, "name"))
-    }
-    for at, marker in enumerate(_elements(machine, "markers")):
-        yield from _unknown(entry(marker, "body"), bodies, "body", ("markers", at, "body"))
+    index = Index.of(machine)
+    yield from _twice(machine)
+    for at, marker in enumerate(elements(machine, "markers")):
+        yield from _unknown_body(entry(marker, "body"), index, ("markers", at, "body"))
         if isinstance(marker, Mapping | Record) and entry(marker, "name") is None:
             yield ("markers", at), "`name` is missing"
-    for at, joint in enumerate(_elements(machine, "joints")):
-        yield from _of_joint(joint, bodies, markers, ("joints", at))
-    for at, force in enumerate(_elements(machine, "forces")):
-        yield from _unknown(entry(force, "body"), bodies, "body", ("forces", at, "body"))
-        marker = entry(force, "marker")
-        yield from _unknown(marker, markers, "marker", ("forces", at, "marker"))
-        if isinstance(marker, str) and markers.get(marker) == GROUND:
-            yield ("forces", at, "marker"), f"the marker `{marker}` is on `{GROUND}`: a force there moves nothing"
+    for at, joint in enumerate(elements(machine, "joints")):
+        yield from _of_pair(joint, index, ("joints", at), "a joint needs two different bodies")
+    for at, driver in enumerate(elements(machine, "drivers")):
+        yield from _of_driver(driver, index, ("drivers", at))
+    for at, force in enumerate(elements(machine, "forces")):
+        yield from _of_force(force, index, ("forces", at))
+    for at, sensor in enumerate(elements(machine, "sensors")):
+        yield from _of_sensor(sensor, index, ("sensors", at))
+    for section in ("forces", "sensors"):
+        for at, element in enumerate(elements(machine, section)):
+            yield from symbol_faults(element, (section, at), index, parameters or {})
+    yield from coordinate_faults(machine, index)
+    yield from point_mass_faults(machine, index)
 
 
-def _of_joint(
-    joint: Any, bodies: Mapping[str, str], markers: Mapping[str, Any], place: Place
-) -> Iterator[tuple[Place, str]]:
-    for at, body in enumerate(_list(entry(joint, "bodies"))):
-        yield from _unknown(body, bodies, "body", (*place, "bodies", at))
-    ends = _list(entry(joint, "markers"))
-    for at, end in enumerate(ends):
-        if isinstance(end, str):
-            yield from _unknown(end, markers, "marker", (*place, "markers", at))
-        else:
-            yield from _unknown(entry(end, "body"), bodies, "body", (*place, "markers", at, "body"))
-    on = [markers.get(end) if isinstance(end, str) else entry(end, "body") for end in ends]
-    if len(on) == 2 and isinstance(on[0], str) and on[0] == on[1]:
-        yield (*place, "markers"), f"both markers are on `{on[0]}`; a joint needs two different bodies"
+def _twice(machine: Any) -> Faults:
+    for sections in (("bodies",), ("markers",), WITH_ROWS, ("forces",), ("sensors",)):
+        seen: dict[str, str] = {}
+        for section in sections:
+            for at, element in enumerate(elements(machine, section)):
+                name = entry(element, "name")
+                if not isinstance(name, str):
+                    continue
+                if name not in seen:
+                    seen[name] = section
+                    continue
+                message = f"the name `{name}` stands twice in {section}"
+                if seen[name] != section:
+                    message = (
+                        f"the name `{name}` stands in {seen[name]}; joints, couplings and drivers share their names"
+                    )
+                yield (section, at, "name"), message
 
 
-def _unknown(name: Any, known: Mapping[str, Any], what: str, place: Place) -> Iterator[tuple[Place, str]]:
-    if not isinstance(name, str) or name in known:
+def _of_driver(driver: Any, index: Index, place: Place) -> Faults:
+    marker, seen_from = entry(driver, "marker"), entry(driver, "relative_to")
+    yield from _unknown_marker(marker, index, (*place, "marker"))
+    if seen_from != GROUND:
+        yield from _unknown_marker(seen_from, index, (*place, "relative_to"))
+    on = index.body_of(marker) if isinstance(marker, str) else None
+    against = GROUND if seen_from in (None, GROUND) else index.body_of(seen_from)
+    if on is not None and on == against and marker != seen_from:
+        yield (*place, "marker"), f"the marker `{marker}` is on `{on}`, relative to which it is driven; it cannot move"
+
+
+def _of_force(force: Any, index: Index, place: Place) -> Faults:
+    if entry(force, "type") == Contact.model_fields["type"].default:
+        yield from _of_contact(force, index, place)
         return
-    near = get_close_matches(name, known, n=1, cutoff=0.6)
-    if near:
-        hint = f"; did you mean `{near[0]}`?"
+    yield from _unknown_body(entry(force, "body"), index, (*place, "body"))
+    marker = entry(force, "marker")
+    yield from _unknown_marker(marker, index, (*place, "marker"))
+    if isinstance(marker, str) and index.body_of(marker) == GROUND:
+        yield (*place, "marker"), f"the marker `{marker}` is on `{GROUND}`: a force there moves nothing"
+    yield from _of_pair(force, index, place, "a force needs two different bodies")
+
+
+def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
+    body, plane = entry(contact, "body"), entry(contact, "plane")
+    yield from _of_shape(body, index, SHAPES_ON_PLANE, (*place, "body"))
+    for at, sphere in enumerate(as_list(entry(contact, "bodies"))):
+        yield from _of_shape(sphere, index, ("sphere",), (*place, "bodies", at))
+    yield from _of_end(plane, index, (*place, "plane"))
+    if isinstance(body, str) and index.body_of(plane) == body:
+        yield (*place, "plane"), f"the plane is on `{body}` itself; it needs another body, or `{GROUND}`"
+    shape = index.bodies.get(body, "") if isinstance(body, str) else ""
+    if entry(contact, "materials") is not None and shape in SHAPES_ON_PLANE and shape != "sphere":
+        message = f"`materials` give the stiffness of spheres (Hertz); `{body}` is a {shape}: give its `stiffness`"
+        yield (*place, "materials"), message
+
+
+def _of_shape(body: Any, index: Index, allowed: tuple[str, ...], place: Place) -> Faults:
+    """Whether `body` is there and has one of the `allowed` shapes."""
+    yield from _unknown_body(body, index, place)
+    if not isinstance(body, str) or body not in index.bodies:
+        return
+    shape = index.bodies[body]
+    wanted = " or ".join(", ".join(allowed).rsplit(", ", 1))
+    if not shape:
+        yield place, f"the body `{body}` has no shape; a contact here needs a {wanted}"
+    elif shape in _SHAPES and shape not in allowed:
+        yield place, f"the body `{body}` is a {shape}; a contact here needs a {wanted}"
+
+
+def _of_sensor(sensor: Any, index: Index, place: Place) -> Faults:
+    yield from _unknown_marker(entry(sensor, "marker"), index, (*place, "marker"))
+    seen_from = entry(sensor, "relative_to")
+    if seen_from != GROUND:
+        yield from _unknown_marker(seen_from, index, (*place, "relative_to"))
+    for form in ("distance", "angle"):
+        for at, end in enumerate(as_list(entry(sensor, form))):
+            yield from _of_end(end, index, (*place, form, at))
+    force, quantity = entry(sensor, "force"), entry(sensor, "quantity")
+    yield from _unknown(force, index.forces, "force", (*place, "force"))
+    outputs = _outputs(index.forces.get(force)) if isinstance(force, str) else ()
+    if outputs and isinstance(quantity, str) and quantity not in outputs:
+        type_ = entry(index.forces[str(force)], "type")
+        message = f"of the {type_} `{force}`, {unknown_word(quantity, outputs, 'quantity')}"
+        yield (*place, "quantity"), message
+
+
+def _outputs(force: Any) -> tuple[str, ...]:
+    """What a sensor can read of a force."""
+    its = _OUTPUTS.get(str(entry(force, "type")), ())
+    return its if entry(force, "model") in (None, "lugre") else tuple(name for name in its if name != "bristle")
+
+
+def _of_pair(element: Any, index: Index, place: Place, needs: str) -> Faults:
+    """The two bodies or markers between which something acts."""
+    for at, body in enumerate(as_list(entry(element, "bodies"))):
+        yield from _unknown_body(body, index, (*place, "bodies", at))
+    ends = as_list(entry(element, "markers"))
+    for at, end in enumerate(ends):
+        yield from _of_end(end, index, (*place, "markers", at))
+    on = [index.body_of(end) for end in ends]
+    if len(on) == 2 and on[0] is not None and on[0] == on[1]:
+        yield (*place, "markers"), f"both markers are on `{on[0]}`; {needs}"
+
+
+def _of_end(end: Any, index: Index, place: Place) -> Faults:
+    """A marker by name, or written out."""
+    if isinstance(end, str):
+        yield from _unknown_marker(end, index, place)
     else:
-        hint = f"; there {'are' if len(known) > 1 else 'is'} {', '.join(known)}" if known else f"; there are no {what}s"
-    yield place, f"there is no {what} `{name}`{hint}"
+        yield from _unknown_body(entry(end, "body"), index, (*place, "body"))
 
 
-def _twice(section: str, elements: Sequence[Any]) -> Iterator[tuple[Place, str]]:
-    seen: set[str] = set()
-    for at, element in enumerate(elements):
-        name = entry(element, "name")
-        if isinstance(name, str) and name in seen:
-            yield (section, at, "name"), f"the name `{name}` stands twice in {section}"
-        elif isinstance(name, str):
-            seen.add(name)
+def _unknown_body(name: Any, index: Index, place: Place) -> Faults:
+    yield from _unknown(name, index.bodies_and_ground, "body", place)
 
 
-def _names(machine: Any, section: str) -> list[str]:
-    return [name for each in _elements(machine, section) if isinstance(name := entry(each, "name"), str)]
+def _unknown_marker(name: Any, index: Index, place: Place) -> Faults:
+    yield from _unknown(name, tuple(index.markers), "marker", place)
 
 
-def _elements(machine: Any, section: str) -> Sequence[Any]:
-    return _list(entry(machine, section))
-
-
-def _list(value: Any) -> Sequence[Any]:
-    return value if isinstance(value, list | tuple) else ()
+def _unknown(name: Any, known: Collection[str], what: str, place: Place) -> Faults:
+    if isinstance(name, str) and name not in known:
+        yield place, unknown_name(what, name, tuple(known))

@@ -1,207 +1,207 @@
-"""What may change with time: a number, a table, or an expression of `time`.
+"""What may vary: a number, a table, an expression of `time` and signals, or a law in Python.
 
-Components of forces and torques are of this type. Once in a record, numbers and tables are SI, and the text of an
-expression is arithmetic of `time` and SI numbers only, in Python's syntax, with the functions of
-arithmetic.FUNCTIONS.
+Components of forces and motions of drivers are of this type. Once in a record, everything is SI: numbers, tables, the
+numbers in the text of an expression and those that a law is called with.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Annotated, Any
+from typing import Annotated, Any, Final
 
-from pydantic import PlainSerializer, PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
-from pydantic_core import InitErrorDetails, PydanticCustomError
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic_core import CoreSchema, core_schema
 
-from nivel.machine.arithmetic import (
-    ExpressionError,
-    FaultyParameterError,
-    Node,
-    Parameters,
-    evaluate,
-    fold,
-    render,
-    uses_time,
-)
-from nivel.machine.dimension import KINDS, Dimension
-from nivel.machine.grammar import parse
-from nivel.machine.measure import measure
+from nivel.machine.arithmetic import ExpressionError, FaultyParameterError, Node, Parameters, fold, render, varies
+from nivel.machine.derivative import derivative
+from nivel.machine.expression import Expression
+from nivel.machine.measure import measure, readings
+from nivel.machine.python_law import PythonLaw, read_python_law
 from nivel.machine.quantity import (
+    ANY,
+    Kind,
     bound_tree,
     check_kind,
+    expected_kind,
     expression_fault,
-    fault,
-    listed,
     parameters_of,
     read_quantity,
     reported,
-    shown,
 )
-from nivel.machine.record import unknown_word
+from nivel.machine.table import INTERPOLATIONS, Table, read_table
+
+TimeFunction = float | Table | Expression | PythonLaw
+
+MOTION_RESULTS: Final = 3  # what a law that drives returns: value, rate, acceleration
 
 
-@dataclass(frozen=True)
-class Table:
-    """Straight lines between points. `times` [s] increase strictly; before the first and after the last the end
-    values hold.
+def read_time_function(
+    value: object, kind: Kind, parameters: Parameters, local: Collection[str] = (), *, smooth: bool = False
+) -> TimeFunction:
+    """`value` as something that varies, of a quantity of `kind`, in SI.
 
-    Entries may be texts with units until the table stands in a force, which turns them into SI numbers.
-    """
+    local : symbols that have a meaning in this field, of LOCAL_SYMBOLS
+    smooth : a motion of a driver is asked for: a function of time only, with two derivatives
 
-    times: tuple[Any, ...]
-    values: tuple[Any, ...]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "times", tuple(listed(self.times)))
-        object.__setattr__(self, "values", tuple(listed(self.values)))
-
-    def __call__(self, time: float) -> float:
-        import numpy as np
-
-        return float(np.interp(time, self.times, self.values))
-
-
-@dataclass(frozen=True)
-class Expression:
-    """Arithmetic of `time` [s], e.g. ``10 + 3*sin(2*pi*time)``."""
-
-    text: str
-
-    def __call__(self, time: float) -> float:
-        return evaluate(self._tree, time)
-
-    @cached_property
-    def _tree(self) -> Node:
-        return bound_tree(self.text, {})
-
-
-TimeFunction = float | Table | Expression
-
-
-def read_time_function(value: object, kind: str, parameters: Parameters) -> TimeFunction:
-    """`value` as a number, table or expression of a quantity of `kind`, in SI.
-
-    Raises ExpressionError, FaultyParameterError; for the entries of a table a ValidationError with their places.
+    Raises ExpressionError, FaultyParameterError; for a table or a law a ValidationError with the places of its faults.
     """
     if isinstance(value, Expression):
         value = value.text
-    if isinstance(value, str) and uses_time(parse(value)):
-        bound = bound_tree(value, parameters)
-        _check_kind_in_time(bound, value.strip(), kind)
-        return Expression(render(fold(bound)))
-    if isinstance(value, Table):
-        value = {"times": value.times, "values": value.values}
-    if isinstance(value, Mapping):
-        return _read_table(value, kind, parameters)
-    return read_quantity(value, kind, parameters)
+    if isinstance(value, str):
+        function = _read_text(value, kind, parameters, local)
+    elif isinstance(value, PythonLaw) or (isinstance(value, Mapping) and _is_law(value)):
+        function = read_python_law(value, parameters, local, results=MOTION_RESULTS if smooth else 1)
+    elif isinstance(value, Table | Mapping):
+        function = read_table(value, kind, parameters, local)
+    else:
+        function = read_quantity(value, kind, parameters)
+    if smooth:
+        check_smooth(function)
+    return function
 
 
-def _check_kind_in_time(tree: Node, text: str, kind: str) -> None:
-    """`time` may count as a plain number of seconds (`sin(2*pi*time)`) or as a quantity (`5 N/s * time`): one of the two
-    readings must make sense throughout.
+def _is_law(given: Mapping[Any, object]) -> bool:
+    return any(word in given for word in ("python", "source", "function", "arguments"))
 
-    Raises ExpressionError, about the first reading.
+
+def _read_text(text: str, kind: Kind, parameters: Parameters, local: Collection[str]) -> float | Expression:
+    tree = bound_tree(text, parameters, local)
+    if not varies(tree):
+        return read_quantity(text, kind, parameters)
+    _check_kind_of_varying(tree, text.strip(), kind)
+    return Expression(render(fold(tree)))
+
+
+def _check_kind_of_varying(tree: Node, text: str, kind: Kind) -> None:
+    """`time` may count as a plain number of seconds (`sin(2*pi*time)`) or as a quantity (`5 N/s * time`), and signals
+    likewise: for some choice everything must make sense.
+
+    Raises ExpressionError, about the choice in which they all are plain numbers.
     """
-    seconds: Dimension = KINDS["time"][2]
-    try:
-        check_kind(text, measure(tree), kind)
-    except ExpressionError as clash:
+    clash = None
+    for reading in readings(tree):
         try:
-            check_kind(text, measure(tree, time=seconds), kind)
-        except ExpressionError:
-            raise clash from None
-
-
-def _read_table(given: Mapping[str, object], kind: str, parameters: Parameters) -> Table:
-    keys = ("times", "values")
-    unknown = [str(word) for word in given if word not in keys]
-    lines = [_line((word,), fault(unknown_word(word, keys, "key"), at_key=True)) for word in unknown]
-    columns: dict[str, list[float]] = {}
-    for word, its_kind in (("times", "time"), ("values", kind)):
-        columns[word] = _read_column(word, given.get(word), its_kind, parameters, lines)
-    if not lines:
-        lines += _faults_of_columns(columns["times"], columns["values"])
-    if lines:
-        raise ValidationError.from_exception_data("Table", lines)
-    return Table(tuple(columns["times"]), tuple(columns["values"]))
-
-
-def _read_column(
-    word: str, given: object, kind: str, parameters: Parameters, lines: list[InitErrorDetails]
-) -> list[float]:
-    given = listed(given)
-    if not isinstance(given, Sequence) or isinstance(given, str):
-        message = f"`{word}` is missing" if given is None else f"a list was expected, got {shown(given)}"
-        lines.append(_line((word,), fault(message)))
-        return []
-    column = []
-    for at, entry in enumerate(given):
-        try:
-            column.append(read_quantity(entry, kind, parameters))
-        except FaultyParameterError:
-            lines.append(_line((word, at), reported()))
+            check_kind(text, measure(tree, reading), kind)
         except ExpressionError as problem:
-            lines.append(_line((word, at), expression_fault(problem, entry)))
-    return column
+            clash = clash or problem
+        else:
+            return
+    if clash is not None:
+        raise clash
 
 
-def _faults_of_columns(times: list[float], values: list[float]) -> list[InitErrorDetails]:
-    if len(times) != len(values):
-        return [_line(("values",), fault(f"a table needs as many values as times; got {len(values)} and {len(times)}"))]
-    if not times:
-        return [_line(("times",), fault("a table needs at least one time"))]
-    for at in range(1, len(times)):
-        if times[at] <= times[at - 1]:
-            return [
-                _line(("times", at), fault(f"times increase; {times[at]:g} s does not come after {times[at - 1]:g} s"))
-            ]
-    return []
+def check_smooth(function: TimeFunction) -> None:
+    """Refuse what cannot drive: what depends on more than time, or has corners.
+
+    Raises ExpressionError.
+    """
+    match function:
+        case Expression():
+            derivative(derivative(function.tree))
+        case Table() | PythonLaw() if function.signals:
+            raise ExpressionError(f"a driver depends on `time` alone, not on `{function.signals[0]}`")
+        case Table(interpolation="linear"):
+            raise ExpressionError("a table of straight lines has corners; a driver needs `interpolation: cubic`")
 
 
-def _line(place: tuple[str | int, ...], message: PydanticCustomError) -> InitErrorDetails:
-    return InitErrorDetails(type=message, loc=place, input=None)
+def signals_of(function: TimeFunction) -> tuple[str, ...]:
+    """The paths of the signals that `function` depends on, local symbols among them; `time` is none."""
+    return () if isinstance(function, float | int) else function.signals
 
 
-def written(value: TimeFunction) -> float | str | dict[str, list[float]]:
+def written(value: TimeFunction) -> float | str | dict[str, Any]:
     """`value` as it stands in a file: a number, a text, or a mapping."""
     match value:
-        case Table(times, values):
-            return {"times": list(times), "values": list(values)}
+        case Table() | PythonLaw():
+            return value.written()
         case Expression(text):
             return text
     return value
 
 
-_QUANTITY_SCHEMA = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+@dataclass(frozen=True)
+class Varying:
+    """Annotation of a field that is a TimeFunction of a quantity of `kind`; see `varying`."""
 
+    kind: Kind
+    local: tuple[str, ...] = ()
+    smooth: bool = False
 
-def _time_function(kind: str) -> Any:
-    """The annotation of a field that is a TimeFunction of a quantity of `kind`."""
-
-    def read(value: Any, info: ValidationInfo) -> TimeFunction:
+    def read(self, value: Any, info: ValidationInfo) -> TimeFunction:
+        parameters = parameters_of(info)
         try:
-            return read_time_function(value, kind, parameters_of(info))
+            return read_time_function(value, self.kind, parameters, self.local, smooth=self.smooth)
         except FaultyParameterError:
             raise reported() from None
         except ExpressionError as problem:
             raise expression_fault(problem, value) from None
 
-    column = {"type": "array", "items": _QUANTITY_SCHEMA}
-    table = {
-        "type": "object",
-        "properties": {"times": column, "values": column},
-        "required": ["times", "values"],
-        "additionalProperties": False,
-    }
-    schema = {
-        "anyOf": [*_QUANTITY_SCHEMA["anyOf"], table],
-        "description": f"a {kind}: number, quantity, expression of `time`, or table",
-    }
-    return PlainValidator(read), PlainSerializer(written), WithJsonSchema(schema)
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        serialization = core_schema.plain_serializer_function_ser_schema(written)
+        return core_schema.with_info_plain_validator_function(self.read, serialization=serialization)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        symbols = "`time`" if self.smooth else ", ".join(("`time`", *(f"`{word}`" for word in self.local), "signals"))
+        return {
+            "anyOf": [*_QUANTITY["anyOf"], *_table_schemas(self.smooth), _LAW],
+            "description": f"{expected_kind(self.kind)}: number, quantity, expression of {symbols}, table, or law in Python",
+        }
 
 
-_force, _torque = _time_function("force"), _time_function("torque")
-ForceComponent = Annotated[TimeFunction, _force[0], _force[1], _force[2]]
-TorqueComponent = Annotated[TimeFunction, _torque[0], _torque[1], _torque[2]]
+def varying(kind: Kind, local: Collection[str] = (), *, smooth: bool = False) -> Varying:
+    """The annotation of a field that may vary: ``Annotated[TimeFunction, varying("force", local=("length", "rate"))]``.
+
+    kind : a key of KINDS, or several of which one must fit, or ANY
+    local : symbols that have a meaning in this field, of LOCAL_SYMBOLS
+    smooth : a motion of a driver: a function of time only, with two derivatives
+    """
+    return Varying(kind, tuple(local), smooth)
+
+
+_QUANTITY: Final = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+_COLUMN: Final = {"type": "array", "items": _QUANTITY}
+_TEXT: Final = {"type": "string"}
+_LAW: Final = {
+    "type": "object",
+    "properties": {
+        "python": {**_TEXT, "description": "file of the function, beside the machine file"},
+        "source": {**_TEXT, "description": "text of such a file, in place of `python`"},
+        "function": _TEXT,
+        "arguments": {**_COLUMN, "description": "`time`, signals, or numbers"},
+        "file": {**_TEXT, "description": "name of the file that `source` came from"},
+    },
+    "required": ["function"],
+    "anyOf": [{"required": ["python"]}, {"required": ["source"]}],
+    "additionalProperties": False,
+}
+
+
+def _table_schemas(smooth: bool) -> list[dict[str, Any]]:
+    """The forms of a table: of time, and where that is allowed of a signal."""
+    interpolation = {"enum": ["cubic"] if smooth else list(INTERPOLATIONS)}
+    of_time = {"of": {"const": "time"}, "times": _COLUMN}, ["times", "values"]
+    of_signal = {"of": _TEXT, "points": _COLUMN}, ["of", "points", "values"]
+    return [
+        {
+            "type": "object",
+            "properties": {**columns, "values": _COLUMN, "interpolation": interpolation},
+            "required": [*required, "interpolation"] if smooth else required,
+            "additionalProperties": False,
+        }
+        for columns, required in ([of_time] if smooth else [of_time, of_signal])
+    ]
+
+
+ForceComponent = Annotated[TimeFunction, varying("force")]
+TorqueComponent = Annotated[TimeFunction, varying("torque")]
+Effort = Annotated[TimeFunction, varying(("force", "torque"))]
+Measured = Annotated[TimeFunction, varying(ANY)]
+
+# Laws of springs: what the spring measures has a name of its own.
+SpringForce = Annotated[TimeFunction, varying("force", local=("length", "rate"))]
+SpringTorque = Annotated[TimeFunction, varying("torque", local=("angle", "rate"))]
+
+AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]
+LengthMotion = Annotated[TimeFunction, varying("length", smooth=True)]
+Motion = Annotated[TimeFunction, varying(("angle", "length"), smooth=True)]

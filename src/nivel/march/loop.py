@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nivel.kernels.compile import entry, leaf
 from nivel.kernels.handle import address_type
-from nivel.kernels.observe import count_turns, observe
+from nivel.kernels.observe import accept, observe
 from nivel.kernels.record import record_at
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE, NOT_FINITE, OK
 from nivel.march.run import (
@@ -64,7 +64,7 @@ def unfed_evaluation(evaluate, machine, history):
 def advance(evaluate, correct, step, machine, history):
     """March until something has to be done outside; returns a status of `nivel.kernels.status`.
 
-    Each step: evaluate at the accepted state, count turns, write a frame if one is due, step, correct. Where a step fails, `run.y` is
+    Each step: evaluate at the accepted state, accept it, write a frame if one is due, step, correct. Where a step fails, `run.y` is
     not that of an accepted state; `run.previous` and `run.clock` are.
     """
     run = run_at(history)
@@ -89,14 +89,14 @@ def advance(evaluate, correct, step, machine, history):
             if not finite(run.rate):
                 return NOT_FINITE
             counter[EVALUATED] = 1
-            count_turns(record)
+            accept(record)
             if due:
                 status = unfed_evaluation(evaluate, machine, history)
                 if status != OK:
                     return status
                 frame = run.frames[counter[FRAMES]]
                 frame[0] = clock[TIME]
-                observe(machine, run.y, frame)
+                observe(machine, clock[TIME], run.y, frame)
                 counter[FRAMES] += 1
                 counter[LAST_FRAME] = n
         if last:

@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import entry, stage
-from nivel.kernels.constraint import constraint_rows, constraint_values
-from nivel.kernels.load import apply_loads
+from nivel.kernels.constraint import constraint_rows
+from nivel.kernels.hook import apply_forces, call_hook, finish_forces
 from nivel.kernels.marker import move_markers, place_markers
-from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import MEASURE, NONE, correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight, place_body
 from nivel.kernels.rotation import angular_velocity, transformation
 from nivel.kernels.saddle import factorise_rows, multipliers
@@ -20,31 +20,34 @@ from nivel.kernels.spatial import dot, multiply
 from nivel.kernels.status import OK
 
 WIDTH = 7
-NORMALISATION = 2
 
 
 @stage
-def read_positions(record, y):
-    """Poses of bodies and markers, and C with the normalisation rows."""
-    bodies, constraints = record.bodies, record.constraints
-    nb = bodies.mass.shape[0]
+def normalisation_rows(record, y):
+    """C, Ċ = 2 θᵀθ̇ and γ = -2 θ̇ᵀθ̇ of θᵀθ - 1 = 0."""
+    constraints = record.constraints
+    nb = record.bodies.mass.shape[0]
     first = constraints.C.shape[0] - nb
     for b in range(nb):
-        place_body(bodies, b, y[7 * b : 7 * b + 7])
-        theta = bodies.theta[b]
-        constraints.C[first + b] = (
-            theta[0] * theta[0] + theta[1] * theta[1] + theta[2] * theta[2] + theta[3] * theta[3] - 1.0
-        )
-    place_markers(bodies, record.markers)
-    constraint_values(bodies, record.markers, constraints)
+        length, rate, square = 0.0 * y[0], 0.0 * y[0], 0.0 * y[0]
+        for i in range(4):
+            length += y[7 * b + 3 + i] * y[7 * b + 3 + i]
+            thetadot = y[7 * nb + 7 * b + 3 + i]
+            rate += y[7 * b + 3 + i] * thetadot
+            square += thetadot * thetadot
+        constraints.C[first + b] = length - 1.0
+        constraints.Cdot[first + b] = 2.0 * rate
+        constraints.gamma[first + b] = -2.0 * square
 
 
 @stage
-def read_velocities(record, y):
-    """Poses and velocities of bodies and markers, and C."""
-    read_positions(record, y)
+def read_state(record, machine, t, y):
+    """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
     bodies = record.bodies
     nb = bodies.mass.shape[0]
+    for b in range(nb):
+        place_body(bodies, b, y[7 * b : 7 * b + 7])
+    place_markers(bodies, record.markers)
     for b in range(nb):
         v = 7 * nb + 7 * b
         for i in range(3):
@@ -52,22 +55,9 @@ def read_velocities(record, y):
         angular_velocity(bodies.theta[b], y[v + 3 : v + 7], bodies.omega_b[b])
         multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
     move_markers(bodies, record.markers)
-
-
-@stage
-def normalisation_rows(record, y):
-    """Ċ = 2 θᵀθ̇ and γ = -2 θ̇ᵀθ̇ of θᵀθ - 1 = 0."""
-    constraints = record.constraints
-    nb = record.bodies.mass.shape[0]
-    first = constraints.C.shape[0] - nb
-    for b in range(nb):
-        rate, square = 0.0 * y[0], 0.0 * y[0]
-        for i in range(4):
-            thetadot = y[7 * nb + 7 * b + 3 + i]
-            rate += y[7 * b + 3 + i] * thetadot
-            square += thetadot * thetadot
-        constraints.Cdot[first + b] = 2.0 * rate
-        constraints.gamma[first + b] = -2.0 * square
+    constraint_rows(bodies, record.markers, record.constraints)
+    normalisation_rows(record, y)
+    return call_hook(record, machine, MEASURE, t)
 
 
 @stage
@@ -147,20 +137,19 @@ def whiten_rows(record, y):
     bodies, markers, saddle, constraints = record.bodies, record.markers, record.saddle, record.constraints
     J = constraints.J
     for k in range(saddle.block.shape[0]):
-        row, side, marker, b = saddle.block[k, 0], saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
+        row, part, marker, b = saddle.block[k, 0], saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
         W, G = saddle.W[k], saddle.G[b]
-        if side == NORMALISATION:
+        if part == NONE:
             for i in range(3):
                 W[i] = 0.0
             for i in range(4):
                 W[3 + i] = 2.0 * bodies.theta[b, i]
         else:
-            part = 6 * side
-            f0, f1, f2 = J[row, part], J[row, part + 1], J[row, part + 2]
+            f0, f1, f2 = J[part, 0], J[part, 1], J[part, 2]
             u = markers.u[marker]
-            n0 = J[row, part + 3] + u[1] * f2 - u[2] * f1
-            n1 = J[row, part + 4] + u[2] * f0 - u[0] * f2
-            n2 = J[row, part + 5] + u[0] * f1 - u[1] * f0
+            n0 = J[part, 3] + u[1] * f2 - u[2] * f1
+            n1 = J[part, 4] + u[2] * f0 - u[0] * f2
+            n2 = J[part, 5] + u[0] * f1 - u[1] * f0
             W[0], W[1], W[2] = f0, f1, f2
             for i in range(4):
                 W[3 + i] = n0 * G[0, 3 + i] + n1 * G[1, 3 + i] + n2 * G[2, 3 + i]
@@ -194,7 +183,7 @@ def whiten_forces(record, y):
         t0 = F[3] - (A[0, 0] * v0 + A[0, 1] * v1 + A[0, 2] * v2)
         t1 = F[4] - (A[1, 0] * v0 + A[1, 1] * v1 + A[1, 2] * v2)
         t2 = F[5] - (A[2, 0] * v0 + A[2, 1] * v1 + A[2, 2] * v2)
-        radial = 0.5 * augmentation(bodies, b) * record.constraints.gamma[record.constraints.gamma.shape[0] - nb + b]
+        radial = 0.5 * augmentation(bodies, b) * record.constraints.gamma[record.constraints.C.shape[0] - nb + b]
         for i in range(4):
             z[3 + i] = t0 * G[0, 3 + i] + t1 * G[1, 3 + i] + t2 * G[2, 3 + i] + radial * bodies.theta[b, i]
         forward(G, z)
@@ -214,7 +203,7 @@ def unwhiten(record, b):
 
 @stage
 def write_rates(record, y, ydot):
-    """ẏ = (q̇, q̈, power), and the accelerations of the bodies."""
+    """(q̇, q̈) of ẏ, and the accelerations of the bodies."""
     bodies, saddle = record.bodies, record.saddle
     nb = bodies.mass.shape[0]
     for b in range(nb):
@@ -228,20 +217,22 @@ def write_rates(record, y, ydot):
         for i in range(3):
             bodies.Rddot[b, i] = saddle.z[b, i]
             bodies.alpha_b[b, i] += kappa * bodies.omega_b[b, i]
-    x = 14 * nb
-    ydot[x] = record.control.power[0]
-    ydot[x + 1] = record.control.power[1]
 
 
 @entry(evaluate_signature)
 def evaluate(machine, t, y, ydot):
-    """ẏ of y = (q, q̇, x): x are the work of external forces and the dissipated energy [J]. Leaves everything else in the record."""
+    """ẏ of y = (q, q̇, x): x are the states of forces, the work of external forces and the dissipated energy [J].
+
+    Leaves everything else in the record.
+    """
     record = record_at(machine)
-    read_velocities(record, y)
-    constraint_rows(record.bodies, record.markers, record.constraints)
-    normalisation_rows(record, y)
+    status = read_state(record, machine, t, y)
+    if status != OK:
+        return status
     load_weight(record.bodies)
-    apply_loads(record, t)
+    status = apply_forces(record, machine, t, y)
+    if status != OK:
+        return status
     factorise_mass(record, y)
     whiten_rows(record, y)
     status = factorise_rows(record, WIDTH)
@@ -249,8 +240,9 @@ def evaluate(machine, t, y, ydot):
         return status
     whiten_forces(record, y)
     multipliers(record, WIDTH)
+    status = finish_forces(record, machine, t, ydot)
     write_rates(record, y, ydot)
-    return OK
+    return status
 
 
 @entry(correct_signature)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from nivel.kernels.compile import entry
-from nivel.kernels.constraint import constraint_rows
 from nivel.kernels.record import correct_signature, record_at
 from nivel.kernels.saddle import correction, exceeds, factorise_rows
 from nivel.kernels.status import OK
-from nivel.motion.lagrange import WIDTH, factorise_mass, normalisation_rows, read_velocities, unwhiten, whiten_rows
+from nivel.motion.lagrange import WIDTH, factorise_mass, read_state, unwhiten, whiten_rows
 
 MAX_CORRECTIONS = 3
 # Violations up to this many times the tolerance leave the factor of S good enough for the next pass.
@@ -27,9 +26,9 @@ def correct(machine, t, y):
     tolerance = record.control.stabilise
     factorised = False
     for attempt in range(MAX_CORRECTIONS + 1):
-        read_velocities(record, y)
-        constraint_rows(record.bodies, record.markers, constraints)
-        normalisation_rows(record, y)
+        status = read_state(record, machine, t, y)
+        if status != OK:
+            return status
         at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, constraints.scale, tolerance[2])
         if not at_positions and not exceeds(constraints.Cdot, constraints.scale, tolerance[3]):
             return OK

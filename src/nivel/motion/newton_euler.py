@@ -7,10 +7,10 @@ diag(m, J̄_c): the same equations, and its factor costs nothing.
 from __future__ import annotations
 
 from nivel.kernels.compile import entry, stage
-from nivel.kernels.constraint import constraint_rows, constraint_values
-from nivel.kernels.load import apply_loads
+from nivel.kernels.constraint import constraint_rows
+from nivel.kernels.hook import apply_forces, call_hook, finish_forces
 from nivel.kernels.marker import move_markers, place_markers
-from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import MEASURE, correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight, place_body
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.saddle import factorise_rows, multipliers
@@ -33,21 +33,13 @@ def normalise(record, y):
 
 
 @stage
-def read_positions(record, y):
-    """Poses of bodies and markers, and C."""
-    bodies = record.bodies
-    for b in range(bodies.mass.shape[0]):
-        place_body(bodies, b, y[7 * b : 7 * b + 7])
-    place_markers(bodies, record.markers)
-    constraint_values(bodies, record.markers, record.constraints)
-
-
-@stage
-def read_velocities(record, y):
-    """Poses and velocities of bodies and markers, and C."""
-    read_positions(record, y)
+def read_state(record, machine, t, y):
+    """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
     bodies = record.bodies
     nb = bodies.mass.shape[0]
+    for b in range(nb):
+        place_body(bodies, b, y[7 * b : 7 * b + 7])
+    place_markers(bodies, record.markers)
     for b in range(nb):
         v = 7 * nb + 6 * b
         for i in range(3):
@@ -55,6 +47,8 @@ def read_velocities(record, y):
             bodies.omega_b[b, i] = y[v + 3 + i]
         multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
     move_markers(bodies, record.markers)
+    constraint_rows(bodies, record.markers, record.constraints)
+    return call_hook(record, machine, MEASURE, t)
 
 
 @stage
@@ -69,15 +63,14 @@ def whiten_rows(record):
             B[1, j] = K[1, 0] * A[j, 0] + K[1, 1] * A[j, 1]
             B[2, j] = K[2, 0] * A[j, 0] + K[2, 1] * A[j, 1] + K[2, 2] * A[j, 2]
     for k in range(saddle.block.shape[0]):
-        row, side, marker, b = saddle.block[k, 0], saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
-        part = 6 * side
-        f0, f1, f2 = J[row, part], J[row, part + 1], J[row, part + 2]
+        part, marker, b = saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
+        f0, f1, f2 = J[part, 0], J[part, 1], J[part, 2]
         u0 = markers.u[marker, 0] - bodies.c[b, 0]
         u1 = markers.u[marker, 1] - bodies.c[b, 1]
         u2 = markers.u[marker, 2] - bodies.c[b, 2]
-        n0 = J[row, part + 3] + u1 * f2 - u2 * f1
-        n1 = J[row, part + 4] + u2 * f0 - u0 * f2
-        n2 = J[row, part + 5] + u0 * f1 - u1 * f0
+        n0 = J[part, 3] + u1 * f2 - u2 * f1
+        n1 = J[part, 4] + u2 * f0 - u0 * f2
+        n2 = J[part, 5] + u0 * f1 - u1 * f0
         root, B, W = bodies.inverse_root_mass[b], saddle.G[b], saddle.W[k]
         W[0], W[1], W[2] = root * f0, root * f1, root * f2
         W[3] = B[0, 0] * n0 + B[0, 1] * n1 + B[0, 2] * n2
@@ -129,7 +122,7 @@ def unwhiten(bodies, saddle, b):
 
 @stage
 def write_rates(record, ydot):
-    """ẏ = (Ṙ, θ̇, R̈, ᾱ, power)."""
+    """(Ṙ, θ̇, R̈, ᾱ) of ẏ."""
     bodies = record.bodies
     nb = bodies.mass.shape[0]
     for b in range(nb):
@@ -140,27 +133,31 @@ def write_rates(record, ydot):
             ydot[q + i] = bodies.Rdot[b, i]
             ydot[v + i] = bodies.Rddot[b, i]
             ydot[v + 3 + i] = bodies.alpha_b[b, i]
-    x = 13 * nb
-    ydot[x] = record.control.power[0]
-    ydot[x + 1] = record.control.power[1]
 
 
 @entry(evaluate_signature)
 def evaluate(machine, t, y, ydot):
-    """ẏ of y = (q, v, x): x are the work of external forces and the dissipated energy [J]. Leaves everything else in the record."""
+    """ẏ of y = (q, v, x): x are the states of forces, the work of external forces and the dissipated energy [J].
+
+    Leaves everything else in the record.
+    """
     record = record_at(machine)
-    read_velocities(record, y)
-    constraint_rows(record.bodies, record.markers, record.constraints)
+    status = read_state(record, machine, t, y)
+    if status != OK:
+        return status
     load_weight(record.bodies)
-    apply_loads(record, t)
+    status = apply_forces(record, machine, t, y)
+    if status != OK:
+        return status
     whiten_rows(record)
     status = factorise_rows(record, WIDTH)
     if status != OK:
         return status
     whiten_forces(record)
     multipliers(record, WIDTH)
+    status = finish_forces(record, machine, t, ydot)
     write_rates(record, ydot)
-    return OK
+    return status
 
 
 @entry(correct_signature)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from nivel.kernels.compile import entry
-from nivel.kernels.constraint import constraint_rows
 from nivel.kernels.record import correct_signature, record_at
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.saddle import correction, exceeds, factorise_rows
 from nivel.kernels.status import OK
-from nivel.motion.newton_euler import WIDTH, normalise, read_velocities, unwhiten, whiten_rows
+from nivel.motion.newton_euler import WIDTH, normalise, read_state, unwhiten, whiten_rows
 
 MAX_CORRECTIONS = 3
 # Violations up to this many times the tolerance leave the factor of S good enough for the next pass.
@@ -29,8 +28,9 @@ def correct(machine, t, y):
     factorised = False
     for attempt in range(MAX_CORRECTIONS + 1):
         normalise(record, y)
-        read_velocities(record, y)
-        constraint_rows(bodies, record.markers, constraints)
+        status = read_state(record, machine, t, y)
+        if status != OK:
+            return status
         at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, constraints.scale, tolerance[2])
         if not at_positions and not exceeds(constraints.Cdot, constraints.scale, tolerance[3]):
             return OK

@@ -30,7 +30,7 @@ class Facts:
     """What only the run itself knows.
 
     outcome : done, interrupted, failed or running.
-    degrees_of_freedom : None where unknown.
+    degrees_of_freedom : None where unknown. drivers : motions that are prescribed.
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
     accuracy : largest change of a position [m] when the step is halved, from `nivel.results.accuracy.step_halving`.
     failure : what stopped the run, in a sentence.
@@ -42,6 +42,7 @@ class Facts:
     non_unique_joints: tuple[str, ...] = ()
     accuracy: Peak | None = None
     failure: str = ""
+    drivers: int = 0
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -73,6 +74,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         constraint_rate_violation_time=rate.time,
         constraint_rate_violation_units="m/s" if rate_units == "m" else "1/s",
         degrees_of_freedom=facts.degrees_of_freedom,
+        drivers=facts.drivers,
         redundant_rows=tuple(facts.redundant_rows),
         non_unique_joints=tuple(facts.non_unique_joints),
         accuracy_estimate=facts.accuracy.value if facts.accuracy else None,

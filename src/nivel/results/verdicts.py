@@ -102,7 +102,7 @@ class Trust:
     cosine).
     size_kind : what `size` is, to be said after "the". at_rest : `speed` is not that of the machine, which is at rest,
     but the least speed that counts.
-    degrees_of_freedom : None where the run did not live to tell.
+    degrees_of_freedom : None where the run did not live to tell. drivers : motions that are prescribed.
     """
 
     verdict: Verdict
@@ -122,6 +122,7 @@ class Trust:
     constraint_rate_violation_time: float = 0.0
     constraint_rate_violation_units: str = "m/s"
     degrees_of_freedom: int | None = None
+    drivers: int = 0
     redundant_rows: tuple[str, ...] = ()
     non_unique_joints: tuple[str, ...] = ()
     accuracy_estimate: float | None = None

@@ -2,137 +2,212 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
+from importlib import import_module
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.load import BODY_AXES, FORCE, GLOBAL_AXES, TORQUE
-from nivel.kernels.record import Bodies, Constraints, Control, Functions, Joints, Loads, Markers, Record, Saddle
+from nivel.kernels.record import (
+    FRICTION,
+    MEASURE,
+    NONE,
+    SENSE,
+    Bodies,
+    Control,
+    Friction,
+    Hooks,
+    Joints,
+    Markers,
+    Outputs,
+    Record,
+    Saddle,
+    Sensors,
+)
 from nivel.machine.body import Body
-from nivel.machine.force import PointForce, Torque
 from nivel.machine.inertia import mass_properties
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.marker import Marker
 from nivel.machine.placement import initial_velocity, placement
+from nivel.system.draft import Draft
 from nivel.system.elimination import plan
-from nivel.system.functions import function_table
-from nivel.system.joint_frames import joint_frames
-from nivel.system.joints import JOINTS
+from nivel.system.forces import FORCES, family_addresses
 from nivel.system.layout import frame_layout
-from nivel.system.system import Array, Equations, System
+from nivel.system.rows import RowTable, add_couplings, add_drivers, add_joint, coordinate_units
+from nivel.system.sensors import sensor_columns
+from nivel.system.system import Equations, System
+from nivel.system.tables import Array, index_array, padded
 
-GROUND = "ground"
-NORMALISATION_SIDE = 2
 # [m] a tenth of a light year: squares and products of longer machines leave the range of numbers
 LARGEST = 1e15
-
-
-@dataclass
-class MarkerTable:
-    """Markers collected while joints and loads are built."""
-
-    body: list[int] = field(default_factory=list)
-    position: list[Array] = field(default_factory=list)
-    frame: list[Array] = field(default_factory=list)
-
-    def add(self, body: int, position: Array, frame: Array) -> int:
-        """Index of a new marker at `position` (3,) with axes `frame` (3, 3), both in body axes."""
-        self.body.append(body)
-        self.position.append(position)
-        self.frame.append(frame)
-        return len(self.body) - 1
-
-
-@dataclass
-class JointTables:
-    """What the joints of a machine come to."""
-
-    names: list[str] = field(default_factory=list)  # of rows
-    units: list[str] = field(default_factory=list)
-    owner: list[int] = field(default_factory=list)  # joint of each row
-    pairs: list[tuple[int, int]] = field(default_factory=list)  # markers of each row
-    spans: list[tuple[int, int]] = field(default_factory=list)  # rows of each joint
-    first_and_second: list[tuple[int, int]] = field(default_factory=list)  # markers of each joint
-    tables: dict[str, list[tuple[int, ...]]] = field(default_factory=lambda: {"s": [], "d1": [], "d2": []})
-    coordinates: list[tuple[int, int, int]] = field(default_factory=list)
-    coordinate_names: list[str] = field(default_factory=list)
-    coordinate_units: list[str] = field(default_factory=list)
+# [s] time within which stiction stops a joint, until a run says better
+STICK = 1e-3
 
 
 def build(machine: MachineRecord, equations: Equations) -> System:
     """Arrays of `machine` for a formulation with these equations; poses and velocities as given, not yet assembled."""
+    draft, rows = Draft(machine), RowTable()
+    for joint in machine.joints:
+        add_joint(draft, rows, joint)
+    add_couplings(draft, rows)
+    add_drivers(draft, rows)
+    for force in machine.forces:
+        _add_force(draft, force)
+    for joint in machine.joints:
+        for values in (joint.start, joint.start_rates):
+            for name in values.given if values is not None else ():
+                draft.coordinate(f"{joint.name}.{name}")
+    sensors = sensor_columns(draft)
     names = tuple(body.name for body in machine.bodies)
-    index = {name: k for k, name in enumerate((*names, GROUND))}
-    markers = MarkerTable()
-    joints = _joints(machine, index, markers)
-    loads, functions = _loads(machine, index, markers)
-    rows, units = [*joints.names], [*joints.units]
+    row_names, units = [*rows.names], [*rows.units]
     if equations.normalisation:
-        rows += [f"{name}.euler_parameters" for name in names]
+        row_names += [f"{name}.euler_parameters" for name in names]
         units += ["1"] * len(names)
-    marker_arrays = _marker_arrays(markers)
     poses = np.array([np.concatenate(placement(body)) for body in machine.bodies], dtype=float).reshape(-1, 7)
-    size = _machine_size(poses, marker_arrays)
-    record = Record(
-        bodies=_bodies(machine),
-        markers=marker_arrays,
-        constraints=_constraint_arrays(joints, [size if unit == "m" else 1.0 for unit in units]),
-        joints=Joints(
-            first_marker=_index([pair[0] for pair in joints.first_and_second], 1),
-            rows=_index(joints.spans, 2),
-            coordinate=_index(joints.coordinates, 3),
-            turn=np.zeros((len(joints.coordinates), 3)),
-        ),
-        functions=functions,
-        loads=loads,
-        saddle=_saddle(joints, markers, len(names), len(rows), equations),
-        control=_control(len(rows)),
-    )
+    markers = draft.markers.arrays()
+    size = _machine_size(poses, markers)
+    extra = _extra_parts(draft, rows, len(row_names))
+    saddle = _saddle(rows, draft, extra, len(names), len(row_names), equations)
     system = System(
-        record=record,
+        record=Record(
+            bodies=_bodies(machine, size),
+            markers=markers,
+            coordinates=draft.coordinates.arrays(),
+            constraints=rows.arrays([size if unit == "m" else 1.0 for unit in units], len(draft.frictions), len(extra)),
+            joints=Joints(
+                first_marker=index_array([pair[0] for pair in rows.first_marker], 1),
+                rows=index_array(rows.spans, 2),
+                part=index_array(rows.first_part, 1),
+                coordinate=index_array(list(draft.joint_coordinates.values()), 1),
+            ),
+            functions=draft.functions.arrays(),
+            elements=draft.elements.arrays(family_addresses(list(draft.elements.families))),
+            friction=_friction(draft, saddle, extra, len(row_names)),
+            saddle=saddle,
+            sensors=Sensors(index_array(sensors, 4)),
+            outputs=Outputs(np.zeros(len(draft.outputs.entries)), index_array(rows.reports, 2)),
+            hooks=_hooks(draft, bool(sensors)),
+            control=_control(len(row_names)),
+        ),
         equations=equations,
         layout=frame_layout(
             names,
             [joint.name for joint in machine.joints],
-            joints.coordinate_names,
-            rows,
-            [(load.name, "N" if load.type == "force" else "N m") for load in machine.forces],
+            list(draft.joint_coordinates),
+            row_names,
+            draft.outputs.entries,
         ),
         bodies=names,
         joints=tuple(joint.name for joint in machine.joints),
-        rows=tuple(rows),
-        row_joint=np.array(joints.owner, dtype=np.int64),
+        frictions=tuple(force.name for force in machine.forces if force.type == "friction"),
+        rows=tuple(row_names),
+        row_owner=tuple(rows.owner),
         row_units=tuple(units),
-        coordinate_units=tuple(joints.coordinate_units),
+        coordinate_units=tuple(coordinate_units(name) for name in draft.joint_coordinates),
+        point_masses=np.array([body.point_mass for body in machine.bodies], dtype=bool),
+        as_placed=np.array([given is None for given in rows.given], dtype=bool),
         size=size,
         start=np.zeros(0),
     )
     return replace(system, start=system.state(poses.ravel(), *_velocities(machine.bodies)))
 
 
-def _saddle(joints: JointTables, markers: MarkerTable, bodies: int, rows: int, equations: Equations) -> Saddle:
-    """Pattern and work arrays of the saddle-point system."""
-    block = _blocks(joints.pairs, markers, bodies, equations, len(joints.names))
-    groups = [list(range(a, b)) for a, b in joints.spans] + [[row] for row in range(len(joints.names), rows)]
-    elimination = plan(groups, block[:, 0].tolist(), block[:, 3].tolist())
+def _add_force(draft: Draft, force: Any) -> None:
+    """Add a force; a fault without a place gets that of the force."""
+    try:
+        FORCES[force.type].add(draft, force)
+    except ModelError as error:
+        place = f"forces.{force.name}"
+        raise ModelError([replace(fault, path=fault.path or place) for fault in error.faults]) from error
+
+
+def _hooks(draft: Draft, sensors: bool) -> Hooks:
+    """Addresses of the compiled functions that only some machines need."""
+    address = np.zeros(3, dtype=np.uint64)
+    if draft.coordinates.active:
+        address[MEASURE] = import_module("nivel.kernels.measure").measure.address
+    if draft.frictions:
+        address[FRICTION] = import_module("nivel.kernels.friction").rub.address
+    if sensors:
+        address[SENSE] = import_module("nivel.kernels.sensor").sense.address
+    return Hooks(address)
+
+
+def _extra_parts(draft: Draft, rows: RowTable, row_count: int) -> list[tuple[int, int, int]]:
+    """(row, part, marker) of the parts of the extra rows of friction: two a row, behind all others."""
+    parts: list[tuple[int, int, int]] = []
+    for k, (index, _) in enumerate(draft.frictions):
+        for marker in draft.coordinates.what[index[0]][1:3]:
+            parts.append((row_count + k, len(rows.part_row) + len(parts), marker))
+    return parts
+
+
+def _friction(draft: Draft, saddle: Saddle, extra: list[tuple[int, int, int]], row_count: int) -> Friction:
+    count = len(draft.frictions)
+    of_row = saddle.block[:, 0]
+    first = [
+        int(np.searchsorted(of_row[saddle.blocks[0] :], row_count + k) + saddle.blocks[0]) for k in range(count + 1)
+    ]
+    return Friction(
+        columns=padded([index for index, _ in draft.frictions], NONE).astype(np.uint32),
+        number=padded([numbers for _, numbers in draft.frictions], 0.0),
+        part=index_array([part for _, part, _ in extra], 1).reshape(-1, 2),
+        block=index_array(list(pairwise(first)), 2),
+        force=np.zeros(count),
+        S=np.zeros((count, count)),
+        response=np.zeros((count, row_count)),
+        change=np.zeros((count, *saddle.z.shape)),
+        free=np.zeros(count),
+        lam=np.zeros(row_count),
+        anchor=np.zeros(count),
+        jacobian=np.zeros((count, count)),
+        work=np.zeros((3, count)),
+    )
+
+
+def _saddle(
+    rows: RowTable,
+    draft: Draft,
+    extra: list[tuple[int, int, int]],
+    bodies: int,
+    row_count: int,
+    equations: Equations,
+) -> Saddle:
+    """Pattern and work arrays of the saddle-point system. The ground has no blocks; a normalisation block has no part."""
+    own = list(zip(rows.part_row, range(len(rows.part_row)), rows.part_marker, strict=True))
+    body_of = draft.markers.body
+    blocks = [(row, part, marker, body_of[marker]) for row, part, marker in own if body_of[marker] != bodies]
+    if equations.normalisation:
+        blocks += [(len(rows.names) + body, NONE, 0, body) for body in range(bodies)]
+    count = len(blocks)
+    blocks += [(row, part, marker, body_of[marker]) for row, part, marker in extra if body_of[marker] != bodies]
+    block = index_array(blocks, 4)
+    elimination = plan(_groups(rows, row_count), block[:count, 0].tolist(), block[:count, 3].tolist())
     width = equations.velocities
     return Saddle(
         block=block,
+        blocks=np.array([count], dtype=np.uint32),
         **vars(elimination),
         W=np.zeros((len(block), width)),
         G=np.zeros((bodies, width, width)),
         z=np.zeros((bodies, width)),
         S=np.zeros(len(elimination.S_row)),
         L=np.zeros(len(elimination.L_row)),
-        Dinv=np.zeros(rows),
-        y=np.zeros(rows),
-        b=np.zeros(rows),
+        Dinv=np.zeros(row_count),
+        y=np.zeros(row_count),
+        b=np.zeros(row_count),
         dense=np.zeros((0, 0)),
         null=np.zeros((0, 0)),
         pivot=np.zeros(0, dtype=np.uint32),
     )
+
+
+def _groups(rows: RowTable, row_count: int) -> list[list[int]]:
+    """Rows that are eliminated together: those of a joint; all others one by one."""
+    groups = [list(range(a, b)) for a, b in rows.spans if b > a]
+    last = rows.spans[-1][1] if rows.spans else 0
+    return groups + [[row] for row in range(last, row_count)]
 
 
 def _control(rows: int) -> Control:
@@ -141,70 +216,22 @@ def _control(rows: int) -> Control:
         stabilise=np.zeros(4),
         energy=np.zeros(3),
         power=np.zeros(2),
+        stored=np.zeros(1),
+        stick=np.full(1, STICK),
         failure=np.zeros(1, dtype=np.uint32),
     )
 
 
-def _joints(machine: MachineRecord, index: dict[str, int], markers: MarkerTable) -> JointTables:
-    out = JointTables()
-    for number, joint in enumerate(machine.joints):
-        first, second = (markers.add(index[body], r, A) for body, r, A in joint_frames(machine, joint))
-        kind = JOINTS[joint.type]
-        begin = len(out.names)
-        for basic in kind.constraints:
-            row = len(out.names)
-            out.tables[basic.table].append(basic.entries(first, second, row))
-            out.names += [f"{joint.name}.{name}" for name in basic.rows]
-            out.units += ["1" if basic.table == "d1" else "m"] * len(basic.rows)
-        rows = len(out.names) - begin
-        out.owner += [number] * rows
-        out.pairs += [(first, second)] * rows
-        out.spans.append((begin, begin + rows))
-        out.first_and_second.append((first, second))
-        for coordinate in kind.coordinates:
-            out.coordinates.append((coordinate.kind, first, second))
-            out.coordinate_names.append(f"{joint.name}.{coordinate.name}")
-            out.coordinate_units.append(coordinate.units)
-    return out
-
-
-def _loads(machine: MachineRecord, index: dict[str, int], markers: MarkerTable) -> tuple[Loads, Functions]:
-    by_name = {marker.name: marker for marker in machine.markers if marker.name is not None}
-    what, components = [], []
-    for load in machine.forces:
-        body, position = _point_of(load, by_name)
-        marker = markers.add(index[body], position, np.eye(3))
-        kind = FORCE if load.type == "force" else TORQUE
-        what.append((kind, marker, BODY_AXES if load.axes == "body" else GLOBAL_AXES))
-        components += list(load.vector)
-    functions = function_table(components)
-    count = len(what)
-    table = Loads(
-        what=_index(what, 3),
-        functions=np.arange(3 * count, dtype=np.uint32).reshape(count, 3),
-        magnitude=np.zeros(count),
-        power=np.zeros(count),
-    )
-    return table, functions
-
-
-def _point_of(load: PointForce | Torque, markers: dict[str, Marker]) -> tuple[str, Array]:
-    """Body and point (3,) in body axes where a load acts; a torque acts on the body, its point does not matter."""
-    if isinstance(load, PointForce):
-        if load.marker is not None:
-            marker = markers[load.marker]
-            return marker.body, np.array(marker.position, dtype=float)
-        assert load.body is not None  # the record was checked
-        return load.body, np.array(load.position or (0.0, 0.0, 0.0), dtype=float)
-    return load.body, np.zeros(3)
-
-
-def _bodies(machine: MachineRecord) -> Bodies:
+def _bodies(machine: MachineRecord, size: float) -> Bodies:
     count = len(machine.bodies)
     properties = [mass_properties(body) for body in machine.bodies]
     mass = np.array([p.mass for p in properties], dtype=float)
     centre = np.array([p.centre_of_mass for p in properties], dtype=float).reshape(count, 3)
     inertia = np.array([p.inertia for p in properties], dtype=float).reshape(count, 3, 3)
+    for k, body in enumerate(machine.bodies):
+        if body.point_mass:
+            # nothing turns a point mass and it turns nothing: any inertia will do
+            inertia[k] = mass[k] * size**2 * np.eye(3)
     whitener = np.array([np.linalg.inv(np.linalg.cholesky(J)) for J in inertia], dtype=np.float64).reshape(count, 3, 3)
     square = np.einsum("bi,bi->b", centre, centre)
     steiner = square[:, None, None] * np.eye(3) - np.einsum("bi,bj->bij", centre, centre)
@@ -237,59 +264,6 @@ def _bodies(machine: MachineRecord) -> Bodies:
     )
 
 
-def _marker_arrays(markers: MarkerTable) -> Markers:
-    count = len(markers.body)
-
-    def vectors() -> Array:
-        return np.zeros((count, 3))
-
-    return Markers(
-        body=_index(markers.body, 1),
-        position_b=np.array(markers.position, dtype=float).reshape(count, 3),
-        frame_b=np.array(markers.frame, dtype=float).reshape(count, 3, 3),
-        u=vectors(),
-        r=vectors(),
-        A=np.zeros((count, 3, 3)),
-        rdot=vectors(),
-        bias=vectors(),
-    )
-
-
-def _constraint_arrays(joints: JointTables, scale: list[float]) -> Constraints:
-    rows = len(scale)
-    J = np.zeros((len(joints.names), 12))
-    for _, _, row in joints.tables["s"]:
-        for axis in range(3):
-            J[row + axis, axis] = -1.0
-            J[row + axis, 6 + axis] = 1.0
-    return Constraints(
-        s=_index(joints.tables["s"], 3),
-        d1=_index(joints.tables["d1"], 5),
-        d2=_index(joints.tables["d2"], 4),
-        scale=np.array(scale, dtype=float),
-        C=np.zeros(rows),
-        Cdot=np.zeros(rows),
-        gamma=np.zeros(rows),
-        J=J,
-        lam=np.zeros(rows),
-    )
-
-
-def _blocks(
-    pairs: list[tuple[int, int]], markers: MarkerTable, ground: int, equations: Equations, joint_rows: int
-) -> NDArray[np.uint32]:
-    """Blocks (row, side, marker, body) of C_q; the ground has none. A normalisation block names no marker."""
-    blocks = [
-        (row, side, marker, markers.body[marker])
-        for row, pair in enumerate(pairs)
-        for side, marker in enumerate(pair)
-        if markers.body[marker] != ground
-    ]
-    if equations.normalisation:
-        blocks += [(joint_rows + body, NORMALISATION_SIDE, 0, body) for body in range(ground)]
-    return _index(blocks, 4)
-
-
 def _velocities(records: tuple[Body, ...]) -> tuple[Array, Array]:
     """Ṙ (B, 3) and ω̄ (B, 3) as given."""
     given = [initial_velocity(body) for body in records]
@@ -298,12 +272,15 @@ def _velocities(records: tuple[Body, ...]) -> tuple[Array, Array]:
 
 
 def _machine_size(poses: Array, markers: Markers) -> float:
-    """Largest extent of the frames or of the points on a body along an axis [m]; 1 m where all is at one point.
+    """Twice the largest distance of a frame from their mean, or the largest of a point from its frame [m]; 1 m where all is at one point.
 
-    Raises ModelError above LARGEST.
+    It does not depend on how the machine is turned. Raises ModelError above LARGEST.
     """
-    spread = float(np.ptp(poses[:, :3], axis=0).max()) if len(poses) else 0.0
-    reach = float(np.abs(markers.position_b).max(initial=0.0))
+    with np.errstate(over="ignore"):
+        spread = (
+            2.0 * float(np.linalg.norm(poses[:, :3] - poses[:, :3].mean(axis=0), axis=1).max()) if len(poses) else 0.0
+        )
+        reach = float(np.linalg.norm(markers.position_b, axis=1).max(initial=0.0))
     size = max(spread, reach) or 1.0
     if not size <= LARGEST:
         message = (
@@ -311,9 +288,3 @@ def _machine_size(poses: Array, markers: Markers) -> float:
         )
         raise ModelError(Fault("", 0, 0, "bodies", message))
     return size
-
-
-def _index(values: object, columns: int) -> NDArray[np.uint32]:
-    """uint32 array of `values`: (n, columns), or (n,) for one column."""
-    array = np.array(values, dtype=np.uint32)
-    return array.reshape(-1) if columns == 1 else array.reshape(-1, columns)

@@ -86,6 +86,8 @@ def plan(rows: Sequence[Sequence[int]], block_row: Sequence[int], block_body: Se
                 low, high = sorted((int(position[block_row[a]]), int(position[block_row[b]])))
                 columns[high].add(low)
                 pairs.append((high, low, a, b))
+                if a != b and high == low:
+                    pairs.append((high, low, b, a))  # a row that touches a body twice
     S_start, S_row = _compressed([sorted(column) for column in columns])
     entry = {(k, int(S_row[p])): p for k in range(count) for p in range(S_start[k], S_start[k + 1])}
     pair = sorted((entry[high, low], a, b) for high, low, a, b in pairs)

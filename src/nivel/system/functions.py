@@ -1,105 +1,105 @@
-"""Functions of time for the kernels: constants and tables as numbers, expressions as compiled code."""
+"""Functions of time and signals for the kernels: constants and tables as numbers, expressions and laws as compiled code."""
 
 from __future__ import annotations
 
-import hashlib
-import importlib.util
-import sys
-from collections.abc import Sequence
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from nivel.kernels import cache
-from nivel.kernels.function import COMPILED, CONSTANT, TABLE
+from nivel.kernels.function import COMPILED, CONSTANT, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
 from nivel.kernels.record import Functions
-from nivel.machine.arithmetic import Call, Name, Negative, Node, Number, Operation, Time, bind
-from nivel.machine.grammar import parse
-from nivel.machine.time_function import Expression, Table
+from nivel.machine.arithmetic import TIME as TIME_SYMBOL
+from nivel.machine.expression import Expression
+from nivel.machine.python_law import PythonLaw
+from nivel.machine.table import Table
+from nivel.machine.time_function import TimeFunction
+from nivel.system.laws import expression_address, law_address, motion_address
+from nivel.system.tables import Array, index_array
 
-TEMPLATE = '''"""A function of time written by nivel from an expression of a machine file."""
-
-import numpy as np
-from numba import cfunc, types
-
-
-@cfunc(types.float64(types.float64), cache=True, error_model="numpy")
-def law(time):
-    return {source}
-'''
+Signal = tuple[int, int, int]  # kind, index, component: see `nivel.kernels.function`
+Find = Callable[[str], Signal]
 
 
-def function_table(functions: Sequence[float | Table | Expression]) -> Functions:
-    """Table of `functions` in their order. Expressions are compiled, or loaded from the cache."""
-    count = len(functions)
-    kind = np.zeros(count, dtype=np.uint32)
-    value = np.zeros(count)
-    address = np.zeros(count, dtype=np.uint64)
-    table = np.zeros((count, 2), dtype=np.uint32)
-    times: list[float] = []
-    values: list[float] = []
-    for k, function in enumerate(functions):
-        if isinstance(function, Table):
-            kind[k] = TABLE
-            table[k] = len(times), len(times) + len(function.times)
-            times += function.times
-            values += function.values
-        elif isinstance(function, Expression):
-            kind[k] = COMPILED
-            address[k] = compiled_address(function)
-        else:
-            kind[k] = CONSTANT
-            value[k] = function
-    return Functions(kind, value, table, np.array(times, dtype=float), np.array(values, dtype=float), address)
+@dataclass
+class FunctionTable:
+    """Functions of a machine in numbers. Expressions and laws are compiled, or loaded from the cache, when they are added."""
+
+    kind: list[int] = field(default_factory=list)
+    value: list[float] = field(default_factory=list)
+    address: list[int] = field(default_factory=list)
+    table: list[tuple[int, int]] = field(default_factory=list)
+    span: list[tuple[int, int, int]] = field(default_factory=list)
+    knots: list[float] = field(default_factory=list)
+    coefficients: list[Sequence[float]] = field(default_factory=list)
+    argument: list[tuple[int, int, int, int]] = field(default_factory=list)
+    arguments: list[float] = field(default_factory=list)
+
+    def add(self, function: TimeFunction, find: Find, *, motion: bool = False) -> int:
+        """Index of a new function; `find` gives the signal of a path. motion : its derivatives are needed.
+
+        Raises ModelError where a law cannot be compiled.
+        """
+        match function:
+            case Table():
+                pieces = function.coefficients()
+                last = [float(function.values[-1]), 0.0, 0.0, 0.0]
+                rows = [*pieces.tolist(), last]
+                return self._append(TABLE_HELD, [function.of], find, table=(function.times, rows))
+            case Expression():
+                signals = list(dict.fromkeys([TIME_SYMBOL, *function.signals]))
+                address = motion_address(function) if motion else expression_address(function, signals)
+                return self._append(COMPILED, signals, find, address=address)
+            case PythonLaw():
+                address = law_address(function, motion=motion)
+                return self._append(COMPILED, list(function.arguments), find, address=address)
+        return self._append(CONSTANT, [], find, value=float(function))
+
+    def add_table(self, knots: Sequence[float], coefficients: Array) -> int:
+        """Index of a new table that goes on beyond its ends; `coefficients` (n, 4) as `Functions.coefficients`."""
+        return self._append(TABLE_EXTENDED, [], _nothing, table=(knots, coefficients.tolist()))
+
+    def _append(
+        self,
+        kind: int,
+        arguments: Sequence[str | float],
+        find: Find,
+        *,
+        value: float = 0.0,
+        address: int = 0,
+        table: tuple[Sequence[float], Sequence[Sequence[float]]] = ((), ()),
+    ) -> int:
+        first, place = len(self.argument), len(self.arguments)
+        for n, argument in enumerate(arguments):
+            if not isinstance(argument, str):
+                signal, number = (NUMBER, 0, 0), float(argument)
+            else:
+                signal, number = (TIME, 0, 0) if argument == TIME_SYMBOL else find(argument), 0.0
+            self.argument.append((*signal, place + n))
+            self.arguments.append(number)
+        self.arguments += [0.0, 0.0]
+        self.span.append((first, len(self.argument), place))
+        self.kind.append(kind)
+        self.value.append(value)
+        self.address.append(address)
+        self.table.append((len(self.knots), len(self.knots) + len(table[0])))
+        self.knots += table[0]
+        self.coefficients += table[1]
+        return len(self.kind) - 1
+
+    def arrays(self) -> Functions:
+        return Functions(
+            kind=index_array(self.kind, 1),
+            value=np.array(self.value, dtype=float),
+            table=index_array(self.table, 2),
+            knots=np.array(self.knots, dtype=float),
+            coefficients=np.array(self.coefficients, dtype=float).reshape(-1, 4),
+            argument=index_array(self.argument, 4),
+            span=index_array(self.span, 3),
+            arguments=np.array(self.arguments, dtype=float),
+            address=np.array(self.address, dtype=np.uint64),
+        )
 
 
-def compiled_address(expression: Expression) -> int:
-    """Address of the machine code of an expression of `time`.
-
-    The code is a module named by its content in the cache directory: a function made from a string could not be cached.
-    """
-    return int(_module(TEMPLATE.format(source=source(bind(parse(expression.text), {})))).law.address)
-
-
-SPELLING = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2"}
-
-
-def source(node: Node) -> str:
-    """Python source of an arithmetic tree for the compiler; `max` and `min` of many arguments are nested."""
-    match node:
-        case Number(value, _):
-            return f"({value!r})"
-        case Time():
-            return "time"
-        case Negative(operand):
-            return f"(-{source(operand)})"
-        case Operation(symbol, left, right):
-            return f"({source(left)} {symbol} {source(right)})"
-        case Call(("min" | "max") as function, (first, *others)):
-            text = source(first)
-            for other in others:
-                text = f"np.{function}imum({text}, {source(other)})"
-            return text
-        case Call(function, arguments):
-            return f"np.{SPELLING.get(function, function)}({', '.join(source(argument) for argument in arguments)})"
-        case Name(text):
-            raise ValueError(f"the name {text} is not bound")
-
-
-def _module(text: str) -> Any:
-    name = f"law_{hashlib.sha256(text.encode()).hexdigest()[:20]}"
-    if name in sys.modules:
-        return sys.modules[name]
-    path = Path(cache.directory()) / f"{name}.py"
-    if not path.exists():
-        draft = path.with_suffix(f".{id(text)}.tmp")
-        draft.write_text(text)
-        draft.replace(path)
-    spec = importlib.util.spec_from_file_location(name, path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
+def _nothing(path: str) -> Signal:
+    raise KeyError(path)

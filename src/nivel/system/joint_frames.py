@@ -9,7 +9,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
 from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.machine.placement import frame_from_axes, marker_frame, placement
-from nivel.system.system import Array
+from nivel.system.tables import Array
 
 Placed = tuple[str, Array, Array]
 
@@ -21,11 +21,21 @@ def joint_frames(machine: MachineRecord, joint: Joint) -> tuple[Placed, Placed]:
         first, second = (named[m] if isinstance(m, str) else m for m in joint.markers)
         return _of_marker(first), _of_marker(second)
     assert joint.bodies is not None  # the record was checked
-    assert joint.point is not None
+    points = joint.points or (joint.point, joint.point)
     first_axes, second_axes = _global_axes(joint)
-    point = np.array(joint.point, dtype=float)
-    first, second = joint.bodies
-    return _seen_from(machine, first, point, first_axes), _seen_from(machine, second, point, second_axes)
+    first, second = (np.array(point, dtype=float) for point in points)
+    return (
+        seen_from(machine, joint.bodies[0], first, first_axes),
+        seen_from(machine, joint.bodies[1], second, second_axes),
+    )
+
+
+def slot_frame(machine: MachineRecord, joint: Joint) -> Placed:
+    """Of a pin in a slot: a third marker, at the second, with z along the slot; given by markers this is the second's x axis."""
+    _, (body, point, frame) = joint_frames(machine, joint)
+    if joint.axes is None:
+        return body, point, frame_from_axes(frame[:, 0])
+    return seen_from(machine, body, np.array(joint.point, dtype=float), frame_from_axes(joint.axes[1]))
 
 
 def _of_marker(marker: Marker) -> Placed:
@@ -33,13 +43,19 @@ def _of_marker(marker: Marker) -> Placed:
 
 
 def _global_axes(joint: Joint) -> tuple[Array, Array]:
-    """Global axes of both markers of a joint placed by a point: equal, so every joint coordinate starts at zero.
+    """Global axes of both markers of a joint placed by points: where they are equal, every joint coordinate starts at zero.
 
-    A universal joint has z along its own arm and x along the other one.
+    A universal joint has z along its own arm and x along the other one; a pin in a slot z along the pin.
     """
     if joint.axes is not None:
-        arm_1, arm_2 = (np.array(axis, dtype=float) for axis in joint.axes)
-        return frame_from_axes(arm_1, arm_2), frame_from_axes(arm_2, arm_1)
+        first, second = (np.array(axis, dtype=float) for axis in joint.axes)
+        match joint.type:
+            case "revolute-translational":
+                axes = frame_from_axes(first)
+                return axes, axes
+            case "revolute-cylindrical":
+                return frame_from_axes(first), frame_from_axes(second)
+        return frame_from_axes(first, second), frame_from_axes(second, first)
     if joint.axis is None:
         return np.eye(3), np.eye(3)
     x_axis = None if joint.x_axis is None else np.array(joint.x_axis, dtype=float)
@@ -47,11 +63,22 @@ def _global_axes(joint: Joint) -> tuple[Array, Array]:
     return axes, axes
 
 
-def _seen_from(machine: MachineRecord, name: str, point: Array, axes: Array) -> Placed:
-    """A global point and axes in the frame of the body as it is placed in the file."""
+def seen_from(machine: MachineRecord, name: str, point: Array, axes: Array) -> Placed:
+    """A global point (3,) and axes (3, 3) in the frame of the body `name` as it is placed in the file."""
     if name == "ground":
         return name, point, axes
     body = next(body for body in machine.bodies if body.name == name)
     position, theta = placement(body)
     A = matrix_from_euler_parameters(theta)
     return name, A.T @ (point - position), A.T @ axes
+
+
+def cosine_as_placed(machine: MachineRecord, first: Placed, second: Placed) -> float:
+    """Cosine of the angle between the z axes of two markers as the file places their bodies."""
+    axes = []
+    for body, _, frame in (first, second):
+        A = np.eye(3)
+        if body != "ground":
+            A = matrix_from_euler_parameters(placement(next(each for each in machine.bodies if each.name == body))[1])
+        axes.append(A @ frame[:, 2])
+    return float(axes[0] @ axes[1])

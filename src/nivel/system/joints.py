@@ -5,23 +5,36 @@ A new joint is one entry of JOINTS. Axes are those of the two markers: x, y, z o
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from math import pi
+from typing import Final, Literal
 
-from nivel.kernels.observe import CROSS_FIRST, CROSS_SECOND, ROTATION, TRANSLATION
+from nivel.kernels.coordinate import (
+    COSINE,
+    CROSS_FIRST,
+    CROSS_SECOND,
+    DISTANCE,
+    MOMENT,
+    POLAR,
+    RADIUS,
+    ROTATION,
+    TRANSLATION,
+)
+from nivel.machine.joint import Joint
 
-AXES = {"x": 0, "y": 1, "z": 2}
+AXES: Final = {"x": 0, "y": 1, "z": 2}
+# From which marker to which: first to second, second to first, or from the slot, a third marker, on the second body, to the first.
+View = Literal["first", "second", "slot"]
 
 
 @dataclass(frozen=True)
 class Coincident:
     """s: the marker points coincide; rows along the global axes [m]."""
 
-    table: ClassVar[str] = "s"
-    rows: ClassVar[tuple[str, ...]] = ("s.x", "s.y", "s.z")
-
-    def entries(self, first: int, second: int, row: int) -> tuple[int, ...]:
-        return (first, second, row)
+    @property
+    def rows(self) -> tuple[str, ...]:
+        return ("s.x", "s.y", "s.z")
 
 
 @dataclass(frozen=True)
@@ -30,52 +43,77 @@ class PerpendicularAxes:
 
     a: str
     b: str
-    table: ClassVar[str] = "d1"
 
     @property
     def rows(self) -> tuple[str, ...]:
         return (f"d1.{self.a}{self.b}",)
 
-    def entries(self, first: int, second: int, row: int) -> tuple[int, ...]:
-        return (first, AXES[self.a], second, AXES[self.b], row)
-
 
 @dataclass(frozen=True)
 class PerpendicularDistance:
-    """d2: axis `a` of the first marker is perpendicular to the vector from the first point to the second [m]."""
+    """d2: axis `a` of the marker `seen_from` is perpendicular to the vector from it to the other one [m]."""
 
     a: str
-    table: ClassVar[str] = "d2"
+    seen_from: View = "first"
 
     @property
     def rows(self) -> tuple[str, ...]:
-        return (f"d2.{self.a}",)
-
-    def entries(self, first: int, second: int, row: int) -> tuple[int, ...]:
-        return (first, AXES[self.a], second, row)
+        return (f"{'d2' if self.seen_from == 'first' else self.seen_from}.{self.a}",)
 
 
-Basic = Coincident | PerpendicularAxes | PerpendicularDistance
+@dataclass(frozen=True)
+class Measured:
+    """A coordinate between the joint's markers, see `nivel.kernels.coordinate`."""
+
+    kind: int
+    axis: int = 0
+    seen_from: View = "first"
+
+
+Factor = (
+    float | Callable[[Joint, float], float]
+)  # of the joint and the cosine of the angle between its z axes as placed
+
+
+@dataclass(frozen=True)
+class Combination:
+    """Σ factor coordinate is constant: what it is as placed, or the number that the joint's field `given` holds."""
+
+    name: str
+    terms: tuple[tuple[Measured, Factor], ...]
+    units: str = "m"
+    given: str = ""
+
+    @property
+    def rows(self) -> tuple[str, ...]:
+        return (self.name,)
+
+
+Basic = Coincident | PerpendicularAxes | PerpendicularDistance | Combination
 
 
 @dataclass(frozen=True)
 class JointCoordinate:
-    """One joint coordinate: its name after the joint's, the kind of `nivel.kernels.observe`, its unit."""
+    """One joint coordinate: its name after the joint's, what it is, its unit."""
 
     name: str
-    kind: int
+    measured: Measured
     units: str
 
 
 @dataclass(frozen=True)
-class JointKind:
-    """A joint: constraints, coordinates, free motions between two bodies, and its convention in words."""
+class Composition:
+    """A joint: constraints, coordinates, free motions between two bodies, and its convention in words.
+
+    parallel : the z axes of the markers must point the same way. when_parallel : what it is where the axes as placed are parallel.
+    """
 
     constraints: tuple[Basic, ...]
     coordinates: tuple[JointCoordinate, ...]
     free: int
-    parallel: bool  # the z axes of the markers must point the same way
+    parallel: bool
     convention: str
+    when_parallel: Composition | None = None
 
     @property
     def rows(self) -> tuple[str, ...]:
@@ -86,24 +124,89 @@ POINT = Coincident()
 PARALLEL = (PerpendicularAxes("x", "z"), PerpendicularAxes("y", "z"))
 ON_AXIS = (PerpendicularDistance("x"), PerpendicularDistance("y"))
 NO_SPIN = PerpendicularAxes("x", "y")
-ANGLE = JointCoordinate("angle", ROTATION, "rad")
-DISPLACEMENT = JointCoordinate("displacement", TRANSLATION, "m")
+ALONG_X, ALONG_Y, ALONG_Z = (Measured(TRANSLATION, axis) for axis in range(3))
+ANGLE = JointCoordinate("angle", Measured(ROTATION), "rad")
+DISPLACEMENT = JointCoordinate("displacement", ALONG_Z, "m")
+X, Y = JointCoordinate("x", ALONG_X, "m"), JointCoordinate("y", ALONG_Y, "m")
 TURN = "angle: right-handed turn of the second body about the first marker's z axis, zero where the x axes of the markers agree"
 SLIDE = "displacement: of the second marker's point from the first's along the first marker's z axis"
+PLACE = "x: of the second marker's point from the first's along the first marker's x axis; y: along its y axis"
+NOTHING = "no joint coordinate"
 
-JOINTS: dict[str, JointKind] = {
-    "spherical": JointKind((POINT,), (), 3, False, "no joint coordinate"),
-    "universal": JointKind(
+ROD = Composition(
+    (Combination("distance", ((Measured(DISTANCE), 1.0),), given="distance"),),
+    (JointCoordinate("distance", Measured(DISTANCE), "m"),),
+    5,
+    False,
+    "distance: between the points of the markers, held by the joint",
+)
+
+JOINTS: Final[dict[str, Composition]] = {
+    "spherical": Composition((POINT,), (), 3, False, NOTHING),
+    "universal": Composition(
         (POINT, PerpendicularAxes("z", "z")),
-        (JointCoordinate("angle_1", CROSS_FIRST, "rad"), JointCoordinate("angle_2", CROSS_SECOND, "rad")),
+        (
+            JointCoordinate("angle_1", Measured(CROSS_FIRST), "rad"),
+            JointCoordinate("angle_2", Measured(CROSS_SECOND), "rad"),
+        ),
         2,
         False,
         "angle_1: right-handed turn of the cross about its arm on the first body (z of the first marker), zero where the "
         "first x axis lies along the other arm; angle_2: of the second body about its arm (z of the second marker), zero "
         "where the second x axis lies along the first body's arm",
     ),
-    "revolute": JointKind((POINT, *PARALLEL), (ANGLE,), 1, True, TURN),
-    "cylindrical": JointKind((*PARALLEL, *ON_AXIS), (ANGLE, DISPLACEMENT), 2, True, f"{TURN}; {SLIDE}"),
-    "translational": JointKind((*PARALLEL, *ON_AXIS, NO_SPIN), (DISPLACEMENT,), 1, True, SLIDE),
-    "fixed": JointKind((POINT, *PARALLEL, NO_SPIN), (), 0, True, "no joint coordinate"),
+    "revolute": Composition((POINT, *PARALLEL), (ANGLE,), 1, True, TURN),
+    "cylindrical": Composition((*PARALLEL, *ON_AXIS), (ANGLE, DISPLACEMENT), 2, True, f"{TURN}; {SLIDE}"),
+    "translational": Composition((*PARALLEL, *ON_AXIS, NO_SPIN), (DISPLACEMENT,), 1, True, SLIDE),
+    "fixed": Composition((POINT, *PARALLEL, NO_SPIN), (), 0, True, NOTHING),
+    "planar": Composition((*PARALLEL, PerpendicularDistance("z")), (X, Y, ANGLE), 3, True, f"{PLACE}; {TURN}"),
+    "point-on-line": Composition(ON_AXIS, (DISPLACEMENT,), 4, False, SLIDE),
+    "point-on-plane": Composition((PerpendicularDistance("z"),), (X, Y), 5, False, PLACE),
+    "screw": Composition(
+        (
+            *PARALLEL,
+            *ON_AXIS,
+            Combination(
+                "screw", ((ALONG_Z, 1.0), (Measured(ROTATION), lambda joint, _: -(joint.pitch or 0.0) / (2 * pi)))
+            ),
+        ),
+        (ANGLE, DISPLACEMENT),
+        1,
+        True,
+        f"{TURN}; {SLIDE}: pitch times the turns, from where it is placed",
+    ),
+    "distance": ROD,
+    "spherical-spherical": ROD,
+    # a link that turns about the first marker's z axis and holds the second point
+    "revolute-spherical": Composition(
+        (Combination("distance", ((Measured(DISTANCE), 1.0),)), Combination("axial", ((ALONG_Z, 1.0),))),
+        (JointCoordinate("angle", Measured(POLAR), "rad"),),
+        4,
+        False,
+        "angle: right-handed turn of the link about the first marker's z axis, zero where the second point is on its x side",
+    ),
+    # a link that turns about the axis a = z_1 and holds the line b = z_2: angle, common normal (times the sine of the angle),
+    # and foot of the common normal on the first axis, s (1 - (aᵀb)²) = aᵀd - (aᵀb) bᵀd, keep their values
+    "revolute-cylindrical": Composition(
+        (
+            Combination("axes", ((Measured(COSINE, 8), 1.0),), units="1"),
+            Combination("normal", ((Measured(MOMENT), 1.0),)),
+            Combination("axial", ((ALONG_Z, 1.0), (Measured(TRANSLATION, 2, "second"), lambda _, cosine: cosine))),
+        ),
+        (),
+        3,
+        False,
+        NOTHING,
+        when_parallel=Composition(
+            (*PARALLEL, Combination("normal", ((Measured(RADIUS), 1.0),))), (), 3, False, NOTHING
+        ),
+    ),
+    # a pin about z in a slot along z of a third marker
+    "revolute-translational": Composition(
+        (*PARALLEL, PerpendicularDistance("x", "slot"), PerpendicularDistance("y", "slot")),
+        (ANGLE, JointCoordinate("displacement", Measured(TRANSLATION, 2, "slot"), "m")),
+        2,
+        True,
+        f"{TURN}; displacement: of the first marker's point from the second's along the slot in the second body",
+    ),
 }

@@ -70,9 +70,9 @@ def frame_layout(
     joints: Sequence[str],
     joint_coordinates: Sequence[str],
     constraints: Sequence[str],
-    loads: Sequence[tuple[str, str]],
+    outputs: Sequence[tuple[str, str, str]],
 ) -> FrameLayout:
-    """Layout of the frames of a machine with these names; `loads` are (name, units of its magnitude)."""
+    """Layout of the frames of a machine with these names; `outputs` are (name, units, long name) of single numbers."""
     coordinates = {
         "body": tuple(bodies),
         "joint": tuple(joints),
@@ -82,9 +82,7 @@ def frame_layout(
         "euler_parameter": ("0", "1", "2", "3"),
     }
     entries = list(VARIABLES)
-    for name, units in loads:
-        entries.append((f"force.{name}.magnitude", ("time",), units, f"magnitude of {name}"))
-        entries.append((f"force.{name}.power", ("time",), "W", f"power of {name} into the machine"))
+    entries += [(name, ("time",), units, long_name) for name, units, long_name in outputs]
     variables = []
     start = 1
     for name, dims, units, long_name in entries:

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.record import Record
 from nivel.system.layout import FrameLayout
-
-Array = NDArray[np.float64]
+from nivel.system.tables import Array
 
 
 @dataclass(frozen=True)
@@ -25,8 +24,10 @@ class Equations:
 class System:
     """The numbers of one machine for one formulation.
 
-    rows : name of every constraint row of the formulation, e.g. ``hinge.s.x``; the first `joint_rows` belong to joints.
-    row_joint : joint index of each joint row. size : length of the machine [m], the scale of its tolerances.
+    rows : name of every constraint row of the formulation, e.g. ``hinge.s.x``; the first `machine_rows` belong to joints, couplings
+    and drivers. row_owner : name of the joint, coupling or driver of each of these. point_masses : (B,) bodies that do not turn.
+    as_placed : combinations that keep the value that they have as the machine is placed.
+    size : length of the machine [m], the scale of its tolerances.
     """
 
     record: Record
@@ -34,10 +35,13 @@ class System:
     layout: FrameLayout
     bodies: tuple[str, ...]
     joints: tuple[str, ...]
+    frictions: tuple[str, ...]
     rows: tuple[str, ...]
-    row_joint: NDArray[np.int64]
+    row_owner: tuple[str, ...]
     row_units: tuple[str, ...]
     coordinate_units: tuple[str, ...]
+    point_masses: NDArray[np.bool_]
+    as_placed: NDArray[np.bool_]
     size: float
     start: Array
 
@@ -46,8 +50,13 @@ class System:
         return len(self.bodies)
 
     @property
-    def joint_rows(self) -> int:
-        return len(self.row_joint)
+    def machine_rows(self) -> int:
+        return len(self.row_owner)
+
+    @property
+    def freedoms(self) -> int:
+        """Degrees of freedom of the bodies without any constraint."""
+        return 6 * self.body_count - 3 * int(self.point_masses.sum())
 
     @property
     def positions(self) -> int:
@@ -55,7 +64,7 @@ class System:
         return 7 * self.body_count
 
     def state(self, q: Array, velocity: Array, angular_velocity_b: Array) -> Array:
-        """State y = (q, v, x) from q (7 B,), Ṙ (B, 3) [m/s] and ω̄ (B, 3) [rad/s, body axes]; x = 0."""
+        """State y = (q, v, x) from q (7 B,), Ṙ (B, 3) [m/s] and ω̄ (B, 3) [rad/s, body axes]; x = 0: no bristle is bent."""
         count, per_body = self.body_count, self.equations.velocities
         v = np.zeros((count, per_body))
         v[:, :3] = velocity
@@ -63,7 +72,7 @@ class System:
             v[:, 3:] = parameter_rates(q.reshape(count, 7)[:, 3:], angular_velocity_b)
         else:
             v[:, 3:] = angular_velocity_b
-        return np.concatenate([q, v.ravel(), np.zeros(2)])
+        return np.concatenate([q, v.ravel(), np.zeros(len(self.record.elements.state) + 2)])
 
     def known_rank(self, rank: int) -> System:
         """The same system prepared for `rank` independent rows: with redundant ones, for the rank-revealing path."""

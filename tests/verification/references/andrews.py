@@ -43,6 +43,32 @@ PUBLISHED = np.array(
         1.048080741042263,
     ]
 )
+# their rates, accelerations, and the multipliers of the six loop equations, as published there
+PUBLISHED_RATES = np.array(
+    [
+        1139.920302151208,
+        -1424.379294994111,
+        11.03291221937134,
+        19.29337464421385,
+        0.5735699284790808,
+        -19.29337464421385,
+        0.3231791658026955,
+    ]
+)
+PUBLISHED_ACCELERATIONS = np.array(
+    [
+        -24631.76316945196,
+        51850.37701610329,
+        324102.5686413781,
+        566749.3645176213,
+        16743.62929479361,
+        -566749.3645176222,
+        9826.520791458423,
+    ]
+)
+PUBLISHED_MULTIPLIERS = np.array(
+    [199.175333373191, -29.75531228015052, 23.06654119098399, 31.45271365475927, 22.64249232082739, 11.61740700019673]
+)
 
 # angles of the bodies K1 … K7 (and of the terms below) in q = (β, Θ, γ, Φ, δ, Ω, ε)
 BETA, CRANK, GAMMA, ARM, DELTA, LINK, EPSILON = range(7)
@@ -108,6 +134,11 @@ def bias(terms, q, qdot):
 
 def accelerations(q, qdot, *, spring):
     """q̈ of the mechanism; torque TORQUE on the crank, no gravity."""
+    return solved(q, qdot, spring=spring)[0]
+
+
+def solved(q, qdot, *, spring):
+    """q̈ and the multipliers λ of the loop equations in M q̈ + Gᵀλ = f."""
     _, P = point(CENTRES, q)
     m = np.repeat(MASSES, 2)
     M = P.T @ (m[:, None] * P) + ANGLES.T @ (INERTIAS[:, None] * ANGLES)
@@ -119,7 +150,8 @@ def accelerations(q, qdot, *, spring):
         f -= J.T @ (STIFFNESS * (length - FREE_LENGTH) / length * d)
     _, G = point(LOOPS, q)
     K = np.block([[M, G.T], [G, np.zeros((6, 6))]])
-    return np.linalg.solve(K, np.concatenate([f, -bias(LOOPS, q, qdot)]))[:7]
+    both = np.linalg.solve(K, np.concatenate([f, -bias(LOOPS, q, qdot)]))
+    return both[:7], both[7:]
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,115 @@
+"""An entry of `assemblies:`: a part file that is placed, mirrored, given parameters, and whose elements get a prefix."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, ValidationError
+
+from nivel.files.include import FileName, Sections
+from nivel.files.instance import renamed
+from nivel.files.outline import section_of
+from nivel.files.placed import NotRepresentableError, placed
+from nivel.files.placement import Placement
+from nivel.files.tree import Tree
+from nivel.machine import MachineRecord, Orientation, Record
+from nivel.machine.arithmetic import Number, Parameters
+from nivel.machine.dimension import Dimension, symbol
+from nivel.machine.parameters import resolve
+from nivel.machine.quantity import FAULT, Position, fault, shown
+from nivel.machine.record import entry, unknown_word
+from nivel.machine.references import SECTIONS
+
+_PREFIX = re.compile(r"([^\W\d_][\w-]*)?")
+
+
+def _prefix(value: Any) -> Any:
+    if not isinstance(value, str) or not _PREFIX.fullmatch(value):
+        raise fault(f"the start of a name, such as `left_`, was expected, got {shown(value)}")
+    return value
+
+
+def _values(value: Any) -> Any:
+    if not isinstance(value, Mapping):
+        raise fault(f"a mapping from parameters to values was expected, got {shown(value)}")
+    return dict(value)
+
+
+class Assembly(Record):
+    """A part of a machine that stands in a file of its own, and where it goes."""
+
+    file: FileName
+    position: Position = Field(default=(0.0, 0.0, 0.0), description="of the part's origin")
+    orientation: Orientation | None = Field(default=None, description="of the part's axes")
+    mirror: Literal["x", "y", "z", "none"] = Field(
+        default="none", description="axis of the part along which it is mirrored, before it is placed"
+    )
+    parameters: Annotated[dict[str, Any], BeforeValidator(_values)] = Field(
+        default={}, description="values for parameters of the part, in place of its own"
+    )
+    prefix: Annotated[str, BeforeValidator(_prefix)] = Field(
+        default="", description="start of the names of all its elements; default the assembly's name and `_`"
+    )
+    only: Sections | None = Field(default=None, description="sections that are taken; default all")
+
+
+def read_assembly(tree: Tree, name: str, given: Any, parameters: Parameters) -> Assembly | None:
+    """The entry `name` of `assemblies:`; None where it has faults, which go to `tree.faults`."""
+    path = ("assemblies", name)
+    data = {"prefix": f"{name}_", **given} if isinstance(given, dict) else given
+    try:
+        assembly = Assembly.model_validate(data, context={"parameters": parameters})
+    except ValidationError as error:
+        for line in error.errors(include_url=False):
+            where = path if line["loc"] == ("prefix",) and "prefix" not in given else (*path, *line["loc"])
+            if line["type"] == FAULT and not tree.is_broken(path):
+                tree.faults.append(tree.fault(where, line["msg"], at_key=bool(line.get("ctx", {}).get("at_key"))))
+        return None
+    return None if tree.is_broken(path) else assembly
+
+
+def given_parameters(part: Tree, user: Tree, name: str, assembly: Assembly) -> None:
+    """Put the values that `assembly` gives in place of the part's parameters. They may use those of its `user`."""
+    own = section_of(part, "parameters")
+    outer = section_of(user, "parameters")
+    fresh = {key: f"given_{key}" for key in assembly.parameters}
+    while any(each in outer for each in fresh.values()):
+        fresh = {key: f"{each}_" for key, each in fresh.items()}
+    values, faults = resolve({**outer, **{fresh[key]: value for key, value in assembly.parameters.items()}})
+    for key, word in fresh.items():
+        path, value = ("assemblies", name, "parameters", key), values.get(word)
+        if key not in own:
+            part.faults.append(user.fault(path, unknown_word(key, list(own), "parameter"), at_key=True))
+        elif word in faults:
+            part.faults.append(user.fault(path, faults[word]))
+        if key not in own or value is None:
+            continue
+        own[key] = _text(value)
+        part.graft(user, {path: ("parameters", key)})
+
+
+def _text(number: Number) -> float | str:
+    """A parameter's value as it would stand in a file."""
+    if number.dimension is None:
+        return number.value
+    return f"{number.value!r}*({_symbol(number.dimension)})"
+
+
+def _symbol(dimension: Dimension) -> str:
+    return symbol(dimension).replace("cycle", "(Hz*s)")
+
+
+def made_by(tree: Tree, name: str, assembly: Assembly, part: MachineRecord) -> dict[str, dict[str, Record]] | None:
+    """The elements of `part` as `assembly` makes them, by section and name; None where they cannot be, which is
+    reported.
+    """
+    elements = {section: getattr(part, section) for section in SECTIONS}
+    placement = Placement.of(assembly.position, assembly.orientation, assembly.mirror)
+    try:
+        elements = renamed(placed(elements, placement), assembly.prefix)
+    except NotRepresentableError as error:
+        tree.report(("assemblies", name), str(error))
+        return None
+    return {section: {str(entry(each, "name")): each for each in records} for section, records in elements.items()}

@@ -1,0 +1,114 @@
+"""`include:` the sections of other files, as if they stood in this one."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Final
+
+from pydantic import BeforeValidator, ValidationError
+
+from nivel.errors import ModelError
+from nivel.files.outline import NAMED, as_part, check_sections, check_start, section_of
+from nivel.files.sources import Sources
+from nivel.files.tree import Path, Tree, read_tree
+from nivel.machine.quantity import FAULT, fault, shown
+from nivel.machine.record import Record, unknown_word
+
+TAKEN: Final = tuple(section for section in NAMED if section != "parameters")
+
+
+def _file_name(value: Any) -> Any:
+    if not isinstance(value, str) or not value.strip():
+        raise fault(f"the name of a file was expected, got {shown(value)}")
+    return value
+
+
+def _sections(value: Any) -> Any:
+    entries = [value] if isinstance(value, str) else value
+    for word in entries if isinstance(entries, list | tuple) else ():
+        if word not in TAKEN:
+            raise fault(unknown_word(shown(word).strip("`"), TAKEN, "section"))
+    return entries
+
+
+FileName = Annotated[str, BeforeValidator(_file_name)]
+Sections = Annotated[tuple[str, ...], BeforeValidator(_sections)]
+
+
+class Include(Record):
+    """A file whose sections are taken; `only` some of them."""
+
+    file: FileName
+    only: Sections | None = None
+
+
+def include(tree: Tree, sources: Sources) -> None:
+    """Merge the files that `tree` includes into it, their elements before its own. Faults go to `tree.faults`."""
+    given = tree.data.pop("include", None)
+    if given is None:
+        return
+    merged: dict[str, dict[str, Any]] = {section: {} for section in NAMED}
+    entries = list(enumerate(given)) if isinstance(given, list) else [(None, given)]
+    for at, entry in entries:
+        path: Path = ("include",) if at is None else ("include", at)
+        part = _read(tree, path, entry, sources)
+        if part is None:
+            tree.unread.add("")
+            continue
+        for section in NAMED:
+            _merge(tree, part, section, merged[section])
+        tree.faults += part.faults
+        tree.unread |= part.unread
+    for section, elements in merged.items():
+        own = tree.data.get(section)
+        if elements and (own is None or isinstance(own, dict)):
+            tree.data[section] = {**elements, **(own or {})}
+
+
+def _read(tree: Tree, path: Path, entry: Any, sources: Sources) -> Tree | None:
+    """The included file as a tree, with all that it includes."""
+    short = not isinstance(entry, dict)
+    try:
+        wanted = Include.model_validate({"file": entry} if short else entry)
+    except ValidationError as error:
+        for line in error.errors(include_url=False):
+            if line["type"] == FAULT:
+                place = path if short else (*path, *line["loc"])
+                tree.report(place, line["msg"], at_key=bool(line.get("ctx", {}).get("at_key")))
+        return None
+    found = sources.text(tree, path if short else (*path, "file"), wanted.file)
+    if found is None:
+        return None
+    text, file = found
+    try:
+        part = read_tree(text, file)
+        check_start(part)
+    except ModelError as error:
+        tree.faults += error.faults
+        return None
+    include(part, sources.inside(file))
+    check_sections(part)
+    as_part(part, wanted.only, f"`include: {{file: {wanted.file}, only: [bodies, joints]}}`")
+    return part
+
+
+def _merge(tree: Tree, part: Tree, section: str, merged: dict[str, Any]) -> None:
+    """Add the elements of a section of `part` to `merged`, with their places."""
+    content = tree.data.get(section)
+    own = content if isinstance(content, dict) else {}
+    moves: dict[Path, Path] = {}
+    for name, element in section_of(part, section).items():
+        path = (section, name)
+        if name in own:
+            tree.faults.append(tree.fault(path, _double(name, part.place_of(path))))
+        elif name not in merged:
+            merged[name] = element
+            moves[path] = path
+        elif part.place_of(path) != tree.place_of(path):  # else the same file, included twice
+            part.faults.append(part.fault(path, _double(name, tree.place_of(path))))
+    tree.graft(part, moves)
+    if moves and (section,) not in tree.places:
+        tree.graft(part, {(section,): (section,)})
+
+
+def _double(name: str, other: str) -> str:
+    return f"`{name}` is defined twice; the other stands in {other}"

@@ -1,0 +1,104 @@
+"""What a machine file is on the outside: `format`, sections of named elements, and words for the whole machine."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+from nivel.errors import Fault, ModelError
+from nivel.files.tree import Tree
+from nivel.machine import MachineRecord
+from nivel.machine.quantity import shown
+from nivel.machine.record import field_words, unknown_word
+from nivel.machine.references import SECTIONS
+
+FORMAT: Final = 1
+TOP_WORDS: Final = ("format", "parameters", *field_words(MachineRecord))
+FILE_WORDS: Final = ("include", "assemblies")  # words of files that a record does not have
+NAMED: Final = (*SECTIONS, "parameters", "assemblies")  # what maps names to something
+ABOUT: Final = ("name", "description")  # what a file says about itself
+WHOLE: Final = tuple(word for word in field_words(MachineRecord) if word not in (*SECTIONS, *ABOUT))
+
+
+def check_start(tree: Tree) -> None:
+    """Refuse what is no machine file at all, and other formats.
+
+    Raises ModelError.
+    """
+    if tree.data is None:
+        raise ModelError(
+            [*tree.faults, Fault(tree.file, 1, 1, "", "the file is empty; `nivel new` writes one to start from")]
+        )
+    if not isinstance(tree.data, dict):
+        message = f"a machine file is a mapping that starts with `format: {FORMAT}`, not {shown(tree.data)}"
+        raise ModelError([*tree.faults, tree.fault((), message)])
+    if "format" not in tree.data:
+        tree.faults.append(tree.fault((), f"`format: {FORMAT}` is missing"))
+        return
+    given = tree.data.pop("format")
+    if given != FORMAT or isinstance(given, bool):
+        message = f"this nivel reads format {FORMAT}, not {shown(given)}"
+        raise ModelError([*tree.faults, tree.fault(("format",), message)])
+
+
+def check_sections(tree: Tree) -> None:
+    """Collect faults of the sections and of unknown words. What is at fault is emptied, so that the rest can be read."""
+    for word in [word for word in tree.data if word not in (*TOP_WORDS, *FILE_WORDS)]:
+        message = unknown_word(word, (*TOP_WORDS, *FILE_WORDS), "key")
+        tree.faults.append(tree.fault((word,), message, at_key=True))
+        del tree.data[word]
+    for section in NAMED:
+        _check_section(tree, section)
+
+
+def _check_section(tree: Tree, section: str) -> None:
+    """A section is a mapping of names to mappings."""
+    content = tree.data.get(section)
+    if not isinstance(content, dict):
+        if content is not None:
+            message = f"a mapping from names to what they are was expected, got {shown(content)}"
+            tree.faults.append(tree.fault((section,), message))
+            tree.unread.add("")
+        if section in tree.data:
+            tree.data[section] = {}
+        return
+    if section != "parameters":
+        for name in content:
+            _check_element(tree, content, section, name)
+
+
+def _check_element(tree: Tree, content: dict[str, Any], section: str, name: str) -> None:
+    """An element is a mapping; nothing (`crank:` alone) is an empty one."""
+    element = content[name]
+    if isinstance(element, dict):
+        if element.pop("name", None) is not None:
+            message = f"the name is the key `{name}`; `name` must not be given"
+            tree.faults.append(tree.fault((section, name, "name"), message))
+        return
+    content[name] = {}
+    if element is not None:
+        tree.report((section, name), f"a mapping was expected, got {shown(element)}")
+
+
+def section_of(tree: Tree, section: str) -> dict[str, Any]:
+    """The content of a section that has been checked; empty where the file has none."""
+    return tree.data.get(section) or {}
+
+
+def as_part(tree: Tree, only: tuple[str, ...] | None, example: str) -> None:
+    """Leave what `tree`, read for another file, brings to that file: the sections `only`, or all.
+
+    What concerns a whole machine is refused, unless the other file says which sections it takes. `example` shows how.
+    """
+    for word in [word for word in tree.data if word in WHOLE]:
+        del tree.data[word]
+        if only is None:
+            message = (
+                f"`{word}` belongs to the main file, which uses this one; remove it here, or say there which sections "
+                f"to take: {example}"
+            )
+            tree.faults.append(tree.fault((word,), message, at_key=True))
+    for word in ABOUT:
+        tree.data.pop(word, None)
+    if only is not None:
+        for section in [word for word in tree.data if word in NAMED and word not in (*only, "parameters")]:
+            del tree.data[section]

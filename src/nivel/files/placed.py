@@ -1,0 +1,84 @@
+"""A part that is placed: every element of it turned, moved and mirrored, so that it moves as before, seen from there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from nivel.errors import ModelError
+from nivel.files.placed_bodies import placed_body, placed_joint
+from nivel.files.placed_forces import placed_force
+from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement
+from nivel.files.scene import Scene
+from nivel.files.substitution import NotRepresentableError, negative
+from nivel.machine import Driver, LinearCoupling, Rack, Record, Sensor
+from nivel.machine.record import entry
+
+Elements = Mapping[str, Sequence[Record]]
+
+
+def placed(elements: Elements, placing: Placement) -> dict[str, tuple[Record, ...]]:
+    """`elements` by section, with all that is global in them transformed.
+
+    Where a part is mirrored, each joint coordinate has the value that it has in the part; only the displacement of a
+    cylindrical or screw joint, whose angle is kept, has the opposite sign, and what refers to it is changed with it.
+    Raises NotRepresentableError.
+    """
+    if not placing.changes:
+        return {section: tuple(records) for section, records in elements.items()}
+    scene = Scene.of(elements, placing)
+    rules: dict[str, Callable[[Any], Record]] = {
+        "bodies": lambda body: placed_body(body, placing),
+        "markers": scene.marker,
+        "joints": lambda joint: placed_joint(joint, scene),
+        "couplings": lambda coupling: placed_coupling(coupling, scene),
+        "drivers": lambda driver: placed_driver(driver, scene),
+        "forces": lambda force: placed_force(force, scene),
+        "sensors": lambda sensor: placed_sensor(sensor, scene),
+    }
+    made = {section: tuple(_by(rules[section], record) for record in elements[section]) for section in elements}
+    made["markers"] = (*made["markers"], *scene.extra.values())
+    return made
+
+
+def _by(rule: Callable[[Any], Record], record: Record) -> Record:
+    try:
+        return rule(record)
+    except NotRepresentableError as error:
+        raise NotRepresentableError(f"{_words(record)}: {error}") from None
+    except ModelError as error:
+        raise NotRepresentableError(f"{_words(record)}: {'; '.join(fault.message for fault in error.faults)}") from None
+
+
+def _words(record: Record) -> str:
+    return f"{record.collection}.{entry(record, 'name')}"
+
+
+def placed_coupling(coupling: Any, scene: Scene) -> Any:
+    """`coupling` in the placed part: displacements that count the other way change the sign of their factor."""
+    if isinstance(coupling, LinearCoupling):
+        signs = [-1.0 if scene.is_opposite(reference) else 1.0 for reference in coupling.coordinates]
+        return coupling.replace(factors=[sign * each for sign, each in zip(signs, coupling.factors, strict=True)])
+    if isinstance(coupling, Rack) and scene.is_opposite(coupling.joints[1]):
+        return coupling.replace(radius=-coupling.radius)
+    return coupling
+
+
+def placed_driver(driver: Driver, scene: Scene) -> Driver:
+    """`driver` in the placed part. What is measured from ground is measured from the part's own frame there.
+
+    Raises NotRepresentableError.
+    """
+    if driver.coordinate is not None:
+        return driver.replace(value=negative(driver.value)) if scene.is_opposite(driver.coordinate) else driver
+    kept = POLAR_Z if driver.along == "z" else AXIAL_Z
+    reference = driver.reference
+    return driver.replace(relative_to=scene.ground_frame(kept) if reference is None else scene.variant(reference, kept))
+
+
+def placed_sensor(sensor: Sensor, scene: Scene) -> Sensor:
+    """`sensor` in the placed part. Of a marker without `relative_to` it shows what is global in the whole machine.
+
+    Raises NotRepresentableError.
+    """
+    return sensor if sensor.value is None else sensor.replace(value=scene.varied(sensor.value))

@@ -1,0 +1,114 @@
+"""Bodies and joints of a part, placed: turned, moved, mirrored."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from nivel.files.placement import AXIAL, AXIAL_Z, POLAR_Z, Placement, triple
+from nivel.files.scene import Scene
+from nivel.machine import (
+    Body,
+    Box,
+    Cylinder,
+    Inertia,
+    Joint,
+    Shape,
+    Sphere,
+    Tube,
+    frame_from_axes,
+    placement,
+)
+from nivel.machine.inertia import box_size, length
+from nivel.machine.orientation import matrix_from_euler_parameters
+
+KEPT = {"universal": AXIAL, "translational": POLAR_Z, "point-on-line": POLAR_Z}  # others keep AXIAL_Z
+_SLIDING = ("translational", "point-on-line")  # joints whose axis is a direction of motion, not an axis of turning
+
+
+def placed_body(body: Body, placing: Placement) -> Body:
+    """`body` in the placed part. A shape between two points becomes one in the body frame, which stays its frame."""
+    position, parameters = placement(body)
+    if not placing.turns:
+        return _moved_body(body, placing)
+    changes: dict[str, Any] = {
+        "position": placing.point(position),
+        "velocity": placing.direction(body.velocity),
+    }
+    if body.shape is not None:
+        changes["shape"] = _placed_shape(body.shape, placing)
+    if not body.point_mass:
+        changes["orientation"] = placing.body_frame(matrix_from_euler_parameters(parameters))
+    if body.angular_velocity is not None:
+        changes["angular_velocity"] = placing.turning(body.angular_velocity)
+    if body.angular_velocity_body is not None:
+        changes["angular_velocity_body"] = placing.turning_in_body(body.angular_velocity_body)
+    if body.centre_of_mass is not None:
+        changes["centre_of_mass"] = placing.in_body(body.centre_of_mass)
+    if body.inertia is not None:
+        changes["inertia"] = _mirrored_inertia(body.inertia, placing)
+    return body.replace(**changes)
+
+
+def _moved_body(body: Body, placing: Placement) -> Body:
+    """`body` moved without being turned."""
+    shape = body.shape
+    if shape is None or isinstance(shape, Sphere) or shape.from_ is None or shape.to is None:
+        return body.replace(position=placing.point(body.position or (0.0, 0.0, 0.0)))
+    return body.replace(shape=shape.replace(from_=placing.point(shape.from_), to=placing.point(shape.to)))
+
+
+def _placed_shape(shape: Shape, placing: Placement) -> Shape:
+    """The shape in the body frame."""
+    if isinstance(shape, Sphere) or shape.from_ is None:
+        return shape if shape.centre is None else shape.replace(centre=placing.in_body(shape.centre))
+    match shape:
+        case Box():
+            return Box(size=box_size(shape))
+        case Cylinder():
+            return Cylinder(radius=shape.radius, length=length(shape))
+        case Tube():
+            return Tube(outer_radius=shape.outer_radius, inner_radius=shape.inner_radius, length=length(shape))
+
+
+def _mirrored_inertia(inertia: Inertia, placing: Placement) -> Inertia:
+    """Products change their sign where one of their axes is mirrored and the other is not."""
+    x, y, z = (float(each) for each in placing.reflection)
+    return inertia.replace(xy=inertia.xy * x * y + 0.0, xz=inertia.xz * x * z + 0.0, yz=inertia.yz * y * z + 0.0)
+
+
+def placed_joint(joint: Joint, scene: Scene) -> Joint:
+    """`joint` in the placed part. Its coordinates keep their meaning, but for what `Scene.is_opposite` names."""
+    placing = scene.placement
+    changes: dict[str, Any] = {}
+    if joint.markers is not None:
+        first, second = joint.markers
+        kept = KEPT.get(joint.type, AXIAL_Z)
+        changes["markers"] = (scene.end(first, kept), scene.end(second, kept))
+    if joint.point is not None:
+        changes["point"] = placing.point(joint.point)
+    if joint.points is not None:
+        changes["points"] = (placing.point(joint.points[0]), placing.point(joint.points[1]))
+    if placing.turns:
+        changes |= _placed_axes(joint, placing)
+    if placing.mirrored and joint.pitch is not None:
+        changes["pitch"] = -joint.pitch
+    for field in ("start", "start_rates"):
+        values = getattr(joint, field)
+        if values is not None and values.displacement is not None and scene.is_opposite(joint.name):
+            changes[field] = values.replace(displacement=-values.displacement)
+    return joint.replace(**changes)
+
+
+def _placed_axes(joint: Joint, placing: Placement) -> dict[str, Any]:
+    """The axes of a joint; its x axis as well, which would else come from another global axis."""
+    changes: dict[str, Any] = {}
+    if joint.axis is not None:
+        turned = placing.direction if joint.type in _SLIDING else placing.turning
+        changes["axis"] = turned(joint.axis)
+        changes["x_axis"] = placing.direction(triple(frame_from_axes(joint.axis, joint.x_axis)[:, 0]))
+    if joint.axes is not None:
+        first, second = joint.axes
+        slides = joint.type == "revolute-translational"
+        turned = placing.direction if slides else placing.turning
+        changes["axes"] = (placing.turning(first), turned(second))
+    return changes

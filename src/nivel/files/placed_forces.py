@@ -1,0 +1,157 @@
+"""Forces of a part, placed: what is global is turned, what counts the other way in a mirror image changes its sign."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from nivel.files.placement import AXIAL_Z, POLAR_Z
+from nivel.files.scene import Scene
+from nivel.files.substitution import Linear, mixed, negative, substituted
+from nivel.machine import (
+    Bushing,
+    Contact,
+    Friction,
+    JointSpringDamper,
+    Motor,
+    PairForce,
+    PointForce,
+    Record,
+    SpringDamper,
+    Stop,
+    TimeFunction,
+    Torque,
+    TorsionalSpringDamper,
+)
+from nivel.machine.forces import Between
+
+Changes = dict[str, Any]
+
+
+def placed_force(force: Any, scene: Scene) -> Any:
+    """`force` in the placed part.
+
+    Raises NotRepresentableError.
+    """
+    return force.replace(**_RULES[type(force)](force, scene))
+
+
+def _point_force(force: PointForce, scene: Scene) -> Changes:
+    placing = scene.placement
+    matrix = placing.polar if force.axes == "global" else np.diag(placing.reflection)
+    changes: Changes = {"vector": _vector(force.vector, matrix, scene)}
+    if force.position is not None:
+        changes["position"] = placing.in_body(force.position)
+    return changes
+
+
+def _torque(force: Torque, scene: Scene) -> Changes:
+    placing = scene.placement
+    matrix = placing.axial if force.axes == "global" else placing.handedness * np.diag(placing.reflection)
+    return {"vector": _vector(force.vector, matrix, scene)}
+
+
+def _vector(vector: tuple[TimeFunction, ...], matrix: np.ndarray, scene: Scene) -> tuple[TimeFunction, ...]:
+    return mixed(matrix, [scene.varied(each) for each in vector])
+
+
+def _ends(force: Between, scene: Scene, *, with_axes: bool) -> Changes:
+    """Where a force between two bodies acts. With axes, points become markers, since theirs are global as placed."""
+    if force.markers is not None:
+        first, second = force.markers
+        return {"markers": (scene.end(first), scene.end(second))}
+    if force.bodies is None or force.points is None:
+        raise ValueError(f"force {force.name} acts nowhere")
+    if not with_axes or not scene.placement.turns:
+        return {"points": tuple(scene.placement.point(point) for point in force.points)}
+    markers = tuple(
+        scene.marker(scene.point_on(body, point)) for body, point in zip(force.bodies, force.points, strict=True)
+    )
+    return {"bodies": None, "points": None, "markers": markers}
+
+
+def _spring_damper(force: SpringDamper, scene: Scene) -> Changes:
+    return {**_ends(force, scene, with_axes=False), **_varied(force, scene, "law")}
+
+
+def _torsional_spring_damper(force: TorsionalSpringDamper, scene: Scene) -> Changes:
+    first, second = force.markers
+    return {"markers": (scene.end(first), scene.end(second)), **_varied(force, scene, "law")}
+
+
+def _pair_force(force: PairForce, scene: Scene) -> Changes:
+    changes = {**_ends(force, scene, with_axes=force.axes == "first"), **_varied(force, scene, "magnitude")}
+    if force.vector is not None:
+        in_marker = np.diag(AXIAL_Z if scene.placement.mirrored else np.ones(3))
+        changes["vector"] = _vector(force.vector, scene.placement.polar if force.axes == "global" else in_marker, scene)
+    return changes
+
+
+def _bushing(force: Bushing, scene: Scene) -> Changes:
+    changes = _ends(force, scene, with_axes=True)
+    if scene.placement.mirrored:
+        signs = np.array([*AXIAL_Z, *(-each for each in AXIAL_Z)])  # of displacements, and of turns, which are axial
+        for field in ("stiffness", "damping"):
+            if isinstance(getattr(force, field)[0], tuple):
+                matrix = getattr(force, f"{field}_matrix") * np.outer(signs, signs) + 0.0
+                changes[field] = tuple(tuple(float(each) for each in row) for row in matrix)
+    return changes
+
+
+def _contact(force: Contact, scene: Scene) -> Changes:
+    return {} if force.plane is None else {"plane": scene.end(force.plane, POLAR_Z)}
+
+
+def _on_coordinate(force: JointSpringDamper | Motor | Stop | Friction, scene: Scene) -> Changes:
+    """What acts on a joint coordinate keeps its numbers, unless the coordinate counts the other way."""
+    fields = {"JointSpringDamper": ("law",), "Motor": ("effort", "speed")}.get(type(force).__name__, ())
+    changes = _varied(force, scene, *fields)
+    if not scene.is_opposite(force.coordinate):
+        return changes
+    match force:
+        case JointSpringDamper():
+            changes |= {"free_value": -force.free_value + 0.0, "preload": -force.preload + 0.0}
+            if force.table is not None:
+                deflections, efforts = ([-each + 0.0 for each in reversed(column)] for column in force.table.points)
+                changes["table"] = force.table.replace(deflections=deflections, efforts=efforts)
+            if force.law is not None:
+                changes = {"law": negative(substituted_locals(changes["law"]))}
+        case Stop():
+            changes |= {
+                "lower": None if force.upper is None else -force.upper + 0.0,
+                "upper": None if force.lower is None else -force.lower + 0.0,
+            }
+        case Motor():
+            changes |= {field: negative(changes[field]) for field in fields if field in changes}
+    return changes
+
+
+def substituted_locals(law: TimeFunction) -> TimeFunction:
+    """`law` of a coordinate, with the coordinate's `value` and `rate` counted the other way."""
+    return substituted(law, _other_way, local=("value", "rate"))
+
+
+def _other_way(path: str) -> Linear:
+    return Linear(((-1.0, path),))
+
+
+def _varied(force: Record, scene: Scene, *fields: str) -> Changes:
+    """The functions of a force with the signals of the placed part."""
+    return {field: scene.varied(value) for field in fields if (value := getattr(force, field)) is not None}
+
+
+_RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
+    PointForce: _point_force,
+    Torque: _torque,
+    SpringDamper: _spring_damper,
+    TorsionalSpringDamper: _torsional_spring_damper,
+    JointSpringDamper: _on_coordinate,
+    Motor: _on_coordinate,
+    Stop: _on_coordinate,
+    Friction: _on_coordinate,
+    PairForce: _pair_force,
+    Bushing: _bushing,
+    Contact: _contact,
+}

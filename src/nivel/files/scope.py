@@ -1,0 +1,178 @@
+"""One file with all that it includes, and the parts that it places: from YAML to a record.
+
+Every part that `assemblies:` names is a file read by itself, with parameters and names of its own. Its records are
+placed and get their prefix (assembly.py), and join those of the file that uses it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path as FilePath
+from typing import Any
+
+from pydantic import ValidationError
+
+from nivel.errors import Fault, ModelError
+from nivel.files.assembly import Assembly, given_parameters, made_by, read_assembly
+from nivel.files.include import include
+from nivel.files.mass_file import read_mass_properties
+from nivel.files.outline import as_part, check_sections, check_start, section_of
+from nivel.files.overrides import in_order, override, prefix_of
+from nivel.files.python_laws import read_python_laws
+from nivel.files.sources import Sources
+from nivel.files.tree import Path, Tree, read_tree
+from nivel.machine import MachineRecord, Record
+from nivel.machine.arithmetic import Parameters
+from nivel.machine.parameters import resolve
+from nivel.machine.quantity import FAULT
+from nivel.machine.references import SECTIONS
+
+Elements = dict[str, dict[str, Record]]
+
+
+def read_scope(
+    text: str,
+    file: str,
+    sources: Sources,
+    *,
+    overrides: Mapping[str, object],
+    user: tuple[Tree, str, Assembly] | None = None,
+) -> MachineRecord:
+    """The machine in `text`. `user`: the file, and the assembly in it, that this is a part of.
+
+    Raises ModelError.
+    """
+    tree = read_tree(text, file)
+    about_files, of_masses, others = in_order(overrides)
+    override(tree, about_files)
+    check_start(tree)
+    include(tree, sources)
+    override(tree, of_masses)
+    check_sections(tree)
+    read_mass_properties(tree, sources)
+    override(tree, others)
+    check_sections(tree)
+    if user is not None:
+        as_part(tree, user[2].only, f"`assemblies.{user[1]}: {{file: {user[2].file}, only: [bodies, joints]}}`")
+        given_parameters(tree, *user)
+    read_python_laws(tree, sources)
+    parameters, faults = resolve(section_of(tree, "parameters"))
+    tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]
+    return _record(tree, parameters, _expanded(tree, parameters, sources))
+
+
+def _expanded(tree: Tree, parameters: Parameters, sources: Sources) -> Elements:
+    """The elements that the assemblies of `tree` make. Faults go to `tree.faults`."""
+    made: Elements = {section: {} for section in SECTIONS}
+    for name, given in (tree.data.pop("assemblies", None) or {}).items():
+        assembly = read_assembly(tree, name, given, parameters)
+        part = None if assembly is None else _part(tree, name, assembly, sources)
+        elements = None if assembly is None or part is None else made_by(tree, name, assembly, part)
+        if elements is None:
+            tree.unread.add(prefix_of(name, given))
+            continue
+        for section, records in elements.items():
+            for its_name, record in records.items():
+                _join(tree, made[section], (section, its_name), record, ("assemblies", name))
+    return made
+
+
+def _part(tree: Tree, name: str, assembly: Assembly, sources: Sources) -> MachineRecord | None:
+    """The part of an assembly, in its own names and axes; None where it has faults, which are collected."""
+    found = sources.text(tree, ("assemblies", name, "file"), assembly.file)
+    if found is None:
+        return None
+    text, file = found
+    overrides = tree.for_parts.get(name, {})
+
+    def read(assembly: Assembly, sources: Sources) -> MachineRecord:
+        return read_scope(text, file, sources.inside(file), overrides=overrides, user=(tree, name, assembly))
+
+    try:
+        return read(assembly, sources)
+    except ModelError as error:
+        faults = error.faults
+    own = faults
+    if assembly.parameters and not sources.again:
+        try:
+            read(assembly.replace(parameters={}), replace(sources, again=True))
+            own = ()
+        except ModelError as error:
+            own = error.faults
+    hint = f" (in assemblies.{name}, with the parameters given there)"
+    for fault in faults:
+        of_parameters = fault.line and not any(_same_place(fault, each) for each in own)
+        tree.faults.append(_seen_from_user(fault, assembly, hint if of_parameters else ""))
+    return None
+
+
+def _same_place(fault: Fault, other: Fault) -> bool:
+    return (fault.file, fault.line, fault.column, fault.path) == (other.file, other.line, other.column, other.path)
+
+
+def _seen_from_user(fault: Fault, assembly: Assembly, hint: str) -> Fault:
+    """A fault in a part: with the whole name of the element where it was set from outside, else with the `hint`."""
+    steps = fault.path.split(".")
+    if not fault.line and len(steps) > 1 and steps[0] in SECTIONS:
+        return replace(fault, path=".".join([steps[0], f"{assembly.prefix}{steps[1]}", *steps[2:]]))
+    return fault if "the parameters given there" in fault.message else replace(fault, message=fault.message + hint)
+
+
+def _join(tree: Tree, records: dict[str, Record], path: Path, record: Record, maker: Path) -> None:
+    """Add an element that the assembly `maker` makes, unless its name is taken. Its place is that of the assembly."""
+    section, name = map(str, path)
+    if name in section_of(tree, section) or name in records:
+        if not tree.is_broken(maker):  # the first name is enough
+            tree.report(maker, f"its `{name}` stands in {tree.place_of(path)} already; give another `prefix`")
+        return
+    records[name] = record
+    tree.files[path] = tree.file_of(maker)
+    if maker in tree.places:
+        tree.places[path] = tree.places[maker]
+
+
+def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord:
+    """The record of the whole tree.
+
+    Raises ModelError.
+    """
+    data: dict[str, Any] = {"name": FilePath(tree.file).stem or "machine", **tree.data}
+    data.pop("parameters", None)
+    if data.get("simulation", ...) is None:
+        del data["simulation"]
+    names: dict[str, list[str]] = {}
+    for section in SECTIONS:
+        own = section_of(tree, section)
+        names[section] = [*own, *made[section]]
+        if names[section]:
+            data[section] = [*({"name": name, **element} for name, element in own.items()), *made[section].values()]
+        else:
+            data.pop(section, None)
+    data.setdefault("bodies", [])
+    try:
+        record = MachineRecord.model_validate(data, context={"parameters": parameters})
+    except ValidationError as error:
+        for line in error.errors(include_url=False):
+            path = _path_in_file(line["loc"], names)
+            if line["type"] == FAULT and not tree.is_broken(path) and not _is_about_unread(tree, line["msg"]):
+                tree.faults.append(tree.fault(path, line["msg"], at_key=bool(line.get("ctx", {}).get("at_key"))))
+        raise ModelError(tree.faults) from None
+    if tree.faults:
+        raise ModelError(tree.faults)
+    return record
+
+
+def _is_about_unread(tree: Tree, message: str) -> bool:
+    """Whether something is missing that may stand in a file which could not be read."""
+    if message == "a machine needs at least one body":
+        return bool(tree.unread)
+    return message.startswith("there is no ") and any(f" `{prefix}" in message for prefix in tree.unread)
+
+
+def _path_in_file(location: tuple[int | str, ...], names: Mapping[str, list[str]]) -> Path:
+    """A place in the record as a place in the file: names instead of numbers in the sections."""
+    if len(location) < 2 or location[0] not in names or not isinstance(location[1], int):
+        return location
+    rest = () if location[2:] == ("name",) else location[2:]
+    return (location[0], names[str(location[0])][location[1]], *rest)

@@ -1,0 +1,130 @@
+"""The files that a machine is read from: the main one, and those that it names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
+from pathlib import Path as FilePath
+from typing import Final
+
+from nivel.errors import Fault, ModelError
+from nivel.files.tree import Path, Tree
+from nivel.machine.quantity import shown
+
+DEEPEST: Final = 20  # files that name files
+MOST: Final = 2000  # files read for one machine, each as often as it is used
+
+
+@dataclass(frozen=True)
+class Sources:
+    """How the files of a machine are read.
+
+    allow_code : laws may run Python code. open : the files that led to the present one, outermost first. read : every
+    file read so far. again : parts are read once more, to tell faults of their own from those of given parameters.
+    """
+
+    allow_code: bool = False
+    open: tuple[FilePath, ...] = ()
+    read: list[str] = field(default_factory=list)
+    again: bool = False
+
+    def inside(self, file: str) -> Sources:
+        """The same while `file` is read."""
+        return replace(self, open=(*self.open, resolved(file)))
+
+    def text(self, tree: Tree, path: Path, name: object) -> tuple[str, str] | None:
+        """Text and name of the file `name`, which `path` of `tree` mentions; None where there is a fault, which has
+        been reported.
+        """
+        if not isinstance(name, str) or not name.strip():
+            tree.report(path, f"the name of a file was expected, got {shown(name)}")
+            return None
+        file = beside(tree.file_of(path), name)
+        ring = self.ring(file)
+        if ring:
+            tree.report(path, f"the file leads back to itself: {ring}")
+        elif len(self.open) > DEEPEST:
+            tree.report(path, f"more than {DEEPEST} files lead from one to the next")
+        elif len(self.read) >= MOST:
+            tree.report(path, f"the machine is made of more than {MOST} files")
+        elif not is_file(file):
+            tree.report(path, f"there is no file `{file}`{_nearest(file)}")
+        else:
+            self.read.append(file)
+            return self._read(tree, path, file)
+        return None
+
+    def ring(self, file: str) -> str:
+        """The files from `file` back to itself, or an empty text."""
+        target = resolved(file)
+        if target not in self.open:
+            return ""
+        return " → ".join(each.name for each in (*self.open[self.open.index(target) :], target))
+
+    def _read(self, tree: Tree, path: Path, file: str) -> tuple[str, str] | None:
+        try:
+            return read_text(file), file
+        except ModelError as error:
+            for fault in error.faults:
+                if fault.line:
+                    tree.faults.append(fault)
+                else:
+                    tree.faults.append(tree.fault(path, f"`{file}`: {fault.message}"))
+            tree.broken.add(path)
+            return None
+
+
+def beside(file: str, name: str) -> str:
+    """The file `name` seen from the folder of `file`."""
+    return str(FilePath(file).parent / name)
+
+
+def resolved(file: str) -> FilePath:
+    """One path for all names of a file."""
+    try:
+        return FilePath(file).resolve()
+    except (OSError, ValueError, RuntimeError):
+        return FilePath(file)
+
+
+def is_file(file: str) -> bool:
+    """Whether there is such a regular file."""
+    try:
+        return FilePath(file).is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def _nearest(file: str) -> str:
+    """A hint at a file with a similar name in the same folder."""
+    path = FilePath(file)
+    try:
+        names = [each.name for each in path.parent.iterdir() if each.is_file()]
+    except (OSError, ValueError):
+        return ""
+    near = get_close_matches(path.name, names, n=1, cutoff=0.6)
+    return f"; did you mean `{path.parent / near[0]}`?" if near else ""
+
+
+def read_text(path: str | FilePath) -> str:
+    """The text of the file at `path`.
+
+    Raises ModelError where it cannot be read, or is not UTF-8.
+    """
+    file = str(path)
+    try:
+        content = FilePath(path).read_bytes()
+    except FileNotFoundError:
+        raise ModelError(Fault(file, 0, 0, file, "there is no such file")) from None
+    except IsADirectoryError:
+        raise ModelError(Fault(file, 0, 0, file, "this is a directory; a machine file was expected")) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise ModelError(Fault(file, 0, 0, file, f"the file cannot be read: {reason}")) from None
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = content[: error.start]
+        line, column = before.count(b"\n") + 1, error.start - (before.rfind(b"\n") + 1) + 1
+        message = f"the file is not UTF-8 text: the byte 0x{content[error.start]:02x} stands here; save it as UTF-8"
+        raise ModelError(Fault(file, line, column, "", message)) from None

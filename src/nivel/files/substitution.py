@@ -1,0 +1,155 @@
+"""What varies, seen from another place: signals renamed or turned, values of three components mixed.
+
+A signal of the part is a linear combination of signals of the placed part. Expressions can hold any of them; tables
+those of one signal; arguments of Python functions only a signal as it is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from nivel.machine import Expression, PythonLaw, Table, TimeFunction
+
+_SIGNAL: Final = re.compile(r"(?<![\w.])[^\W\d]\w*\.[^\W\d]\w*")  # in an expression, where `-` is a minus sign
+
+
+class NotRepresentableError(Exception):
+    """No record of a machine says what would be needed."""
+
+
+@dataclass(frozen=True)
+class Linear:
+    """offset + Σ factor · signal."""
+
+    terms: tuple[tuple[float, str], ...]
+    offset: float = 0.0
+
+    def __str__(self) -> str:
+        """As arithmetic that binds like a single name."""
+        if self.offset == 0 and len(self.terms) == 1 and self.terms[0][0] == 1:
+            return self.terms[0][1]
+        parts = [_times(factor, path) for factor, path in self.terms]
+        return f"({' + '.join([*parts, repr(self.offset)] if self.offset else parts)})"
+
+
+Signals = Callable[[str], Linear]
+
+
+def same(path: str) -> Linear:
+    """The signal as it is."""
+    return Linear(((1.0, path),))
+
+
+def substituted(function: TimeFunction, signals: Signals, *, local: tuple[str, ...] = ()) -> TimeFunction:
+    """`function` with every signal replaced by what `signals` says of it; or instead the `local` symbols.
+
+    Raises NotRepresentableError.
+    """
+    pattern = re.compile(rf"(?<![\w.])(?:{'|'.join(local)})(?![\w.(])") if local else _SIGNAL
+
+    def is_meant(path: object) -> bool:
+        return isinstance(path, str) and (path in local if local else "." in path)
+
+    match function:
+        case Expression():
+            return Expression(pattern.sub(lambda found: str(signals(found.group())), function.text))
+        case Table() if is_meant(function.of):
+            return _table_of(function, signals(function.of))
+        case PythonLaw():
+            arguments = (_argument(each, signals) if is_meant(each) else each for each in function.arguments)
+            return replace(function, arguments=tuple(arguments))
+    return function
+
+
+def _table_of(table: Table, linear: Linear) -> Table:
+    """A table over old = offset + factor · new, as one over new."""
+    if len(linear.terms) != 1:
+        raise NotRepresentableError(f"a table of `{table.of}` would have to be one of several signals here: {linear}")
+    ((factor, path),) = linear.terms
+    points = [(point - linear.offset) / factor + 0.0 for point in table.times]
+    order = slice(None) if factor > 0 else slice(None, None, -1)
+    return replace(table, of=path, times=tuple(points[order]), values=tuple(table.values[order]))
+
+
+def _argument(argument: str, signals: Signals) -> str:
+    linear = signals(argument)
+    if linear.offset or len(linear.terms) != 1 or linear.terms[0][0] != 1:
+        raise NotRepresentableError(
+            f"the argument `{argument}` of a Python function would have to be `{linear}` here; "
+            "let the function take what does not depend on where the part is, such as a joint coordinate"
+        )
+    return linear.terms[0][1]
+
+
+def mixed(matrix: np.ndarray, components: Sequence[TimeFunction]) -> tuple[TimeFunction, ...]:
+    """The components of `matrix` (n, n) · `components`.
+
+    Raises NotRepresentableError.
+    """
+    return tuple(combination(row, components) for row in matrix)
+
+
+def combination(factors: Sequence[float] | np.ndarray, functions: Sequence[TimeFunction]) -> TimeFunction:
+    """Σ factor · function.
+
+    Raises NotRepresentableError.
+    """
+    terms = [
+        (float(factor), each) for factor, each in zip(factors, functions, strict=True) if factor != 0 and each != 0
+    ]
+    if not terms:
+        return 0.0
+    if len(terms) == 1 and terms[0][0] == 1:
+        return terms[0][1]
+    if all(isinstance(each, float | int | Expression) for _, each in terms):
+        return _sum([(factor, each) for factor, each in terms if isinstance(each, float | int | Expression)])
+    tables = [(factor, each) for factor, each in terms if isinstance(each, Table)]
+    if len(tables) + sum(isinstance(each, float | int) for _, each in terms) == len(terms):
+        constant = sum(factor * each for factor, each in terms if isinstance(each, float | int))
+        return _sum_of_tables(tables, constant)
+    kinds = sorted({"a Python function" if isinstance(each, PythonLaw) else "a table" for _, each in terms})
+    raise NotRepresentableError(
+        f"{kinds[0]} would have to be {'turned around' if len(terms) == 1 else 'mixed with another component'} here; "
+        "write expressions, or give the components in axes of the body"
+    )
+
+
+def negative(function: TimeFunction) -> TimeFunction:
+    """-function.
+
+    Raises NotRepresentableError.
+    """
+    return combination([-1.0], [function])
+
+
+def _sum(terms: Sequence[tuple[float, float | Expression]]) -> float | Expression:
+    if all(isinstance(each, float | int) for _, each in terms):
+        return sum(factor * each for factor, each in terms if isinstance(each, float | int)) + 0.0
+    return Expression(" + ".join(_product(factor, each) for factor, each in terms))
+
+
+def _product(factor: float, function: float | Expression) -> str:
+    return _times(factor, f"({function.text})" if isinstance(function, Expression) else repr(float(function)))
+
+
+def _times(factor: float, text: str) -> str:
+    return text if factor == 1 else f"-{text}" if factor == -1 else f"{factor!r}*{text}"
+
+
+def _sum_of_tables(terms: Sequence[tuple[float, Table]], constant: float) -> Table:
+    """Exact: straight lines between all points of both stay straight, and a spline is linear in its values."""
+    first = terms[0][1]
+    if any((table.of, table.interpolation) != (first.of, first.interpolation) for _, table in terms):
+        raise NotRepresentableError(
+            "tables of different kinds would have to be added here; give them the same `of` and points"
+        )
+    times = sorted({time for _, table in terms for time in table.times})
+    if first.interpolation != "linear" and any(list(table.times) != times for _, table in terms):
+        raise NotRepresentableError("smooth tables would have to be added here; give them the same points")
+    values = [constant + sum(factor * table(time) for factor, table in terms) + 0.0 for time in times]
+    return replace(first, times=tuple(times), values=tuple(values))

@@ -1,0 +1,159 @@
+"""Contact of spheres, boxes and cylinders with planes, and of spheres with each other.
+
+A box touches with its corners. A cylinder touches with four points of each rim, the lowest one and those a quarter turn on, so it
+rolls on exact circles and stands on four feet. Normal force: `nivel.kernels.forces.impact`. Friction: μ N tanh(v/v_s) against
+the sliding velocity of the bodies at the point.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import stage
+from nivel.kernels.forces.impact import impact
+from nivel.kernels.forces.push import push_point
+from nivel.kernels.hook import family
+from nivel.kernels.record import record_at
+from nivel.kernels.status import OK
+
+# columns of `columns`; MARKER: centre and axes of the shape (a cylinder's is z); OTHER: the plane (z outwards), or the other sphere
+# outputs: magnitude, power, deepest overlap, normal force
+OUTPUT, KIND, MARKER, OTHER = 0, 1, 2, 3
+SPHERE, BOX, CYLINDER, SPHERES = 0, 1, 2, 3
+POINTS = 8  # most points of a shape
+# columns of `number`; SIZE: radius; half lengths; radius and half length; the two radii. Then a point and a normal of work.
+STIFFNESS, EXPONENT, LOSS, FRICTION, TRANSITION, SIZE, POINT, NORMAL = 0, 1, 2, 3, 4, 5, 8, 11
+NUMBERS = 14
+
+
+@stage
+def corner(A, r, size, n, p):
+    """Corner n of a box."""
+    x = size[0] if n % 2 == 0 else -size[0]
+    y = size[1] if (n // 2) % 2 == 0 else -size[1]
+    z = size[2] if n < 4 else -size[2]
+    for a in range(3):
+        p[a] = r[a] + A[a, 0] * x + A[a, 1] * y + A[a, 2] * z
+
+
+@stage
+def rim_point(A, r, size, n, normal, p):
+    """Point n of a cylinder: the rim's direction that points most against the normal, and its quarter turns."""
+    c, s = 0.0, 0.0
+    for a in range(3):
+        c -= normal[a] * A[a, 0]
+        s -= normal[a] * A[a, 1]
+    length = np.sqrt(c * c + s * s)
+    if length > 1e-12:
+        c, s = c / length, s / length
+    else:
+        c, s = 1.0, 0.0
+    quarter = n % 4
+    if quarter == 1:
+        c, s = -s, c
+    elif quarter == 2:
+        c, s = -c, -s
+    elif quarter == 3:
+        c, s = s, -c
+    z = size[1] if n < 4 else -size[1]
+    for a in range(3):
+        p[a] = r[a] + size[0] * (c * A[a, 0] + s * A[a, 1]) + z * A[a, 2]
+
+
+@stage
+def touch(record, k, n, depth):
+    """Forces at the point of number[POINT:], normal number[NORMAL:] from the other body to this one; returns (N, friction, power)."""
+    bodies, markers, elements, control = record.bodies, record.markers, record.elements, record.control
+    numbers = elements.number[k]
+    p, normal = numbers[POINT:NORMAL], numbers[NORMAL:NUMBERS]
+    this, other = markers.body[elements.columns[k, MARKER]], markers.body[elements.columns[k, OTHER]]
+    v0, v1, v2 = velocity_at(bodies, this, p)
+    u0, u1, u2 = velocity_at(bodies, other, p)
+    v0, v1, v2 = v0 - u0, v1 - u1, v2 - u2
+    out = v0 * normal[0] + v1 * normal[1] + v2 * normal[2]
+    force, stored, loss, elements.proposal[k, n] = impact(
+        depth, -out, numbers[STIFFNESS], numbers[EXPONENT], numbers[LOSS], elements.memory[k, n]
+    )
+    control.stored[0] += stored
+    control.power[1] += loss
+    s0, s1, s2 = v0 - out * normal[0], v1 - out * normal[1], v2 - out * normal[2]
+    speed = np.sqrt(s0 * s0 + s1 * s1 + s2 * s2)
+    friction = 0.0
+    if numbers[FRICTION] > 0.0 and speed > 0.0:
+        friction = numbers[FRICTION] * force * np.tanh(speed / numbers[TRANSITION])
+        s0, s1, s2 = friction * s0 / speed, friction * s1 / speed, friction * s2 / speed
+        control.power[1] += friction * speed
+    else:
+        s0, s1, s2 = 0.0, 0.0, 0.0
+    x, y, z = force * normal[0] - s0, force * normal[1] - s1, force * normal[2] - s2
+    power = push_point(bodies, this, p, x, y, z)
+    power += push_point(bodies, other, p, -x, -y, -z)
+    return force, friction, power
+
+
+@stage
+def velocity_at(bodies, b, p):
+    """Velocity of the point of body b that is at p."""
+    R, V, w = bodies.R[b], bodies.Rdot[b], bodies.omega[b]
+    u0, u1, u2 = p[0] - R[0], p[1] - R[1], p[2] - R[2]
+    return V[0] + w[1] * u2 - w[2] * u1, V[1] + w[2] * u0 - w[0] * u2, V[2] + w[0] * u1 - w[1] * u0
+
+
+@stage
+def find_point(record, k, n):
+    """Where point n of contact k may touch and the normal there, left in the numbers; returns the overlap."""
+    markers, elements = record.markers, record.elements
+    numbers = elements.number[k]
+    marker, other, kind = elements.columns[k, MARKER], elements.columns[k, OTHER], elements.columns[k, KIND]
+    p, normal, size = numbers[POINT:NORMAL], numbers[NORMAL:NUMBERS], numbers[SIZE:POINT]
+    r, A, o = markers.r[marker], markers.A[marker], markers.r[other]
+    if kind == SPHERES:
+        d0, d1, d2 = r[0] - o[0], r[1] - o[1], r[2] - o[2]
+        distance = np.sqrt(d0 * d0 + d1 * d1 + d2 * d2)
+        if distance == 0.0:
+            d2, distance = 1.0, 1.0
+        normal[0], normal[1], normal[2] = d0 / distance, d1 / distance, d2 / distance
+        depth = size[0] + size[1] - distance
+        for a in range(3):
+            p[a] = o[a] + (size[1] - 0.5 * depth) * normal[a]
+        return depth
+    for a in range(3):
+        normal[a] = markers.A[other, a, 2]
+        p[a] = r[a]
+    if kind == BOX:
+        corner(A, r, size, n, p)
+    elif kind == CYLINDER:
+        rim_point(A, r, size, n, normal, p)
+    height = (p[0] - o[0]) * normal[0] + (p[1] - o[1]) * normal[1] + (p[2] - o[2]) * normal[2]
+    depth = size[0] - height if kind == SPHERE else -height
+    if kind == SPHERE:
+        # the force acts on the plane
+        for a in range(3):
+            p[a] -= height * normal[a]
+    return depth
+
+
+@family
+def apply(machine, number, t):
+    """All contacts."""
+    record = record_at(machine)
+    elements = record.elements
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        kind = elements.columns[k, KIND]
+        count = POINTS if kind in (BOX, CYLINDER) else 1
+        normal_force, friction_force, deepest, power = 0.0, 0.0, -np.inf, 0.0
+        for n in range(count):
+            depth = find_point(record, k, n)
+            deepest = max(deepest, depth)
+            if depth > 0.0:
+                force, friction, gained = touch(record, k, n, depth)
+                normal_force += force
+                friction_force += friction
+                power += gained
+            else:
+                elements.proposal[k, n] = 0.0
+        out = record.outputs.value
+        first = elements.columns[k, OUTPUT]
+        out[first] = np.sqrt(normal_force * normal_force + friction_force * friction_force)
+        out[first + 1], out[first + 2], out[first + 3] = power, deepest, normal_force
+    return OK

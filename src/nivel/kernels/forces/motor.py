@@ -1,0 +1,38 @@
+"""Motors on a joint coordinate: a given effort, or a speed to be held, both within a limit."""
+
+from __future__ import annotations
+
+from nivel.kernels.forces.push import push_coordinate
+from nivel.kernels.function import evaluate_function
+from nivel.kernels.hook import family
+from nivel.kernels.record import record_at
+from nivel.kernels.status import OK
+
+# columns of `columns`; outputs: effort on the coordinate, power, coordinate, rate
+OUTPUT, COORDINATE, COMMAND = 0, 1, 2
+# columns of `number`; a gain of zero means that the command is the effort
+GAIN, LIMIT = 0, 1
+
+
+@family
+def apply(machine, number, t):
+    """Effort command, or gain (command - rate), cut off at ± limit."""
+    record = record_at(machine)
+    elements, coordinates = record.elements, record.coordinates
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        q, out = elements.columns[k, COORDINATE], elements.columns[k, OUTPUT]
+        gain, limit = elements.number[k, GAIN], elements.number[k, LIMIT]
+        effort = evaluate_function(record, elements.columns[k, COMMAND], t)
+        if gain > 0.0:
+            effort = gain * (effort - coordinates.rate[q])
+        # not min and max: these would hide an effort that is not a number
+        if effort > limit:
+            effort = limit
+        elif effort < -limit:
+            effort = -limit
+        record.outputs.value[out] = effort
+        power = push_coordinate(record, q, effort)
+        record.outputs.value[out + 1] = power
+        record.outputs.value[out + 2], record.outputs.value[out + 3] = coordinates.value[q], coordinates.rate[q]
+        record.control.power[0] += power
+    return OK

@@ -1,0 +1,35 @@
+"""Limit stops on a joint coordinate."""
+
+from __future__ import annotations
+
+from nivel.kernels.forces.impact import impact
+from nivel.kernels.forces.push import push_coordinate
+from nivel.kernels.hook import family
+from nivel.kernels.record import record_at
+from nivel.kernels.status import OK
+
+# columns of `columns`; outputs: effort on the coordinate, power, overlap
+OUTPUT, COORDINATE = 0, 1
+# columns of `number`; LOSS is x of `nivel.kernels.forces.impact`
+LOWER, UPPER, STIFFNESS, EXPONENT, LOSS = 0, 1, 2, 3, 4
+
+
+@family
+def apply(machine, number, t):
+    """Compliant surfaces at LOWER and UPPER, see `nivel.kernels.forces.impact`."""
+    record = record_at(machine)
+    elements, coordinates, control = record.elements, record.coordinates, record.control
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        n, memory, proposal = elements.number[k], elements.memory[k], elements.proposal[k]
+        q, out = elements.columns[k, COORDINATE], elements.columns[k, OUTPUT]
+        c, rate = coordinates.value[q], coordinates.rate[q]
+        up, stored, loss, proposal[0] = impact(n[LOWER] - c, -rate, n[STIFFNESS], n[EXPONENT], n[LOSS], memory[0])
+        control.stored[0] += stored
+        control.power[1] += loss
+        down, stored, loss, proposal[1] = impact(c - n[UPPER], rate, n[STIFFNESS], n[EXPONENT], n[LOSS], memory[1])
+        control.stored[0] += stored
+        control.power[1] += loss
+        record.outputs.value[out] = up - down
+        record.outputs.value[out + 1] = push_coordinate(record, q, up - down)
+        record.outputs.value[out + 2] = max(n[LOWER] - c, c - n[UPPER], 0.0)
+    return OK

@@ -1,0 +1,306 @@
+"""Friction in joints, whose normal load is the joint's own reaction.
+
+The efforts F on the joint coordinates change the reactions, and these the efforts. Both are linear in F: with the extra rows C_f of
+the coordinates, λ = λ₀ + R F, accelerations c̈ = c̈₀ + S F, S = C_f P M⁻¹ C_fᵀ (P projects onto the constraints). R and S come from one
+solution with the factor that is there already per element; then F is iterated, from where the last evaluation ended, without any
+solve. Coulomb's regularised law and LuGre give |F| from the load; with stiction F is what stops the coordinate within the time TAU,
+as long as it is no larger than static friction: the joint really stands still.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import leaf, stage
+from nivel.kernels.hook import family
+from nivel.kernels.record import NONE, record_at
+from nivel.kernels.saddle import solve_rows
+from nivel.kernels.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
+
+# columns of `columns`; JOINT: whose reaction is the load, or NONE; FRAME: marker whose z axis is that of the motion; outputs: effort, power, normal load, the bristle
+COORDINATE, MODEL, JOINT, ROTATES, STATE, OUTPUT, FRAME = 0, 1, 2, 3, 4, 5, 6
+COULOMB, STICTION, LUGRE = 0, 1, 2
+# columns of `number`; ARM: a speed of the coordinate times it is the speed of the surfaces
+KINETIC, STATIC, STRIBECK, TRANSITION, VISCOUS, STIFFNESS, DAMPING = 0, 1, 2, 3, 4, 5, 6
+ARM, COLLAR, MOMENT_ARM, SPIN_ARM, LOAD = 7, 8, 9, 10, 11
+NUMBERS = 12
+
+# Gauss–Seidel sweeps, then Newton steps, then anchored ones; efforts agree to TOLERANCE, and must to ENOUGH.
+SWEEPS, STEPS, ANCHORED_STEPS = 12, 12, 40
+TOLERANCE, ENOUGH = 1e-12, 1e-7
+# Two frictions that hold one motion may have no common solution by a hair, or many: they then stay near their last efforts, and the
+# acceleration that is left is this share of what the change of effort would do.
+ANCHOR = 1e-3
+# Rate of relaxation of the bristles times the time of stiction (two steps): beyond it RK4 is unstable (2.78 a step).
+FASTEST = 5.5
+
+
+@stage
+def respond(record):
+    """Multipliers and whitened accelerations for a unit effort on each coordinate, and S."""
+    friction, saddle = record.friction, record.saddle
+    width, rows = saddle.z.shape[1], record.constraints.C.shape[0]
+    for k in range(friction.columns.shape[0]):
+        change, response = friction.change[k], friction.response[k]
+        for body in range(change.shape[0]):
+            for i in range(width):
+                change[body, i] = 0.0
+        for n in range(friction.block[k, 0], friction.block[k, 1]):
+            for i in range(width):
+                change[saddle.block[n, 3], i] += saddle.W[n, i]
+        for row in range(rows):
+            saddle.b[row] = 0.0
+        for n in range(saddle.blocks[0]):
+            row, body = saddle.block[n, 0], saddle.block[n, 3]
+            for i in range(width):
+                saddle.b[row] += saddle.W[n, i] * change[body, i]
+        solve_rows(record)
+        for row in range(rows):
+            response[row] = saddle.b[row]
+        for n in range(saddle.blocks[0]):
+            row, body = saddle.block[n, 0], saddle.block[n, 3]
+            for i in range(width):
+                change[body, i] -= saddle.W[n, i] * response[row]
+    for k in range(friction.columns.shape[0]):
+        for other in range(friction.columns.shape[0]):
+            total = 0.0
+            for n in range(friction.block[k, 0], friction.block[k, 1]):
+                for i in range(width):
+                    total += saddle.W[n, i] * friction.change[other, saddle.block[n, 3], i]
+            friction.S[k, other] = total
+
+
+@stage
+def start(record):
+    """Accelerations of the coordinates and multipliers without friction."""
+    friction, saddle, constraints = record.friction, record.saddle, record.constraints
+    rows = constraints.C.shape[0]
+    for row in range(rows):
+        friction.lam[row] = constraints.lam[row]
+    for k in range(friction.columns.shape[0]):
+        total = -constraints.gamma[rows + k]
+        for n in range(friction.block[k, 0], friction.block[k, 1]):
+            for i in range(saddle.z.shape[1]):
+                total += saddle.W[n, i] * saddle.z[saddle.block[n, 3], i]
+        friction.free[k] = total
+
+
+@stage
+def superpose(record):
+    """λ = λ₀ + Σ R F."""
+    friction, lam = record.friction, record.constraints.lam
+    for row in range(lam.shape[0]):
+        total = friction.lam[row]
+        for k in range(friction.columns.shape[0]):
+            total += friction.response[k, row] * friction.force[k]
+        lam[row] = total
+
+
+@stage
+def normal_load(record, k):
+    """What presses the surfaces of friction k together [N], from the multipliers and the constant load.
+
+    With the reaction (F, M) at the joint's first marker, across (⊥) and along the axis of the motion, z: for a turning joint
+    |F_⊥| + 2 |M_⊥|/length + |F_z| collar/radius, for a sliding one |F_⊥| + 2 |M_⊥|/length + |M_z|/radius.
+    """
+    friction, joints, constraints, markers = record.friction, record.joints, record.constraints, record.markers
+    n, joint = friction.number[k], friction.columns[k, JOINT]
+    load = n[LOAD]
+    if joint == NONE:
+        return load
+    f0, f1, f2, m0, m1, m2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for row in range(joints.rows[joint, 0], joints.rows[joint, 1]):
+        J, lam = constraints.J[joints.part[row]], constraints.lam[row]
+        f0 += lam * J[0]
+        f1 += lam * J[1]
+        f2 += lam * J[2]
+        m0 += lam * J[3]
+        m1 += lam * J[4]
+        m2 += lam * J[5]
+    A = markers.A[friction.columns[k, FRAME]]
+    fx = A[0, 0] * f0 + A[1, 0] * f1 + A[2, 0] * f2
+    fy = A[0, 1] * f0 + A[1, 1] * f1 + A[2, 1] * f2
+    fz = A[0, 2] * f0 + A[1, 2] * f1 + A[2, 2] * f2
+    mx = A[0, 0] * m0 + A[1, 0] * m1 + A[2, 0] * m2
+    my = A[0, 1] * m0 + A[1, 1] * m1 + A[2, 1] * m2
+    mz = A[0, 2] * m0 + A[1, 2] * m1 + A[2, 2] * m2
+    load += np.sqrt(fx * fx + fy * fy) + n[MOMENT_ARM] * np.sqrt(mx * mx + my * my)
+    if friction.columns[k, ROTATES] == 1:
+        return load + n[COLLAR] * np.abs(fz)
+    return load + n[SPIN_ARM] * np.abs(mz)
+
+
+@stage
+def coefficient(n, speed):
+    """μ(v) = μ_d + (μ_s - μ_d) exp(-(v/v_s)²)."""
+    if n[STATIC] == n[KINETIC]:
+        return n[KINETIC]
+    ratio = speed / n[STRIBECK]
+    return n[KINETIC] + (n[STATIC] - n[KINETIC]) * np.exp(-ratio * ratio)
+
+
+@stage
+def relaxation(record, k):
+    """Rate σ0 |v|/μ(v) at which the bristles of friction k forget [1/s]."""
+    n = record.friction.number[k]
+    speed = record.coordinates.rate[record.friction.columns[k, COORDINATE]] * n[ARM]
+    return n[STIFFNESS] * np.abs(speed) / coefficient(n, speed)
+
+
+@stage
+def effort(record, k, tau, anchor):
+    """Effort of friction k for the present multipliers and efforts of the others. Viscous friction comes on top of it.
+
+    LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995) with the bristle z per unit load: ż = v - σ0 |v| z/μ(v),
+    effort -(σ0 z + σ1 ż) times the load.
+    """
+    friction, coordinates = record.friction, record.coordinates
+    n, q, model = friction.number[k], friction.columns[k, COORDINATE], friction.columns[k, MODEL]
+    rate, arm = coordinates.rate[q], n[ARM]
+    speed = rate * arm
+    load = normal_load(record, k) * arm
+    viscous = n[VISCOUS] * rate
+    if model == COULOMB:
+        return -coefficient(n, speed) * np.tanh(speed / n[TRANSITION]) * load - viscous
+    if model == LUGRE:
+        z = record.elements.state[friction.columns[k, STATE]]
+        zdot = speed - relaxation(record, k) * z
+        record.elements.state_rate[friction.columns[k, STATE]] = zdot
+        return -(n[STIFFNESS] * z + n[DAMPING] * zdot) * load - viscous
+    # what makes c̈ = -ċ/τ, if it is within the cone
+    acceleration = friction.free[k] + rate / tau
+    for other in range(friction.columns.shape[0]):
+        if other != k:
+            acceleration += friction.S[k, other] * friction.force[other]
+    wanted = (anchor * friction.anchor[k] - acceleration / friction.S[k, k]) / (1.0 + anchor) + viscous
+    largest = coefficient(n, speed) * load
+    return min(max(wanted, -largest), largest) - viscous
+
+
+@stage
+def residual(record, anchor, r):
+    """r = effort(F) - F of all frictions for the present F, multipliers included; returns (largest |r|, its friction, largest |F|)."""
+    friction = record.friction
+    superpose(record)
+    largest, worst, scale = 0.0, 0, 0.0
+    for k in range(friction.columns.shape[0]):
+        wanted = effort(record, k, record.control.stick[0], anchor)
+        r[k] = wanted - friction.force[k]
+        size = np.abs(r[k])
+        if not size <= largest:
+            largest, worst = size, k
+        scale = max(scale, np.abs(wanted), np.abs(friction.force[k]))
+    return largest, worst, scale
+
+
+@stage
+def sweep(record, anchor):
+    """One Gauss–Seidel sweep: each friction takes the effort that the others' leave it."""
+    friction = record.friction
+    for k in range(friction.columns.shape[0]):
+        superpose(record)
+        friction.force[k] = effort(record, k, record.control.stick[0], anchor)
+
+
+@leaf
+def eliminate(J, r, d):
+    """d with J d = -r; unknowns without a pivot stay zero (two frictions that hold the same motion). J is overwritten."""
+    n = r.shape[0]
+    for k in range(n):
+        d[k] = -r[k]
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if np.abs(J[i, k]) > np.abs(J[best, k]):
+                best = i
+        if np.abs(J[best, k]) < 1e-9:
+            J[k, k] = np.inf
+            continue
+        if best != k:
+            d[k], d[best] = d[best], d[k]
+            for j in range(n):
+                J[k, j], J[best, j] = J[best, j], J[k, j]
+        for i in range(k + 1, n):
+            factor = J[i, k] / J[k, k]
+            d[i] -= factor * d[k]
+            for j in range(k + 1, n):
+                J[i, j] -= factor * J[k, j]
+    for m in range(n):
+        k = n - 1 - m
+        for j in range(k + 1, n):
+            d[k] -= J[k, j] * d[j]
+        d[k] /= J[k, k]
+
+
+@stage
+def newton(record, anchor, scale):
+    """One Newton step for effort(F) = F, with differences (λ is linear in F, loads are norms), halved while it does not help."""
+    friction = record.friction
+    n = friction.columns.shape[0]
+    r, ahead, d, J = friction.work[0], friction.work[1], friction.work[2], friction.jacobian
+    before, _, _ = residual(record, anchor, r)
+    for j in range(n):
+        kept = friction.force[j]
+        delta = 1e-7 * (np.abs(kept) + scale) + 1e-30
+        friction.force[j] = kept + delta
+        residual(record, anchor, ahead)
+        friction.force[j] = kept
+        for k in range(n):
+            J[k, j] = (ahead[k] - r[k]) / delta
+    eliminate(J, r, d)
+    share = 1.0
+    for _ in range(6):
+        for k in range(n):
+            friction.force[k] += share * d[k]
+        largest, _, _ = residual(record, anchor, ahead)
+        if largest < before:
+            return
+        for k in range(n):
+            friction.force[k] -= share * d[k]
+        share *= 0.5
+    sweep(record, anchor)
+
+
+@family
+def rub(machine, number, t):
+    """Efforts of all frictions, consistent with the reactions that they cause; multipliers and accelerations are left with them.
+
+    FRICTION_DIVERGES names the worst (control.failure) where no consistent effort is found: more friction than any load can carry;
+    BRISTLE_TOO_FAST where the bristles of LuGre relax faster than a Runge–Kutta step can follow.
+    """
+    record = record_at(machine)
+    friction, coordinates, saddle, control = record.friction, record.coordinates, record.saddle, record.control
+    count = friction.columns.shape[0]
+    respond(record)
+    start(record)
+    for k in range(count):
+        friction.anchor[k] = friction.force[k]
+    largest, worst, scale = np.inf, 0, 0.0
+    for iteration in range(SWEEPS + STEPS + ANCHORED_STEPS):
+        anchor = ANCHOR if iteration >= SWEEPS + STEPS else 0.0
+        largest, worst, scale = residual(record, anchor, friction.work[0])
+        if largest <= TOLERANCE * scale:
+            break
+        if iteration < SWEEPS:
+            sweep(record, anchor)
+        else:
+            newton(record, anchor, scale)
+    if not largest <= ENOUGH * scale:
+        control.failure[0] = worst
+        return FRICTION_DIVERGES
+    for k in range(count):
+        q, force, out = friction.columns[k, COORDINATE], friction.force[k], friction.columns[k, OUTPUT]
+        power = force * coordinates.rate[q]
+        control.power[1] -= power
+        record.outputs.value[out] = force
+        record.outputs.value[out + 1] = power
+        record.outputs.value[out + 2] = normal_load(record, k)
+        if friction.columns[k, MODEL] == LUGRE:
+            record.outputs.value[out + 3] = record.elements.state[friction.columns[k, STATE]]
+            if relaxation(record, k) * control.stick[0] > FASTEST:
+                control.failure[0] = k
+                return BRISTLE_TOO_FAST
+        for body in range(saddle.z.shape[0]):
+            for i in range(saddle.z.shape[1]):
+                saddle.z[body, i] += force * friction.change[k, body, i]
+    return OK

@@ -1,0 +1,80 @@
+"""Calls to what only some machines need: families of forces, measured coordinates, friction, sensors.
+
+They are compiled apart, and only when a machine has them; the equations of motion reach them through their address, so they are
+the same machine code for every machine. A call costs about a nanosecond.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from llvmlite import ir
+from numba import cfunc, types
+from numba.extending import intrinsic
+
+from nivel.kernels.compile import stage
+from nivel.kernels.record import FRICTION, family_signature
+from nivel.kernels.status import OK
+
+_compile: Any = cfunc
+
+
+def family(function: Callable[..., Any]) -> Any:
+    """Decorator: `function(machine, family, t) -> status` compiled, now and cached, to something with an `address`."""
+    return _compile(family_signature, error_model="numpy", cache=True, _nrt=False)(function)
+
+
+@intrinsic
+def call_family(typingctx, address, machine, number, t):
+    """Call a function of `family_signature` at `address` (uint64)."""
+    signature = types.int64(types.uint64, types.uint64, types.int64, types.float64)
+
+    def generate(context, builder, sig, args):
+        word, double = context.get_value_type(types.int64), context.get_value_type(types.float64)
+        kind = ir.FunctionType(word, [word, word, double])
+        return builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
+
+    return signature, generate
+
+
+@stage
+def call_hook(record, machine, hook, t):
+    """Call a hook of the machine where it has one."""
+    address = record.hooks.address[hook]
+    return call_family(address, machine, 0, t) if address != 0 else OK  # type: ignore[call-arg]
+
+
+@stage
+def apply_forces(record, machine, t, y):
+    """Let every family of forces add to the wrenches of the bodies, to power and stored energy, and give the rates of its states.
+
+    The states of the forces stand in y before its last two entries.
+    """
+    elements, control = record.elements, record.control
+    control.power[0], control.power[1], control.stored[0] = 0.0, 0.0, 0.0
+    count = elements.state.shape[0]
+    first = y.shape[0] - 2 - count
+    for i in range(count):
+        elements.state[i] = y[first + i]
+    for k in range(elements.address.shape[0]):
+        status = call_family(elements.address[k], machine, k, t)  # type: ignore[call-arg]
+        if status != OK:
+            return status
+    return OK
+
+
+@stage
+def finish_forces(record, machine, t, ydot):
+    """After the multipliers are known: friction, the work of drivers, and the rates of the states of forces and energies."""
+    elements, control, constraints = record.elements, record.control, record.constraints
+    status = call_hook(record, machine, FRICTION, t)
+    for k in range(constraints.combination.shape[0]):
+        # what holds a coordinate to its motion does the work -λ f'(t)
+        control.power[0] -= constraints.lam[constraints.combination[k, 0]] * constraints.motion[k]
+    count = elements.state.shape[0]
+    first = ydot.shape[0] - 2 - count
+    for i in range(count):
+        ydot[first + i] = elements.state_rate[i]
+    ydot[first + count], ydot[first + count + 1] = control.power[0], control.power[1]
+    return status

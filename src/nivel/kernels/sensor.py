@@ -1,0 +1,134 @@
+"""The hook of machines with sensors: their outputs, computed for recorded states only."""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import stage
+from nivel.kernels.coordinate import measure
+from nivel.kernels.function import evaluate_function
+from nivel.kernels.hook import family
+from nivel.kernels.record import NONE, record_at
+from nivel.kernels.status import OK
+
+# columns of `columns`; WHAT: marker, coordinate, function or output; FRAME: marker that it is seen from, or NONE
+OUTPUT, KIND, WHAT, FRAME = 0, 1, 2, 3
+# quantities of markers have three outputs, the others one
+POSITION, VELOCITY, ACCELERATION, ANGULAR_VELOCITY, ANGULAR_ACCELERATION = 0, 1, 2, 3, 4
+VALUE, RATE, SECOND, FUNCTION, COPY = 5, 6, 7, 8, 9
+
+
+@stage
+def angular_acceleration(bodies, b):
+    """α of body b, global axes."""
+    A, a = bodies.A[b], bodies.alpha_b[b]
+    return (
+        A[0, 0] * a[0] + A[0, 1] * a[1] + A[0, 2] * a[2],
+        A[1, 0] * a[0] + A[1, 1] * a[1] + A[1, 2] * a[2],
+        A[2, 0] * a[0] + A[2, 1] * a[1] + A[2, 2] * a[2],
+    )
+
+
+@stage
+def motion_of(record, m, kind):
+    """A quantity of marker m, global axes."""
+    bodies, markers = record.bodies, record.markers
+    b = markers.body[m]
+    if kind == POSITION:
+        return markers.r[m, 0], markers.r[m, 1], markers.r[m, 2]
+    if kind == VELOCITY:
+        return markers.rdot[m, 0], markers.rdot[m, 1], markers.rdot[m, 2]
+    if kind == ANGULAR_VELOCITY:
+        return bodies.omega[b, 0], bodies.omega[b, 1], bodies.omega[b, 2]
+    alpha = angular_acceleration(bodies, b)
+    if kind == ANGULAR_ACCELERATION:
+        return alpha
+    u, a, bias = markers.u[m], bodies.Rddot[b], markers.bias[m]
+    return (
+        a[0] + bias[0] + alpha[1] * u[2] - alpha[2] * u[1],
+        a[1] + bias[1] + alpha[2] * u[0] - alpha[0] * u[2],
+        a[2] + bias[2] + alpha[0] * u[1] - alpha[1] * u[0],
+    )
+
+
+@stage
+def cross(a, b):
+    """a × b of tuples."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@stage
+def less(a, b):
+    """a - b of tuples."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@stage
+def seen_from(record, m, frame, kind):
+    """A quantity of marker m relative to a moving marker, in global axes: derivatives are those that an observer on it sees."""
+    value = less(motion_of(record, m, kind), motion_of(record, frame, kind))
+    w = motion_of(record, frame, ANGULAR_VELOCITY)
+    if kind == VELOCITY:
+        value = less(value, cross(w, seen_offset(record, m, frame)))
+    elif kind == ACCELERATION:
+        d = seen_offset(record, m, frame)
+        v = less(less(motion_of(record, m, VELOCITY), motion_of(record, frame, VELOCITY)), cross(w, d))
+        coriolis = cross(w, v)
+        value = less(value, cross(motion_of(record, frame, ANGULAR_ACCELERATION), d))
+        value = less(less(less(value, cross(w, cross(w, d))), coriolis), coriolis)
+    elif kind == ANGULAR_ACCELERATION:
+        turning = less(motion_of(record, m, ANGULAR_VELOCITY), w)
+        value = less(value, cross(w, turning))
+    return value
+
+
+@stage
+def seen_offset(record, m, frame):
+    """r of marker m less that of the frame."""
+    return less(motion_of(record, m, POSITION), motion_of(record, frame, POSITION))
+
+
+@stage
+def second_derivative(record, q):
+    """c̈ of coordinate q, which has just been measured with this `bias`."""
+    coordinates, bodies, markers = record.coordinates, record.bodies, record.markers
+    total = 0.0
+    for side in range(2):
+        m = coordinates.what[q, 1 + side]
+        b, u, J = markers.body[m], markers.u[m], coordinates.J[2 * q + side]
+        alpha = angular_acceleration(bodies, b)
+        a = bodies.Rddot[b]
+        total += J[0] * (a[0] + alpha[1] * u[2] - alpha[2] * u[1])
+        total += J[1] * (a[1] + alpha[2] * u[0] - alpha[0] * u[2])
+        total += J[2] * (a[2] + alpha[0] * u[1] - alpha[1] * u[0])
+        total += J[3] * alpha[0] + J[4] * alpha[1] + J[5] * alpha[2]
+    return total
+
+
+@family
+def sense(machine, number, t):
+    """All sensors, from the state last evaluated."""
+    record = record_at(machine)
+    sensors, out = record.sensors, record.outputs.value
+    for k in range(sensors.columns.shape[0]):
+        first, kind, what = sensors.columns[k, OUTPUT], sensors.columns[k, KIND], sensors.columns[k, WHAT]
+        if kind <= ANGULAR_ACCELERATION:
+            frame = sensors.columns[k, FRAME]
+            if frame == NONE:
+                out[first], out[first + 1], out[first + 2] = motion_of(record, what, kind)
+            else:
+                x, y, z = seen_from(record, what, frame, kind)
+                A = record.markers.A[frame]
+                for i in range(3):
+                    out[first + i] = A[0, i] * x + A[1, i] * y + A[2, i] * z
+        elif kind == FUNCTION:
+            out[first] = evaluate_function(record, what, t)
+        elif kind == COPY:
+            out[first] = out[what]
+        else:
+            value, rate, bias = measure(record.bodies, record.markers, record.coordinates, what)
+            if kind == VALUE:
+                out[first] = value
+            elif kind == RATE:
+                out[first] = rate
+            else:
+                out[first] = bias + second_derivative(record, what)
+    return OK

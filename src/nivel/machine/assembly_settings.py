@@ -1,0 +1,17 @@
+"""How a machine is assembled, in words."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from nivel.machine.quantity import PositiveLength
+from nivel.machine.record import Record
+
+
+class AssemblySettings(Record):
+    """What the assembly may do to close the joints."""
+
+    largest_gap: PositiveLength | None = Field(
+        default=None,
+        description="by which joints may be open as given; absent, a tenth of the size of the machine",
+    )

@@ -1,0 +1,80 @@
+"""Contact of a body with a plane, or of two spheres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Final, Literal
+
+from pydantic import Field
+
+from nivel.machine.checked import Problem, superfluous
+from nivel.machine.coefficient import Exponent, NotNegativeNumber, PoissonRatio, PositiveSpeed, Pressure, Restitution
+from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.marker import MarkerPlace
+from nivel.machine.power_stiffness import PowerStiffness
+from nivel.machine.record import GROUND, Name, Record
+
+HERTZ: Final = 1.5  # exponent of two elastic spheres
+SHAPES_ON_PLANE: Final = ("sphere", "box", "cylinder")
+
+
+class Material(Record):
+    """An elastic material."""
+
+    young_modulus: Pressure
+    poisson_ratio: PoissonRatio
+
+
+class Contact(ForceElement):
+    """Bodies that touch are pushed apart: force stiffness · depth ** exponent, damped, with Coulomb friction.
+
+    A `body` with the shape sphere, box or cylinder on a `plane`, or two `bodies`, both spheres.
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth", "normal_force")
+
+    type: Literal["contact"] = "contact"
+    body: Name | None = Field(
+        default=None, description="that touches the `plane`; its shape is sphere, box or cylinder"
+    )
+    plane: MarkerPlace | None = Field(
+        default=None, description="a marker: its point lies in the plane, its z axis points out of it"
+    )
+    bodies: tuple[Name, Name] | None = Field(default=None, description="two spheres, in place of `body` and `plane`")
+    exponent: Exponent = Field(default=HERTZ, description="of the depth")
+    stiffness: PowerStiffness | None = Field(default=None, description="force by depth ** exponent")
+    materials: tuple[Material, Material] | None = Field(
+        default=None, description="of the first body and the second or the plane; for spheres, in place of `stiffness`"
+    )
+    restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")
+    friction: NotNegativeNumber = Field(default=0.0, description="coefficient of Coulomb friction")
+    friction_transition_speed: PositiveSpeed | None = Field(
+        default=None, description="friction goes as tanh(sliding speed / friction_transition_speed)"
+    )
+
+    def problems(self) -> Iterator[Problem]:
+        yield from self._problems_of_partners()
+        if self.stiffness is None and self.materials is None:
+            yield Problem((), "`stiffness` is missing: a contact needs a `stiffness` or, of spheres, two `materials`")
+        if self.stiffness is not None and self.materials is not None:
+            yield superfluous("materials", "stands in place of `stiffness`; give one of them")
+        if self.materials is not None and self.exponent != HERTZ:
+            yield superfluous("exponent", f"is {HERTZ:g} with `materials` (Hertz) and must not be given")
+        if self.friction > 0 and self.friction_transition_speed is None:
+            yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
+
+    def _problems_of_partners(self) -> Iterator[Problem]:
+        if self.bodies is not None:
+            for name in ("body", "plane"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, "must not be given with `bodies`, which are two spheres")
+            if self.bodies[0] == self.bodies[1]:
+                yield Problem(("bodies",), f"two different bodies are needed, got `{self.bodies[0]}` twice")
+        elif self.body is None or self.plane is None:
+            yield Problem((), "a contact needs a `body` and a `plane`, or two `bodies`")
+        for place, body in (
+            (("body",), self.body),
+            *((("bodies", at), each) for at, each in enumerate(self.bodies or ())),
+        ):
+            if body == GROUND:
+                yield Problem(place, f"`{GROUND}` has no shape; the contact with it is a `plane` on a marker")

@@ -1,0 +1,49 @@
+"""A spring and damper on a joint coordinate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.checked import Problem
+from nivel.machine.coefficient import (
+    COORDINATE,
+    COORDINATE_EFFORT,
+    CoordinateDamping,
+    CoordinateEffort,
+    CoordinateStiffness,
+    CoordinateValue,
+    columns_of_coordinate,
+)
+from nivel.machine.coordinate_function import CoordinateLaw
+from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.forces.characteristic import EffortTable
+from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.forces.spring import problems_of_spring
+
+_check_columns = columns_of_coordinate({"deflections": COORDINATE, "efforts": COORDINATE_EFFORT})
+
+
+class JointSpringDamper(ForceElement):
+    """Effort stiffness · (coordinate - free_value) + damping · rate + preload, in N or N m, that resists.
+
+    A `table` stands in place of the stiffness, a `law` in place of all of it.
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "value", "rate")
+
+    type: Literal["joint-spring-damper"] = "joint-spring-damper"
+    coordinate: CoordinateReference
+    stiffness: CoordinateStiffness | None = None
+    damping: CoordinateDamping = 0.0
+    free_value: CoordinateValue = Field(default=0.0, description="of the coordinate where the spring has no effort")
+    preload: CoordinateEffort = Field(default=0.0, description="added to the effort that resists")
+    table: Annotated[EffortTable | None, BeforeValidator(_check_columns)] = Field(
+        default=None, description="of the spring, in place of `stiffness`"
+    )
+    law: CoordinateLaw | None = Field(default=None, description="the effort that resists; may use `value` and `rate`")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from problems_of_spring(self, "free_value")

@@ -1,0 +1,49 @@
+"""Forces and torques on one body, with no counter-force."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.checked import Problem, superfluous
+from nivel.machine.forces.element import ForceElement
+from nivel.machine.quantity import Position, listed
+from nivel.machine.record import GROUND, Name
+from nivel.machine.time_function import ForceComponent, TorqueComponent
+
+Axes = Annotated[Literal["global", "body"], Field(description="axes of the vector: global, or turning with the body")]
+
+
+class PointForce(ForceElement):
+    """A force on a point of a body: `body` and `position`, or a `marker`."""
+
+    type: Literal["force"] = "force"
+    body: Name | None = None
+    position: Position | None = Field(default=None, description="of the point, in the body frame; default the origin")
+    marker: Name | None = Field(default=None, description="the point, in place of `body` and `position`")
+    vector: Annotated[tuple[ForceComponent, ForceComponent, ForceComponent], BeforeValidator(listed)]
+    axes: Axes = "global"
+
+    def problems(self) -> Iterator[Problem]:
+        if self.marker is None and self.body is None:
+            yield Problem((), "a force needs a `body` (and `position`) or a `marker`")
+        for name in ("body", "position"):
+            if self.marker is not None and getattr(self, name) is not None:
+                yield superfluous(name, "must not be given with `marker`, which says where the force acts")
+        if self.body == GROUND:
+            yield Problem(("body",), f"a force on `{GROUND}` moves nothing")
+
+
+class Torque(ForceElement):
+    """A pure torque on a body."""
+
+    type: Literal["torque"] = "torque"
+    body: Name
+    vector: Annotated[tuple[TorqueComponent, TorqueComponent, TorqueComponent], BeforeValidator(listed)]
+    axes: Axes = "global"
+
+    def problems(self) -> Iterator[Problem]:
+        if self.body == GROUND:
+            yield Problem(("body",), f"a torque on `{GROUND}` moves nothing")

@@ -1,0 +1,34 @@
+"""End stops of a joint coordinate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from nivel.machine.checked import Problem
+from nivel.machine.coefficient import CoordinateValue, Exponent, Restitution
+from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.forces.element import OUTPUTS, ForceElement
+from nivel.machine.power_stiffness import PowerStiffness
+
+
+class Stop(ForceElement):
+    """A coordinate is pushed back where it passes `lower` or `upper`: effort stiffness · depth ** exponent, damped."""
+
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth")
+
+    type: Literal["stop"] = "stop"
+    coordinate: CoordinateReference
+    lower: CoordinateValue | None = Field(default=None, description="end of the way on the negative side")
+    upper: CoordinateValue | None = Field(default=None, description="end of the way on the positive side")
+    exponent: Exponent = Field(default=1.0, description="of the depth")
+    stiffness: PowerStiffness
+    restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")
+
+    def problems(self) -> Iterator[Problem]:
+        if self.lower is None and self.upper is None:
+            yield Problem((), "`lower` or `upper` is missing: a stop needs one end of the way, or both")
+        if self.lower is not None and self.upper is not None and self.lower >= self.upper:
+            yield Problem(("upper",), f"`upper` {self.upper:g} must be greater than `lower` {self.lower:g}")

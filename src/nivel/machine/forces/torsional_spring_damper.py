@@ -1,0 +1,39 @@
+"""A torsional spring and damper between two markers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from nivel.machine.checked import Problem
+from nivel.machine.coefficient import TorqueValue, TorsionalDamping, TorsionalStiffness
+from nivel.machine.forces.between import BetweenMarkers
+from nivel.machine.forces.characteristic import TorqueTable
+from nivel.machine.forces.element import OUTPUTS
+from nivel.machine.forces.spring import problems_of_spring
+from nivel.machine.quantity import Angle
+from nivel.machine.time_function import SpringTorque
+
+
+class TorsionalSpringDamper(BetweenMarkers):
+    """Torque stiffness · (angle - free_angle) + damping · rate + preload, in N m, that resists the angle.
+
+    The angle is that of the second marker about the z axis of the first. A `table` stands in place of the stiffness, a
+    `law` in place of all of it.
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "angle", "rate")
+
+    type: Literal["torsional-spring-damper"] = "torsional-spring-damper"
+    stiffness: TorsionalStiffness | None = None
+    damping: TorsionalDamping = 0.0
+    free_angle: Angle = Field(default=0.0, description="at which the spring has no torque")
+    preload: TorqueValue = Field(default=0.0, description="added to the torque that resists")
+    table: TorqueTable | None = Field(default=None, description="of the spring, in place of `stiffness`")
+    law: SpringTorque | None = Field(default=None, description="the torque that resists; may use `angle` and `rate`")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        yield from problems_of_spring(self, "free_angle")

@@ -1,0 +1,155 @@
+"""What expressions can use of the machine itself: `hinge.angle_rate`, `tip.vx`.
+
+A symbol is the name of an element, a dot and a quantity. Where several elements have one name, the first that has
+the quantity is meant: of joints, sensors, markers and bodies, in this order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Any, Final, Literal
+
+from nivel.machine.arithmetic import (
+    LOCAL_SYMBOLS,
+    ExpressionError,
+    FaultyParameterError,
+    Parameters,
+    bind,
+    signals,
+)
+from nivel.machine.grammar import parse
+from nivel.machine.index import Index, Place
+from nivel.machine.joint import JOINT_COORDINATES
+from nivel.machine.record import entry
+from nivel.machine.table import SIGNAL_PATH
+from nivel.machine.time_function import Expression, PythonLaw, Table
+
+Section = Literal["joints", "sensors", "markers", "bodies"]
+
+POINT_QUANTITIES: Final = ("x", "y", "z", "vx", "vy", "vz")
+TURN_QUANTITIES: Final = ("wx", "wy", "wz")
+SENSOR_QUANTITIES: Final = {"distance": ("distance", "rate"), "angle": ("angle", "rate")}
+VARYING_KEYS: Final = ("vector", "law", "magnitude", "effort", "speed", "value")  # keys of what may use symbols
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """`quantity` of the element `name` of a `section`."""
+
+    section: Section
+    name: str
+    quantity: str
+
+
+class UnknownSymbolError(ValueError):
+    """There is no such symbol; the message says what there is."""
+
+
+def find_symbol(path: str, machine: Any) -> Symbol:
+    """What `path` stands for in `machine`, a record.
+
+    Raises UnknownSymbolError.
+    """
+    return find_in(path, Index.of(machine))
+
+
+def find_in(path: str, index: Index) -> Symbol:
+    """As `find_symbol`, with the index of the machine.
+
+    Raises UnknownSymbolError.
+    """
+    name, _, quantity = path.partition(".")
+    having: list[str] = []
+    for section, elements in _quantities(index).items():
+        if quantity in elements.get(name, ()):
+            return Symbol(section, name, quantity)
+        having += elements.get(name, ())
+    if having:
+        near = get_close_matches(quantity, having, n=1, cutoff=0.6)
+        hint = f"did you mean `{name}.{near[0]}`?" if near else f"it has {', '.join(having)}"
+        raise UnknownSymbolError(f"`{name}` has no `{quantity}`; {hint}")
+    if name in index.forces:
+        message = f"`{name}` is a force and has no symbols; what it depends on is measured by a sensor of `distance` or `angle`"
+        raise UnknownSymbolError(message)
+    known = [each for elements in _quantities(index).values() for each, its in elements.items() if its]
+    near = get_close_matches(name, known, n=1, cutoff=0.6)
+    hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""
+    empty = any(name in elements for elements in _quantities(index).values())
+    what = f"`{name}` has no symbols" if empty else f"there is no joint, sensor, marker or body `{name}`"
+    raise UnknownSymbolError(f"{what}{hint}")
+
+
+def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
+    """Section → element → the quantities that it has."""
+    return {
+        "joints": {name: _of_joint(type_) for name, type_ in index.joints.items()},
+        "sensors": {name: _of_sensor(sensor) for name, sensor in index.sensors.items()},
+        "markers": {name: _of_frame(body, index) for name, body in index.markers.items()},
+        "bodies": {name: _of_frame(name, index) for name in index.bodies},
+    }
+
+
+def _of_joint(type_: str) -> tuple[str, ...]:
+    names = JOINT_COORDINATES.get(type_, ())
+    return (*names, *(f"{name}_rate" for name in names))
+
+
+def _of_sensor(sensor: Any) -> tuple[str, ...]:
+    return next((its for form, its in SENSOR_QUANTITIES.items() if entry(sensor, form) is not None), ())
+
+
+def _of_frame(body: str, index: Index) -> tuple[str, ...]:
+    return POINT_QUANTITIES if body in index.point_masses else (*POINT_QUANTITIES, *TURN_QUANTITIES)
+
+
+def symbol_faults(element: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
+    """Symbols that a force or sensor uses in vain."""
+    for key in VARYING_KEYS:
+        value = entry(element, key)
+        for where, path in _used(value, (*place, key), index, parameters):
+            try:
+                find_in(path, index)
+            except UnknownSymbolError as problem:
+                yield where, str(problem)
+
+
+def _used(value: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
+    """Places and paths of the symbols in what varies; local symbols, which have no dot, are passed over."""
+    match value:
+        case str():
+            yield from ((place, path) for path in _in_text(value, index, parameters))
+        case Expression() | Table() | PythonLaw():
+            yield from ((place, path) for path in value.signals if "." in path)
+        case Mapping():
+            of = value.get("of")
+            if isinstance(of, str) and SIGNAL_PATH.fullmatch(of):  # a whole path, in which a name may have a `-`
+                yield (*place, "of"), of
+            yield from _used(value.get("arguments"), (*place, "arguments"), index, parameters)
+        case list() | tuple():
+            for at, each in enumerate(value):
+                yield from _used(each, (*place, at), index, parameters)
+
+
+def _in_text(text: str, index: Index, parameters: Parameters) -> tuple[str, ...]:
+    """The paths in an expression; what is reported where the text is read is left out."""
+    try:
+        tree = parse(text)
+    except ExpressionError:
+        return ()
+    try:
+        bind(tree, parameters, LOCAL_SYMBOLS)
+    except ExpressionError:
+        return tuple(path for path in signals(tree) if not _has_hyphen(path, index))
+    except FaultyParameterError:
+        pass
+    return signals(tree)
+
+
+def _has_hyphen(path: str, index: Index) -> bool:
+    """Whether an element's name ends in this one behind a `-`, which an expression takes for minus."""
+    ending = f"-{path.partition('.')[0]}"
+    return any(
+        name.endswith(ending) for its in (index.joints, index.sensors, index.markers, index.bodies) for name in its
+    )

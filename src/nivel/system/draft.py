@@ -1,0 +1,118 @@
+"""A machine half way from words to numbers: what has been numbered so far, by name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from nivel.kernels.coordinate import DISTANCE, ROTATION
+from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, POSITION, RATE, VELOCITY
+from nivel.machine.coordinate_reference import Kind, resolve
+from nivel.machine.forces import End, GlobalPoint
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.marker import Marker
+from nivel.machine.placement import marker_frame
+from nivel.machine.symbols import find_symbol
+from nivel.machine.time_function import TimeFunction
+from nivel.system.functions import FunctionTable, Signal
+from nivel.system.joint_frames import Placed, seen_from
+from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, OutputTable
+
+GROUND = "ground"
+AXES = "xyz"
+
+
+@dataclass
+class Draft:
+    """Tables of a machine and the indices of what has a name in it. Body number len(machine.bodies) is the ground.
+
+    joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
+    frictions : (columns of index, of number) of `nivel.kernels.friction`.
+    """
+
+    machine: MachineRecord
+    markers: MarkerTable = field(default_factory=MarkerTable)
+    coordinates: CoordinateTable = field(default_factory=CoordinateTable)
+    functions: FunctionTable = field(default_factory=FunctionTable)
+    elements: ElementTable = field(default_factory=ElementTable)
+    outputs: OutputTable = field(default_factory=OutputTable)
+    joint_coordinates: dict[str, int] = field(default_factory=dict)
+    frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
+    _named: dict[str, int] = field(default_factory=dict)
+    _frames: dict[str, int] = field(default_factory=dict)
+
+    def body(self, name: str) -> int:
+        """Index of a body or the ground."""
+        return self._bodies[name]
+
+    def __post_init__(self) -> None:
+        names = [body.name for body in self.machine.bodies]
+        self._bodies = {name: k for k, name in enumerate((*names, GROUND))}
+
+    def place(self, placed: Placed) -> int:
+        """Index of a new marker: body, point and axes in the body's frame."""
+        body, point, axes = placed
+        return self.markers.add(self.body(body), point, axes)
+
+    def marker(self, name: str) -> int:
+        """Index of the marker called `name`."""
+        if name not in self._named:
+            record = next(marker for marker in self.machine.markers if marker.name == name)
+            self._named[name] = self.place((record.body, *marker_frame(record)))
+        return self._named[name]
+
+    def frame(self, body: str) -> int:
+        """Index of the marker that is the frame of a body or of the ground."""
+        if body not in self._frames:
+            self._frames[body] = self.place((body, np.zeros(3), np.eye(3)))
+        return self._frames[body]
+
+    def marker_or_ground(self, name: str | None) -> int:
+        """Index of the marker called `name`; without one, the global frame."""
+        return self.frame(GROUND) if name in (None, GROUND) else self.marker(str(name))
+
+    def end(self, end: End) -> int:
+        """Index of the marker where something acts: a name, a marker on the spot, or a point given in global axes."""
+        match end:
+            case str():
+                return self.marker(end)
+            case Marker():
+                return self.place((end.body, *marker_frame(end)))
+            case GlobalPoint(body, point):
+                return self.place(seen_from(self.machine, body, np.array(point, dtype=float), np.eye(3)))
+
+    def ends(self, ends: tuple[End, End]) -> tuple[int, int]:
+        """Indices of the markers at both ends."""
+        return self.end(ends[0]), self.end(ends[1])
+
+    def coordinate(self, reference: str, kind: Kind | None = None) -> int:
+        """Index of a joint coordinate, which is measured in every evaluation from now on."""
+        joint, name = resolve(reference, self.machine.joints, kind)
+        return self.coordinates.use(self.joint_coordinates[f"{joint}.{name}"])
+
+    def function(self, value: TimeFunction, local: dict[str, Signal] | None = None, *, motion: bool = False) -> int:
+        """Index of a new function; `local` are the symbols that only this one knows."""
+
+        def find(path: str) -> Signal:
+            return local[path] if local is not None and path in local else self.signal(path)
+
+        return self.functions.add(value, find, motion=motion)
+
+    def signal(self, path: str) -> Signal:
+        """The signal that a symbol of the machine stands for; a coordinate among them is measured from now on."""
+        symbol = find_symbol(path, self.machine)
+        if symbol.section == "joints":
+            name = symbol.quantity.removesuffix("_rate")
+            index = self.coordinates.use(self.joint_coordinates[f"{symbol.name}.{name}"])
+            return (COORDINATE if name == symbol.quantity else RATE, index, 0)
+        if symbol.section == "sensors":
+            sensor = next(sensor for sensor in self.machine.sensors if sensor.name == symbol.name)
+            ends = sensor.distance or sensor.angle
+            assert ends is not None  # the symbol was found
+            kind = DISTANCE if sensor.distance is not None else ROTATION
+            index = self.coordinates.use(self.coordinates.add(kind, *self.ends(ends)))
+            return (RATE if symbol.quantity == "rate" else COORDINATE, index, 0)
+        marker = self.marker(symbol.name) if symbol.section == "markers" else self.frame(symbol.name)
+        kind = {"v": VELOCITY, "w": ANGULAR_VELOCITY}.get(symbol.quantity[0], POSITION)
+        return kind, marker, AXES.index(symbol.quantity[-1])

@@ -1,0 +1,156 @@
+"""Expressions and Python laws as machine code: C functions double(double *) of their arguments.
+
+Each is a module named by its content in the cache directory: a function made from a string could not be cached.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from nivel.errors import Fault, ModelError
+from nivel.kernels import cache
+from nivel.machine.arithmetic import Call, Name, Negative, Node, Number, Operation, Signal, Time
+from nivel.machine.expression import Expression
+from nivel.machine.python_law import PythonLaw
+
+EXPRESSION = '''"""A function written by nivel from an expression of a machine file."""
+
+import numpy as np
+from numba import cfunc, types
+
+
+@cfunc(types.float64(types.CPointer(types.float64)), cache=True, error_model="numpy")
+def nivel_law(x):
+{body}
+'''
+
+# Functions of the text are compiled when the law calls them; division by zero gives infinity, as in the rest of a run.
+LAW = """{source}
+
+
+import types as _nivel_python_types
+
+import numba as _nivel_numba
+import numpy as _nivel_numpy
+
+for _nivel_name, _nivel_part in list(globals().items()):
+    if isinstance(_nivel_part, _nivel_python_types.FunctionType) and _nivel_part.__module__ == __name__:
+        globals()[_nivel_name] = _nivel_numba.njit(error_model="numpy")(_nivel_part)
+
+
+@_nivel_numba.cfunc(
+    _nivel_numba.types.float64(_nivel_numba.types.CPointer(_nivel_numba.types.float64)), cache=True, error_model="numpy"
+)
+def nivel_law(x):
+{body}
+"""
+SPELLING = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2"}
+
+
+def expression_address(expression: Expression, signals: Sequence[str]) -> int:
+    """Address of the code of an expression of `signals`, of which the first is the time."""
+    places = {path: place for place, path in enumerate(signals)}
+    return _address(EXPRESSION.format(body=f"    return {source(expression.tree, places)}"))
+
+
+def motion_address(expression: Expression) -> int:
+    """Address of the code of an expression of time alone, which leaves its two derivatives behind its argument."""
+    rate = expression.derivative
+    lines = [
+        f"x[1] = {source(rate.tree, {})}",
+        f"x[2] = {source(rate.derivative.tree, {})}",
+        f"return {source(expression.tree, {})}",
+    ]
+    return _address(EXPRESSION.format(body="\n".join(f"    {line}" for line in lines)))
+
+
+def law_address(law: PythonLaw, *, motion: bool) -> int:
+    """Address of the code of a Python law; that of a motion returns value, rate and acceleration.
+
+    Raises ModelError where it cannot be compiled.
+    """
+    count = len(law.arguments)
+    call = f"{law.function}({', '.join(f'x[{n}]' for n in range(count))})"
+    if motion:
+        lines = [
+            f"value, rate, acceleration = {call}",
+            f"x[{count}] = rate",
+            f"x[{count + 1}] = acceleration",
+            "return value",
+        ]
+    else:
+        lines = [f"return {call}"]
+    text = LAW.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
+    try:
+        return _address(text)
+    except Exception as problem:  # whatever a foreign text does while it is compiled is the user's fault to mend
+        where = f" in {law.file}" if law.file else ""
+        message = f"the law `{law.function}`{where} cannot be compiled: {_telling(problem)}"
+        raise ModelError(Fault("", 0, 0, "", message)) from problem
+
+
+def _telling(problem: Exception) -> str:
+    """The part of an error of the compiler that says what is wrong."""
+    lines = [line.strip() for line in str(problem).splitlines() if line.strip()]
+    noise = ("Failed in nopython", "During: ", "This error may", "- argument", "File ", "<source")
+    told = [line for line in lines if not line.startswith(noise) and set(line) - set("^~ ")]
+    return f"{type(problem).__name__}: {' '.join(told)[:400]}" if told else type(problem).__name__
+
+
+def source(node: Node, places: dict[str, int]) -> str:
+    """Python source of an arithmetic tree for the compiler; the time is x[0], a signal x[its place].
+
+    `max` and `min` of many arguments are nested.
+    """
+    match node:
+        case Number(value, _):
+            return f"({value!r})"
+        case Time():
+            return "x[0]"
+        case Signal(path):
+            return f"x[{places[path]}]"
+        case Negative(operand):
+            return f"(-{source(operand, places)})"
+        case Operation(symbol, left, right):
+            return f"({source(left, places)} {symbol} {source(right, places)})"
+        case Call(("min" | "max") as function, (first, *others)):
+            text = source(first, places)
+            for other in others:
+                text = f"np.{function}imum({text}, {source(other, places)})"
+            return text
+        case Call(function, arguments):
+            return f"np.{SPELLING.get(function, function)}({', '.join(source(each, places) for each in arguments)})"
+        case Name(text):
+            raise ValueError(f"the name {text} is not bound")
+
+
+def _address(text: str) -> int:
+    return int(_module(text).nivel_law.address)
+
+
+def _module(text: str) -> Any:
+    """The module with this text, from the cache directory."""
+    name = f"law_{hashlib.sha256(text.encode()).hexdigest()[:20]}"
+    if name in sys.modules:
+        return sys.modules[name]
+    path = Path(cache.directory()) / f"{name}.py"
+    if not path.exists():
+        draft = path.with_suffix(f".{id(text)}.tmp")
+        draft.write_text(text, encoding="utf-8")
+        draft.replace(path)
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    return module

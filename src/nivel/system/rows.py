@@ -1,0 +1,238 @@
+"""Constraint rows: joints, couplings and drivers become basic constraints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from nivel.kernels.coordinate import LAST_ANGLE, ROTATION, TRANSLATION
+from nivel.kernels.record import NONE, Constraints
+from nivel.machine.coordinate_reference import COORDINATE_KINDS
+from nivel.machine.driver import Driver
+from nivel.machine.joint import Joint
+from nivel.system.draft import Draft
+from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
+from nivel.system.joints import (
+    AXES,
+    JOINTS,
+    Basic,
+    Coincident,
+    Combination,
+    Composition,
+    Measured,
+    PerpendicularAxes,
+    PerpendicularDistance,
+)
+from nivel.system.tables import index_array
+
+# cosines of axes that count as parallel differ from ±1 by less than this: 0.001 rad
+PARALLEL = 5e-7
+
+
+@dataclass
+class RowTable:
+    """Rows of the machine, each with the parts of C_q that it has.
+
+    owner : name of the joint, coupling or driver of each row. spans : rows of each joint. part_marker, part_row : of each part.
+    first_part : of each joint row, the part of the joint's first marker. given : offset of each combination, None: as placed.
+    """
+
+    names: list[str] = field(default_factory=list)
+    units: list[str] = field(default_factory=list)
+    owner: list[str] = field(default_factory=list)
+    spans: list[tuple[int, int]] = field(default_factory=list)
+    first_marker: list[tuple[int, int]] = field(default_factory=list)
+    first_part: list[int] = field(default_factory=list)
+    part_marker: list[int] = field(default_factory=list)
+    part_row: list[int] = field(default_factory=list)
+    s: list[tuple[int, ...]] = field(default_factory=list)
+    d1: list[tuple[int, ...]] = field(default_factory=list)
+    d2: list[tuple[int, ...]] = field(default_factory=list)
+    combination: list[tuple[int, ...]] = field(default_factory=list)
+    term: list[tuple[int, int, int]] = field(default_factory=list)
+    factor: list[float] = field(default_factory=list)
+    given: list[float | None] = field(default_factory=list)
+    reports: list[tuple[int, int]] = field(default_factory=list)
+
+    def row(self, owner: str, name: str, units: str) -> int:
+        """Index of a new row."""
+        self.owner.append(owner)
+        self.names.append(f"{owner}.{name}")
+        self.units.append(units)
+        return len(self.names) - 1
+
+    def part(self, row: int, marker: int) -> int:
+        """Index of a new part of `row` for the velocities of `marker`."""
+        self.part_row.append(row)
+        self.part_marker.append(marker)
+        return len(self.part_row) - 1
+
+    def combine(
+        self,
+        draft: Draft,
+        row: int,
+        terms: list[tuple[int, float]],
+        *,
+        markers: tuple[int, ...] = (),
+        offset: float | None = None,
+        function: int = NONE,
+        report: tuple[int, int] = (NONE, 0),
+    ) -> int:
+        """Make `row` the combination Σ factor coordinate - offset - function = 0; returns its first part.
+
+        markers : that the first parts belong to; the rest follow from the coordinates. report : as `Outputs.combination`.
+        """
+        parts = {marker: self.part(row, marker) for marker in markers}
+        first_term = len(self.term)
+        for coordinate, factor in terms:
+            _, first, second, _ = draft.coordinates.what[draft.coordinates.use(coordinate)]
+            for marker in (first, second):
+                if marker not in parts:
+                    parts[marker] = self.part(row, marker)
+            self.term.append((coordinate, parts[first], parts[second]))
+            self.factor.append(factor)
+        first_part = min(parts.values())
+        span = (first_part, first_part + len(parts))
+        self.combination.append((row, first_term, len(self.term), function, *span))
+        self.given.append(offset)
+        self.reports.append(report)
+        return first_part
+
+    def arrays(self, scale: list[float], extra_rows: int, extra_parts: int) -> Constraints:
+        """`scale` of all rows of the formulation; `extra_rows` and their parts come behind."""
+        rows = len(scale)
+        J = np.zeros((len(self.part_row) + extra_parts, 6))
+        for *_, part in self.s:
+            for axis in range(3):
+                J[part + 2 * axis, axis] = -1.0
+                J[part + 2 * axis + 1, axis] = 1.0
+        return Constraints(
+            s=index_array(self.s, 4),
+            d1=index_array(self.d1, 6),
+            d2=index_array(self.d2, 5),
+            combination=index_array(self.combination, 6),
+            term=index_array(self.term, 3),
+            factor=np.array(self.factor, dtype=float),
+            offset=np.array([given or 0.0 for given in self.given], dtype=float),
+            motion=np.zeros(len(self.given)),
+            scale=np.array(scale, dtype=float),
+            C=np.zeros(rows),
+            Cdot=np.zeros(rows),
+            gamma=np.zeros(rows + extra_rows),
+            J=J,
+            lam=np.zeros(rows),
+        )
+
+
+def add_joint(draft: Draft, rows: RowTable, joint: Joint) -> None:
+    """Markers, joint coordinates and rows of a joint."""
+    placed = joint_frames(draft.machine, joint)
+    first, second = (draft.place(each) for each in placed)
+    views = {"first": (first, second), "second": (second, first)}
+    if joint.type == "revolute-translational":
+        views["slot"] = (draft.place(slot_frame(draft.machine, joint)), first)
+    cosine = cosine_as_placed(draft.machine, *placed)
+    kind = composition(joint, cosine)
+    begin = len(rows.names)
+    for coordinate in kind.coordinates:
+        index = _measured(draft, coordinate.measured, views)
+        draft.joint_coordinates[f"{joint.name}.{coordinate.name}"] = index
+    for basic in kind.constraints:
+        _add_basic(draft, rows, joint, basic, views, cosine)
+    rows.spans.append((begin, len(rows.names)))
+    rows.first_marker.append((first, second))
+
+
+def composition(joint: Joint, cosine: float) -> Composition:
+    """What the joint is made of; `cosine` is that of the angle between the z axes as placed."""
+    kind = JOINTS[joint.type]
+    return kind.when_parallel if kind.when_parallel is not None and 1.0 - abs(cosine) < PARALLEL else kind
+
+
+def _measured(draft: Draft, measured: Measured, views: dict[str, tuple[int, int]]) -> int:
+    return draft.coordinates.add(measured.kind, *views[measured.seen_from], measured.axis)
+
+
+def _add_basic(
+    draft: Draft, rows: RowTable, joint: Joint, basic: Basic, views: dict[str, tuple[int, int]], cosine: float
+) -> None:
+    markers = first, second = views["first"]
+    units = basic.units if isinstance(basic, Combination) else "1" if isinstance(basic, PerpendicularAxes) else "m"
+    new = [rows.row(joint.name, name, units) for name in basic.rows]
+    row = new[0]
+    if isinstance(basic, Combination):
+        terms = [
+            (_measured(draft, measured, views), factor(joint, cosine) if callable(factor) else factor)
+            for measured, factor in basic.terms
+        ]
+        given = getattr(joint, basic.given) if basic.given else None
+        rows.first_part.append(rows.combine(draft, row, terms, markers=markers, offset=given))
+        return
+    if isinstance(basic, PerpendicularDistance):
+        first, second = views[basic.seen_from]
+    part = len(rows.part_row)
+    for each in new:
+        rows.part(each, first)
+        rows.part(each, second)
+        rows.first_part.append(part + 2 * (each - row) + (1 if first != markers[0] else 0))
+    match basic:
+        case Coincident():
+            rows.s.append((first, second, row, part))
+        case PerpendicularAxes(a, b):
+            rows.d1.append((first, AXES[a], second, AXES[b], row, part))
+        case PerpendicularDistance(a):
+            rows.d2.append((first, AXES[a], second, row, part))
+
+
+def add_couplings(draft: Draft, rows: RowTable) -> None:
+    """Rows of all couplings, scaled so that the first coordinate has the factor one: its effort is what is reported."""
+    for coupling in draft.machine.couplings:
+        terms = [
+            (draft.coordinate(reference, kind), factor)
+            for (reference, factor), kind in zip(coupling.terms, coupling.kinds, strict=True)
+        ]
+        leading = terms[0][1]
+        units = _units(draft, terms[0][0])
+        row = rows.row(coupling.name, "coupling", units)
+        effort = "N m" if units == "rad" else "N"
+        output = draft.outputs.add(
+            (f"coupling.{coupling.name}.effort", effort, f"effort of {coupling.name} on its first coordinate")
+        )
+        scaled = [(coordinate, factor / leading) for coordinate, factor in terms]
+        rows.combine(draft, row, scaled, report=(output, 0))
+
+
+def add_drivers(draft: Draft, rows: RowTable) -> None:
+    """Rows of all drivers."""
+    for driver in draft.machine.drivers:
+        coordinate = _driven(draft, driver)
+        units = _units(draft, coordinate)
+        row = rows.row(driver.name, "driver", units)
+        effort = "N m" if units == "rad" else "N"
+        output = draft.outputs.add(
+            (f"driver.{driver.name}.effort", effort, f"effort of {driver.name} on its coordinate"),
+            (f"driver.{driver.name}.power", "W", f"power of {driver.name} into the machine"),
+        )
+        function = draft.function(driver.value, motion=True)
+        rows.combine(draft, row, [(coordinate, 1.0)], offset=0.0, function=function, report=(output, 1))
+
+
+def _driven(draft: Draft, driver: Driver) -> int:
+    if driver.coordinate is not None:
+        return draft.coordinate(driver.coordinate)
+    assert driver.marker is not None  # the record was checked
+    marker, reference = draft.marker(driver.marker), draft.marker_or_ground(driver.relative_to)
+    if driver.along is not None:
+        return draft.coordinates.add(TRANSLATION, reference, marker, AXES[driver.along])
+    return draft.coordinates.add(ROTATION, reference, marker)
+
+
+def _units(draft: Draft, coordinate: int) -> str:
+    kind = draft.coordinates.what[coordinate][0]
+    return "rad" if kind <= LAST_ANGLE else "m"
+
+
+def coordinate_units(name: str) -> str:
+    """SI unit of the joint coordinate `JOINT.COORDINATE`."""
+    return "rad" if COORDINATE_KINDS[name.partition(".")[2]] == "angle" else "m"

@@ -1,0 +1,78 @@
+"""Sensors in numbers, and their outputs."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+from nivel.kernels.coordinate import DISTANCE, LAST_ANGLE, ROTATION
+from nivel.kernels.record import NONE
+from nivel.machine.coordinate_reference import resolve
+from nivel.machine.sensor import Sensor
+from nivel.system.draft import Draft
+
+VECTOR_UNITS = {
+    "position": "m",
+    "velocity": "m/s",
+    "acceleration": "m/s^2",
+    "angular_velocity": "rad/s",
+    "angular_acceleration": "rad/s^2",
+}
+# suffixes of the units of a coordinate's value, rate, acceleration
+PER_SECOND = {"value": "", "rate": "/s", "acceleration": "/s^2"}
+
+
+def sensor_columns(draft: Draft) -> list[list[int]]:
+    """Columns of `nivel.kernels.sensor` for all sensors; their outputs are added."""
+    columns: list[list[int]] = []
+    if draft.machine.sensors:
+        kernel = import_module("nivel.kernels.sensor")
+        quantities = ("position", "velocity", "acceleration", "angular_velocity", "angular_acceleration")
+        vectors = {name: getattr(kernel, name.upper()) for name in quantities}
+        scalars = {"value": kernel.VALUE, "rate": kernel.RATE, "acceleration": kernel.SECOND}
+        for sensor in draft.machine.sensors:
+            match sensor.form:
+                case "marker":
+                    columns.append(_of_marker(draft, sensor, vectors))
+                case "coordinate":
+                    assert sensor.coordinate is not None  # the record was checked
+                    assert sensor.quantity is not None
+                    joint, name = resolve(sensor.coordinate, draft.machine.joints)
+                    columns.append(
+                        _scalar(
+                            draft, sensor.name, sensor.quantity, scalars, draft.joint_coordinates[f"{joint}.{name}"]
+                        )
+                    )
+                case "distance" | "angle" as form:
+                    ends = sensor.distance or sensor.angle
+                    assert ends is not None  # the record was checked
+                    kind = DISTANCE if form == "distance" else ROTATION
+                    coordinate = draft.coordinates.add(kind, *draft.ends(ends))
+                    columns.append(_scalar(draft, f"{sensor.name}.{form}", "value", scalars, coordinate))
+                    columns.append(_scalar(draft, f"{sensor.name}.rate", "rate", scalars, coordinate))
+                case "force":
+                    read = f"force.{sensor.force}.{sensor.quantity}"
+                    index = draft.outputs.index(read)
+                    output = draft.outputs.add((f"sensor.{sensor.name}", draft.outputs.entries[index][1], read))
+                    columns.append([output, kernel.COPY, index, NONE])
+                case _:
+                    assert sensor.value is not None  # the record was checked
+                    output = draft.outputs.add((f"sensor.{sensor.name}", sensor.units, f"sensor {sensor.name}"))
+                    columns.append([output, kernel.FUNCTION, draft.function(sensor.value), NONE])
+    return columns
+
+
+def _of_marker(draft: Draft, sensor: Sensor, vectors: dict[str, int]) -> list[int]:
+    assert sensor.marker is not None  # the record was checked
+    assert sensor.quantity is not None
+    words = f"{sensor.quantity.replace('_', ' ')} of {sensor.marker}"
+    words += f" seen from {sensor.relative_to}" if sensor.relative_to is not None else ""
+    units = VECTOR_UNITS[sensor.quantity]
+    output = draft.outputs.add(*((f"sensor.{sensor.name}.{axis}", units, f"{axis} of the {words}") for axis in "xyz"))
+    frame = NONE if sensor.relative_to is None else draft.marker_or_ground(sensor.relative_to)
+    return [output, vectors[sensor.quantity], draft.marker(sensor.marker), frame]
+
+
+def _scalar(draft: Draft, name: str, quantity: str, scalars: dict[str, int], coordinate: int) -> list[int]:
+    units = "rad" if draft.coordinates.what[coordinate][0] <= LAST_ANGLE else "m"
+    output = draft.outputs.add((f"sensor.{name}", f"{units}{PER_SECOND[quantity]}", f"{quantity} of sensor {name}"))
+    return [output, scalars[quantity], coordinate, NONE]

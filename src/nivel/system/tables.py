@@ -1,0 +1,135 @@
+"""Tables that fill while a machine is built, each with the arrays that it becomes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.kernels.record import NONE, Coordinates, Elements, Markers
+
+Array = NDArray[np.float64]
+
+
+def index_array(values: object, columns: int) -> NDArray[np.uint32]:
+    """uint32 array of `values`: (n, columns), or (n,) for one column."""
+    array = np.array(values, dtype=np.uint32)
+    return array.reshape(-1) if columns == 1 else array.reshape(-1, columns)
+
+
+def padded(rows: list[list[int]] | list[list[float]], fill: float) -> Array:
+    """(n, longest) with `fill` where a row ends earlier."""
+    out = np.full((len(rows), max((len(row) for row in rows), default=0)), fill, dtype=float)
+    for k, row in enumerate(rows):
+        out[k, : len(row)] = row
+    return out
+
+
+@dataclass
+class MarkerTable:
+    """Frames on bodies."""
+
+    body: list[int] = field(default_factory=list)
+    position: list[Array] = field(default_factory=list)
+    frame: list[Array] = field(default_factory=list)
+
+    def add(self, body: int, position: Array, frame: Array) -> int:
+        """Index of a new marker at `position` (3,) with axes `frame` (3, 3), both in body axes."""
+        self.body.append(body)
+        self.position.append(position)
+        self.frame.append(frame)
+        return len(self.body) - 1
+
+    def arrays(self) -> Markers:
+        count = len(self.body)
+        return Markers(
+            body=index_array(self.body, 1),
+            position_b=np.array(self.position, dtype=float).reshape(count, 3),
+            frame_b=np.array(self.frame, dtype=float).reshape(count, 3, 3),
+            u=np.zeros((count, 3)),
+            r=np.zeros((count, 3)),
+            A=np.zeros((count, 3, 3)),
+            rdot=np.zeros((count, 3)),
+            bias=np.zeros((count, 3)),
+        )
+
+
+@dataclass
+class CoordinateTable:
+    """Scalars measured between two markers; the same one is measured once."""
+
+    what: list[tuple[int, int, int, int]] = field(default_factory=list)  # kind, first marker, second marker, axis
+    active: set[int] = field(default_factory=set)
+    _index: dict[tuple[int, int, int, int], int] = field(default_factory=dict)
+
+    def add(self, kind: int, first: int, second: int, axis: int = 0) -> int:
+        """Index of the coordinate of this `kind` (see `nivel.kernels.coordinate`) between two markers."""
+        entry = (kind, first, second, axis)
+        if entry not in self._index:
+            self._index[entry] = len(self.what)
+            self.what.append(entry)
+        return self._index[entry]
+
+    def use(self, coordinate: int) -> int:
+        """The same index; the coordinate is measured in every evaluation from now on."""
+        self.active.add(coordinate)
+        return coordinate
+
+    def arrays(self) -> Coordinates:
+        count = len(self.what)
+        return Coordinates(
+            what=index_array(self.what, 4),
+            active=index_array(sorted(self.active), 1),
+            reference=np.zeros(count),
+            value=np.zeros(count),
+            rate=np.zeros(count),
+            bias=np.zeros(count),
+            J=np.zeros((2 * count + 2, 6)),
+        )
+
+
+@dataclass
+class ElementTable:
+    """Forces by family, a family being named by its kernel's module."""
+
+    families: dict[str, list[tuple[list[int], list[float], int]]] = field(default_factory=dict)
+    states: int = 0
+
+    def add(self, family: str, index: list[int], number: list[float] | None = None, memory: int = 0) -> None:
+        """A force of `family` with these columns, which keeps `memory` numbers from state to state."""
+        self.families.setdefault(family, []).append((index, number or [], memory))
+
+    def arrays(self, addresses: dict[str, int]) -> Elements:
+        """`addresses` : of the compiled function of each family."""
+        elements = [element for family in self.families.values() for element in family]
+        stops = np.cumsum([0, *(len(family) for family in self.families.values())])
+        index = padded([element[0] for element in elements], NONE)
+        kept = (len(elements), max((element[2] for element in elements), default=0))
+        return Elements(
+            address=np.array([addresses[family] for family in self.families], dtype=np.uint64),
+            span=index_array(list(pairwise(stops)), 2),
+            columns=index.astype(np.uint32),
+            number=padded([element[1] for element in elements], 0.0),
+            memory=np.zeros(kept),
+            proposal=np.zeros(kept),
+            state=np.zeros(self.states),
+            state_rate=np.zeros(self.states),
+        )
+
+
+@dataclass
+class OutputTable:
+    """What forces, couplings, drivers and sensors report: name, units, long name."""
+
+    entries: list[tuple[str, str, str]] = field(default_factory=list)
+
+    def add(self, *entries: tuple[str, str, str]) -> int:
+        """Index of the first of new outputs."""
+        self.entries.extend(entries)
+        return len(self.entries) - len(entries)
+
+    def index(self, name: str) -> int:
+        """Index of the output with this name."""
+        return [entry[0] for entry in self.entries].index(name)

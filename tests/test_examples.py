@@ -17,9 +17,12 @@ EXAMPLES = Path(__file__).parent.parent / "examples"
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.yaml")), ids=lambda path: path.stem)
 @pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 def test_example_runs_green(path, formulation):
-    result = nivel.load(path).simulate(formulation=formulation)
+    result = nivel.load(path, allow_code=True).simulate(formulation=formulation)
     assert result.outcome == "done"
-    assert result.trust.verdict == "green", result
+    for item in result.trust.items:
+        # four revolutes with parallel axes are redundant, and the example says so
+        expected = "amber" if item.name == "redundancy" and path.stem == "four-bar-revolutes" else "green"
+        assert item.verdict == expected, result
 
 
 def test_slider_crank_passes_its_first_top_dead_centre_at_the_known_time():
@@ -45,11 +48,11 @@ def test_heavy_top_follows_the_reference():
     np.testing.assert_allclose(axes, expected.rotation, atol=1e-5)
 
 
-def test_andrews_squeezer_without_its_spring_follows_its_seven_angles():
-    """Frames away from the centres of mass, three loops; the reference meets the published end values with its spring."""
+def test_andrews_squeezer_follows_its_seven_angles():
+    """Frames away from the centres of mass, three loops, a spring; the reference meets the published end values."""
     machine = nivel.load(EXAMPLES / "andrews-squeezer.yaml")
     result = machine.simulate()
-    expected = andrews.solve(result.time, spring=False)
+    expected = andrews.solve(result.time, spring=True)
     A = (
         Rotation.from_quat(result.array("orientation").reshape(-1, 4), scalar_first=True)
         .as_matrix()

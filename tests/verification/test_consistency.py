@@ -397,3 +397,71 @@ def test_wheel_of_a_rack_meets_its_stop():
     assert r.array("s.displacement.rate")[-1] == pytest.approx(-e, rel=2e-3)
     # deepest without loss: v √(M/k); the loss makes it less
     assert 0.05 < r.array("s.displacement").max() < 0.05 + np.sqrt((m + J / radius**2) / k)
+
+
+# joint (between two bodies in spatial motion) or marker, and what is driven of it: at rest at time 0, at most 0.2 off
+SPATIAL = {
+    "planar": (JOINTS["planar"], {"coordinate": "j.x"}),
+    "planar-angle": (JOINTS["planar"], {"coordinate": "j.angle"}),
+    "point-on-plane": (JOINTS["point-on-plane"], {"coordinate": "j.y"}),
+    "point-on-line": (JOINTS["point-on-line"], {"coordinate": "j"}),
+    "screw": (JOINTS["screw"], {"coordinate": "j.angle"}),
+    "revolute-spherical": (JOINTS["revolute-spherical"], {"coordinate": "j"}),
+    "revolute-translational": (JOINTS["revolute-translational"], {"coordinate": "j.displacement"}),
+    "universal": (
+        {"type": "universal", "point": [0.2, 0, 0], "axes": [[1, 0, 0], [0, 0, 1]]},
+        {"coordinate": "j.angle_1"},
+    ),
+    "universal-second": (
+        {"type": "universal", "point": [0.2, 0, 0], "axes": [[1, 0, 0], [0, 0, 1]]},
+        {"coordinate": "j.angle_2"},
+    ),
+    "cylindrical": ({"type": "cylindrical", "point": [0.2, 0, 0], "axis": [1, 1, 0]}, {"coordinate": "j.displacement"}),
+    # the z axes of the two markers do not stay parallel
+    "about": ({"type": "spherical", "point": [0.2, 0, 0]}, {"marker": "on_b", "about": "z", "relative_to": "on_a"}),
+    "along": ({"type": "spherical", "point": [0.2, 0, 0]}, {"marker": "on_b", "along": "y", "relative_to": "on_a"}),
+    "about-ground": ({"type": "spherical", "point": [0.2, 0, 0]}, {"marker": "on_b", "about": "z"}),
+    "along-ground": ({"type": "spherical", "point": [0.2, 0, 0]}, {"marker": "on_b", "along": "z"}),
+}
+
+
+@FORMULATIONS
+@pytest.mark.parametrize("name", SPATIAL)
+def test_drivers_in_space_drift_with_order_four(name, formulation):
+    """Only right second derivatives of the driven coordinate keep its rows closed without stabilisation; only right
+    efforts close the energy. The start value is measured first, by a sensor."""
+    joint, driver = SPATIAL[name]
+    sections = two_bodies(joint)
+    sections["markers"] = {
+        "on_a": {"body": "a", "position": [0.1, 0, 0.05]},
+        "on_b": {"body": "b", "position": [0, 0.1, 0.1], "orientation": {"axis": [1, 2, 0], "angle": 0.4}},
+    }
+    start = starting_value(sections, driver)
+    sections["drivers"] = {"d": {**driver, "value": f"{start!r} + 0.1*(1 - cos(7*time))"}}
+    steps, drifts, losses = [4e-3, 2e-3, 1e-3], [], []
+    for step in steps:
+        r = simulate(sections, duration=0.4, step=step, stabilisation="none", formulation=formulation)
+        drifts.append(np.abs(r.array("constraint_violation")[-1]).max())
+        losses.append(np.abs(r.array("energy_error")).max())
+    assert slopes(steps, drifts)[-1] > 3.5, drifts
+    assert slopes(steps, losses)[-1] > 3.5, losses
+    # the driver works: its power is effort times the given rate
+    np.testing.assert_allclose(
+        r.array("driver.d.power"), r.array("driver.d.effort") * 0.7 * np.sin(7 * r.time), atol=1e-4
+    )
+    assert np.ptp(r.array("driver.d.power")) > 0.01
+
+
+def starting_value(sections, driver):
+    """What the driver would hold at the start, by sensors."""
+    if "coordinate" in driver:
+        sensor, name = {"coordinate": driver["coordinate"], "quantity": "value"}, "sensor.s"
+    elif "about" in driver:
+        reference = driver.get("relative_to", {"body": "ground"})
+        sensor, name = {"angle": [reference, driver["marker"]]}, "sensor.s.angle"
+    else:
+        seen = {"relative_to": driver["relative_to"]} if "relative_to" in driver else {}
+        sensor = {"marker": driver["marker"], "quantity": "position", **seen}
+        name = f"sensor.s.{driver['along']}"
+    r = simulate({**sections, "sensors": {"s": sensor}}, duration=1e-3, step=1e-3)
+    return float(r.array(name)[0])

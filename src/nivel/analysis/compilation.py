@@ -15,6 +15,11 @@ from nivel.motion.catalogue import FORMULATIONS
 from nivel.system.forces import FORCES
 
 LOADS = ("force", "torque")
+RARE = {
+    "nivel.kernels.measure": "measured coordinates",
+    "nivel.kernels.friction": "friction",
+    "nivel.kernels.sensor": "sensors",
+}
 
 
 def compile_path(
@@ -42,14 +47,20 @@ def compile_path(
     return perf_counter() - begin
 
 
+def rare_modules() -> list[str]:
+    """Modules of all kinds of forces and of everything else that only some machines have."""
+    families = dict.fromkeys(family for kind in FORCES.values() for family in kind.families)
+    return [*(f"nivel.kernels.forces.{family}" for family in families), *RARE]
+
+
 def _rare_parts(machine: MachineRecord) -> list[tuple[str, str]]:
     """Modules of what only some machines have: kinds of forces, measured coordinates, friction, sensors."""
-    families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
+    types = {force.type for force in machine.forces}
+    families = dict.fromkeys(family for force in types for family in FORCES[force].families)
+    needed = {
+        "nivel.kernels.measure": bool(machine.joints or machine.drivers or machine.sensors or types - {*LOADS}),
+        "nivel.kernels.friction": "friction" in types,
+        "nivel.kernels.sensor": bool(machine.sensors),
+    }
     parts = [(f"nivel.kernels.forces.{family}", f"forces: {family}") for family in families]
-    if machine.drivers or machine.couplings or machine.sensors or any(f.type not in LOADS for f in machine.forces):
-        parts.append(("nivel.kernels.measure", "measured coordinates"))
-    if any(force.type == "friction" for force in machine.forces):
-        parts.append(("nivel.kernels.friction", "friction"))
-    if machine.sensors:
-        parts.append(("nivel.kernels.sensor", "sensors"))
-    return parts
+    return parts + [(module, what) for module, what in RARE.items() if needed[module]]

@@ -23,6 +23,7 @@ from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.table import Table
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.run import (
     ALL_STEPS,
@@ -81,9 +82,29 @@ def prepare(machine: MachineRecord, formulation: str) -> Prepared:
         message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby; start it a little aside"
         raise ModelError(Fault("", 0, 0, "machine", message))
     _refuse_uncertain_loads(machine, redundancy)
+    _refuse_short_tables(machine)
     rank = len(motion.system.rows) - len(redundancy.redundant_rows)
     motion = MotionEquations(motion.system.known_rank(rank), motion.kernels)
     return Prepared(motion, assembly, redundancy, len(machine.drivers))
+
+
+def _refuse_short_tables(machine: MachineRecord) -> None:
+    """Tables of drivers that end on the way, or begin later than the run: the speed would jump there."""
+    faults = []
+    end = machine.simulation.duration
+    for driver in machine.drivers:
+        table = driver.value
+        if not isinstance(table, Table):
+            continue
+        first, last = table.times[0], table.times[-1]
+        if first > 0.0 or last < end * (1.0 - 1e-12):
+            message = (
+                f"the table holds from {first:.6g} to {last:.6g} s and the run lasts from 0 to {end:.6g} s: beyond its ends the speed "
+                f"would jump to zero; add points, or run for {last:.6g} s"
+            )
+            faults.append(Fault("", 0, 0, f"drivers.{driver.name}.value", message))
+    if faults:
+        raise ModelError(faults)
 
 
 def _refuse_uncertain_loads(machine: MachineRecord, redundancy: Redundancy) -> None:

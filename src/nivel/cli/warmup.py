@@ -12,11 +12,12 @@ from nivel.cli.options import quiet_option
 @click.command(short_help="Compile all kernels ahead of the first run.")
 @quiet_option
 def command(quiet: bool) -> None:
-    """Compile every formulation and integrator into the user's cache, and say how long each took."""
+    """Compile every formulation, integrator and kind of force into the user's cache, and say how long each took."""
     from importlib import import_module
 
     from rich.console import Console
 
+    from nivel.analysis.compilation import rare_modules
     from nivel.kernels import cache
     from nivel.march.catalogue import INTEGRATORS
     from nivel.motion.catalogue import FORMULATIONS
@@ -25,6 +26,7 @@ def command(quiet: bool) -> None:
     modules = ["nivel.kernels.observe", "nivel.march.loop"]
     modules += [module for facts in FORMULATIONS.values() for module in (facts.module, facts.correction)]
     modules += [facts.module for facts in INTEGRATORS.values()]
+    modules += rare_modules()
     total = time.perf_counter()
     for module in dict.fromkeys(modules):
         begin = time.perf_counter()

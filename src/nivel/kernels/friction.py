@@ -17,7 +17,8 @@ from nivel.kernels.record import NONE, record_at
 from nivel.kernels.saddle import solve_rows
 from nivel.kernels.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
 
-# columns of `columns`; JOINT: whose reaction is the load, or NONE; FRAME: marker whose z axis is that of the motion; outputs: effort, power, normal load, the bristle
+# columns of `columns`; JOINT: whose reaction is the load, or NONE; FRAME: marker whose z axis is that of the motion
+# outputs: effort, power, normal load, the bristle
 COORDINATE, MODEL, JOINT, ROTATES, STATE, OUTPUT, FRAME = 0, 1, 2, 3, 4, 5, 6
 COULOMB, STICTION, LUGRE = 0, 1, 2
 # columns of `number`; ARM: a speed of the coordinate times it is the speed of the surfaces

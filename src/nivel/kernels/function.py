@@ -32,9 +32,12 @@ def call_law(typingctx, address, arguments, first):
 
 @leaf
 def knot_before(functions, k, x):
-    """The last knot of table k at or before x; its first knot where there is none."""
-    low, high = np.int64(functions.table[k, 0]), np.int64(functions.table[k, 1])
+    """The knot of table k whose polynomial holds at x: the last one before it, the first where there is none."""
+    low, last = np.int64(functions.table[k, 0]), np.int64(functions.table[k, 1]) - 1
     knots = functions.knots
+    if x > knots[last]:
+        return last
+    high = last
     while high - low > 1:
         middle = (low + high) // 2
         if knots[middle] <= x:

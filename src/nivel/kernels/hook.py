@@ -14,7 +14,7 @@ from numba import cfunc, types
 from numba.extending import intrinsic
 
 from nivel.kernels.compile import stage
-from nivel.kernels.record import FRICTION, family_signature
+from nivel.kernels.record import FRICTION, MEASURE, family_signature
 from nivel.kernels.status import OK
 
 _compile: Any = cfunc
@@ -38,11 +38,23 @@ def call_family(typingctx, address, machine, number, t):
     return signature, generate
 
 
+# jobs of the hook MEASURE, see `nivel.kernels.measure`
+ACTIVE, ACCEPTED, SHOWN = 0, 1, 2
+
+
 @stage
-def call_hook(record, machine, hook, t):
+def call_hook(record, machine, hook, job, t):
     """Call a hook of the machine where it has one."""
     address = record.hooks.address[hook]
-    return call_family(address, machine, 0, t) if address != 0 else OK  # type: ignore[call-arg]
+    return call_family(address, machine, job, t) if address != 0 else OK  # type: ignore[call-arg]
+
+
+@stage
+def measure_active(record, machine, t):
+    """Measure what constraints, forces and laws need in every evaluation, and fill the rows made of it. Returns a status."""
+    if record.coordinates.active.shape[0] == 0:
+        return OK
+    return call_hook(record, machine, MEASURE, ACTIVE, t)
 
 
 @stage
@@ -68,7 +80,7 @@ def apply_forces(record, machine, t, y):
 def finish_forces(record, machine, t, ydot):
     """After the multipliers are known: friction, the work of drivers, and the rates of the states of forces and energies."""
     elements, control, constraints = record.elements, record.control, record.constraints
-    status = call_hook(record, machine, FRICTION, t)
+    status = call_hook(record, machine, FRICTION, 0, t)
     for k in range(constraints.combination.shape[0]):
         # what holds a coordinate to its motion does the work -λ f'(t)
         control.power[0] -= constraints.lam[constraints.combination[k, 0]] * constraints.motion[k]

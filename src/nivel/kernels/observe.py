@@ -5,20 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import entry, stage
-from nivel.kernels.coordinate import LAST_ANGLE, measure
-from nivel.kernels.hook import call_hook
-from nivel.kernels.record import NONE, SENSE, observe_signature, record_at
+from nivel.kernels.hook import ACCEPTED, SHOWN, call_hook
+from nivel.kernels.record import MEASURE, NONE, SENSE, observe_signature, record_at
 from nivel.kernels.rigid import kinetic_energy, potential_energy
 
 
 @stage
-def accept(record):
-    """Once an accepted step: follow angles across ±π (a step turns a joint by less than half a turn), keep what forces remember."""
-    coordinates, elements = record.coordinates, record.elements
-    for k in range(coordinates.reference.shape[0]):
-        if coordinates.what[k, 0] > LAST_ANGLE:
-            continue
-        coordinates.reference[k], _, _ = measure(record.bodies, record.markers, coordinates, k)
+def accept(record, machine, t):
+    """Once an accepted step: follow the angles of joints, keep what forces remember."""
+    elements = record.elements
+    call_hook(record, machine, MEASURE, ACCEPTED, t)
     for k in range(elements.memory.shape[0]):
         for i in range(elements.memory.shape[1]):
             elements.memory[k, i] = elements.proposal[k, i]
@@ -49,12 +45,13 @@ def _reactions(record, frame, at):
 
 
 @stage
-def _joint_coordinates(record, frame, at):
+def _joint_coordinates(record, machine, t, frame, at):
     """Joint coordinates (angles with all their turns), then their rates."""
     chosen, coordinates = record.joints.coordinate, record.coordinates
+    call_hook(record, machine, MEASURE, SHOWN, t)
     count = chosen.shape[0]
     for k in range(count):
-        frame[at + k], frame[at + count + k], _ = measure(record.bodies, record.markers, coordinates, chosen[k])
+        frame[at + k], frame[at + count + k] = coordinates.value[chosen[k]], coordinates.rate[chosen[k]]
     return at + 2 * count
 
 
@@ -69,7 +66,7 @@ def _outputs(record, machine, t, frame, at):
             outputs.value[first] = effort
             if outputs.combination[k, 1] == 1:
                 outputs.value[first + 1] = effort * constraints.motion[k]
-    call_hook(record, machine, SENSE, t)
+    call_hook(record, machine, SENSE, 0, t)
     for k in range(outputs.value.shape[0]):
         frame[at + k] = outputs.value[k]
 
@@ -98,7 +95,7 @@ def observe(machine, t, y, frame):
             frame[at + 3 * nb + 4 * b + i] = bodies.theta[b, i] / np.sqrt(length)
     at += 19 * nb
     at = _reactions(record, frame, at)
-    at = _joint_coordinates(record, frame, at)
+    at = _joint_coordinates(record, machine, t, frame, at)
     rows = constraints.C.shape[0]
     for row in range(rows):
         frame[at + row] = constraints.C[row]

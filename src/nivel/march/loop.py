@@ -89,7 +89,7 @@ def advance(evaluate, correct, step, machine, history):
             if not finite(run.rate):
                 return NOT_FINITE
             counter[EVALUATED] = 1
-            accept(record)
+            accept(record, machine, clock[TIME])
             if due:
                 status = unfed_evaluation(evaluate, machine, history)
                 if status != OK:

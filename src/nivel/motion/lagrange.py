@@ -10,9 +10,9 @@ import numpy as np
 
 from nivel.kernels.compile import entry, stage
 from nivel.kernels.constraint import constraint_rows
-from nivel.kernels.hook import apply_forces, call_hook, finish_forces
+from nivel.kernels.hook import apply_forces, finish_forces, measure_active
 from nivel.kernels.marker import move_markers, place_markers
-from nivel.kernels.record import MEASURE, NONE, correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import NONE, correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight, place_body
 from nivel.kernels.rotation import angular_velocity, transformation
 from nivel.kernels.saddle import factorise_rows, multipliers
@@ -57,7 +57,7 @@ def read_state(record, machine, t, y):
     move_markers(bodies, record.markers)
     constraint_rows(bodies, record.markers, record.constraints)
     normalisation_rows(record, y)
-    return call_hook(record, machine, MEASURE, t)
+    return measure_active(record, machine, t)
 
 
 @stage

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from nivel.kernels.compile import entry, stage
 from nivel.kernels.constraint import constraint_rows
-from nivel.kernels.hook import apply_forces, call_hook, finish_forces
+from nivel.kernels.hook import apply_forces, finish_forces, measure_active
 from nivel.kernels.marker import move_markers, place_markers
-from nivel.kernels.record import MEASURE, correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight, place_body
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.saddle import factorise_rows, multipliers
@@ -48,7 +48,7 @@ def read_state(record, machine, t, y):
         multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
     move_markers(bodies, record.markers)
     constraint_rows(bodies, record.markers, record.constraints)
-    return call_hook(record, machine, MEASURE, t)
+    return measure_active(record, machine, t)
 
 
 @stage

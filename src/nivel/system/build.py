@@ -125,7 +125,7 @@ def _add_force(draft: Draft, force: Any) -> None:
 def _hooks(draft: Draft, sensors: bool) -> Hooks:
     """Addresses of the compiled functions that only some machines need."""
     address = np.zeros(3, dtype=np.uint64)
-    if draft.coordinates.active:
+    if draft.coordinates.what:
         address[MEASURE] = import_module("nivel.kernels.measure").measure.address
     if draft.frictions:
         address[FRICTION] = import_module("nivel.kernels.friction").rub.address

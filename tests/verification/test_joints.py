@@ -9,6 +9,7 @@ from nivel.analysis.assemble import assemble
 from nivel.analysis.equations import equations, moved
 from nivel.analysis.redundancy import analyse
 from nivel.kernels.constraint import combine, constraint_rows
+from nivel.kernels.coordinate import measure
 from nivel.kernels.marker import move_markers, place_markers
 from nivel.kernels.rigid import place_body
 from nivel.kernels.spatial import multiply
@@ -48,7 +49,10 @@ def complex_rows(motion, q, velocity, angular_velocity_b):
     place_markers(bodies, markers)
     move_markers(bodies, markers)
     constraint_rows(bodies, markers, rows)
-    combine.py_func(record, 0.0)
+    for k in range(len(record.coordinates.value)):
+        found = measure(bodies, markers, record.coordinates, k)
+        record.coordinates.value[k], record.coordinates.rate[k], record.coordinates.bias[k] = found
+    combine.py_func(record, None, 0.0)
     return rows.C, rows.Cdot
 
 

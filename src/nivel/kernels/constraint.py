@@ -9,7 +9,7 @@ drivers.
 from __future__ import annotations
 
 from nivel.kernels.compile import stage
-from nivel.kernels.coordinate import cosine, measure_active, translation
+from nivel.kernels.coordinate import cosine, translation
 from nivel.kernels.function import evaluate_motion
 from nivel.kernels.record import NONE
 
@@ -56,11 +56,10 @@ def coincident(markers, constraints, table):
 
 
 @stage
-def combine(record, t):
-    """Measure the active coordinates, then C, J, Ċ and γ of all combinations, and of the extra rows of friction."""
+def combine(record, machine, t):
+    """C, J, Ċ and γ of all combinations of the coordinates just measured, and of the extra rows of friction."""
     constraints, coordinates, friction = record.constraints, record.coordinates, record.friction
     J = constraints.J
-    measure_active(record.bodies, record.markers, coordinates)
     for k in range(constraints.combination.shape[0]):
         what = constraints.combination[k]
         row = what[0]
@@ -69,7 +68,7 @@ def combine(record, t):
                 J[part, i] = 0.0
         value, rate, second = constraints.offset[k], 0.0, 0.0
         if what[3] != NONE:
-            motion, rate, second = evaluate_motion(record, what[3], t)
+            motion, rate, second = evaluate_motion(machine, what[3], t)
             value += motion
         constraints.motion[k] = rate
         C, Cdot, gamma = -value, -rate, second

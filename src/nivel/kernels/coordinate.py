@@ -224,11 +224,3 @@ def measure(bodies, markers, coordinates, k):
     if kind == MOMENT:
         return moment(bodies, markers, i, j, Ji, Jj)
     return radius(bodies, markers, i, j, Ji, Jj, coordinates.J[last - 2], coordinates.J[last - 1])
-
-
-@stage
-def measure_active(bodies, markers, coordinates):
-    """Measure all coordinates that constraints, forces or laws need."""
-    for n in range(coordinates.active.shape[0]):
-        k = coordinates.active[n]
-        coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = measure(bodies, markers, coordinates, k)

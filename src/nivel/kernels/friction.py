@@ -37,8 +37,9 @@ FASTEST = 5.5
 
 
 @stage
-def respond(record):
+def respond(machine):
     """Multipliers and whitened accelerations for a unit effort on each coordinate, and S."""
+    record = record_at(machine)
     friction, saddle = record.friction, record.saddle
     width, rows = saddle.z.shape[1], record.constraints.C.shape[0]
     for k in range(friction.columns.shape[0]):
@@ -55,7 +56,7 @@ def respond(record):
             row, body = saddle.block[n, 0], saddle.block[n, 3]
             for i in range(width):
                 saddle.b[row] += saddle.W[n, i] * change[body, i]
-        solve_rows(record)
+        solve_rows(machine)
         for row in range(rows):
             response[row] = saddle.b[row]
         for n in range(saddle.blocks[0]):
@@ -72,8 +73,9 @@ def respond(record):
 
 
 @stage
-def start(record):
+def start(machine):
     """Accelerations of the coordinates and multipliers without friction."""
+    record = record_at(machine)
     friction, saddle, constraints = record.friction, record.saddle, record.constraints
     rows = constraints.C.shape[0]
     for row in range(rows):
@@ -87,8 +89,9 @@ def start(record):
 
 
 @stage
-def superpose(record):
+def superpose(machine):
     """λ = λ₀ + Σ R F."""
+    record = record_at(machine)
     friction, lam = record.friction, record.constraints.lam
     for row in range(lam.shape[0]):
         total = friction.lam[row]
@@ -98,12 +101,13 @@ def superpose(record):
 
 
 @stage
-def normal_load(record, k):
+def normal_load(machine, k):
     """What presses the surfaces of friction k together [N], from the multipliers and the constant load.
 
     With the reaction (F, M) at the joint's first marker, across (⊥) and along the axis of the motion, z: for a turning joint
     |F_⊥| + 2 |M_⊥|/length + |F_z| collar/radius, for a sliding one |F_⊥| + 2 |M_⊥|/length + |M_z|/radius.
     """
+    record = record_at(machine)
     friction, joints, constraints, markers = record.friction, record.joints, record.constraints, record.markers
     n, joint = friction.number[k], friction.columns[k, JOINT]
     load = n[LOAD]
@@ -141,31 +145,33 @@ def coefficient(n, speed):
 
 
 @stage
-def relaxation(record, k):
+def relaxation(machine, k):
     """Rate σ0 |v|/μ(v) at which the bristles of friction k forget [1/s]."""
+    record = record_at(machine)
     n = record.friction.number[k]
     speed = record.coordinates.rate[record.friction.columns[k, COORDINATE]] * n[ARM]
     return n[STIFFNESS] * np.abs(speed) / coefficient(n, speed)
 
 
 @stage
-def effort(record, k, tau, anchor):
+def effort(machine, k, tau, anchor):
     """Effort of friction k for the present multipliers and efforts of the others. Viscous friction comes on top of it.
 
     LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995) with the bristle z per unit load: ż = v - σ0 |v| z/μ(v),
     effort -(σ0 z + σ1 ż) times the load.
     """
+    record = record_at(machine)
     friction, coordinates = record.friction, record.coordinates
     n, q, model = friction.number[k], friction.columns[k, COORDINATE], friction.columns[k, MODEL]
     rate, arm = coordinates.rate[q], n[ARM]
     speed = rate * arm
-    load = normal_load(record, k) * arm
+    load = normal_load(machine, k) * arm
     viscous = n[VISCOUS] * rate
     if model == COULOMB:
         return -coefficient(n, speed) * np.tanh(speed / n[TRANSITION]) * load - viscous
     if model == LUGRE:
         z = record.elements.state[friction.columns[k, STATE]]
-        zdot = speed - relaxation(record, k) * z
+        zdot = speed - relaxation(machine, k) * z
         record.elements.state_rate[friction.columns[k, STATE]] = zdot
         return -(n[STIFFNESS] * z + n[DAMPING] * zdot) * load - viscous
     # what makes c̈ = -ċ/τ, if it is within the cone
@@ -179,13 +185,14 @@ def effort(record, k, tau, anchor):
 
 
 @stage
-def residual(record, anchor, r):
+def residual(machine, anchor, r):
     """r = effort(F) - F of all frictions for the present F, multipliers included; returns (largest |r|, its friction, largest |F|)."""
+    record = record_at(machine)
     friction = record.friction
-    superpose(record)
+    superpose(machine)
     largest, worst, scale = 0.0, 0, 0.0
     for k in range(friction.columns.shape[0]):
-        wanted = effort(record, k, record.control.stick[0], anchor)
+        wanted = effort(machine, k, record.control.stick[0], anchor)
         r[k] = wanted - friction.force[k]
         size = np.abs(r[k])
         if not size <= largest:
@@ -195,12 +202,13 @@ def residual(record, anchor, r):
 
 
 @stage
-def sweep(record, anchor):
+def sweep(machine, anchor):
     """One Gauss–Seidel sweep: each friction takes the effort that the others' leave it."""
+    record = record_at(machine)
     friction = record.friction
     for k in range(friction.columns.shape[0]):
-        superpose(record)
-        friction.force[k] = effort(record, k, record.control.stick[0], anchor)
+        superpose(machine)
+        friction.force[k] = effort(machine, k, record.control.stick[0], anchor)
 
 
 @leaf
@@ -234,17 +242,18 @@ def eliminate(J, r, d):
 
 
 @stage
-def newton(record, anchor, scale):
+def newton(machine, anchor, scale):
     """One Newton step for effort(F) = F, with differences (λ is linear in F, loads are norms), halved while it does not help."""
+    record = record_at(machine)
     friction = record.friction
     n = friction.columns.shape[0]
     r, ahead, d, J = friction.work[0], friction.work[1], friction.work[2], friction.jacobian
-    before, _, _ = residual(record, anchor, r)
+    before, _, _ = residual(machine, anchor, r)
     for j in range(n):
         kept = friction.force[j]
         delta = 1e-7 * (np.abs(kept) + scale) + 1e-30
         friction.force[j] = kept + delta
-        residual(record, anchor, ahead)
+        residual(machine, anchor, ahead)
         friction.force[j] = kept
         for k in range(n):
             J[k, j] = (ahead[k] - r[k]) / delta
@@ -253,13 +262,13 @@ def newton(record, anchor, scale):
     for _ in range(6):
         for k in range(n):
             friction.force[k] += share * d[k]
-        largest, _, _ = residual(record, anchor, ahead)
+        largest, _, _ = residual(machine, anchor, ahead)
         if largest < before:
             return
         for k in range(n):
             friction.force[k] -= share * d[k]
         share *= 0.5
-    sweep(record, anchor)
+    sweep(machine, anchor)
 
 
 @family
@@ -272,20 +281,20 @@ def rub(machine, number, t):
     record = record_at(machine)
     friction, coordinates, saddle, control = record.friction, record.coordinates, record.saddle, record.control
     count = friction.columns.shape[0]
-    respond(record)
-    start(record)
+    respond(machine)
+    start(machine)
     for k in range(count):
         friction.anchor[k] = friction.force[k]
     largest, worst, scale = np.inf, 0, 0.0
     for iteration in range(SWEEPS + STEPS + ANCHORED_STEPS):
         anchor = ANCHOR if iteration >= SWEEPS + STEPS else 0.0
-        largest, worst, scale = residual(record, anchor, friction.work[0])
+        largest, worst, scale = residual(machine, anchor, friction.work[0])
         if largest <= TOLERANCE * scale:
             break
         if iteration < SWEEPS:
-            sweep(record, anchor)
+            sweep(machine, anchor)
         else:
-            newton(record, anchor, scale)
+            newton(machine, anchor, scale)
     if not largest <= ENOUGH * scale:
         control.failure[0] = worst
         return FRICTION_DIVERGES
@@ -295,10 +304,10 @@ def rub(machine, number, t):
         control.power[1] -= power
         record.outputs.value[out] = force
         record.outputs.value[out + 1] = power
-        record.outputs.value[out + 2] = normal_load(record, k)
+        record.outputs.value[out + 2] = normal_load(machine, k)
         if friction.columns[k, MODEL] == LUGRE:
             record.outputs.value[out + 3] = record.elements.state[friction.columns[k, STATE]]
-            if relaxation(record, k) * control.stick[0] > FASTEST:
+            if relaxation(machine, k) * control.stick[0] > FASTEST:
                 control.failure[0] = k
                 return BRISTLE_TOO_FAST
         for body in range(saddle.z.shape[0]):

@@ -8,6 +8,7 @@ from numba import types
 from numba.extending import intrinsic
 
 from nivel.kernels.compile import leaf, stage
+from nivel.kernels.record import record_at
 
 # kinds of functions; a held table keeps its end values outside, an extended one its end pieces
 CONSTANT, TABLE_HELD, TABLE_EXTENDED, COMPILED = 0, 1, 2, 3
@@ -60,8 +61,9 @@ def table_value(functions, k, x):
 
 
 @stage
-def read_arguments(record, k, t):
+def read_arguments(machine, k, t):
     """Put the signals that function k depends on into its places of `arguments`."""
+    record = record_at(machine)
     functions = record.functions
     for a in range(functions.span[k, 0], functions.span[k, 1]):
         kind, index, component = functions.argument[a, 0], functions.argument[a, 1], functions.argument[a, 2]
@@ -81,13 +83,14 @@ def read_arguments(record, k, t):
 
 
 @stage
-def evaluate_function(record, k, t):
+def evaluate_function(machine, k, t):
     """Value of function k at time t [s] in the state whose signals are in the record."""
+    record = record_at(machine)
     functions = record.functions
     kind = functions.kind[k]
     if kind == CONSTANT:
         return functions.value[k]
-    read_arguments(record, k, t)
+    read_arguments(machine, k, t)
     first = np.int64(functions.span[k, 2])
     if kind == COMPILED:
         return call_law(functions.address[k], functions.arguments, first)  # type: ignore[call-arg]
@@ -96,13 +99,14 @@ def evaluate_function(record, k, t):
 
 
 @stage
-def evaluate_motion(record, k, t):
+def evaluate_motion(machine, k, t):
     """(f, f', f'') of function k, a motion: one of time alone. Compiled ones leave f', f'' behind their arguments."""
+    record = record_at(machine)
     functions = record.functions
     kind = functions.kind[k]
     if kind == CONSTANT:
         return functions.value[k], 0.0, 0.0
-    read_arguments(record, k, t)
+    read_arguments(machine, k, t)
     first = np.int64(functions.span[k, 2])
     if kind == COMPILED:
         value = call_law(functions.address[k], functions.arguments, first)  # type: ignore[call-arg]

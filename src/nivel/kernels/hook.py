@@ -14,7 +14,7 @@ from numba import cfunc, types
 from numba.extending import intrinsic
 
 from nivel.kernels.compile import stage
-from nivel.kernels.record import FRICTION, MEASURE, family_signature
+from nivel.kernels.record import FRICTION, MEASURE, family_signature, record_at
 from nivel.kernels.status import OK
 
 _compile: Any = cfunc
@@ -43,26 +43,29 @@ ACTIVE, ACCEPTED, SHOWN = 0, 1, 2
 
 
 @stage
-def call_hook(record, machine, hook, job, t):
+def call_hook(machine, hook, job, t):
     """Call a hook of the machine where it has one."""
+    record = record_at(machine)
     address = record.hooks.address[hook]
     return call_family(address, machine, job, t) if address != 0 else OK  # type: ignore[call-arg]
 
 
 @stage
-def measure_active(record, machine, t):
+def measure_active(machine, t):
     """Measure what constraints, forces and laws need in every evaluation, and fill the rows made of it. Returns a status."""
+    record = record_at(machine)
     if record.coordinates.active.shape[0] == 0:
         return OK
-    return call_hook(record, machine, MEASURE, ACTIVE, t)
+    return call_hook(machine, MEASURE, ACTIVE, t)
 
 
 @stage
-def apply_forces(record, machine, t, y):
+def apply_forces(machine, t, y):
     """Let every family of forces add to the wrenches of the bodies, to power and stored energy, and give the rates of its states.
 
     The states of the forces stand in y before its last two entries.
     """
+    record = record_at(machine)
     elements, control = record.elements, record.control
     control.power[0], control.power[1], control.stored[0] = 0.0, 0.0, 0.0
     count = elements.state.shape[0]
@@ -77,10 +80,11 @@ def apply_forces(record, machine, t, y):
 
 
 @stage
-def finish_forces(record, machine, t, ydot):
+def finish_forces(machine, t, ydot):
     """After the multipliers are known: friction, the work of drivers, and the rates of the states of forces and energies."""
+    record = record_at(machine)
     elements, control, constraints = record.elements, record.control, record.constraints
-    status = call_hook(record, machine, FRICTION, 0, t)
+    status = call_hook(machine, FRICTION, 0, t)
     for k in range(constraints.combination.shape[0]):
         # what holds a coordinate to its motion does the work -λ f'(t)
         control.power[0] -= constraints.lam[constraints.combination[k, 0]] * constraints.motion[k]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from nivel.kernels.constraint import combine
 from nivel.kernels.coordinate import LAST_ANGLE
 from nivel.kernels.coordinate import measure as measure_one
@@ -18,14 +20,16 @@ def measure(machine, job, t):
     value and rate of all joint coordinates.
     """
     record = record_at(machine)
-    if job == ACTIVE:
-        combine(record, t)
-        return OK
     coordinates = record.coordinates
-    for k in range(coordinates.reference.shape[0]):
-        if job != ACCEPTED or coordinates.what[k, 0] <= LAST_ANGLE:
-            value, rate, bias = measure_one(record.bodies, record.markers, coordinates, k)
-            coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
-            if job == ACCEPTED:
-                coordinates.reference[k] = value
+    count = coordinates.active.shape[0] if job == ACTIVE else coordinates.reference.shape[0]
+    for n in range(count):
+        k = np.int64(coordinates.active[n]) if job == ACTIVE else n
+        if job == ACCEPTED and coordinates.what[k, 0] > LAST_ANGLE:
+            continue
+        value, rate, bias = measure_one(record.bodies, record.markers, coordinates, k)
+        coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
+        if job == ACCEPTED:
+            coordinates.reference[k] = value
+    if job == ACTIVE:
+        combine(record, machine, t)
     return OK

@@ -11,18 +11,20 @@ from nivel.kernels.rigid import kinetic_energy, potential_energy
 
 
 @stage
-def accept(record, machine, t):
+def accept(machine, t):
     """Once an accepted step: follow the angles of joints, keep what forces remember."""
+    record = record_at(machine)
     elements = record.elements
-    call_hook(record, machine, MEASURE, ACCEPTED, t)
+    call_hook(machine, MEASURE, ACCEPTED, t)
     for k in range(elements.memory.shape[0]):
         for i in range(elements.memory.shape[1]):
             elements.memory[k, i] = elements.proposal[k, i]
 
 
 @stage
-def _reactions(record, frame, at):
+def _reactions(machine, frame, at):
     """Force and torque of each joint on its first body at its first marker: -Σ λ (f_i, n_i), global axes, then marker axes."""
+    record = record_at(machine)
     joints, constraints, markers = record.joints, record.constraints, record.markers
     count = joints.first_marker.shape[0]
     for k in range(count):
@@ -45,10 +47,11 @@ def _reactions(record, frame, at):
 
 
 @stage
-def _joint_coordinates(record, machine, t, frame, at):
+def _joint_coordinates(machine, t, frame, at):
     """Joint coordinates (angles with all their turns), then their rates."""
+    record = record_at(machine)
     chosen, coordinates = record.joints.coordinate, record.coordinates
-    call_hook(record, machine, MEASURE, SHOWN, t)
+    call_hook(machine, MEASURE, SHOWN, t)
     count = chosen.shape[0]
     for k in range(count):
         frame[at + k], frame[at + count + k] = coordinates.value[chosen[k]], coordinates.rate[chosen[k]]
@@ -56,8 +59,9 @@ def _joint_coordinates(record, machine, t, frame, at):
 
 
 @stage
-def _outputs(record, machine, t, frame, at):
+def _outputs(machine, t, frame, at):
     """What forces, couplings, drivers and sensors report."""
+    record = record_at(machine)
     constraints, outputs = record.constraints, record.outputs
     for k in range(outputs.combination.shape[0]):
         first = outputs.combination[k, 0]
@@ -66,7 +70,7 @@ def _outputs(record, machine, t, frame, at):
             outputs.value[first] = effort
             if outputs.combination[k, 1] == 1:
                 outputs.value[first + 1] = effort * constraints.motion[k]
-    call_hook(record, machine, SENSE, 0, t)
+    call_hook(machine, SENSE, 0, t)
     for k in range(outputs.value.shape[0]):
         frame[at + k] = outputs.value[k]
 
@@ -94,8 +98,8 @@ def observe(machine, t, y, frame):
         for i in range(4):
             frame[at + 3 * nb + 4 * b + i] = bodies.theta[b, i] / np.sqrt(length)
     at += 19 * nb
-    at = _reactions(record, frame, at)
-    at = _joint_coordinates(record, machine, t, frame, at)
+    at = _reactions(machine, frame, at)
+    at = _joint_coordinates(machine, t, frame, at)
     rows = constraints.C.shape[0]
     for row in range(rows):
         frame[at + row] = constraints.C[row]
@@ -112,4 +116,4 @@ def observe(machine, t, y, frame):
     external, dissipated = y[y.shape[0] - 2], y[y.shape[0] - 1]
     frame[at], frame[at + 1], frame[at + 2], frame[at + 3] = kinetic, potential, external, dissipated
     frame[at + 4] = kinetic + potential - control.energy[2] - external + dissipated
-    _outputs(record, machine, t, frame, at + 5)
+    _outputs(machine, t, frame, at + 5)

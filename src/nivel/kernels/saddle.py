@@ -10,13 +10,15 @@ import numpy as np
 
 from nivel.kernels.compile import stage
 from nivel.kernels.dense import factorise_pivoted, gather, solve_pivoted
+from nivel.kernels.record import record_at
 from nivel.kernels.sparse import factorise, solve
 from nivel.kernels.status import OK, SINGULAR
 
 
 @stage
-def factorise_rows(record, width):
+def factorise_rows(machine, width):
     """Assemble and factorise S from W (blocks of `width` columns). Returns a status; on failure control.failure is the row."""
+    record = record_at(machine)
     saddle = record.saddle
     W, S = saddle.W, saddle.S
     for p in range(S.shape[0]):
@@ -39,8 +41,9 @@ def factorise_rows(record, width):
 
 
 @stage
-def solve_rows(record):
+def solve_rows(machine):
     """Overwrite b with the solution of S x = b."""
+    record = record_at(machine)
     if record.saddle.dense.shape[0] > 0:
         solve_pivoted(record.saddle, np.int64(record.control.rank[0]))
     else:
@@ -48,8 +51,9 @@ def solve_rows(record):
 
 
 @stage
-def multipliers(record, width):
+def multipliers(machine, width):
     """λ from W, z, γ (with Baumgarte's terms, eq. 110), after `factorise_rows`; z becomes z - Wᵀ λ."""
+    record = record_at(machine)
     saddle, constraints = record.saddle, record.constraints
     twice_alpha, beta_squared = record.control.stabilise[0], record.control.stabilise[1]
     b = saddle.b
@@ -61,7 +65,7 @@ def multipliers(record, width):
         for i in range(width):
             total += saddle.W[k, i] * saddle.z[body, i]
         b[row] = total
-    solve_rows(record)
+    solve_rows(machine)
     for row in range(b.shape[0]):
         constraints.lam[row] = b[row]
     subtract_rows(saddle, width)
@@ -77,12 +81,13 @@ def subtract_rows(saddle, width):
 
 
 @stage
-def correction(record, violation, width):
+def correction(machine, violation, width):
     """z = -Wᵀ S⁻¹ violation: the whitened change that removes a violation of the linearised rows, least in the mass metric."""
+    record = record_at(machine)
     saddle = record.saddle
     for row in range(saddle.b.shape[0]):
         saddle.b[row] = violation[row]
-    solve_rows(record)
+    solve_rows(machine)
     for body in range(saddle.z.shape[0]):
         for i in range(width):
             saddle.z[body, i] = 0.0

@@ -28,8 +28,9 @@ def angular_acceleration(bodies, b):
 
 
 @stage
-def motion_of(record, m, kind):
+def motion_of(machine, m, kind):
     """A quantity of marker m, global axes."""
+    record = record_at(machine)
     bodies, markers = record.bodies, record.markers
     b = markers.body[m]
     if kind == POSITION:
@@ -62,33 +63,34 @@ def less(a, b):
 
 
 @stage
-def seen_from(record, m, frame, kind):
+def seen_from(machine, m, frame, kind):
     """A quantity of marker m relative to a moving marker, in global axes: derivatives are those that an observer on it sees."""
-    value = less(motion_of(record, m, kind), motion_of(record, frame, kind))
-    w = motion_of(record, frame, ANGULAR_VELOCITY)
+    value = less(motion_of(machine, m, kind), motion_of(machine, frame, kind))
+    w = motion_of(machine, frame, ANGULAR_VELOCITY)
     if kind == VELOCITY:
-        value = less(value, cross(w, seen_offset(record, m, frame)))
+        value = less(value, cross(w, seen_offset(machine, m, frame)))
     elif kind == ACCELERATION:
-        d = seen_offset(record, m, frame)
-        v = less(less(motion_of(record, m, VELOCITY), motion_of(record, frame, VELOCITY)), cross(w, d))
+        d = seen_offset(machine, m, frame)
+        v = less(less(motion_of(machine, m, VELOCITY), motion_of(machine, frame, VELOCITY)), cross(w, d))
         coriolis = cross(w, v)
-        value = less(value, cross(motion_of(record, frame, ANGULAR_ACCELERATION), d))
+        value = less(value, cross(motion_of(machine, frame, ANGULAR_ACCELERATION), d))
         value = less(less(less(value, cross(w, cross(w, d))), coriolis), coriolis)
     elif kind == ANGULAR_ACCELERATION:
-        turning = less(motion_of(record, m, ANGULAR_VELOCITY), w)
+        turning = less(motion_of(machine, m, ANGULAR_VELOCITY), w)
         value = less(value, cross(w, turning))
     return value
 
 
 @stage
-def seen_offset(record, m, frame):
+def seen_offset(machine, m, frame):
     """r of marker m less that of the frame."""
-    return less(motion_of(record, m, POSITION), motion_of(record, frame, POSITION))
+    return less(motion_of(machine, m, POSITION), motion_of(machine, frame, POSITION))
 
 
 @stage
-def second_derivative(record, q):
+def second_derivative(machine, q):
     """c̈ of coordinate q, which has just been measured with this `bias`."""
+    record = record_at(machine)
     coordinates, bodies, markers = record.coordinates, record.bodies, record.markers
     total = 0.0
     for side in range(2):
@@ -113,14 +115,14 @@ def sense(machine, number, t):
         if kind <= ANGULAR_ACCELERATION:
             frame = sensors.columns[k, FRAME]
             if frame == NONE:
-                out[first], out[first + 1], out[first + 2] = motion_of(record, what, kind)
+                out[first], out[first + 1], out[first + 2] = motion_of(machine, what, kind)
             else:
-                x, y, z = seen_from(record, what, frame, kind)
+                x, y, z = seen_from(machine, what, frame, kind)
                 A = record.markers.A[frame]
                 for i in range(3):
                     out[first + i] = A[0, i] * x + A[1, i] * y + A[2, i] * z
         elif kind == FUNCTION:
-            out[first] = evaluate_function(record, what, t)
+            out[first] = evaluate_function(machine, what, t)
         elif kind == COPY:
             out[first] = out[what]
         else:
@@ -130,5 +132,5 @@ def sense(machine, number, t):
             elif kind == RATE:
                 out[first] = rate
             else:
-                out[first] = bias + second_derivative(record, what)
+                out[first] = bias + second_derivative(machine, what)
     return OK

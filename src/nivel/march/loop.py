@@ -68,7 +68,6 @@ def advance(evaluate, correct, step, machine, history):
     not that of an accepted state; `run.previous` and `run.clock` are.
     """
     run = run_at(history)
-    record = record_at(machine)
     clock, counter = run.clock, run.counter
     h = clock[STEP]
     budget = counter[BUDGET]
@@ -89,7 +88,7 @@ def advance(evaluate, correct, step, machine, history):
             if not finite(run.rate):
                 return NOT_FINITE
             counter[EVALUATED] = 1
-            accept(record, machine, clock[TIME])
+            accept(machine, clock[TIME])
             if due:
                 status = unfed_evaluation(evaluate, machine, history)
                 if status != OK:

@@ -23,8 +23,9 @@ WIDTH = 7
 
 
 @stage
-def normalisation_rows(record, y):
+def normalisation_rows(machine, y):
     """C, Ċ = 2 θᵀθ̇ and γ = -2 θ̇ᵀθ̇ of θᵀθ - 1 = 0."""
+    record = record_at(machine)
     constraints = record.constraints
     nb = record.bodies.mass.shape[0]
     first = constraints.C.shape[0] - nb
@@ -41,8 +42,9 @@ def normalisation_rows(record, y):
 
 
 @stage
-def read_state(record, machine, t, y):
+def read_state(machine, t, y):
     """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
+    record = record_at(machine)
     bodies = record.bodies
     nb = bodies.mass.shape[0]
     for b in range(nb):
@@ -56,13 +58,14 @@ def read_state(record, machine, t, y):
         multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
     move_markers(bodies, record.markers)
     constraint_rows(bodies, record.markers, record.constraints)
-    normalisation_rows(record, y)
-    return measure_active(record, machine, t)
+    normalisation_rows(machine, y)
+    return measure_active(machine, t)
 
 
 @stage
-def radial_rate(record, y, b):
+def radial_rate(machine, y, b):
     """κ = -2 θᵀθ̇/|θ|²: ᾱ = Ḡ θ̈ + κ ω̄, zero on the unit sphere."""
+    record = record_at(machine)
     nb = record.bodies.mass.shape[0]
     rate, square = 0.0 * y[0], 0.0 * y[0]
     for i in range(4):
@@ -79,11 +82,12 @@ def augmentation(bodies, b):
 
 
 @stage
-def factorise_mass(record, y):
+def factorise_mass(machine, y):
     """Cholesky factor of M + μ θ θᵀ of each body, in the lower triangle of G; A Ḡ (3, 4) in its free upper right corner.
 
     m_RR = m 1, m_Rθ = -m c̃ A Ḡ, m_θθ = Ḡᵀ J̄_O Ḡ (eqs. 58–60).
     """
+    record = record_at(machine)
     bodies, saddle = record.bodies, record.saddle
     for b in range(bodies.mass.shape[0]):
         G, A, c, m, J = saddle.G[b], bodies.A[b], bodies.c[b], bodies.mass[b], bodies.inertia_origin_b[b]
@@ -132,8 +136,9 @@ def forward(G, z):
 
 
 @stage
-def whiten_rows(record, y):
+def whiten_rows(machine, y):
     """W = C_q L⁻ᵀ with C_θ = (n + u × f)ᵀ A Ḡ (eq. 27); off the unit sphere γ changes by -κ (n + u × f)ᵀ ω."""
+    record = record_at(machine)
     bodies, markers, saddle, constraints = record.bodies, record.markers, record.saddle, record.constraints
     J = constraints.J
     for k in range(saddle.block.shape[0]):
@@ -154,21 +159,22 @@ def whiten_rows(record, y):
             for i in range(4):
                 W[3 + i] = n0 * G[0, 3 + i] + n1 * G[1, 3 + i] + n2 * G[2, 3 + i]
             w = bodies.omega[b]
-            kappa = radial_rate(record, y, b)
+            kappa = radial_rate(machine, y, b)
             constraints.gamma[row] -= kappa * (n0 * w[0] + n1 * w[1] + n2 * w[2])
         forward(G, W)
 
 
 @stage
-def whiten_forces(record, y):
+def whiten_forces(machine, y):
     """z = L⁻¹ (Q_e + Q_v) with Q_v from eq. 63, and the parts of κ and of the augmentation."""
+    record = record_at(machine)
     bodies, saddle = record.bodies, record.saddle
     nb = bodies.mass.shape[0]
     for b in range(nb):
         F, c, w, w_b = bodies.wrench[b], bodies.c[b], bodies.omega[b], bodies.omega_b[b]
         A, J, G, z = bodies.A[b], bodies.inertia_origin_b[b], saddle.G[b], saddle.z[b]
         m = bodies.mass[b]
-        kappa = radial_rate(record, y, b)
+        kappa = radial_rate(machine, y, b)
         wc, ww = dot(w, c), dot(w, w)
         z[0] = F[0] - m * (w[0] * wc - c[0] * ww + kappa * (w[1] * c[2] - w[2] * c[1]))
         z[1] = F[1] - m * (w[1] * wc - c[1] * ww + kappa * (w[2] * c[0] - w[0] * c[2]))
@@ -190,8 +196,9 @@ def whiten_forces(record, y):
 
 
 @stage
-def unwhiten(record, b):
+def unwhiten(machine, b):
     """z := L⁻ᵀ z, the change of (R, θ) or its derivatives."""
+    record = record_at(machine)
     G, z = record.saddle.G[b], record.saddle.z[b]
     for k in range(7):
         i = 6 - k
@@ -202,17 +209,18 @@ def unwhiten(record, b):
 
 
 @stage
-def write_rates(record, y, ydot):
+def write_rates(machine, y, ydot):
     """(q̇, q̈) of ẏ, and the accelerations of the bodies."""
+    record = record_at(machine)
     bodies, saddle = record.bodies, record.saddle
     nb = bodies.mass.shape[0]
     for b in range(nb):
-        unwhiten(record, b)
+        unwhiten(machine, b)
         q, v = 7 * b, 7 * nb + 7 * b
         for i in range(7):
             ydot[q + i] = y[v + i]
             ydot[v + i] = saddle.z[b, i]
-        kappa = radial_rate(record, y, b)
+        kappa = radial_rate(machine, y, b)
         angular_velocity(bodies.theta[b], saddle.z[b, 3:7], bodies.alpha_b[b])
         for i in range(3):
             bodies.Rddot[b, i] = saddle.z[b, i]
@@ -226,22 +234,22 @@ def evaluate(machine, t, y, ydot):
     Leaves everything else in the record.
     """
     record = record_at(machine)
-    status = read_state(record, machine, t, y)
+    status = read_state(machine, t, y)
     if status != OK:
         return status
     load_weight(record.bodies)
-    status = apply_forces(record, machine, t, y)
+    status = apply_forces(machine, t, y)
     if status != OK:
         return status
-    factorise_mass(record, y)
-    whiten_rows(record, y)
-    status = factorise_rows(record, WIDTH)
+    factorise_mass(machine, y)
+    whiten_rows(machine, y)
+    status = factorise_rows(machine, WIDTH)
     if status != OK:
         return status
-    whiten_forces(record, y)
-    multipliers(record, WIDTH)
-    status = finish_forces(record, machine, t, ydot)
-    write_rates(record, y, ydot)
+    whiten_forces(machine, y)
+    multipliers(machine, WIDTH)
+    status = finish_forces(machine, t, ydot)
+    write_rates(machine, y, ydot)
     return status
 
 

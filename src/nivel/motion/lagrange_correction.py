@@ -26,23 +26,23 @@ def correct(machine, t, y):
     tolerance = record.control.stabilise
     factorised = False
     for attempt in range(MAX_CORRECTIONS + 1):
-        status = read_state(record, machine, t, y)
+        status = read_state(machine, t, y)
         if status != OK:
             return status
         at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, constraints.scale, tolerance[2])
         if not at_positions and not exceeds(constraints.Cdot, constraints.scale, tolerance[3]):
             return OK
         if not factorised:
-            factorise_mass(record, y)
-            whiten_rows(record, y)
-            status = factorise_rows(record, WIDTH)
+            factorise_mass(machine, y)
+            whiten_rows(machine, y)
+            status = factorise_rows(machine, WIDTH)
             if status != OK:
                 return status
         factorised = not exceeds(constraints.C, constraints.scale, NEAR * tolerance[2])
-        correction(record, constraints.C if at_positions else constraints.Cdot, WIDTH)
+        correction(machine, constraints.C if at_positions else constraints.Cdot, WIDTH)
         first = 0 if at_positions else 7 * nb
         for b in range(nb):
-            unwhiten(record, b)
+            unwhiten(machine, b)
             for i in range(7):
                 y[first + 7 * b + i] += saddle.z[b, i]
         if not at_positions:

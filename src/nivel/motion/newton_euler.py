@@ -21,8 +21,9 @@ WIDTH = 6
 
 
 @stage
-def normalise(record, y):
+def normalise(machine, y):
     """θ := θ/|θ| for every body."""
+    record = record_at(machine)
     for b in range(record.bodies.mass.shape[0]):
         k = 7 * b + 3
         square = y[k] * y[k] + y[k + 1] * y[k + 1] + y[k + 2] * y[k + 2] + y[k + 3] * y[k + 3]
@@ -33,8 +34,9 @@ def normalise(record, y):
 
 
 @stage
-def read_state(record, machine, t, y):
+def read_state(machine, t, y):
     """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
+    record = record_at(machine)
     bodies = record.bodies
     nb = bodies.mass.shape[0]
     for b in range(nb):
@@ -48,12 +50,13 @@ def read_state(record, machine, t, y):
         multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
     move_markers(bodies, record.markers)
     constraint_rows(bodies, record.markers, record.constraints)
-    return measure_active(record, machine, t)
+    return measure_active(machine, t)
 
 
 @stage
-def whiten_rows(record):
+def whiten_rows(machine):
     """W = C_q L⁻ᵀ: force part over √m; moment about the centre of mass through J̄_c^{-1/2} Aᵀ (kept in G)."""
+    record = record_at(machine)
     bodies, markers, saddle = record.bodies, record.markers, record.saddle
     J = record.constraints.J
     for b in range(bodies.mass.shape[0]):
@@ -79,8 +82,9 @@ def whiten_rows(record):
 
 
 @stage
-def whiten_forces(record):
+def whiten_forces(machine):
     """z = L⁻¹ (Q_e + Q_v): force - m ω × (ω × c) over √m; J̄_c^{-1/2} (moment about the centre of mass - ω̄ × J̄_c ω̄)."""
+    record = record_at(machine)
     bodies, saddle = record.bodies, record.saddle
     for b in range(bodies.mass.shape[0]):
         F, c, w, w_b = bodies.wrench[b], bodies.c[b], bodies.omega[b], bodies.omega_b[b]
@@ -121,8 +125,9 @@ def unwhiten(bodies, saddle, b):
 
 
 @stage
-def write_rates(record, ydot):
+def write_rates(machine, ydot):
     """(Ṙ, θ̇, R̈, ᾱ) of ẏ."""
+    record = record_at(machine)
     bodies = record.bodies
     nb = bodies.mass.shape[0]
     for b in range(nb):
@@ -142,26 +147,26 @@ def evaluate(machine, t, y, ydot):
     Leaves everything else in the record.
     """
     record = record_at(machine)
-    status = read_state(record, machine, t, y)
+    status = read_state(machine, t, y)
     if status != OK:
         return status
     load_weight(record.bodies)
-    status = apply_forces(record, machine, t, y)
+    status = apply_forces(machine, t, y)
     if status != OK:
         return status
-    whiten_rows(record)
-    status = factorise_rows(record, WIDTH)
+    whiten_rows(machine)
+    status = factorise_rows(machine, WIDTH)
     if status != OK:
         return status
-    whiten_forces(record)
-    multipliers(record, WIDTH)
-    status = finish_forces(record, machine, t, ydot)
-    write_rates(record, ydot)
+    whiten_forces(machine)
+    multipliers(machine, WIDTH)
+    status = finish_forces(machine, t, ydot)
+    write_rates(machine, ydot)
     return status
 
 
 @entry(correct_signature)
 def keep(machine, t, y):
     """No correction; |θ| is brought back to one, which moves nothing because A is taken of θ/|θ|."""
-    normalise(record_at(machine), y)
+    normalise(machine, y)
     return OK

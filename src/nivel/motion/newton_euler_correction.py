@@ -27,20 +27,20 @@ def correct(machine, t, y):
     tolerance = record.control.stabilise
     factorised = False
     for attempt in range(MAX_CORRECTIONS + 1):
-        normalise(record, y)
-        status = read_state(record, machine, t, y)
+        normalise(machine, y)
+        status = read_state(machine, t, y)
         if status != OK:
             return status
         at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, constraints.scale, tolerance[2])
         if not at_positions and not exceeds(constraints.Cdot, constraints.scale, tolerance[3]):
             return OK
         if not factorised:
-            whiten_rows(record)
-            status = factorise_rows(record, WIDTH)
+            whiten_rows(machine)
+            status = factorise_rows(machine, WIDTH)
             if status != OK:
                 return status
         factorised = not exceeds(constraints.C, constraints.scale, NEAR * tolerance[2])
-        correction(record, constraints.C if at_positions else constraints.Cdot, WIDTH)
+        correction(machine, constraints.C if at_positions else constraints.Cdot, WIDTH)
         for b in range(nb):
             unwhiten(bodies, saddle, b)
             if at_positions:

@@ -61,8 +61,9 @@ def rim_point(A, r, size, n, normal, p):
 
 
 @stage
-def touch(record, k, n, depth):
+def touch(machine, k, n, depth):
     """Forces at the point of number[POINT:], normal number[NORMAL:] from the other body to this one; returns (N, friction, power)."""
+    record = record_at(machine)
     bodies, markers, elements, control = record.bodies, record.markers, record.elements, record.control
     numbers = elements.number[k]
     p, normal = numbers[POINT:NORMAL], numbers[NORMAL:NUMBERS]
@@ -100,8 +101,9 @@ def velocity_at(bodies, b, p):
 
 
 @stage
-def find_point(record, k, n):
+def find_point(machine, k, n):
     """Where point n of contact k may touch and the normal there, left in the numbers; returns the overlap."""
+    record = record_at(machine)
     markers, elements = record.markers, record.elements
     numbers = elements.number[k]
     marker, other, kind = elements.columns[k, MARKER], elements.columns[k, OTHER], elements.columns[k, KIND]
@@ -143,10 +145,10 @@ def apply(machine, number, t):
         count = POINTS if kind in (BOX, CYLINDER) else 1
         normal_force, friction_force, deepest, power = 0.0, 0.0, -np.inf, 0.0
         for n in range(count):
-            depth = find_point(record, k, n)
+            depth = find_point(machine, k, n)
             deepest = max(deepest, depth)
             if depth > 0.0:
-                force, friction, gained = touch(record, k, n, depth)
+                force, friction, gained = touch(machine, k, n, depth)
                 normal_force += force
                 friction_force += friction
                 power += gained

@@ -26,9 +26,9 @@ def apply(machine, number, t):
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index = elements.columns[k]
         marker, axes = index[MARKER], index[AXES]
-        x = evaluate_function(record, index[X], t)
-        y = evaluate_function(record, index[Y], t)
-        z = evaluate_function(record, index[Z], t)
+        x = evaluate_function(machine, index[X], t)
+        y = evaluate_function(machine, index[Y], t)
+        z = evaluate_function(machine, index[Z], t)
         out = index[OUTPUT]
         record.outputs.value[out] = np.sqrt(x * x + y * y + z * z)
         if axes != NONE:

@@ -22,7 +22,7 @@ def apply(machine, number, t):
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         q, out = elements.columns[k, COORDINATE], elements.columns[k, OUTPUT]
         gain, limit = elements.number[k, GAIN], elements.number[k, LIMIT]
-        effort = evaluate_function(record, elements.columns[k, COMMAND], t)
+        effort = evaluate_function(machine, elements.columns[k, COMMAND], t)
         if gain > 0.0:
             effort = gain * (effort - coordinates.rate[q])
         # not min and max: these would hide an effort that is not a number
@@ -31,7 +31,7 @@ def apply(machine, number, t):
         elif effort < -limit:
             effort = -limit
         record.outputs.value[out] = effort
-        power = push_coordinate(record, q, effort)
+        power = push_coordinate(machine, q, effort)
         record.outputs.value[out + 1] = power
         record.outputs.value[out + 2], record.outputs.value[out + 3] = coordinates.value[q], coordinates.rate[q]
         record.control.power[0] += power

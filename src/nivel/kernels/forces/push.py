@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from nivel.kernels.compile import stage
+from nivel.kernels.record import record_at
 
 
 @stage
-def push_coordinate(record, q, effort):
+def push_coordinate(machine, q, effort):
     """Add the generalised force `effort` [N or N m] on coordinate q, positive where it drives the coordinate up; returns its power."""
+    record = record_at(machine)
     bodies, markers, coordinates = record.bodies, record.markers, record.coordinates
     for side in range(2):
         m = coordinates.what[q, 1 + side]

@@ -27,7 +27,7 @@ def apply(machine, number, t):
         q = index[COORDINATE]
         c, rate = coordinates.value[q], coordinates.rate[q]
         if index[LAW] != NONE:
-            tension = evaluate_function(record, index[LAW], t)
+            tension = evaluate_function(machine, index[LAW], t)
             control.power[0] -= tension * rate
         else:
             stretch = c - numbers[FREE]
@@ -42,6 +42,6 @@ def apply(machine, number, t):
                 control.stored[0] += energy
         out = record.outputs.value
         first = index[OUTPUT]
-        out[first], out[first + 1] = tension, push_coordinate(record, q, -tension)
+        out[first], out[first + 1] = tension, push_coordinate(machine, q, -tension)
         out[first + 2], out[first + 3] = c, rate
     return OK

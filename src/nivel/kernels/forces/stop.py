@@ -30,6 +30,6 @@ def apply(machine, number, t):
         control.stored[0] += stored
         control.power[1] += loss
         record.outputs.value[out] = up - down
-        record.outputs.value[out + 1] = push_coordinate(record, q, up - down)
+        record.outputs.value[out + 1] = push_coordinate(machine, q, up - down)
         record.outputs.value[out + 2] = max(n[LOWER] - c, c - n[UPPER], 0.0)
     return OK

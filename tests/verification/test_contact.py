@@ -204,12 +204,12 @@ STANDING = {
 def test_body_rests_at_its_static_depth(name, formulation):
     """Points at the plane share the weight: depth (m g/(points K))^(1/n). Put there, it does not move.
 
-    A contact at rest is damped as an approach of 1 mm/s: with e = 0.3 at g 3.1/(1 mm/s) = 3e4/s and thrice that about
-    the axes, which takes a step of 2e-5 s.
+    A contact at rest is damped as an approach of 1 cm/s: with e = 0.3 at g 3.1/(1 cm/s) = 3e3/s and thrice that about
+    the axes, which takes a step of 2e-4 s.
     """
     shape, corners = STANDING[name]
     sections, depth, normal = standing(shape, corners)
-    r = simulate(sections, duration=0.1, step=2e-5, output_interval=1e-3, formulation=formulation)
+    r = simulate(sections, duration=0.1, step=2e-4, output_interval=1e-3, formulation=formulation)
     np.testing.assert_allclose(r.array("block.position") @ normal, 0.05 - depth, atol=1e-12)
     np.testing.assert_allclose(r.array("force.hold.normal_force"), 3.0 * G, rtol=1e-9)
     np.testing.assert_allclose(r.array("force.hold.depth"), depth, rtol=1e-9)

@@ -25,7 +25,8 @@ def failure(motion: MotionEquations, status: int, time: float, step: float, y: A
                 f"stopped at t = {time:.6g} s: a step of {step:.3g} s from here leads to a position that the machine does not have "
                 f"({row} depends on the other constraints there); {_worst(motion)}"
             )
-            return message, f"The step is too large for this motion: try --step {step / 10:.3g}."
+            advice = f"The step is too large for this motion: try --step {step / 10:.3g}. If it stops near this time again, the machine"
+            return message, f"{advice} comes to a singular position there: look at {_owner(row)}."
         message = f"stopped at t = {time:.6g} s: the constraint {row} depends on the others here, the machine is in a singular position"
         advice = (
             f"Look at {_owner(row)} in this position: two links in line, or a loop folded flat? Start the run elsewhere, "

@@ -12,7 +12,7 @@ from typing import ClassVar, Final, Literal
 
 from pydantic import Field
 
-from nivel.machine.axes import bad_axis_pair, no_direction, parallel
+from nivel.machine.axes import Triple, bad_axis_pair, no_direction, parallel
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.marker import TwoMarkers
 from nivel.machine.placement import angle_between
@@ -206,6 +206,11 @@ class Joint(Checked):
         needs_line = "points" in allowed and "axes" not in allowed and self.distance is None
         if needs_line and self.points is not None and self.points[0] == self.points[1]:
             yield Problem(("points",), "the two `points` are the same; the line between them has no direction")
+        elif self.points is not None and self.axis is not None and any(self.axis) and _along(self.axis, self.points):
+            yield Problem(("points",), "the second of the `points` lies on the `axis`: nothing turns about it")
+        if self.points is not None and self.axes is not None and all(map(any, self.axes)):
+            if parallel(*self.axes) and _along(self.axes[0], self.points):
+                yield Problem(("axes",), "the two `axes` are one line: that is a cylindrical joint, without a link")
 
     def _problems_of_axes(self, kind: JointKind) -> Iterator[Problem]:
         if self.axes is None:
@@ -229,3 +234,10 @@ class Joint(Checked):
                 if name not in free:
                     message = f"for a {self.type} joint {unknown_word(name, free, 'coordinate')}"
                     yield Problem((key, name), message, at_key=True)
+
+
+def _along(axis: Triple, points: tuple[Triple, Triple]) -> bool:
+    """Whether the line through two points lies along `axis`, as it does where they are one point."""
+    first, second = points
+    line = (second[0] - first[0], second[1] - first[1], second[2] - first[2])
+    return not any(line) or parallel(axis, line)

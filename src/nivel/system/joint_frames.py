@@ -45,7 +45,8 @@ def _of_marker(marker: Marker) -> Placed:
 def _global_axes(joint: Joint) -> tuple[Array, Array]:
     """Global axes of both markers of a joint placed by points: where they are equal, every joint coordinate starts at zero.
 
-    A universal joint has z along its own arm and x along the other one; a pin in a slot z along the pin.
+    A universal joint has z along its own arm and x along the other one; a pin in a slot z along the pin; a link that turns about an
+    axis x towards its second point.
     """
     if joint.axes is not None:
         first, second = (np.array(axis, dtype=float) for axis in joint.axes)
@@ -59,6 +60,8 @@ def _global_axes(joint: Joint) -> tuple[Array, Array]:
     if joint.axis is None:
         return np.eye(3), np.eye(3)
     x_axis = None if joint.x_axis is None else np.array(joint.x_axis, dtype=float)
+    if x_axis is None and joint.points is not None:
+        x_axis = np.subtract(joint.points[1], joint.points[0])
     axes = frame_from_axes(np.array(joint.axis, dtype=float), x_axis)
     return axes, axes
 

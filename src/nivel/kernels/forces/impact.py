@@ -10,7 +10,7 @@ from __future__ import annotations
 from nivel.kernels.compile import leaf
 
 # approach speeds below this [m/s or rad/s] count as this one: a slower touch would be damped without bounds
-SLOWEST = 1e-3
+SLOWEST = 1e-2
 
 
 @leaf

@@ -1,0 +1,57 @@
+"""A parallelogram linkage passes its flat position, where all its bars are in line and the loop may fold either way."""
+
+import numpy as np
+import pytest
+
+from nivel.errors import SolveError
+from simulating import simulate
+
+START = 0.5
+
+
+def parallelogram(speed, axis_offset=0.0):
+    """Crank and rocker of 1 m, 2 m apart, turning at `speed` without any force: the bars keep it up."""
+    tip, far = [np.cos(START), np.sin(START), 0.0], [2 + np.cos(START), np.sin(START), axis_offset]
+
+    def bar(p, q):
+        return {"shape": {"type": "box", "from": p, "to": q, "width": 0.05, "height": 0.05}, "density": 1000}
+
+    hinge = {"type": "revolute", "axis": [0, 0, 1]}
+    return {
+        "bodies": {"crank": bar([0, 0, 0], tip), "coupler": bar(tip, far), "rocker": bar([2, 0, 0], far)},
+        "joints": {
+            "left": {**hinge, "bodies": ["ground", "crank"], "point": [0, 0, 0], "start_rates": {"angle": speed}},
+            "near": {"type": "spherical", "bodies": ["crank", "coupler"], "point": tip},
+            "far": {"type": "cylindrical", "bodies": ["coupler", "rocker"], "point": far, "axis": [0, 0, 1]},
+            "right": {**hinge, "bodies": ["ground", "rocker"], "point": [2, 0, 0]},
+        },
+    }
+
+
+@pytest.mark.parametrize("step", [3.3e-3, 7e-4])
+@pytest.mark.parametrize("speed", [2.0, -2.0])
+@pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
+def test_flat_position_between_two_steps_is_passed(speed, step, formulation):
+    """At 2 rad/s the angle is START + 2 t for ever: the parallelogram stays one through every flat position, 0, π, 2π."""
+    r = simulate(parallelogram(speed), duration=3.0, step=step, formulation=formulation)
+    np.testing.assert_allclose(r.array("left.angle"), speed * r.time, atol=1e-8)
+    np.testing.assert_allclose(r.array("right.angle"), speed * r.time, atol=1e-8)
+    assert r.trust.verdict == "green"
+
+
+def test_flat_position_hit_by_a_step_is_named():
+    """At t = 1 s exactly: S has no inverse there. The result until then is kept."""
+    with pytest.raises(SolveError, match="singular position") as caught:
+        simulate(parallelogram(-0.5), duration=3.0, step=1e-3)
+    assert caught.value.time == pytest.approx(0.999, abs=2e-3)
+    assert "Look at" in caught.value.advice
+    assert caught.value.result.time[-1] == pytest.approx(0.999, abs=5e-3)
+
+
+def test_start_in_the_flat_position_is_refused_with_the_row_that_is_lost():
+    machine = parallelogram(1.0)
+    for joint in machine["joints"].values():
+        joint.pop("start_rates", None)
+    machine["joints"]["left"]["start"] = {"angle": -START}
+    with pytest.raises(Exception, match="starts in a singular position"):
+        simulate(machine, duration=0.1, step=1e-3)

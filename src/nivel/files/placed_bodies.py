@@ -105,7 +105,7 @@ def _placed_axes(joint: Joint, placing: Placement) -> dict[str, Any]:
     if joint.axis is not None:
         turned = placing.direction if joint.type in _SLIDING else placing.turning
         changes["axis"] = turned(joint.axis)
-        changes["x_axis"] = placing.direction(triple(frame_from_axes(joint.axis, joint.x_axis)[:, 0]))
+        changes["x_axis"] = placing.direction(triple(frame_from_axes(joint.axis, joint.x_direction)[:, 0]))
     if joint.axes is not None:
         first, second = joint.axes
         slides = joint.type == "revolute-translational"

@@ -159,6 +159,13 @@ class Joint(Checked):
         """Names of the joint coordinates."""
         return JOINT_COORDINATES[self.type]
 
+    @property
+    def x_direction(self) -> Triple | None:
+        """Where the joint's x axis points, global: as given, or to the second of two points; None: as for any axis."""
+        if self.x_axis is not None or self.points is None:
+            return self.x_axis
+        return _line(self.points)
+
     def problems(self) -> Iterator[Problem]:
         kind = JOINT_KINDS[self.type]
         yield from self._problems_by_markers() if self.markers is not None else self._problems_by_points(kind)
@@ -206,11 +213,16 @@ class Joint(Checked):
         needs_line = "points" in allowed and "axes" not in allowed and self.distance is None
         if needs_line and self.points is not None and self.points[0] == self.points[1]:
             yield Problem(("points",), "the two `points` are the same; the line between them has no direction")
-        elif self.points is not None and self.axis is not None and any(self.axis) and _along(self.axis, self.points):
+        if self.points is not None:
+            yield from self._problems_of_one_line(self.points)
+
+    def _problems_of_one_line(self, points: tuple[Triple, Triple]) -> Iterator[Problem]:
+        """A link that lies along the axis that it should turn about."""
+        same = points[0] == points[1]
+        if self.axis is not None and any(self.axis) and not same and _along(self.axis, points):
             yield Problem(("points",), "the second of the `points` lies on the `axis`: nothing turns about it")
-        if self.points is not None and self.axes is not None and all(map(any, self.axes)):
-            if parallel(*self.axes) and _along(self.axes[0], self.points):
-                yield Problem(("axes",), "the two `axes` are one line: that is a cylindrical joint, without a link")
+        if self.axes is not None and all(map(any, self.axes)) and parallel(*self.axes) and _along(self.axes[0], points):
+            yield Problem(("axes",), "the two `axes` are one line: that is a cylindrical joint, without a link")
 
     def _problems_of_axes(self, kind: JointKind) -> Iterator[Problem]:
         if self.axes is None:
@@ -238,6 +250,11 @@ class Joint(Checked):
 
 def _along(axis: Triple, points: tuple[Triple, Triple]) -> bool:
     """Whether the line through two points lies along `axis`, as it does where they are one point."""
-    first, second = points
-    line = (second[0] - first[0], second[1] - first[1], second[2] - first[2])
+    line = _line(points)
     return not any(line) or parallel(axis, line)
+
+
+def _line(points: tuple[Triple, Triple]) -> Triple:
+    """From the first point to the second."""
+    first, second = points
+    return second[0] - first[0], second[1] - first[1], second[2] - first[2]

@@ -59,10 +59,7 @@ def _global_axes(joint: Joint) -> tuple[Array, Array]:
         return frame_from_axes(first, second), frame_from_axes(second, first)
     if joint.axis is None:
         return np.eye(3), np.eye(3)
-    x_axis = None if joint.x_axis is None else np.array(joint.x_axis, dtype=float)
-    if x_axis is None and joint.points is not None:
-        x_axis = np.subtract(joint.points[1], joint.points[0])
-    axes = frame_from_axes(np.array(joint.axis, dtype=float), x_axis)
+    axes = frame_from_axes(joint.axis, joint.x_direction)
     return axes, axes
 
 

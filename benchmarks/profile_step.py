@@ -14,8 +14,8 @@ import nivel
 from nivel.analysis.dynamics import prepare
 from nivel.kernels.constraint import constraint_rows
 from nivel.kernels.handle import address_type
-from nivel.kernels.load import apply_loads
-from nivel.kernels.observe import count_turns, observe
+from nivel.kernels.hook import apply_forces
+from nivel.kernels.observe import accept, observe
 from nivel.kernels.record import record_at, state_type
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.saddle import factorise_rows, multipliers
@@ -28,17 +28,9 @@ part = njit(signature, error_model="numpy", _nrt=False)
 
 
 @part
-def positions(machine, y, _out, repeats):
-    record = record_at(machine)
+def state(machine, y, _out, repeats):
     for _ in range(repeats):
-        ne.read_positions(record, y)
-
-
-@part
-def velocities(machine, y, _out, repeats):
-    record = record_at(machine)
-    for _ in range(repeats):
-        ne.read_velocities(record, y)
+        ne.read_state(machine, 0.0, y)
 
 
 @part
@@ -49,48 +41,43 @@ def constraints(machine, _y, _out, repeats):
 
 
 @part
-def loads(machine, _y, _out, repeats):
+def forces(machine, y, _out, repeats):
     record = record_at(machine)
     for _ in range(repeats):
         load_weight(record.bodies)
-        apply_loads(record, 0.0)
-        ne.whiten_forces(record)
+        apply_forces(machine, 0.0, y)
+        ne.whiten_forces(machine)
 
 
 @part
 def whitening(machine, _y, _out, repeats):
-    record = record_at(machine)
     for _ in range(repeats):
-        ne.whiten_rows(record)
+        ne.whiten_rows(machine)
 
 
 @part
 def factorisation(machine, _y, _out, repeats):
-    record = record_at(machine)
     for _ in range(repeats):
-        factorise_rows(record, ne.WIDTH)
+        factorise_rows(machine, ne.WIDTH)
 
 
 @part
 def solution(machine, _y, _out, repeats):
-    record = record_at(machine)
     for _ in range(repeats):
-        ne.whiten_forces(record)
-        multipliers(record, ne.WIDTH)
+        ne.whiten_forces(machine)
+        multipliers(machine, ne.WIDTH)
 
 
 @part
 def rates(machine, _y, out, repeats):
-    record = record_at(machine)
     for _ in range(repeats):
-        ne.write_rates(record, out)
+        ne.write_rates(machine, out)
 
 
 @part
-def turns(machine, _y, _out, repeats):
-    record = record_at(machine)
+def acceptance(machine, _y, _out, repeats):
     for _ in range(repeats):
-        count_turns(record)
+        accept(machine, 0.0)
 
 
 @part
@@ -126,24 +113,23 @@ def main():
     y, out = prepared.assembly.y.copy(), np.zeros_like(prepared.assembly.y)
     ne.evaluate(address, 0.0, y, out)
     solve = measure(solution, address, y, out)
-    load = measure(loads, address, y, out)
+    force = measure(forces, address, y, out)
+    row = measure(constraints, address, y, out)
     frame = np.zeros(system.layout.width)
     times = {
-        "positions of bodies and markers, C": measure(positions, address, y, out),
-        "their velocities": measure(velocities, address, y, out) - measure(positions, address, y, out),
-        "constraint rows, rates, accelerations": measure(constraints, address, y, out),
-        "forces": load,
+        "positions and velocities": measure(state, address, y, out) - row,
+        "constraint rows, rates, accelerations": row,
+        "forces": force,
         "whitening of C_q": measure(whitening, address, y, out),
         "S and its factor": measure(factorisation, address, y, out),
-        "multipliers and accelerations": solve - load + measure(rates, address, y, out),
+        "multipliers and accelerations": solve - force + measure(rates, address, y, out),
         "one evaluation": measure(evaluation, address, y, out),
-        "joint angles followed, per step": measure(turns, address, y, out),
+        "an accepted state, per step": measure(acceptance, address, y, out),
         "direct correction, per step": measure(correction, address, y.copy(), out),
-        "output of one frame": 0.0,
     }
     begin = time.process_time()
     for _ in range(REPEATS):
-        observe(address, y, frame)
+        observe(address, 0.0, y, frame)
     times["output of one frame"] = 1e9 * (time.process_time() - begin) / REPEATS
     rows = len(system.rows)
     print(f"{Path(path).stem}: {system.body_count} bodies, {rows} rows, {len(system.record.saddle.L)} entries of L")

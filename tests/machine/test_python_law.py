@@ -9,6 +9,7 @@ import pytest
 
 from nivel.errors import ModelError
 from nivel.machine.arithmetic import Number
+from nivel.machine.forces import PointForce
 from nivel.machine.record import Record
 from nivel.machine.time_function import AngleMotion, ForceComponent, PythonLaw, SpringForce
 
@@ -211,3 +212,17 @@ def test_functions_that_cannot_be_taken():
     ]:
         with pytest.raises(ModelError, match=part):
             PythonLaw.of(function, ["time"])
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "    if x < 0:\n        raise ValueError\n",
+        "    assert x > 0\n",
+        "    try:\n        x = 1 / x\n    except ZeroDivisionError:\n        x = 0.0\n",
+    ],
+    ids=["raise", "assert", "try"],
+)
+def test_what_compiled_code_would_swallow_is_refused(text):
+    with pytest.raises(ModelError, match="knows no"):
+        PointForce(name="f", body="a", vector=(PythonLaw(f"def law(x):\n{text}    return x\n", "law", ("time",)), 0, 0))

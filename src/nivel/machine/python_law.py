@@ -164,6 +164,11 @@ def _faults_of_text(
         hint = unknown_word(function, list(defined), "function").partition("; ")[2]
         yield "function", f"{place} does not define a function `{function}` at its top level; {hint}"
         return
+    for part in ast.walk(module):
+        if isinstance(part, ast.Raise | ast.Assert | ast.Try):
+            word = {ast.Raise: "raise", ast.Assert: "assert", ast.Try: "try"}[type(part)]
+            message = f"{place}, line {part.lineno}: compiled code knows no `{word}`; return `math.nan` to stop the run"
+            yield "source", message
     yield from _faults_of_call(defined[function], len(arguments))
     yield from _faults_of_results(defined[function], results)
 

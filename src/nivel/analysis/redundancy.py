@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.assemble import close_positions
+from nivel.analysis.closing import close_positions
 from nivel.analysis.equations import MotionEquations, change_between, moved
 from nivel.kernels.status import OK
 from nivel.system.system import Array

@@ -1,0 +1,120 @@
+"""Moving a machine onto its constraints by the least change of its positions or velocities (Gauss–Newton, least squares)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.equations import MotionEquations, moved
+from nivel.errors import Fault, ModelError
+from nivel.system.system import Array
+
+ITERATIONS = 100
+# Constraints hold to this share of the scale of their row: the machine's length, or 1 for cosines.
+CLOSED = 1e-12
+# Longest step of an iteration, in radians and machine lengths.
+LONGEST = 0.5
+# A row that cannot be closed better than this share is named.
+OPEN = 1e-9
+# Machines larger than this many entries of C_q are solved iteratively.
+DENSE_ENTRIES = 1_000_000
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What the assembly has to respect beside the constraints.
+
+    weight : (B,) how unwilling each body is to move. hold : (B,) bodies that are not moved. values, rates : of joint coordinates,
+    (name, coordinate, wanted).
+    """
+
+    weight: Array
+    hold: NDArray[np.bool_]
+    values: tuple[tuple[str, int, float], ...] = ()
+    rates: tuple[tuple[str, int, float], ...] = ()
+
+
+def close_positions(motion: MotionEquations, t: float, y: Array, wishes: Wishes | None = None) -> bool:
+    """Move the positions in the state y as little as possible onto the constraints, in place; whether all rows are closed.
+
+    Where they cannot be closed, y is the best position found. The record is left evaluated at y; measured angles are followed.
+    """
+    system = motion.system
+    rows, coordinates = slice(0, system.machine_rows), system.record.coordinates
+    C, scale = system.record.constraints.C, system.record.constraints.scale[rows]
+    values = wishes.values if wishes is not None else ()
+    scale = np.append(
+        scale, [1.0 if name.partition(".")[2].startswith("angle") else system.size for name, _, _ in values]
+    )
+    chosen, wanted = [q for _, q, _ in values], np.array([value for _, _, value in values])
+    best, least = y.copy(), np.inf
+    for _ in range(ITERATIONS):
+        _evaluate_and_follow(motion, t, y)
+        violation = np.append(C[rows], coordinates.value[chosen] - wanted)
+        if not np.all(np.isfinite(violation)):
+            return False
+        size = float(np.linalg.norm(violation / scale))
+        if size < least:
+            best, least = y.copy(), size
+        if np.max(np.abs(violation) / scale, initial=0.0) <= CLOSED:
+            return True
+        change = least_change(motion, -violation, chosen, scale, wishes, hold=True)
+        # a step of more than half a radian or half the machine is outside the linear range
+        length = float(np.abs(change).max())
+        change *= min(1.0, LONGEST / length) if length > 0.0 else 0.0
+        change.reshape(-1, 6)[:, :3] *= system.size
+        y[: system.positions] = moved(y[: system.positions], change)
+    y[:] = best
+    _evaluate_and_follow(motion, t, y)
+    violation = np.append(C[rows], coordinates.value[chosen] - wanted)
+    return bool(np.max(np.abs(violation) / scale, initial=0.0) <= OPEN)
+
+
+def _evaluate_and_follow(motion: MotionEquations, t: float, y: Array) -> None:
+    """Evaluate, and take the measured angles as those that the next ones are near to."""
+    motion.evaluate(t, y)
+    coordinates = motion.system.record.coordinates
+    active = coordinates.active
+    coordinates.reference[active] = coordinates.value[active]
+
+
+def least_change(
+    motion: MotionEquations,
+    target: Array,
+    coordinates: Sequence[int],
+    scale: Array,
+    wishes: Wishes | None,
+    *,
+    hold: bool,
+) -> Array:
+    """Least weighted x with [C_q; derivatives of the coordinates] x = target, lengths of x in units of the machine's length.
+
+    Rows are weighed by their scales. hold : bodies that are held do not move.
+    """
+    system = motion.system
+    if not np.any(target):
+        return np.zeros(6 * system.body_count)
+    J = np.vstack([motion.jacobian(), motion.coordinate_jacobian(coordinates)]).reshape(len(target), -1, 6)
+    willing = np.ones(system.body_count)
+    if wishes is not None:
+        willing = np.where(wishes.hold & hold, 0.0, 1.0 / wishes.weight)
+    J *= willing[:, None]
+    J[:, :, :3] *= system.size
+    J = J.reshape(len(target), -1) / scale[:, None]
+    return np.repeat(willing, 6) * _least_solution(J, target / scale)
+
+
+def _least_solution(J: Array, target: Array) -> Array:
+    if J.size <= DENSE_ENTRIES:
+        try:
+            return np.asarray(np.linalg.lstsq(J, target, rcond=1e-10)[0], dtype=np.float64)
+        except np.linalg.LinAlgError:
+            message = "the positions and lengths of the machine are too far apart in size to compute with"
+            raise ModelError(Fault("", 0, 0, "machine", message)) from None
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.linalg import lsmr
+
+    return lsmr(csr_matrix(J), target, atol=1e-15, btol=1e-15, conlim=1e15, maxiter=20 * len(target))[0]

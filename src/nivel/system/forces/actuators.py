@@ -1,0 +1,46 @@
+"""Stops and motors on joint coordinates in numbers."""
+
+from __future__ import annotations
+
+import math
+
+from nivel.machine.forces import Motor, Stop
+from nivel.system.draft import Draft
+from nivel.system.forces.outputs import force_outputs, is_angle
+from nivel.system.forces.restitution import damping_of_restitution
+
+
+def add_stop(draft: Draft, force: Stop) -> None:
+    """Limit stops on a joint coordinate."""
+    coordinate = draft.coordinate(force.coordinate)
+    angle = is_angle(draft, coordinate)
+    first = force_outputs(
+        draft,
+        force.name,
+        ("magnitude", "N m" if angle else "N", "effort on the coordinate"),
+        ("power", "W", "power into the machine"),
+        ("depth", "rad" if angle else "m", "overlap"),
+    )
+    lower = -math.inf if force.lower is None else force.lower
+    upper = math.inf if force.upper is None else force.upper
+    numbers = [lower, upper, force.stiffness, force.exponent, damping_of_restitution(force.restitution)]
+    draft.elements.add("stop", [first, coordinate], numbers, memory=2)
+
+
+def add_motor(draft: Draft, force: Motor) -> None:
+    """An effort on a joint coordinate."""
+    coordinate = draft.coordinate(force.coordinate)
+    angle = is_angle(draft, coordinate)
+    first = force_outputs(
+        draft,
+        force.name,
+        ("magnitude", "N m" if angle else "N", "effort on the coordinate"),
+        ("power", "W", "power into the machine"),
+        ("value", "rad" if angle else "m", "coordinate"),
+        ("rate", "rad/s" if angle else "m/s", "rate of the coordinate"),
+    )
+    command = force.effort if force.effort is not None else force.speed
+    assert command is not None  # the record was checked
+    limit = math.inf if force.limit is None else force.limit
+    numbers = [0.0 if force.speed is None else force.gain or 0.0, limit]
+    draft.elements.add("motor", [first, coordinate, draft.function(command)], numbers)

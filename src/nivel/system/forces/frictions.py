@@ -1,0 +1,52 @@
+"""Friction in joints in numbers."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+from nivel.kernels.coordinate import CROSS_SECOND
+from nivel.kernels.record import NONE
+from nivel.machine.coordinate_reference import resolve
+from nivel.machine.forces import Friction
+from nivel.system.draft import Draft
+from nivel.system.forces.outputs import force_outputs, is_angle
+
+
+def add_friction(draft: Draft, force: Friction) -> None:
+    """Friction in a joint coordinate: an extra row, see `nivel.kernels.friction`."""
+    friction = import_module("nivel.kernels.friction")
+    joint, _ = resolve(force.coordinate, draft.machine.joints)
+    coordinate = draft.coordinate(force.coordinate)
+    angle = is_angle(draft, coordinate)
+    entries = [
+        ("magnitude", "N m" if angle else "N", "effort on the coordinate"),
+        ("power", "W", "power into the machine"),
+        ("normal_load", "N", "normal load"),
+    ]
+    state = NONE
+    if force.model == "lugre":
+        entries.append(("bristle", "m", "deflection of the bristles"))
+        state = draft.elements.states
+        draft.elements.states += 1
+    first = force_outputs(draft, force.name, *entries)
+    model = {"coulomb": friction.COULOMB, "stiction": friction.STICTION, "lugre": friction.LUGRE}[force.model]
+    loaded_by = NONE if force.normal_load is not None else [each.name for each in draft.machine.joints].index(joint)
+    radius = force.radius or 0.0
+    kind, seen_from, to, _ = draft.coordinates.what[coordinate]
+    frame = to if kind == CROSS_SECOND else seen_from
+    index = [coordinate, model, loaded_by, int(angle), state, first, frame]
+    numbers = [
+        force.coefficient,
+        force.static,
+        force.stribeck_speed or 1.0,
+        force.transition_speed or 1.0,
+        force.viscous,
+        force.bristle_stiffness or 0.0,
+        force.bristle_damping,
+        radius if angle else 1.0,
+        force.collar_radius / radius if angle else 0.0,
+        2.0 / force.bearing_length if force.bearing_length else 0.0,
+        1.0 / radius if radius and not angle else 0.0,
+        force.normal_load if force.normal_load is not None else force.preload,
+    ]
+    draft.frictions.append((index, numbers))

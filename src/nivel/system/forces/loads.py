@@ -1,0 +1,51 @@
+"""Point forces, torques and forces between two points in numbers."""
+
+from __future__ import annotations
+
+import math
+from importlib import import_module
+
+import numpy as np
+
+from nivel.kernels.coordinate import DISTANCE
+from nivel.kernels.function import COORDINATE, RATE
+from nivel.kernels.record import NONE
+from nivel.machine.forces import PairForce, PointForce, Torque
+from nivel.system.draft import Draft
+from nivel.system.forces.outputs import force_outputs, magnitude_and_power
+
+
+def add_load(draft: Draft, force: PointForce | Torque) -> None:
+    """A force or torque on one body."""
+    load = import_module("nivel.kernels.forces.load")
+    units = "N" if isinstance(force, PointForce) else "N m"
+    first = force_outputs(draft, force.name, *magnitude_and_power(units))
+    point, body = np.zeros(3), force.body
+    if isinstance(force, PointForce):
+        point = np.array(force.position or (0.0, 0.0, 0.0), dtype=float)
+        if force.marker is not None:
+            record = next(marker for marker in draft.machine.markers if marker.name == force.marker)
+            body, point = record.body, np.array(record.position, dtype=float)
+    assert body is not None  # the record was checked
+    marker = draft.place((body, point, np.eye(3)))
+    functions = [draft.function(component) for component in force.vector]
+    kind = load.FORCE if isinstance(force, PointForce) else load.TORQUE
+    axes = marker if force.axes == "body" else NONE
+    draft.elements.add("load", [first, kind, marker, axes, *functions, NONE, NONE])
+
+
+def add_pair(draft: Draft, force: PairForce) -> None:
+    """A force between two points, along their line or as a vector."""
+    i, j = draft.ends(force.ends)
+    coordinate = draft.coordinates.use(draft.coordinates.add(DISTANCE, i, j))
+    entries = (*magnitude_and_power("N"), ("length", "m", "length"), ("rate", "m/s", "rate of the length"))
+    first = force_outputs(draft, force.name, *entries)
+    if force.vector is None:
+        assert force.magnitude is not None  # the record was checked
+        law = draft.function(force.magnitude, {"length": (COORDINATE, coordinate, 0), "rate": (RATE, coordinate, 0)})
+        draft.elements.add("motor", [first, coordinate, law], [0.0, math.inf])
+        return
+    functions = [draft.function(component) for component in force.vector]
+    load = import_module("nivel.kernels.forces.load")
+    axes = i if force.axes == "first" else NONE
+    draft.elements.add("load", [first, load.FORCE, j, axes, *functions, i, coordinate])

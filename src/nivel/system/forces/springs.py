@@ -1,0 +1,69 @@
+"""Springs and dampers in numbers: between points, between markers, on joint coordinates."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.coordinate import DISTANCE, ROTATION
+from nivel.kernels.function import COORDINATE, RATE
+from nivel.kernels.record import NONE
+from nivel.machine.forces import Characteristic, JointSpringDamper, SpringDamper, TorsionalSpringDamper
+from nivel.system.draft import Draft
+from nivel.system.forces.outputs import force_outputs, is_angle
+
+
+def add_spring_damper(draft: Draft, force: SpringDamper) -> None:
+    """A spring and damper between two points."""
+    coordinate = draft.coordinates.use(draft.coordinates.add(DISTANCE, *draft.ends(force.ends)))
+    _add_spring(draft, force, coordinate, "length", force.free_length or 0.0)
+
+
+def add_torsional_spring_damper(draft: Draft, force: TorsionalSpringDamper) -> None:
+    """A torsional spring and damper between two markers."""
+    coordinate = draft.coordinates.use(draft.coordinates.add(ROTATION, *draft.ends(force.ends)))
+    _add_spring(draft, force, coordinate, "angle", force.free_angle)
+
+
+def add_joint_spring_damper(draft: Draft, force: JointSpringDamper) -> None:
+    """A spring and damper on a joint coordinate."""
+    _add_spring(draft, force, draft.coordinate(force.coordinate), "value", force.free_value)
+
+
+def _add_spring(
+    draft: Draft,
+    force: SpringDamper | TorsionalSpringDamper | JointSpringDamper,
+    coordinate: int,
+    symbol: str,
+    free: float,
+) -> None:
+    angle = is_angle(draft, coordinate)
+    first = force_outputs(
+        draft,
+        force.name,
+        ("magnitude", "N m" if angle else "N", "effort that resists the coordinate"),
+        ("power", "W", "power into the machine"),
+        (symbol, "rad" if angle else "m", symbol),
+        ("rate", "rad/s" if angle else "m/s", f"rate of the {symbol}"),
+    )
+    table, energy, law = NONE, NONE, NONE
+    if force.table is not None:
+        table, energy = _characteristic(draft, force.table)
+    if force.law is not None:
+        law = draft.function(force.law, {symbol: (COORDINATE, coordinate, 0), "rate": (RATE, coordinate, 0)})
+    numbers = [force.stiffness or 0.0, force.damping, free, force.preload]
+    draft.elements.add("spring", [first, coordinate, table, energy, law], numbers)
+
+
+def _characteristic(draft: Draft, table: Characteristic) -> tuple[int, int]:
+    """Tables of the effort over the deflection, and of the energy stored since zero deflection."""
+    x, effort = (np.array(column, dtype=float) for column in table.points)
+    slope = np.diff(effort) / np.diff(x)
+    slope = np.append(slope, slope[-1])
+    nothing = np.zeros(len(x))
+    energy = np.concatenate([[0.0], np.cumsum(0.5 * (effort[1:] + effort[:-1]) * np.diff(x))])
+    # the piece that holds zero, or the end piece that goes on to it
+    at = int(np.clip(np.searchsorted(x, 0.0, side="right") - 1, 0, len(x) - 1))
+    energy -= energy[at] - effort[at] * x[at] + 0.5 * slope[at] * x[at] ** 2
+    force = draft.functions.add_table(x.tolist(), np.column_stack([effort, slope, nothing, nothing]))
+    stored = draft.functions.add_table(x.tolist(), np.column_stack([energy, effort, 0.5 * slope, nothing]))
+    return force, stored

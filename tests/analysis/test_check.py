@@ -7,6 +7,7 @@ import machines
 from nivel.analysis.check import check
 from nivel.analysis.settings import complete
 from nivel.errors import ModelError
+from nivel.files import parse_machine
 from nivel.machine import Body, MachineRecord, SimulationSettings
 from nivel.system.joints import JOINTS
 
@@ -91,3 +92,26 @@ def test_more_steps_than_a_machine_can_take_are_refused(duration, step):
 def test_orientation_is_shown_in_degrees():
     body = Body(name="a", mass=1, inertia=(1, 1, 1), orientation={"axis": [0, 0, 1], "angle": "30 deg"})
     assert "turned 30 deg about (0, 0, 1)" in str(check(MachineRecord(name="m", bodies=(body,))))
+
+
+def test_couplings_drivers_forces_and_sensors_are_said_in_words():
+    text = """
+format: 1
+bodies:
+  a: {mass: 1, inertia: [1, 1, 1]}
+  b: {mass: 1, inertia: [1, 1, 1], position: [1, 0, 0]}
+markers: {tip: {body: b, position: [0, 0.1, 0]}}
+joints:
+  left: {type: revolute, bodies: [ground, a], point: [0, 0, 0], axis: [0, 0, 1]}
+  right: {type: revolute, bodies: [ground, b], point: [1, 0, 0], axis: [0, 0, 1]}
+couplings: {pair: {type: gear, joints: [left, right], teeth: [20, 50]}}
+drivers: {crank: {coordinate: left, value: 3*time}}
+forces: {coil: {type: joint-spring-damper, coordinate: right, stiffness: 2 N*m/rad}}
+sensors: {speed: {marker: tip, quantity: velocity}}
+"""
+    said = str(check(parse_machine(text)))
+    assert "pair: gear, left.angle + 2.5 right.angle keeps its value" in said
+    assert "crank: left.angle = 3.0*time" in said
+    assert "coil: joint-spring-damper on right.angle" in said
+    assert "speed: velocity of tip" in said
+    assert "0 degrees of freedom" in said

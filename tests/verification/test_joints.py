@@ -52,7 +52,7 @@ def complex_rows(motion, q, velocity, angular_velocity_b):
     for k in range(len(record.coordinates.value)):
         found = measure(bodies, markers, record.coordinates, k)
         record.coordinates.value[k], record.coordinates.rate[k], record.coordinates.bias[k] = found
-    combine.py_func(record, None, 0.0)
+    combine.py_func(None, rows, record.coordinates, record.friction, 0.0)
     return rows.C, rows.Cdot
 
 

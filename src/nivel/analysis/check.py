@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.analysis.dynamics import prepare
+from nivel.analysis.elements import coupling_in_words, driver_in_words, force_in_words, sensor_in_words
 from nivel.analysis.settings import RunSettings, complete
-from nivel.machine.forces import Between, BetweenMarkers, Contact, End, ForceElement, PointForce
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import JOINTS
 from nivel.system.system import Array, System
@@ -54,7 +54,10 @@ class Check:
     gravity: tuple[float, ...]
     bodies: tuple[BodyFacts, ...]
     joints: tuple[JointFacts, ...]
-    forces: tuple[tuple[str, str, str], ...]  # name, type, what it acts on
+    couplings: tuple[str, ...]  # each in words, as drivers, forces and sensors
+    drivers: tuple[str, ...]
+    forces: tuple[str, ...]
+    sensors: tuple[str, ...]
     degrees_of_freedom: int
     constraint_rows: int
     redundant_rows: tuple[str, ...]
@@ -96,10 +99,11 @@ def _lines(facts: Check) -> Iterator[str]:
             yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}"
     for kind, convention in {joint.type: joint.convention for joint in facts.joints if joint.coordinates}.items():
         yield f"  {kind}: {convention}"
-    if facts.forces:
-        yield "forces"
-    for name, kind, what in facts.forces:
-        yield f"  {name}: {kind} on {what}"
+    for title in ("couplings", "drivers", "forces", "sensors"):
+        elements: tuple[str, ...] = getattr(facts, title)
+        if elements:
+            yield title
+        yield from (f"  {words}" for words in elements)
     yield from _assembly_lines(facts)
     yield from _redundancy_lines(facts)
 
@@ -157,7 +161,10 @@ def check(machine: MachineRecord) -> Check:
             for k, name in enumerate(system.bodies)
         ),
         joints=tuple(_joint(system, k, joint.name, joint.type, values) for k, joint in enumerate(machine.joints)),
-        forces=tuple((force.name, force.type, acts_on(machine, force)) for force in machine.forces),
+        couplings=tuple(coupling_in_words(machine, coupling) for coupling in machine.couplings),
+        drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
+        forces=tuple(force_in_words(machine, force) for force in machine.forces),
+        sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
         degrees_of_freedom=redundancy.degrees_of_freedom,
         constraint_rows=system.machine_rows,
         redundant_rows=redundancy.redundant_rows,
@@ -176,25 +183,6 @@ def _turn(theta: Array) -> tuple[tuple[float, ...], float]:
     sine = float(np.linalg.norm(theta[1:]))
     axis = theta[1:] / sine if sine > 0.0 else np.array([0.0, 0.0, 1.0])
     return tuple(axis.tolist()), 2.0 * float(np.arctan2(sine, theta[0]))
-
-
-def acts_on(machine: MachineRecord, force: ForceElement) -> str:
-    """What a force acts on, in words: bodies, or a joint coordinate."""
-    bodies = {marker.name: marker.body for marker in machine.markers}
-
-    def body(end: End) -> str:
-        return bodies[end] if isinstance(end, str) else end.body
-
-    match force:
-        case Between() | BetweenMarkers():
-            return " and ".join(body(end) for end in force.ends)
-        case PointForce(marker=str() as marker):
-            return bodies[marker]
-        case Contact(bodies=None, body=name, plane=plane) if plane is not None:
-            return f"{name} and {body(plane)}"
-        case Contact(bodies=tuple() as pair):
-            return " and ".join(pair)
-    return str(getattr(force, "coordinate", None) or getattr(force, "body", ""))
 
 
 def _joint(system: System, k: int, name: str, kind: str, values: dict[str, tuple[float, str]]) -> JointFacts:

@@ -56,9 +56,8 @@ def coincident(markers, constraints, table):
 
 
 @stage
-def combine(record, machine, t):
+def combine(machine, constraints, coordinates, friction, t):
     """C, J, Ċ and γ of all combinations of the coordinates just measured, and of the extra rows of friction."""
-    constraints, coordinates, friction = record.constraints, record.coordinates, record.friction
     J = constraints.J
     for k in range(constraints.combination.shape[0]):
         what = constraints.combination[k]

@@ -177,25 +177,27 @@ def moment(bodies, markers, i, j, Ji, Jj):
 
 
 @stage
-def radius(bodies, markers, i, j, Ji, Jj, other_i, other_j):
-    """(√(X² + Y²), rate, bias) of the second point in the first marker's axes; fills Ji, Jj; `other` is work."""
-    X, Xdot, Xbias = translation(bodies, markers, i, 0, j, Ji, Jj)
-    Y, Ydot, Ybias = translation(bodies, markers, i, 1, j, other_i, other_j)
-    value = np.sqrt(X * X + Y * Y)
-    rate = (X * Xdot + Y * Ydot) / value
-    bias = (Xdot * Xdot + Ydot * Ydot + X * Xbias + Y * Ybias - rate * rate) / value
-    for k in range(6):
-        Ji[k] = (X * Ji[k] + Y * other_i[k]) / value
-        Jj[k] = (X * Jj[k] + Y * other_j[k]) / value
-    return value, rate, bias
-
-
-@stage
-def polar(bodies, markers, i, j, reference, Ji, Jj, other_i, other_j):
-    """(atan2(Y, X), rate, bias) of the second point in the first marker's axes; fills Ji, Jj; `other` is work."""
-    X, Xdot, Xbias = translation(bodies, markers, i, 0, j, Ji, Jj)
-    Y, Ydot, Ybias = translation(bodies, markers, i, 1, j, other_i, other_j)
+def displacement(bodies, markers, kind, i, j, axis, reference, Ji, Jj, other_i, other_j):
+    """(value, rate, bias) of TRANSLATION, or of RADIUS and POLAR: √(X² + Y²) and atan2(Y, X) of the second point in the axes of the
+    first marker; fills Ji, Jj, `other` is work."""
+    X, Xdot, Xbias, Y, Ydot, Ybias = 0.0 * Ji[0], 0.0 * Ji[0], 0.0 * Ji[0], 0.0 * Ji[0], 0.0 * Ji[0], 0.0 * Ji[0]
+    first, last = (axis, axis) if kind == TRANSLATION else (0, 1)
+    for p in range(first, last + 1):
+        if p == first:
+            X, Xdot, Xbias = translation(bodies, markers, i, p, j, Ji, Jj)
+        else:
+            Y, Ydot, Ybias = translation(bodies, markers, i, p, j, other_i, other_j)
+    if kind == TRANSLATION:
+        return X, Xdot, Xbias
     square = X * X + Y * Y
+    if kind == RADIUS:
+        value = np.sqrt(square)
+        rate = (X * Xdot + Y * Ydot) / value
+        bias = (Xdot * Xdot + Ydot * Ydot + X * Xbias + Y * Ybias - rate * rate) / value
+        for k in range(6):
+            Ji[k] = (X * Ji[k] + Y * other_i[k]) / value
+            Jj[k] = (X * Jj[k] + Y * other_j[k]) / value
+        return value, rate, bias
     rate = (X * Ydot - Y * Xdot) / square
     bias = (X * Ybias - Y * Xbias - 2.0 * rate * (X * Xdot + Y * Ydot)) / square
     for k in range(6):
@@ -209,18 +211,14 @@ def measure(bodies, markers, coordinates, k):
     """(value, rate, bias) of coordinate k; its parts of C_q are filled."""
     kind, i, j = coordinates.what[k, 0], coordinates.what[k, 1], coordinates.what[k, 2]
     axis, Ji, Jj = coordinates.what[k, 3], coordinates.J[2 * k], coordinates.J[2 * k + 1]
-    last = coordinates.J.shape[0]
-    if kind == POLAR:
-        work_i, work_j = coordinates.J[last - 2], coordinates.J[last - 1]
-        return polar(bodies, markers, i, j, coordinates.reference[k], Ji, Jj, work_i, work_j)
     if kind < POLAR:
         return angle(bodies, markers, kind, i, j, coordinates.reference[k], Ji, Jj)
-    if kind == TRANSLATION:
-        return translation(bodies, markers, i, axis, j, Ji, Jj)
     if kind == DISTANCE:
         return distance(markers, i, j, Ji, Jj)
     if kind == COSINE:
         return cosine(bodies, markers, i, axis // 3, j, axis % 3, Ji, Jj)
     if kind == MOMENT:
         return moment(bodies, markers, i, j, Ji, Jj)
-    return radius(bodies, markers, i, j, Ji, Jj, coordinates.J[last - 2], coordinates.J[last - 1])
+    last = coordinates.J.shape[0]
+    other_i, other_j = coordinates.J[last - 2], coordinates.J[last - 1]
+    return displacement(bodies, markers, kind, i, j, axis, coordinates.reference[k], Ji, Jj, other_i, other_j)

@@ -31,5 +31,5 @@ def measure(machine, job, t):
         if job == ACCEPTED:
             coordinates.reference[k] = value
     if job == ACTIVE:
-        combine(record, machine, t)
+        combine(machine, record.constraints, coordinates, record.friction, t)
     return OK

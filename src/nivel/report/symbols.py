@@ -1,31 +1,27 @@
-"""Signs for joints, the ground and the centre of mass, as engineers draw them. Sizes in pixels of the picture."""
+"""Signs of joints as in textbooks, in SVG. Sizes in pixels of the picture."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from markupsafe import Markup
 
 END_ON = 0.35  # a joint axis whose projection is shorter than this fraction of its length is seen end-on
 RADIUS = 6.5
+PLANE_GAP = 5.0  # from a point on a plane to the plane in the sign
 
 
 def joint_sign(kind: str, x: float, y: float, axis: tuple[float, float] = (0.0, 1.0), scale: float = 1.0) -> str:
     """The sign of a joint at (x, y).
 
-    axis : the joint axis on the screen, right and down, as long as it is seen (1: in the plane of the picture, 0: end-on).
+    axis : on the screen, right and down, as long as it is seen (1: in the plane of the picture, 0: end-on). It is the joint axis,
+    of a plane its normal, of a pin in a slot the slot.
     """
     length = math.hypot(*axis)
     seen = length > END_ON
     angle = math.degrees(math.atan2(axis[1], axis[0])) if seen else 0.0
-    body = {
-        "revolute": _revolute,
-        "cylindrical": _cylindrical,
-        "translational": _translational,
-        "spherical": _spherical,
-        "universal": _universal,
-        "fixed": _fixed,
-    }.get(kind, _spherical)(seen)
+    body = SIGNS.get(kind, _unknown)(seen)
     return f'<g transform="translate({x:.1f} {y:.1f}) rotate({angle:.1f}) scale({scale:.2f})" class="joint">{body}</g>'
 
 
@@ -60,38 +56,86 @@ def _fixed(seen: bool) -> str:
     return '<rect x="-5.5" y="-5.5" width="11" height="11" class="solid"/>'
 
 
-def ground_sign(x: float, y: float, scale: float = 1.0) -> str:
-    """Hatched ground under a joint at (x, y)."""
-    hatch = "".join(f"M{k} 17l-5 6" for k in range(-10, 17, 5))
+def _planar(seen: bool) -> str:
+    if not seen:
+        arrows = "M0 -10l-2.6 4h5.2zM0 10l-2.6 -4h5.2zM-10 0l4 -2.6v5.2zM10 0l-4 -2.6v5.2z"
+        return f'<rect x="-10.5" y="-10.5" width="21" height="21" rx="2"/><path d="{arrows}" class="dot"/>'
+    return '<rect x="-2.5" y="-8" width="7" height="16"/><path d="M-5 -15V15" class="axis"/>'
+
+
+def _point_on_line(seen: bool) -> str:
+    if not seen:
+        return '<circle r="5"/><path d="M-2.6 0H2.6M0 -2.6V2.6" class="axis"/>'
+    return '<path d="M-17 0H17" class="axis"/><circle r="4.6" class="solid"/>'
+
+
+def _point_on_plane(seen: bool) -> str:
+    if not seen:
+        return '<rect x="-9" y="-9" width="18" height="18" class="thin"/><circle r="4.2" class="solid"/>'
+    return f'<path d="M{-PLANE_GAP} -15V15" class="axis"/><circle r="4.2" class="solid"/>'
+
+
+def _screw(seen: bool) -> str:
+    if not seen:
+        return f'<circle r="{RADIUS}"/><path d="M3.4 0A3.4 3.4 0 1 1 0 -3.4" class="axis"/>'
+    thread = "".join(f"M{k} 5l4 -10" for k in (-8, -4, 0, 4))
     return (
-        f'<g transform="translate({x:.1f} {y:.1f}) scale({scale:.2f})" class="ground">'
-        f'<path d="M0 0L-8 17H8Z" class="foot"/><path d="M-15 17H15"/><path d="{hatch}" class="hatch"/></g>'
+        '<path d="M-15 0H15" class="axis"/><rect x="-8" y="-5" width="16" height="10" rx="1"/>'
+        f'<path d="{thread}" class="thin"/>'
     )
 
 
-def rail_sign(x: float, y: float, axis: tuple[float, float]) -> str:
-    """Hatched ground along the axis of a sliding joint at (x, y)."""
-    angle = math.degrees(math.atan2(axis[1], axis[0]))
-    if angle > 90.0 or angle <= -90.0:
-        angle -= math.copysign(180.0, angle)  # the hatching lies below
-    hatch = "".join(f"M{k} 7.5l-5 6" for k in range(-22, 29, 5))
-    return (
-        f'<g transform="translate({x:.1f} {y:.1f}) rotate({angle:.1f})" class="ground">'
-        f'<path d="M-26 7.5H26"/><path d="{hatch}" class="hatch"/></g>'
-    )
+def _pin_in_slot(seen: bool) -> str:
+    if not seen:
+        return '<rect x="-6" y="-6" width="12" height="12" rx="3"/><circle r="2.6" class="solid"/>'
+    return '<rect x="-15" y="-5.5" width="30" height="11" rx="5.5"/><circle r="3.8" class="solid"/>'
 
 
-def centre_of_mass_sign(x: float, y: float, scale: float = 1.0) -> str:
-    """The quartered circle."""
-    return (
-        f'<g transform="translate({x:.1f} {y:.1f}) scale({scale:.2f})" class="mass"><circle r="4.6"/>'
-        '<path d="M0 0V-4.6A4.6 4.6 0 0 1 4.6 0ZM0 0V4.6A4.6 4.6 0 0 1 -4.6 0Z" class="dot"/></g>'
-    )
+def _rod(first: str, second: str) -> Callable[[bool], str]:
+    """A massless link, small, between the signs of its ends."""
+    bar = '<path d="M-11 0H11" class="axis"/>'
+    return lambda seen: f'{bar}<g transform="translate(-11 0)">{first}</g><g transform="translate(11 0)">{second}</g>'
+
+
+def _unknown(seen: bool) -> str:
+    return f'<circle r="{RADIUS}" class="thin"/>'
+
+
+_BALL = '<circle r="4.6"/><circle r="2.4" class="dot"/>'
+_HINGE = '<circle r="4.6"/><circle r="1.3" class="dot"/>'
+_SLEEVE = '<rect x="-3.5" y="-6" width="7" height="12" rx="2"/><path d="M0 -9.5V9.5" class="axis"/>'
+
+SIGNS: dict[str, Callable[[bool], str]] = {
+    "revolute": _revolute,
+    "cylindrical": _cylindrical,
+    "translational": _translational,
+    "spherical": _spherical,
+    "universal": _universal,
+    "fixed": _fixed,
+    "planar": _planar,
+    "point-on-line": _point_on_line,
+    "point-on-plane": _point_on_plane,
+    "screw": _screw,
+    "distance": _rod(_BALL, _BALL),
+    "spherical-spherical": _rod(_BALL, _BALL),
+    "revolute-spherical": _rod(_HINGE, _BALL),
+    "revolute-cylindrical": _rod(_HINGE, _SLEEVE),
+    "revolute-translational": _pin_in_slot,
+}
+# of the links among them: the joints at their first and second end
+LINKS = {
+    "distance": ("spherical", "spherical"),
+    "spherical-spherical": ("spherical", "spherical"),
+    "revolute-spherical": ("revolute", "spherical"),
+    "revolute-cylindrical": ("revolute", "cylindrical"),
+}
+_ICON_AXES = {"planar": (0.0, -1.0), "point-on-plane": (0.0, -1.0)}  # on a level plane
+_ICON_END_ON = ("revolute", "spherical", "universal", "fixed")
 
 
 def joint_icon(kind: str) -> Markup:
     """The sign of a joint by itself, for tables."""
-    axis = (0.0, 0.0) if kind in ("revolute", "spherical", "universal", "fixed") else (1.0, 0.0)
+    axis = (0.0, 0.0) if kind in _ICON_END_ON else _ICON_AXES.get(kind, (1.0, 0.0))
     sign = joint_sign(kind, 18.0, 10.0, axis)
     return Markup(
         f'<svg class="machine icon" viewBox="0 0 36 20" width="36" height="20" aria-hidden="true">{sign}</svg>'

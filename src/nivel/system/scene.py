@@ -1,47 +1,117 @@
-"""What a picture of a machine needs: shapes, joint points and axes, each in its own body's frame."""
+"""What a picture of a machine needs: shapes, joints, and what acts between points, each point in its own body's frame.
+
+The scene is stored as JSON in the result; the report and the viewer read it. Lengths in metres; a point or direction that belongs to
+a body (`ground` among them) is in that body's frame, which `position` and `orientation` of the result place in space.
+
+=================  ====================================================================================================
+``bodies``         list of ``name``, ``shape`` (null without one), ``centre_of_mass``, ``points`` (where joints hold it)
+``ground_points``  where joints hold the ground
+``joints``         list of ``name``, ``type``, ``bodies``, ``points``, ``axes`` (z of the markers): first and second;
+                   a pin in a slot has ``slot`` too, its direction in the second body
+``forces``         what acts between two bodies at two points: list of ``name``, ``type``, ``bodies``, ``points``;
+                   ``axis`` too where it has one, see below
+=================  ====================================================================================================
+
+Of the forces those are here that have two ends: spring-dampers, torsional ones, pair-forces, bushings, and contacts. A torsional
+spring acts about ``axis``, in the first body. A contact is between the centres of two spheres, or between the centre of a
+shape and a point of a plane; then ``axis`` is the plane's normal, in the second body, outwards.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
 from nivel.machine.body import Body
+from nivel.machine.forces import Bushing, Contact, Force, PairForce, SpringDamper, TorsionalSpringDamper
 from nivel.machine.inertia import box_size, length
+from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.shape import Box, Sphere, Tube
+from nivel.system.draft import Draft
+from nivel.system.joint_frames import slot_frame
 from nivel.system.system import System
 
 
 def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
-    """Scene of a result: ``bodies`` (name, shape, centre_of_mass, joint points), ``ground_points`` and ``joints``."""
-    markers = system.record.markers
-    ground = system.body_count
-    points: list[list[list[float]]] = [[] for _ in range(ground + 1)]
-    joints = []
-    for k, joint in enumerate(machine.joints):
-        first = int(system.record.joints.first_marker[k])
-        pair = (first, first + 1)
-        bodies = [int(markers.body[m]) for m in pair]
-        for m, body in zip(pair, bodies, strict=True):
-            points[body].append(markers.position_b[m].tolist())
-        joints.append(
-            {
-                "name": joint.name,
-                "type": joint.type,
-                "bodies": ["ground" if body == ground else system.bodies[body] for body in bodies],
-                "points": [markers.position_b[m].tolist() for m in pair],
-                "axes": [markers.frame_b[m, :, 2].tolist() for m in pair],
-            }
-        )
+    """Scene of a result."""
+    joints = [_joint(machine, system, k) for k in range(len(machine.joints))]
+    held: dict[str, list[list[float]]] = {name: [] for name in (*system.bodies, "ground")}
+    for joint in joints:
+        for body, point in zip(joint["bodies"], joint["points"], strict=True):
+            held[body].append(point)
     bodies = [
         {
             "name": body.name,
             "shape": _shape(body),
             "centre_of_mass": system.record.bodies.centre_b[k].tolist(),
-            "points": points[k],
+            "points": held[body.name],
         }
         for k, body in enumerate(machine.bodies)
     ]
-    return {"bodies": bodies, "ground_points": points[ground], "joints": joints}
+    return {"bodies": bodies, "ground_points": held["ground"], "joints": joints, "forces": list(_forces(machine))}
+
+
+def _joint(machine: MachineRecord, system: System, k: int) -> dict[str, Any]:
+    joint: Joint = machine.joints[k]
+    markers = system.record.markers
+    first = int(system.record.joints.first_marker[k])
+    pair = (first, first + 1)
+    names = (*system.bodies, "ground")
+    out: dict[str, Any] = {
+        "name": joint.name,
+        "type": joint.type,
+        "bodies": [names[int(markers.body[m])] for m in pair],
+        "points": [markers.position_b[m].tolist() for m in pair],
+        "axes": [markers.frame_b[m, :, 2].tolist() for m in pair],
+    }
+    if joint.type == "revolute-translational":
+        out["slot"] = slot_frame(machine, joint)[2][:, 2].tolist()
+    return out
+
+
+def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
+    draft = Draft(machine)  # knows where the ends of forces are
+    names = [*(body.name for body in machine.bodies), "ground"]
+    for force in machine.forces:
+        ends = _ends(draft, force)
+        if ends is None:
+            continue
+        first, second = ends
+        markers = draft.markers
+        out: dict[str, Any] = {
+            "name": force.name,
+            "type": force.type,
+            "bodies": [names[markers.body[m]] for m in ends],
+            "points": [markers.position[m].tolist() for m in ends],
+        }
+        match force:
+            case TorsionalSpringDamper():
+                out["axis"] = markers.frame[first][:, 2].tolist()
+            case Contact() if force.plane is not None:
+                out["axis"] = markers.frame[second][:, 2].tolist()
+        yield out
+
+
+def _ends(draft: Draft, force: Force) -> tuple[int, int] | None:
+    """Markers between which a force acts; None where it acts elsewhere."""
+    match force:
+        case SpringDamper() | TorsionalSpringDamper() | PairForce() | Bushing():
+            return draft.ends(force.ends)
+        case Contact(body=str(body), plane=plane) if plane is not None:
+            return _centre(draft, body), draft.end(plane)
+        case Contact(bodies=(first, second)):
+            return _centre(draft, first), _centre(draft, second)
+    return None
+
+
+def _centre(draft: Draft, name: str) -> int:
+    """Marker at the centre of a body's shape."""
+    body = next(body for body in draft.machine.bodies if body.name == name)
+    centre = body.shape.centre if body.shape is not None else None
+    return draft.place((name, np.array(centre or (0.0, 0.0, 0.0)), np.eye(3)))
 
 
 def _shape(body: Body) -> dict[str, Any] | None:

@@ -1,0 +1,88 @@
+"""Couplings, drivers, forces and sensors in words: what `nivel check` says of them."""
+
+from __future__ import annotations
+
+from nivel.machine.coordinate_reference import resolve
+from nivel.machine.coupling import Coupling
+from nivel.machine.driver import Driver
+from nivel.machine.forces import Between, BetweenMarkers, Contact, End, ForceElement, PointForce
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.python_law import PythonLaw
+from nivel.machine.sensor import Sensor
+from nivel.machine.table import Table
+from nivel.machine.time_function import TimeFunction
+
+
+def coupling_in_words(machine: MachineRecord, coupling: Coupling) -> str:
+    """The equation that a coupling holds, its first coordinate with the factor one."""
+    leading = coupling.terms[0][1]
+    terms = []
+    for (reference, factor), kind in zip(coupling.terms, coupling.kinds, strict=True):
+        name = ".".join(resolve(reference, machine.joints, kind))
+        share = factor / leading
+        size = "" if abs(share) == 1.0 else f"{abs(share):.6g} "
+        sign = ("" if not terms else "+ ") if share > 0.0 else "- "
+        terms.append(f"{sign}{size}{name}")
+    return f"{coupling.name}: {coupling.type}, {' '.join(terms)} keeps its value"
+
+
+def driver_in_words(driver: Driver) -> str:
+    """What is driven, and how."""
+    if driver.coordinate is not None:
+        driven = driver.coordinate
+    else:
+        seen = driver.relative_to or "ground"
+        driven = (
+            f"{driver.marker} along {driver.along} of {seen}" if driver.along else f"{driver.marker} about z of {seen}"
+        )
+    return f"{driver.name}: {driven} = {function_in_words(driver.value)}"
+
+
+def function_in_words(function: TimeFunction) -> str:
+    """A function of time, short."""
+    match function:
+        case Table(times=times, of=of):
+            return f"a table of {len(times)} points over {of}"
+        case PythonLaw(function=name, file=file):
+            return f"{name}(…){f' of {file}' if file else ''}"
+        case float() | int():
+            return f"{function:.6g}"
+    return function.text
+
+
+def force_in_words(machine: MachineRecord, force: ForceElement) -> str:
+    """Type of a force, and the bodies or the joint coordinate that it acts on."""
+    return f"{force.name}: {getattr(force, 'type', '')} on {_acts_on(machine, force)}"
+
+
+def _acts_on(machine: MachineRecord, force: ForceElement) -> str:
+    bodies = {marker.name: marker.body for marker in machine.markers}
+
+    def body(end: End) -> str:
+        return bodies[end] if isinstance(end, str) else end.body
+
+    match force:
+        case Between() | BetweenMarkers():
+            return " and ".join(body(end) for end in force.ends)
+        case PointForce(marker=str() as marker):
+            return bodies[marker]
+        case Contact(bodies=None, body=name, plane=plane) if plane is not None:
+            return f"{name} and {body(plane)}"
+        case Contact(bodies=tuple() as pair):
+            return " and ".join(pair)
+    return str(getattr(force, "coordinate", None) or getattr(force, "body", ""))
+
+
+def sensor_in_words(sensor: Sensor) -> str:
+    """What a sensor measures."""
+    match sensor.form:
+        case "distance" | "angle" as form:
+            ends = sensor.distance or sensor.angle or ()
+            names = [end if isinstance(end, str) else f"a point of {end.body}" for end in ends]
+            return f"{sensor.name}: {form} of {' and '.join(names)}"
+        case "value":
+            assert sensor.value is not None  # the record was checked
+            return f"{sensor.name}: {function_in_words(sensor.value)}{f' [{sensor.units}]' if sensor.units else ''}"
+        case form:
+            seen = f", seen from {sensor.relative_to}" if sensor.relative_to else ""
+            return f"{sensor.name}: {str(sensor.quantity).replace('_', ' ')} of {getattr(sensor, form)}{seen}"

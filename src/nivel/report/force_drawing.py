@@ -1,0 +1,97 @@
+"""What acts between points, in the picture: springs, other forces between two bodies, and the planes of contacts."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from nivel.report.drawing import Array, Drawing, Pose, ends_in_space
+from nivel.report.frame import Frame
+from nivel.report.labels import Label
+from nivel.report.strokes import coil_sign, dashed_sign, ground_sign, plane_sign, spring_sign
+from nivel.report.symbols import END_ON
+
+FAR = 20.0  # a plane further away than this many lengths of the machine is left out
+HALF_PLANE = 34.0  # pixels of a plane to both sides of what touches it
+
+
+def attached(scene: dict[str, Any], body: str) -> list[list[float]]:
+    """Points of a body where forces hold it."""
+    return [
+        point
+        for force in scene.get("forces", [])
+        if force["type"] != "contact"
+        for name, point in zip(force["bodies"], force["points"], strict=True)
+        if name == body
+    ]
+
+
+def force_points(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
+    """(n, 3) [m] global points between which forces act."""
+    found = [ends_in_space(force, poses) for force in scene.get("forces", []) if force["type"] != "contact"]
+    return np.reshape(np.array(found), (-1, 3))
+
+
+def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dict[str, Pose]) -> None:
+    """Draw a force between two points with its name; contacts are drawn as planes."""
+    if force["type"] == "contact":
+        return
+    ends = frame.pixels(ends_in_space(force, poses))
+    (x1, y1), (x2, y2) = ((float(x), float(y)) for x, y in ends)
+    match force["type"]:
+        case "spring-damper":
+            sign = spring_sign((x1, y1), (x2, y2), frame.sign)
+        case "torsional-spring-damper":
+            sign = coil_sign(x1, y1, frame.sign)
+        case _:
+            sign = dashed_sign((x1, y1), (x2, y2))
+    title = f"{force['name']}: {force['type']}, {force['bodies'][0]} – {force['bodies'][1]}"
+    drawing.links.append(f"<g><title>{escape(title)}</title>{sign}</g>")
+    drawing.lines.append(ends)
+    if force["type"] != "torsional-spring-damper":
+        for body, end in zip(force["bodies"], ends, strict=True):
+            if body == "ground":
+                drawing.links.insert(0, ground_sign(float(end[0]), float(end[1]), 0.8 * frame.sign))
+                drawing.points.append(end + [0.0, 14.0])
+    middle = 0.5 * (ends[0] + ends[1]) if force["type"] != "torsional-spring-damper" else ends[0]
+    drawing.labels.append(Label(force["name"], float(middle[0]), float(middle[1]), "force-name"))
+
+
+Plane = tuple[Array, Array]  # normal (3,) and what touches it: feet (n, 3) of the perpendiculars onto it [m], global
+
+
+def planes(scene: dict[str, Any], poses: dict[str, Pose], cloud: Array) -> list[Plane]:
+    """The planes of contacts, each once; `cloud` (n, 3) [m] is the rest of the machine."""
+    found: dict[str, Plane] = {}
+    largest = FAR * float(np.linalg.norm(np.ptp(cloud, axis=0))) if len(cloud) else 0.0
+    for force in scene.get("forces", []):
+        if force["type"] != "contact" or "axis" not in force:
+            continue
+        centre, point = ends_in_space(force, poses)
+        normal = poses[force["bodies"][1]][1] @ np.asarray(force["axis"], dtype=float)
+        height = float((centre - point) @ normal)
+        if abs(height) <= largest:
+            key = repr((force["bodies"][1], force["points"][1], force["axis"]))
+            _, feet = found.get(key, (normal, np.empty((0, 3))))
+            found[key] = (normal, np.vstack([feet, centre - height * normal]))
+    return list(found.values())
+
+
+def draw_plane(drawing: Drawing, frame: Frame, plane: Plane) -> None:
+    """A hatched line under what touches the plane; nothing where it is seen from above."""
+    normal, feet = plane
+    right, up = frame.view.on_screen(normal)
+    length = float(np.hypot(right, up))
+    if length <= END_ON:
+        return
+    along = np.array([up, right]) / length  # on the screen, down counted positive
+    flat = frame.pixels(feet)
+    places = flat @ along
+    half = 0.5 * float(np.ptp(places)) + HALF_PLANE
+    x, y = flat.mean(axis=0) + (0.5 * (places.min() + places.max()) - places.mean()) * along
+    drawing.links.insert(0, plane_sign(float(x), float(y), (float(right), -float(up)), half))
+    ends = np.array([x, y]) + half * np.outer([-1.0, 1.0], along)
+    drawing.lines.append(ends)
+    drawing.points += list(np.linspace(*ends, 7) + [0.0, 4.0])

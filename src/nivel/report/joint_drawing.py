@@ -1,0 +1,119 @@
+"""Joints in the picture: their signs, ground under them, and rods between the points of those that are links."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from nivel.report.drawing import Array, Drawing, Pose, ends_in_space
+from nivel.report.frame import Frame
+from nivel.report.labels import Label
+from nivel.report.strokes import Point, ground_sign, plane_sign, rail_sign, rod_sign
+from nivel.report.symbols import END_ON, LINKS, PLANE_GAP, joint_sign
+
+# axes of a joint that turns about them only, or slides along them only: they say what is planar
+TURNING = ("revolute", "cylindrical", "planar", "revolute-spherical", "revolute-translational", "revolute-cylindrical")
+SLIDING = ("translational", "screw", "point-on-line")
+ON_RAIL = ("translational", "cylindrical", "screw")  # drawn where the moving body is
+ON_FIRST = ("planar", "point-on-line", "point-on-plane")  # a point of the second body on a line or plane of the first
+
+
+def turning_axes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
+    """(k, 3) axes that bodies turn about, global; a link between two hinges has two."""
+    axes = _axes(scene, poses, TURNING, "first")
+    return np.concatenate([axes, _axes(scene, poses, ("revolute-cylindrical",), "second")])
+
+
+def sliding_axes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
+    """(k, 3) axes that bodies slide along, global."""
+    return np.concatenate(
+        [_axes(scene, poses, SLIDING, "first"), _axes(scene, poses, ("revolute-translational",), "slot")]
+    )
+
+
+def _axes(scene: dict[str, Any], poses: dict[str, Pose], kinds: tuple[str, ...], which: str) -> Array:
+    found = [_axis(joint, poses, which) for joint in scene["joints"] if joint["type"] in kinds]
+    return np.reshape(np.array(found), (-1, 3))
+
+
+def _axis(joint: dict[str, Any], poses: dict[str, Pose], which: str) -> Array:
+    """(3,) global axis of the first or the second marker, or of the slot, where there is one."""
+    side = 0 if which == "first" else 1
+    local = joint.get("slot", joint["axes"][side]) if which == "slot" else joint["axes"][side]
+    return poses[joint["bodies"][side]][1] @ np.asarray(local, dtype=float)
+
+
+def draw_joint(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dict[str, Pose]) -> None:
+    """Draw a joint with its name."""
+    title = f"{joint['name']}: {joint['type']}, {joint['bodies'][0]} – {joint['bodies'][1]}"
+    drawing.signs.append(f"<g><title>{escape(title)}</title>")
+    if joint["type"] in LINKS:
+        x, y = _draw_link(drawing, frame, joint, poses)
+    else:
+        x, y = _draw_at_point(drawing, frame, joint, poses)
+    drawing.signs.append("</g>")
+    drawing.labels.append(Label(joint["name"], x, y, "joint-name"))
+
+
+def _draw_link(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dict[str, Pose]) -> Point:
+    """A rod with the signs of its ends; returns its middle."""
+    ends = frame.pixels(ends_in_space(joint, poses))
+    first, second = (_point(end) for end in ends)
+    drawing.links.append(rod_sign(first, second, frame.sign))
+    drawing.lines.append(ends)
+    for which, kind, body, end in zip(("first", "second"), LINKS[joint["type"]], joint["bodies"], ends, strict=True):
+        x, y = _point(end)
+        axis = _on_screen(frame, _axis(joint, poses, which))
+        if body == "ground":
+            _draw_ground(drawing, x, y, ground_sign(x, y, frame.sign))
+        drawing.signs.append(joint_sign(kind, x, y, axis, 0.8 * frame.sign))
+        drawing.points.append(end)
+    return _point(ends.mean(axis=0))
+
+
+def _draw_at_point(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dict[str, Pose]) -> Point:
+    """The sign of a joint at one point, which is returned."""
+    kind, (first, second) = joint["type"], joint["bodies"]
+    at_second = kind in ON_FIRST or (kind in ON_RAIL and second != "ground")
+    x, y = _point(frame.pixels(ends_in_space(joint, poses)[int(at_second)]))
+    axis = _on_screen(frame, _axis(joint, poses, "slot" if "slot" in joint else "first"))
+    if "ground" in (first, second):
+        _draw_ground(drawing, x, y, _ground_of(joint, x, y, axis, frame.sign))
+    drawing.signs.append(joint_sign(kind, x, y, axis, frame.sign))
+    drawing.points += [np.array([x, y]) + part * 13.0 * np.array(axis) for part in (-1.0, 0.0, 1.0)]
+    return x, y
+
+
+def _ground_of(joint: dict[str, Any], x: float, y: float, axis: Point, scale: float) -> str:
+    """Ground along a rail, a plane or a slot, or under a point."""
+    kind, (first, second) = joint["type"], joint["bodies"]
+    length = float(np.hypot(*axis))
+    if length <= END_ON:
+        return ground_sign(x, y, scale)
+    along = (
+        kind in ON_RAIL or (kind == "point-on-line" and first == "ground") or ("slot" in joint and second == "ground")
+    )
+    if along:
+        return rail_sign(x, y, axis)
+    if kind in ("planar", "point-on-plane") and first == "ground":
+        gap = PLANE_GAP * scale / length
+        return plane_sign(x - gap * axis[0], y - gap * axis[1], axis, 26.0)
+    return ground_sign(x, y, scale)
+
+
+def _draw_ground(drawing: Drawing, x: float, y: float, sign: str) -> None:
+    drawing.signs.append(sign)
+    drawing.points += [np.array([x, y + 12.0]), np.array([x - 10.0, y + 19.0]), np.array([x + 10.0, y + 19.0])]
+
+
+def _on_screen(frame: Frame, axis: Array) -> Point:
+    """A direction on the screen, right and down."""
+    right, up = frame.view.on_screen(axis)
+    return float(right), -float(up)
+
+
+def _point(pixels: Array) -> Point:
+    x, y = pixels
+    return float(x), float(y)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,21 +12,39 @@ from nivel.report.frame import WIDTH, Frame
 Array = NDArray[np.float64]
 
 ENOUGH = 70.0  # pixels from the middle of a corner to the next thing drawn: nobody needs more
+LEAST_TRIAD, LEAST_BAR = 40.0, 14.0  # pixels that they need at least
+BAR_WIDTH = 150.0  # with its text, at most
+ROOM_BELOW = 36.0
 
 
-def free_corners(points: Array, lines: Array, frame: Frame) -> tuple[Array, Array]:
-    """Middles of the two emptiest corners, for the axes and for the scale; bottom right and bottom left where these will do."""
+def aid_places(drawn: Array, frame: Frame) -> tuple[Frame, Array, Array]:
+    """The frame, and the middles of two corners for the axes and for the scale: the emptiest ones, bottom right and bottom left
+    where these will do. Where no two are empty, the frame gets room below.
+
+    drawn : (n, 2) pixels where something is.
+    """
     left, right, top, bottom = 60.0, WIDTH - 40.0, 34.0, frame.height - 32.0
-    along = np.linspace(0.0, 1.0, 40)[None, :, None]
-    drawn = np.concatenate([points, (lines[:, :1] + along * (lines[:, 1:] - lines[:, :1])).reshape(-1, 2)])
-
-    def free(corner: Array) -> float:
-        return min(float(np.linalg.norm(drawn - corner, axis=1).min(initial=np.inf)), ENOUGH)
-
     corners = [np.array(each) for each in ((right, bottom), (left, bottom), (right, top), (left, top))]
-    triad = max(corners, key=free)  # the first of equals
+    triad = max(corners, key=lambda corner: _free(corner[None], drawn))  # the first of equals
     rest = [corner for corner in (corners[1], corners[0], corners[3], corners[2]) if corner is not triad]
-    return triad, max(rest, key=free)
+    bar = max(rest, key=lambda corner: _free(bar_strip(corner), drawn))
+    if _free(triad[None], drawn) >= LEAST_TRIAD and _free(bar_strip(bar), drawn) >= LEAST_BAR:
+        return frame, triad, bar
+    below = np.array([0.0, ROOM_BELOW])
+    return replace(frame, height=frame.height + ROOM_BELOW), corners[0] + below, corners[1] + below
+
+
+def _free(places: Array, drawn: Array) -> float:
+    """Pixels from any of `places` (k, 2) to the next thing drawn."""
+    distances = np.linalg.norm(drawn[:, None] - places, axis=-1)
+    return min(float(distances.min(initial=np.inf)), ENOUGH)
+
+
+def bar_strip(middle: Array) -> Array:
+    """(k, 2) pixels along the scale and its text in a corner."""
+    first = 14.0 if middle[0] < 0.5 * WIDTH else WIDTH - 14.0 - BAR_WIDTH
+    x = np.linspace(first, first + BAR_WIDTH, 12)
+    return np.column_stack([x, np.full(len(x), middle[1] + 18.0)])
 
 
 def scale_bar(frame: Frame, middle: Array) -> str:

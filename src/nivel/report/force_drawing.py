@@ -54,7 +54,7 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
         for body, end in zip(force["bodies"], ends, strict=True):
             if body == "ground":
                 drawing.links.insert(0, ground_sign(float(end[0]), float(end[1]), 0.8 * frame.sign))
-                drawing.points.append(end + [0.0, 14.0])
+                drawing.points.append(end + np.array([0.0, 14.0]))
     middle = 0.5 * (ends[0] + ends[1]) if force["type"] != "torsional-spring-damper" else ends[0]
     drawing.labels.append(Label(force["name"], float(middle[0]), float(middle[1]), "force-name"))
 
@@ -94,4 +94,4 @@ def draw_plane(drawing: Drawing, frame: Frame, plane: Plane) -> None:
     drawing.links.insert(0, plane_sign(float(x), float(y), (float(right), -float(up)), half))
     ends = np.array([x, y]) + half * np.outer([-1.0, 1.0], along)
     drawing.lines.append(ends)
-    drawing.points += list(np.linspace(*ends, 7) + [0.0, 4.0])
+    drawing.points += list(np.linspace(ends[0], ends[1], 7) + np.array([0.0, 4.0]))

@@ -1,14 +1,13 @@
-"""What the report plots: panels, each with groups of curves of one unit to choose from."""
+"""What the report plots, in the order of the story: motion, energy, what acts, what the joints carry, what is left open."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nivel.report.element_panels import couplings, drivers, forces, sensors
+from nivel.report.panel import GROUPS, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.report.peaks import NEGLIGIBLE, negligible
 from nivel.results.scales import bodies, rotated
 from nivel.results.verdicts import THRESHOLDS
@@ -16,59 +15,36 @@ from nivel.results.verdicts import THRESHOLDS
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
-Array = NDArray[np.float64]
-
-GROUPS = 24  # elements of a panel that can be chosen; more stand in the result file
-TOGETHER = 8  # curves that can be told apart in one plot
-
-
-@dataclass(frozen=True)
-class Curve:
-    """One curve (n,); `tone` is the place of its colour, "x", "y", "z" or a number."""
-
-    label: str
-    values: Array
-    tone: str
-
-
-@dataclass(frozen=True)
-class Group:
-    """Curves of one unit.
-
-    limits : (value, colour word) of lines that the curves are held against.
-    floor : the least height of the plot, in its unit: what is smaller is round-off and drawn flat.
-    """
-
-    label: str
-    unit: str
-    curves: tuple[Curve, ...]
-    limits: tuple[tuple[float, str], ...] = ()
-    floor: float = 0.0
-
-
-@dataclass(frozen=True)
-class Panel:
-    """A plot; with several groups the reader chooses one."""
-
-    title: str
-    groups: tuple[Group, ...]
-    log: bool = False
-    note: str = ""
+# radians are counted as cosines are
+UNITLESS = {"rad": "1", "rad/s": "1/s"}
 
 
 def panels(result: Result) -> list[Panel]:
     """All panels of a result that have anything to show."""
+    floors = _floors(result)
     found = [
         _joint_coordinates(result),
         _positions(result),
+        sensors(result, floors),
         _energies(result),
         _energy_error(result),
-        _reactions(result, "joint_force", "Joint forces", "force"),
-        _reactions(result, "joint_torque", "Joint torques", "torque"),
-        _applied(result),
+        drivers(result, floors),
+        couplings(result, floors),
+        forces(result, floors),
+        _reactions(result, "joint_force", "Joint forces", "force", floors["N"]),
+        _reactions(result, "joint_torque", "Joint torques", "torque", floors["N m"]),
         _violations(result),
     ]
     return [panel for panel in found if panel is not None and panel.groups]
+
+
+def _floors(result: Result) -> dict[str, float]:
+    """Unit → what is smaller is round-off."""
+    trust = result.trust
+    floors = {"m": trust.size, "m/s": trust.speed, "rad": 1.0, "rad/s": trust.speed / trust.size}
+    floors = {unit: NEGLIGIBLE * scale for unit, scale in floors.items()}
+    least = negligible(result) if {"joint_force", "joint_torque"} <= result.variables.keys() else {}
+    return {**floors, "N": least.get("joint_force", 0.0), "N m": least.get("joint_torque", 0.0)}
 
 
 def _joint_coordinates(result: Result) -> Panel | None:
@@ -89,7 +65,7 @@ def _joint_coordinates(result: Result) -> Panel | None:
             curves = tuple(Curve(names[k], values[:, k], str(i)) for i, k in enumerate(chosen))
             if curves:
                 groups.append(Group(word, unit, curves))
-    return Panel("Joint coordinates", tuple(groups), note=_left_out(most, 2 * TOGETHER))
+    return Panel("Joint coordinates", tuple(groups), note=left_out(most, 2 * TOGETHER))
 
 
 def _positions(result: Result) -> Panel | None:
@@ -105,8 +81,8 @@ def _positions(result: Result) -> Panel | None:
             name = f"{name}, centre of mass"
             values = values + rotated(orientation[:, k], np.array(body.get("centre_of_mass", [0.0, 0.0, 0.0])))
         if _moves(values, floor):
-            groups.append(Group(name, "m", tuple(_components(values)), floor=floor))
-    return Panel("Body positions", tuple(groups[:GROUPS]), note=_left_out(len(groups)))
+            groups.append(Group(name, "m", tuple(components(values)), floor=floor))
+    return Panel("Body positions", tuple(groups[:GROUPS]), note=left_out(len(groups)))
 
 
 def _moves(values: Array, floor: float) -> bool:
@@ -134,36 +110,22 @@ def _energy_error(result: Result) -> Panel | None:
     return Panel("Energy error", (Group("", "J", (Curve("energy error", result.array("energy_error"), "0"),)),))
 
 
-def _reactions(result: Result, variable: str, title: str, word: str) -> Panel | None:
+def _reactions(result: Result, variable: str, title: str, word: str, floor: float) -> Panel | None:
     """Magnitudes of the joints with the largest ones, then the components of each joint."""
     if variable not in result.variables:
         return None
     values, names, units = result.array(variable), result.coordinates["joint"], result.variables[variable].units
     magnitude = np.linalg.norm(values, axis=-1)
     peaks = np.max(np.nan_to_num(magnitude, nan=0.0, posinf=0.0), axis=0, initial=0.0)
-    floor = negligible(result)[variable]
     if not np.any(peaks > floor):
         return None
     order = np.argsort(-peaks, kind="stable")[:TOGETHER]
     largest = tuple(Curve(names[k], magnitude[:, k], str(i)) for i, k in enumerate(sorted(order)))
     groups = [Group(_which(len(names)), units, largest, floor=floor)]
     for k, name in enumerate(names[:GROUPS]):
-        curves = (Curve(word, magnitude[:, k], "0"), *_components(values[:, k]))
+        curves = (Curve(word, magnitude[:, k], "0"), *components(values[:, k]))
         groups.append(Group(name, units, curves, floor=floor))
-    return Panel(title, tuple(groups), note=_left_out(len(names)))
-
-
-def _applied(result: Result) -> Panel | None:
-    groups = []
-    for quantity, word in (("power", "power"), ("magnitude", "magnitude")):
-        by_unit: dict[str, list[Curve]] = {}
-        for name, variable in result.variables.items():
-            if name.startswith("force.") and name.endswith(f".{quantity}"):
-                curves = by_unit.setdefault(variable.units, [])
-                label = name.removeprefix("force.").removesuffix(f".{quantity}")
-                curves.append(Curve(label, result.array(name), str(len(curves))))
-        groups += [Group(f"{word}, {units}", units, tuple(curves[: 2 * TOGETHER])) for units, curves in by_unit.items()]
-    return Panel("Applied forces", tuple(groups)) if groups else None
+    return Panel(title, tuple(groups), note=left_out(len(names)))
 
 
 def _violations(result: Result) -> Panel | None:
@@ -184,7 +146,8 @@ def _violations(result: Result) -> Panel | None:
         if variable not in result.variables:
             continue
         rows = result.coordinates[result.variables[variable].dims[1]]
-        units = np.array([result.units(f"{row}.{suffix}") or next(iter(scales)) for row in rows])
+        own = [result.units(f"{row}.{suffix}") or next(iter(scales)) for row in rows]
+        units = np.array([UNITLESS.get(unit, unit) for unit in own])
         owners = np.array([row.split(".", maxsplit=1)[0] for row in rows])
         values = np.abs(result.array(variable))
         for (unit, scale), word in zip(scales.items(), ("gaps", "misalignments"), strict=True):
@@ -199,15 +162,5 @@ def _violations(result: Result) -> Panel | None:
     return Panel("Constraint violations", tuple(groups), log=True, note=note) if groups else None
 
 
-def _left_out(count: int, shown: int = GROUPS) -> str:
-    return f"{count - shown} more in the result file" if count > shown else ""
-
-
 def _which(count: int) -> str:
     return "all, magnitude" if count <= TOGETHER else f"the {TOGETHER} largest, magnitude"
-
-
-def _components(values: Array) -> Iterator[Curve]:
-    """x, y, z of a vector (n, 3)."""
-    for k, name in enumerate("xyz"):
-        yield Curve(name, values[:, k], name)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.report.aids import free_corners, scale_bar, triad_sign
+from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
 from nivel.report.body_drawing import draw_body
 from nivel.report.drawing import Array, Drawing, Pose, body_poses, in_space
 from nivel.report.force_drawing import Plane, attached, draw_force, draw_plane, force_points, planes
@@ -19,6 +19,7 @@ from nivel.report.solids import FACETS, FEW_FACETS, reach
 from nivel.report.view import choose_view
 
 MANY_BODIES = 20
+ALONG = np.linspace(0.0, 1.0, 12)[None, :, None]  # where lines are probed
 IMPORTANCE = ("joint-name", "body", "force-name")  # names are placed in this order
 STYLE = """
 .machine{font:500 13px/1.2 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif;--paper:#fff;--ink:#1b2430;--soft:#6b7684;--rod:#c3cbd5}
@@ -31,7 +32,7 @@ STYLE = """
 .machine .ground .foot{fill:var(--paper)}.machine .ground .hatch{stroke-width:1.1}
 .machine text{fill:var(--ink);paint-order:stroke;stroke:var(--paper);stroke-width:3.5px;stroke-linejoin:round;text-anchor:middle}
 .machine .body{font-style:italic;font-weight:600}.machine .joint-name{font-weight:500}
-.machine .force-name{fill:var(--soft);font-size:12px}
+.machine .force-name{font-weight:400;font-size:12px}
 .machine .spring path{fill:none;stroke:var(--ink);stroke-width:1.5;stroke-linejoin:round;stroke-linecap:round}
 .machine .spring .halo{stroke:var(--paper);stroke-width:4.2}
 .machine .pair-force{fill:none;stroke:var(--ink);stroke-width:1.2;stroke-dasharray:5 4}
@@ -96,10 +97,14 @@ def _shapes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
 
 def _svg(drawing: Drawing, frame: Frame) -> str:
     lines = np.array(drawing.lines).reshape(-1, 2, 2)
-    triad, bar = free_corners(np.concatenate([np.array(drawing.points).reshape(-1, 2), *drawing.covered]), lines, frame)
+    edges = [np.stack([corners, np.roll(corners, -1, axis=0)], axis=1) for corners in drawing.covered]
+    strokes = np.concatenate([lines, *edges])
+    drawn = (strokes[:, :1] + ALONG * (strokes[:, 1:] - strokes[:, :1])).reshape(-1, 2)
+    drawn = np.concatenate([np.array(drawing.points).reshape(-1, 2), drawn])
+    frame, triad, bar = aid_places(drawn, frame)
     aids = triad_sign(frame, triad) + scale_bar(frame, bar)
     keep_free = [*drawing.points, *(triad + np.array([10.0 * k, -10.0 * n]) for k in (-1, 0, 1) for n in (-1, 0, 1))]
-    keep_free += [bar + np.array([10.0 * k, 8.0]) for k in range(-4, 5)]
+    keep_free += list(bar_strip(bar))
     labels = sorted(drawing.labels, key=lambda label: IMPORTANCE.index(label.kind))
     placed = place(labels, np.array(keep_free), lines, WIDTH, frame.height)
     texts = "".join(_text(each.label, *each.centre) for each in placed)

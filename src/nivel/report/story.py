@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from nivel.results.result import Result
 
 SHOWN_CHANGES = 20  # bodies that the assembly changed; more are counted
+ROUND_OFF = 1e-14  # m, rad or per second: smaller changes are not told
 DECADES = 16  # of a gauge, down from 1: round-off of double precision
 
 HEADLINES: dict[str, tuple[Verdict, str]] = {
@@ -83,9 +84,12 @@ def headline(result: Result) -> Headline:
 
 
 def facts(result: Result) -> list[str]:
-    """What the machine is and how it was run, in a line."""
+    """What the machine is and how it was run, in a line; of what it may lack, only what it has."""
     count = {dim: len(result.coordinates.get(dim, ())) for dim in ("body", "joint")}
     out = [_plural(count["body"], "body", "bodies"), _plural(count["joint"], "joint", "joints")]
+    for section in ("coupling", "driver", "force", "sensor"):
+        named = {name.split(".")[1] for name in result.variables if name.startswith(f"{section}.")}
+        out += [_plural(len(named), section, f"{section}s")] if named else []
     degrees = result.trust.degrees_of_freedom
     if degrees is not None:
         out.append(_plural(degrees, "degree of freedom", "degrees of freedom"))
@@ -135,6 +139,7 @@ def assembly_lines(result: Result) -> list[str]:
     moved, changed = assembly.get("moved") or [], assembly.get("velocity_change") or []
     gap = f"open by up to {_amount(assembly.get('gap', 0.0), 'm or rad')} as given"
     why = f" to close the joints, {gap} (row {assembly['gap_row']})" if assembly.get("gap_row") else ""
+    moved, changed = ([each for each in found if max(each[1:]) > ROUND_OFF] for found in (moved, changed))
     lines = [f"{name} was moved by {_both(d, 'm', a, 'rad')}{why}" for name, d, a in moved]
     lines += [
         f"The velocity of {name} was changed by {_both(v, 'm/s', w, 'rad/s')} to fit the joints"
@@ -145,7 +150,7 @@ def assembly_lines(result: Result) -> list[str]:
 
 def _both(length: float, length_unit: str, angle: float, angle_unit: str) -> str:
     """A shift and a turn, or the one of them that there is."""
-    parts = [_amount(value, unit) for value, unit in ((length, length_unit), (angle, angle_unit)) if value > 0.0]
+    parts = [_amount(value, unit) for value, unit in ((length, length_unit), (angle, angle_unit)) if value > ROUND_OFF]
     return " and ".join(parts) or _amount(0.0, length_unit)
 
 

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.report.panels import Group, Panel, panels
+from nivel.report.panel import Group, Panel
+from nivel.report.panels import panels
 from nivel.report.peaks import peak_reactions
 from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, facts, headline, settings_table, timing_table, trust_lines

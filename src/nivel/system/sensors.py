@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
+from nivel.errors import Fault, ModelError
 from nivel.kernels.coordinate import DISTANCE, LAST_ANGLE, ROTATION
 from nivel.kernels.record import NONE
 from nivel.machine.coordinate_reference import resolve
@@ -51,7 +52,7 @@ def sensor_columns(draft: Draft) -> list[list[int]]:
                     columns.append(_scalar(draft, f"{sensor.name}.rate", "rate", scalars, coordinate))
                 case "force":
                     read = f"force.{sensor.force}.{sensor.quantity}"
-                    index = draft.outputs.index(read)
+                    index = _output(draft, sensor, read)
                     output = draft.outputs.add((f"sensor.{sensor.name}", draft.outputs.entries[index][1], read))
                     columns.append([output, kernel.COPY, index, NONE])
                 case _:
@@ -59,6 +60,15 @@ def sensor_columns(draft: Draft) -> list[list[int]]:
                     output = draft.outputs.add((f"sensor.{sensor.name}", sensor.units, f"sensor {sensor.name}"))
                     columns.append([output, kernel.FUNCTION, draft.function(sensor.value), NONE])
     return columns
+
+
+def _output(draft: Draft, sensor: Sensor, name: str) -> int:
+    """Index of the output `name`. Raises ModelError where the force has none, as one of another model than lugre has no bristles."""
+    try:
+        return draft.outputs.index(name)
+    except ValueError:
+        message = f"this force has no `{sensor.quantity}`"
+        raise ModelError(Fault("", 0, 0, f"sensors.{sensor.name}.quantity", message)) from None
 
 
 def _of_marker(draft: Draft, sensor: Sensor, vectors: dict[str, int]) -> list[int]:

@@ -131,5 +131,5 @@ class OutputTable:
         return len(self.entries) - len(entries)
 
     def index(self, name: str) -> int:
-        """Index of the output with this name."""
+        """Index of the output with this name. Raises ValueError where there is none."""
         return [entry[0] for entry in self.entries].index(name)

@@ -114,7 +114,7 @@ def ends(joint):
         if joint.type != "revolute-translational":
             frames[1] = frame_from_axes(second, first)
     else:
-        frames = [np.eye(3) if joint.axis is None else frame_from_axes(joint.axis, joint.x_axis)] * 2
+        frames = [np.eye(3) if joint.axis is None else frame_from_axes(joint.axis, joint.x_direction)] * 2
     return list(zip(map(np.array, points), frames, strict=True))
 
 

@@ -57,7 +57,7 @@ def test_the_report_answers_in_order():
     places = [text.index(each) for each in order]
     assert places == sorted(places)
     assert "2 s simulated in 12.3 ms of computing" in text
-    assert "1 body 1 joint 1 degree of freedom step 1 ms rk4 newton-euler" in text
+    assert "1 body 1 joint 1 force 1 degree of freedom step 1 ms rk4 newton-euler" in text
     assert "of the largest kinetic energy 0.441 J (green below 1e-4, amber below 1e-2)" in text
 
 
@@ -94,6 +94,13 @@ def test_peak_reactions_have_their_times():
     )
     text = words(report_html(run(joint_force=force, joint_torque=torque)))
     assert f"hinge revolute 5 N at {number(TIME[42])} s –" in text
+
+
+def test_a_joint_without_reactions_says_so():
+    nothing = np.zeros((len(TIME), 1, 3))
+    text = words(report_html(run(joint_force=nothing, joint_torque=nothing)))
+    assert "hinge revolute carries nothing" in text
+    assert "carries nothing" not in words(report_html(run()))
 
 
 def test_reactions_that_are_not_unique_are_marked():
@@ -151,7 +158,7 @@ def test_what_the_assembly_changed_stands_with_the_trust():
     assembly = {
         "gap": 0.001,
         "gap_row": "hinge.s.x",
-        "moved": [["arm", 0.0005, 0.0], ["rod", 0.0, 1.5e-5]],
+        "moved": [["arm", 0.0005, 0.0], ["rod", 1e-16, 1.5e-5], ["pin", 1e-17, 1e-20]],
         "velocity_change": [["arm", 0.25, 2.0]],
     }
     text = words(report_html(run(attributes={"assembly": json.dumps(assembly)}))).replace("\u00a0", " ")
@@ -162,6 +169,7 @@ def test_what_the_assembly_changed_stands_with_the_trust():
         "arm was moved by 0.0005 m to close the joints, open by up to 0.001 m or rad as given (row hinge.s.x)" in shown
     )
     assert "rod was moved by 1.5e-05 rad" in shown
+    assert "pin" not in shown  # round-off
     assert "The velocity of arm was changed by 0.25 m/s and 2 rad/s to fit the joints" in shown
 
 

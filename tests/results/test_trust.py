@@ -294,3 +294,11 @@ def test_a_run_beyond_all_bounds_is_red_without_warnings():
     assert trust.verdict == "red"
     position = pendulum.histories(TIME)["position"] * 1e300
     assert step_halving(run(position=position), run(), order=4).value > 1e200
+
+
+def test_angles_that_are_held_are_said_in_radians():
+    """Rows of gears and of driven angles."""
+    rows = {"constraint_units": json.dumps({**pendulum.ROWS, "hinge.d1.xz": "rad"})}
+    trust = assess(run(attributes=rows, constraint_violation=spike(5, 3, 10, 2e-6)), Facts("done"))
+    assert trust.constraint_violation_units == "rad"
+    assert "open by at most 2e-6 rad, row hinge.d1.xz" in item(trust, "violation").text

@@ -10,6 +10,7 @@ from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.machine.placement import placement
 from nivel.system.build import build
 from nivel.system.scene import scene
+from nivel.system.system import Equations
 
 MACHINE = """
 format: 1
@@ -39,7 +40,7 @@ forces:
   rest: {type: stop, coordinate: pin.angle, lower: 0, stiffness: 1, restitution: 1}
   drive: {type: motor, coordinate: pin.angle, effort: 1}
   slack: {type: joint-spring-damper, coordinate: pin.angle, stiffness: 1}
-  rub: {type: friction, coordinate: pin.displacement, coefficient: 0.1, transition_speed: 1 cm/s, normal_load: 3}
+  rub: {type: friction, coordinate: pin.displacement, model: coulomb, coefficient: 0.1, transition_speed: 1 cm/s, normal_load: 3}
 """
 
 
@@ -50,7 +51,7 @@ def machine():
 
 @pytest.fixture(scope="module")
 def made(machine):
-    return scene(machine, build(machine, EQUATIONS))
+    return scene(machine, build(machine, Equations(6, normalisation=False)))
 
 
 def in_space(machine, body, point):

@@ -144,7 +144,7 @@ def _consistent_velocities(
     assembled = system.state(y[: system.positions], new[:, :3], new[:, 3:])
     motion.evaluate(t, assembled)
     _refuse_impossible_rates(motion, wishes, scale)
-    return assembled, _named(system.bodies, change[:, :3], change[:, 3:], 0.0, 0.0)
+    return assembled, _named(system.bodies, change[:, :3], change[:, 3:], ROUND_OFF * system.size, ROUND_OFF)
 
 
 def _refuse_impossible_rates(motion: MotionEquations, wishes: Wishes, scale: Array) -> None:

@@ -65,7 +65,8 @@ Plane = tuple[Array, Array]  # normal (3,) and what touches it: feet (n, 3) of t
 def planes(scene: dict[str, Any], poses: dict[str, Pose], cloud: Array) -> list[Plane]:
     """The planes of contacts, each once; `cloud` (n, 3) [m] is the rest of the machine."""
     found: dict[str, Plane] = {}
-    largest = FAR * float(np.linalg.norm(np.ptp(cloud, axis=0))) if len(cloud) else 0.0
+    size = float(np.linalg.norm(np.ptp(cloud, axis=0))) if len(cloud) else 0.0
+    largest = FAR * size if size > 0.0 else np.inf  # a single point has no size to lose
     for force in scene.get("forces", []):
         if force["type"] != "contact" or "axis" not in force:
             continue

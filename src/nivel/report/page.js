@@ -61,7 +61,7 @@
     const least = Math.max(floor, 1e-9 * Math.max(Math.abs(min), Math.abs(max)), 1e-30);
     if (max - min >= least) return uPlot.rangeNum(min, max, 0.08, true);
     const middle = 0.5 * (min + max);
-    const half = floor > 0 && max - min < floor ? 0.5 * floor : 0.1 * Math.max(Math.abs(middle), least);
+    const half = Math.max(0.5 * floor, 0.1 * Math.max(Math.abs(middle), least));
     return [middle - half, middle + half];
   }
 

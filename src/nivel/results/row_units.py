@@ -1,4 +1,4 @@
-"""Units of variables whose rows differ: joint coordinates are angles or lengths, constraint rows lengths or cosines."""
+"""Units of variables whose rows differ: joint coordinates are angles or lengths, constraint rows lengths, angles or cosines."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from collections.abc import Mapping
 OF_VARIABLE = {
     "joint_coordinate": {"rad": "rad", "m": "m"},
     "joint_rate": {"rad": "rad/s", "m": "m/s"},
-    "constraint_violation": {"m": "m", "1": "1"},
-    "constraint_rate_violation": {"m": "m/s", "1": "1/s"},
-    "constraint_force": {"m": "N", "1": "N m"},
+    "constraint_violation": {"m": "m", "1": "1", "rad": "rad"},
+    "constraint_rate_violation": {"m": "m/s", "1": "1/s", "rad": "rad/s"},
+    "constraint_force": {"m": "N", "1": "N m", "rad": "N m"},
 }
 
 

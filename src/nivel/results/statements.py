@@ -50,7 +50,8 @@ def _violation_item(trust: Trust) -> Item:
     length = trust.constraint_violation_units == "m"
     fraction = trust.constraint_violation_max / (trust.size if length else 1.0)
     value = f"{_number(trust.constraint_violation_max)} m, " if length else ""
-    scale = f" of the {_size(trust)}" if length else " as a cosine"
+    angle = " rad" if trust.constraint_violation_units == "rad" else " as a cosine"
+    scale = f" of the {_size(trust)}" if length else angle
     said = f"Joints: open by at most {value}{_number(fraction)}{scale}"
     row, time = trust.constraint_violation_row, trust.constraint_violation_time
     return _numeric("violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)

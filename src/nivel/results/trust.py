@@ -72,7 +72,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         constraint_rate_violation_max=rate.value,
         constraint_rate_violation_row=rate.row,
         constraint_rate_violation_time=rate.time,
-        constraint_rate_violation_units="m/s" if rate_units == "m" else "1/s",
+        constraint_rate_violation_units=f"{rate_units}/s",
         degrees_of_freedom=facts.degrees_of_freedom,
         drivers=facts.drivers,
         redundant_rows=tuple(facts.redundant_rows),
@@ -97,15 +97,15 @@ def peak(result: Readable, name: str) -> Peak:
 
 
 def worst_row(result: Readable, name: str, fraction_of: Mapping[str, float]) -> tuple[Peak, str]:
-    """The row of `name` (time, row) that is largest as a fraction, and its units: m or 1.
+    """The row of `name` (time, row) that is largest as a fraction, and its units: m, rad or 1.
 
-    fraction_of : factor that turns a value of these units into a fraction.
+    fraction_of : factor that turns a value into a fraction: of lengths ("m"), of all others ("1").
     """
     if name not in result.variables:
         return Peak(0.0), "m"
     rows = result.coordinates[result.variables[name].dims[1]]
     units = row_units(result, rows)
-    factors = np.array([fraction_of[each] for each in units])
+    factors = np.array([fraction_of["m" if each == "m" else "1"] for each in units])
     best, largest = (0, 0), -1.0
     for frames in blocks(result):
         block = np.abs(result.array(name, frames)) * factors
@@ -124,9 +124,9 @@ def worst_row(result: Readable, name: str, fraction_of: Mapping[str, float]) -> 
 
 
 def row_units(result: Readable, rows: tuple[str, ...]) -> tuple[str, ...]:
-    """Units of the constraint rows at position level, m or 1; rows without a stated unit count as lengths.
+    """Units of the constraint rows at position level, m, rad or 1; rows without a stated unit count as lengths.
 
     They are stated by the attribute `constraint_units` (JSON: row → units).
     """
     stated = json.loads(str(result.attributes.get("constraint_units", "{}")))
-    return tuple("1" if stated.get(row, "m") in ("1", "", "rad") else "m" for row in rows)
+    return tuple(stated.get(row, "m") or "1" for row in rows)

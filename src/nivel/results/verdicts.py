@@ -98,7 +98,7 @@ class Item:
 class Trust:
     """The numbers behind the verdicts, in SI units, and the verdicts.
 
-    Rows are named as in the machine (`hinge.s.x`), times are in seconds. Violations are in `…_units`: m or 1 (a
+    Rows are named as in the machine (`hinge.s.x`), times are in seconds. Violations are in `…_units`: m, rad or 1 (a
     cosine).
     size_kind : what `size` is, to be said after "the". at_rest : `speed` is not that of the machine, which is at rest,
     but the least speed that counts.

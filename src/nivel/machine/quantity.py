@@ -32,6 +32,7 @@ from nivel.machine.dimension import KINDS, Dimension, counts_turns, described, i
 from nivel.machine.grammar import parse
 from nivel.machine.measure import measure
 
+MASSLESS = "; a link without mass is a joint: distance, revolute-spherical, revolute-cylindrical, revolute-translational"
 FAULT = "nivel"  # type of the validation errors that carry a finished sentence
 REPORTED = "nivel_reported"  # type of those that follow from a fault reported elsewhere
 
@@ -175,7 +176,8 @@ class Quantity:
         except ExpressionError as problem:
             raise expression_fault(problem, value) from None
         if self.positive and number <= 0:
-            raise fault(f"{KINDS[self.kind][0]} greater than zero was expected, got {shown(value)}")
+            instead = MASSLESS if self.kind == "mass" and number == 0 else ""
+            raise fault(f"{KINDS[self.kind][0]} greater than zero was expected, got {shown(value)}{instead}")
         return number
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:

@@ -6,8 +6,9 @@ import pytest
 import machines
 from nivel.analysis.dynamics import prepare
 from nivel.errors import ModelError
-from nivel.machine import Body, Driver, Friction, Joint, MachineRecord, SimulationSettings
-from nivel.machine.time_function import Table
+from nivel.machine import Body, Contact, Driver, Friction, Joint, MachineRecord, Marker, SimulationSettings, Stop
+from nivel.machine.time_function import Expression, PythonLaw, Table
+from running import run
 
 RUB = {"model": "coulomb", "coefficient": 0.2, "transition_speed": 1e-3, "radius": 0.02}
 
@@ -53,6 +54,79 @@ def test_table_of_a_driver_holds_for_the_whole_run(times, refused):
         assert caught.value.faults[0].path == "drivers.drive.value"
     else:
         prepare(machine, "newton-euler")
+
+
+def wheel(**sections):
+    """A wheel on a hinge at the origin."""
+    body = Body(name="wheel", mass=1, inertia=(1, 1, 1))
+    hub = Joint(name="hub", type="revolute", bodies=("ground", "wheel"), point=(0, 0, 0), axis=(0, 0, 1))
+    settings = SimulationSettings(duration=1.0)
+    return MachineRecord(name="m", bodies=(body,), joints=(hub,), simulation=settings, **sections)
+
+
+@pytest.mark.parametrize(
+    ("law", "wrong"),
+    [
+        ("t * t, 2 * t, 2.0", ""),
+        ("t * t, 5 * t, 5.0", "its rate is"),
+        ("t * t, 2 * t, 7.0", "its acceleration is"),
+        ("0.1 * (t > 0.5), 0.0, 0.0", "its value jumps from 0 to 0.1"),
+        ("np.sin(3000 * t), 3000 * np.cos(3000 * t), -9e6 * np.sin(3000 * t)", ""),
+        ("max(t - 0.5, 0.0) ** 2, 2 * max(t - 0.5, 0.0), 2.0 * (t > 0.5)", ""),
+    ],
+)
+def test_law_of_a_driver_returns_its_own_derivatives(law, wrong):
+    source = f"import numpy as np\n\n\ndef motion(t):\n    return {law}\n"
+    machine = wheel(
+        drivers=(Driver(name="drive", coordinate="hub.angle", value=PythonLaw(source, "motion", ("time",))),)
+    )
+    if wrong:
+        with pytest.raises(ModelError, match=wrong) as caught:
+            prepare(machine, "newton-euler")
+        assert caught.value.faults[0].path == "drivers.drive.value"
+    else:
+        prepare(machine, "newton-euler")
+
+
+def test_stop_that_starts_far_inside_is_refused():
+    stop = Stop(name="end", coordinate="hub.angle", lower=0.5, stiffness=1e4, restitution=0.5)
+    with pytest.raises(ModelError, match=r"starts 0\.5 rad inside") as caught:
+        prepare(wheel(forces=(stop,)), "newton-euler")
+    assert caught.value.faults[0].path == "forces.end"
+    prepare(wheel(forces=(stop.replace(lower=0.01),)), "newton-euler")
+
+
+def test_spheres_with_one_centre_overlap_by_both_radii():
+    ball = {"mass": 1, "shape": {"type": "sphere", "radius": 0.05}}
+    bodies = (Body(name="a", **ball), Body(name="b", **ball))
+    touch = Contact(name="touch", bodies=("a", "b"), stiffness=1e4, restitution=0.5)
+    with pytest.raises(ModelError, match=r"starts 0\.1 m inside"):
+        prepare(MachineRecord(name="m", bodies=bodies, forces=(touch,)), "newton-euler")
+
+
+def test_drivers_that_part_on_the_way_stop_the_run_with_their_names():
+    """Both start alike; at 0.1 s they differ by 1e-3 rad."""
+    drivers = (
+        Driver(name="one", coordinate="hub.angle", value=Expression("time")),
+        Driver(name="two", marker="rim", about="z", value=Expression("time + time^3")),
+    )
+    machine = wheel(drivers=drivers, markers=(Marker(name="rim", body="wheel"),))
+    finished = run(machine).finished
+    assert finished.outcome == "failed"
+    message, advice, time = finished.failure
+    assert 0.09 < time < 0.15
+    assert "contradicts them now" in message
+    assert "one" in message
+    assert "two" in message
+    assert "two drivers" in advice
+
+
+def test_driver_that_is_no_number_is_named():
+    machine = wheel(drivers=(Driver(name="drive", coordinate="hub.angle", value=Expression("sqrt(0.25 - time)")),))
+    message, advice, time = run(machine).finished.failure
+    assert time == pytest.approx(0.25, abs=2e-3)
+    assert "the motion of drive is not a number" in message
+    assert "drive" in advice
 
 
 def test_point_mass_counts_three_freedoms_and_never_turns():

@@ -71,6 +71,21 @@ def test_start_angle_of_several_turns():
     assert result.joint_coordinate[0, 0] == pytest.approx(20.0, abs=1e-10)
 
 
+def test_start_far_away_is_reached():
+    """A free joint has no end: a thousand times the machine's size."""
+    body = Body(name="cart", mass=1, inertia=(1, 1, 1))
+    rail = Joint(
+        name="rail",
+        type="translational",
+        bodies=("ground", "cart"),
+        point=(0, 0, 0),
+        axis=(1, 0, 0),
+        start={"displacement": 1000.0},
+    )
+    result = run(MachineRecord(name="m", bodies=(body,), joints=(rail,)), duration=1e-3)
+    assert result.joint_coordinate[0, 0] == pytest.approx(1000.0, abs=1e-8)
+
+
 def test_start_values_that_cannot_be_had_are_named():
     """The rocker of a crank-rocker does not get this far; the message says how near it comes."""
     machine = machines.four_bar()

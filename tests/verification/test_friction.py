@@ -419,3 +419,14 @@ def test_driven_normal_load_of_friction_in_a_loop():
     a = (P * np.cos(slope) - MASS * G * np.sin(slope) - MU * load) / MASS
     assert a > 0
     np.testing.assert_allclose(r.array("rail.displacement"), 0.5 * a * r.time**2, rtol=1e-8, atol=1e-10)
+
+
+@pytest.mark.parametrize("bodies", [("ground", "block"), ("block", "ground")])
+def test_bending_moment_is_taken_about_the_bearing_that_slides(bodies):
+    """A slider far out on its rail: the moment of its weight about itself is zero wherever the rail begins."""
+    sections = sled({"model": "stiction", "bearing_length": 0.1}, 3.0)
+    rail = next(iter(sections["joints"].values()))
+    rail["bodies"] = list(bodies)
+    r = simulate(sections, duration=0.5, step=1e-3)
+    load = r.array("force.rub.normal_load")
+    np.testing.assert_allclose(load, MASS * G, rtol=1e-9)

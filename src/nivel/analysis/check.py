@@ -33,7 +33,7 @@ class JointFacts:
 
 @dataclass(frozen=True)
 class BodyFacts:
-    """One body: mass [kg], principal inertias about the centre of mass [kg m²], assembled frame: position [m], turn.
+    """One body: mass [kg], principal inertias about the centre of mass [kg m²] (none of a point mass), assembled frame: position [m], turn.
 
     The turn from the global axes is an angle [rad] about a unit axis.
     """
@@ -85,10 +85,12 @@ def _lines(facts: Check) -> Iterator[str]:
     yield f"{facts.name}: {_freedoms(facts.degrees_of_freedom)}, gravity {_vector(facts.gravity)} m/s²"
     yield "bodies"
     for body in facts.bodies:
-        inertia = _vector(body.principal_inertia)
+        inertia = (
+            f"principal inertia {_vector(body.principal_inertia)} kg m²" if body.principal_inertia else "a point mass"
+        )
         turned = f", turned {np.degrees(body.angle):.6g} deg about {_vector(body.axis)}" if body.angle > 1e-12 else ""
         place = f"frame at {_vector(body.position)} m{turned}"
-        yield f"  {body.name}: {body.mass:.6g} kg, principal inertia {inertia} kg m², {place}"
+        yield f"  {body.name}: {body.mass:.6g} kg, {inertia}, {place}"
     if facts.joints:
         yield "joints (first body → second body)"
     for joint in facts.joints:
@@ -154,7 +156,7 @@ def check(machine: MachineRecord) -> Check:
             BodyFacts(
                 name,
                 float(record.bodies.mass[k]),
-                tuple(np.linalg.eigvalsh(record.bodies.inertia_b[k]).tolist()),
+                () if system.point_masses[k] else tuple(np.linalg.eigvalsh(record.bodies.inertia_b[k]).tolist()),
                 tuple(record.bodies.R[k].tolist()),
                 *_turn(record.bodies.theta[k]),
             )

@@ -12,7 +12,7 @@ from nivel.analysis.equations import MotionEquations, moved
 from nivel.errors import Fault, ModelError
 from nivel.system.system import Array
 
-ITERATIONS = 100
+ITERATIONS, MOST_STEPS = 100, 20_000
 # Constraints hold to this share of the scale of their row: the machine's length, or 1 for cosines.
 CLOSED = 1e-12
 # Longest step of an iteration, in radians and machine lengths.
@@ -50,13 +50,17 @@ def close_positions(motion: MotionEquations, t: float, y: Array, wishes: Wishes 
         scale, [1.0 if name.partition(".")[2].startswith("angle") else system.size for name, _, _ in values]
     )
     chosen, wanted = [q for _, q, _ in values], np.array([value for _, _, value in values])
-    best, least = y.copy(), np.inf
-    for _ in range(ITERATIONS):
+    best, least, steps, budget = y.copy(), np.inf, 0, ITERATIONS
+    while steps < budget:
+        steps += 1
         _evaluate_and_follow(motion, t, y)
         violation = np.append(C[rows], coordinates.value[chosen] - wanted)
         if not np.all(np.isfinite(violation)):
             return False
         size = float(np.linalg.norm(violation / scale))
+        if steps == 1:
+            # a value far away takes its share of steps
+            budget += min(MOST_STEPS, int(4.0 * size / LONGEST)) if np.isfinite(size) else 0
         if size < least:
             best, least = y.copy(), size
         if np.max(np.abs(violation) / scale, initial=0.0) <= CLOSED:

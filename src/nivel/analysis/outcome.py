@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+from typing import Any
+
 import numpy as np
 
 from nivel.analysis.equations import MotionEquations
-from nivel.kernels.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, NOT_FINITE, SINGULAR
+from nivel.kernels.status import BRISTLE_TOO_FAST, CONTRADICTION, FRICTION_DIVERGES, SINGULAR
 from nivel.system.system import Array
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
@@ -16,70 +19,124 @@ DRIFTED = 1e-2
 
 def failure(motion: MotionEquations, status: int, time: float, step: float, y: Array) -> tuple[str, str]:
     """(message, advice) for a run that failed in the step from `time` [s], whose last accepted state is y."""
-    system, record = motion.system, motion.system.record
-    if status == SINGULAR:
-        row = system.rows[int(record.control.failure[0])]
-        healthy = motion.holds(time, y) and _far_from_singular(motion)
-        if healthy or _drifted(motion):
-            message = (
-                f"stopped at t = {time:.6g} s: a step of {step:.3g} s from here leads to a position that the machine does not have "
-                f"({row} depends on the other constraints there); {_worst(motion)}"
+    number = int(motion.system.record.control.failure[0])
+    if status == CONTRADICTION:
+        told = _contradiction(motion, number)
+    elif status == FRICTION_DIVERGES:
+        told = _jammed(motion.system.frictions[number])
+    elif status == BRISTLE_TOO_FAST:
+        told = _fast_bristles(motion, number, step)
+    else:
+        # what is not a number spoils pivots as well, so look for it first
+        told = _broken_function(motion, time, step, y)
+        if told is None:
+            told = (
+                _singular(motion, number, time, step, y) if status == SINGULAR else _not_a_number(motion, time, step, y)
             )
-            advice = f"The step is too large for this motion: try --step {step / 10:.3g}. If it stops near this time again, the machine"
-            return message, f"{advice} comes to a singular position there: look at {_owner(row)}."
-        message = f"stopped at t = {time:.6g} s: the constraint {row} depends on the others here, the machine is in a singular position"
-        advice = (
-            f"Look at {_owner(row)} in this position: two links in line, or a loop folded flat? Start the run elsewhere, "
-            f"or move a joint by a small amount so that the machine does not pass through it exactly. "
-            f"A body whose inertia is many orders too small for its mass looks the same."
-        )
-        return message, advice
-    if status == FRICTION_DIVERGES:
-        name = motion.system.frictions[int(record.control.failure[0])]
+    return f"stopped at t = {time:.6g} s: {told[0]}", told[1]
+
+
+def _singular(motion: MotionEquations, number: int, time: float, step: float, y: Array) -> tuple[str, str]:
+    row = motion.system.rows[number]
+    healthy = motion.holds(time, y) and _far_from_singular(motion)
+    if healthy or _drifted(motion):
         message = (
-            f"stopped at t = {time:.6g} s: no friction {name} is consistent with the reactions that it causes: the joint jams, or its "
-            f"normal load would grow without bounds"
+            f"a step of {step:.3g} s from here leads to a position that the machine does not have "
+            f"({row} depends on the other constraints there); {_worst(motion)}"
         )
         advice = (
-            f"Look at {name}: a smaller coefficient, a longer bearing_length or a smaller radius; or give its normal_load. "
-            f"With Coulomb friction and rigid bodies some positions have no solution (Painlevé)."
+            f"The step is too large for this motion, or a force too stiff for it: try --step {step / 10:.3g}. If it stops near this "
+            f"time again, the machine comes to a singular position there: look at {_owner(row)}."
         )
         return message, advice
-    if status == BRISTLE_TOO_FAST:
-        name = motion.system.frictions[int(record.control.failure[0])]
-        message = (
-            f"stopped at t = {time:.6g} s: at this speed the bristles of {name} relax faster than a step of {step:.3g} s can follow; "
-            f"the friction would be wrong from here on"
-        )
-        advice = f"Try a smaller step, for instance --step {step / 4:.3g}; or a smaller bristle_stiffness of {name}."
-        return message, advice
-    assert status == NOT_FINITE
-    broken = _broken_load(motion, time, step, y)
-    if broken:
-        name, at = broken
-        message = f"stopped at t = {time:.6g} s: the force {name} is not a number at t = {at:.6g} s"
-        return (
-            message,
-            f"Look at the law of {name}: a division by zero, or a root or logarithm of a negative number?",
-        )
-    motion.evaluate(time, y)
-    where = _worst(motion)
-    message = f"stopped at t = {time:.6g} s: the state after a step of {step:.3g} s is no longer a number; {where}"
-    advice = f"Try a smaller step, for instance --step {step / 10:.3g}; if it stops at the same time, look at the forces near it."
+    message = f"the constraint {row} depends on the others here, the machine is in a singular position"
+    advice = (
+        f"Look at {_owner(row)} in this position: two links in line, or a loop folded flat? Start the run elsewhere, "
+        f"or move a joint by a small amount so that the machine does not pass through it exactly. "
+        f"A body whose inertia is many orders too small for its mass looks the same."
+    )
     return message, advice
 
 
-def _broken_load(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, float] | None:
-    """The first force that is not a finite number at a time that the step from `time` looks at, and that time."""
-    outputs = motion.system.record.outputs.value
-    names = [v.name for v in motion.system.layout.variables][-len(outputs) :] if len(outputs) else []
+def _contradiction(motion: MotionEquations, number: int) -> tuple[str, str]:
+    system, constraints = motion.system, motion.system.record.constraints
+    J = motion.jacobian()
+    others = np.delete(np.arange(len(J)), number)
+    # the rows that row `number` is a combination of
+    share = np.linalg.lstsq(J[others].T, J[number], rcond=1e-10)[0] * np.linalg.norm(J[others], axis=1)
+    repeated = others[np.abs(share) > 1e-6 * np.linalg.norm(J[number])]
+    owners = dict.fromkeys(system.row_owner[row] for row in repeated[::-1])  # drivers stand last
+    message = (
+        f"the constraint {system.rows[number]}, which repeated others at the start, contradicts them now "
+        f"(open by {constraints.C[number]:.3g}); it should follow from {', '.join(owners)}"
+    )
+    advice = (
+        "Do two drivers, or a driver and the joints or couplings around it, prescribe the same motion differently? Remove one of "
+        "them. Without them it is drift: take --stabilisation direct."
+    )
+    return message, advice
+
+
+def _jammed(name: str) -> tuple[str, str]:
+    message = (
+        f"no friction {name} is consistent with the reactions that it causes: the joint jams, or its "
+        f"normal load would grow without bounds"
+    )
+    advice = (
+        f"Look at {name}: a smaller coefficient, a longer bearing_length or a smaller radius; or give its normal_load. "
+        f"With Coulomb friction and rigid bodies some positions have no solution (Painlevé)."
+    )
+    return message, advice
+
+
+def _fast_bristles(motion: MotionEquations, number: int, step: float) -> tuple[str, str]:
+    record, name = motion.system.record, motion.system.frictions[number]
+    columns: Any = import_module("nivel.kernels.friction")
+    numbers = record.friction.number[number]
+    rate = record.coordinates.rate[int(record.friction.columns[number, columns.COORDINATE])]
+    speed = abs(float(rate * numbers[columns.ARM]))
+    relaxation = numbers[columns.STIFFNESS] * speed / numbers[columns.KINETIC]
+    message = (
+        f"the bristles of {name} relax with the rate bristle_stiffness v/coefficient = {relaxation:.3g}/s at the speed "
+        f"{speed:.3g} m/s, faster than a step of {step:.3g} s can follow; the friction would be wrong from here on"
+    )
+    advice = (
+        f"The step has to be below 2.7 coefficient/(bristle_stiffness v): try --step {1.5 / relaxation:.2g} or, for higher speeds to "
+        f"come, less; or a smaller bristle_stiffness of {name}; or `model: stiction`."
+    )
+    return message, advice
+
+
+def _broken_function(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str] | None:
+    """The first force or driver that is not a finite number at a time that the step from `time` looks at."""
+    system, record = motion.system, motion.system.record
+    outputs, constraints = record.outputs.value, record.constraints
+    names = [v.name for v in system.layout.variables][-len(outputs) :] if len(outputs) else []
     magnitudes = [(k, name.split(".")[1]) for k, name in enumerate(names) if name.endswith(".magnitude")]
+    rows = constraints.combination[:, 0].astype(int)
     for at in (time, time + 0.5 * step, time + step):
         motion.evaluate(at, y)
-        for k, name in magnitudes:
-            if not np.isfinite(outputs[k]):
-                return name, at
+        broken = [f"the force {name}" for k, name in magnitudes if not np.isfinite(outputs[k])]
+        known = (
+            np.isfinite(constraints.C[rows])
+            & np.isfinite(constraints.Cdot[rows])
+            & np.isfinite(constraints.gamma[rows])
+        )
+        broken += [f"the motion of {_owner(system.rows[row])}" for row in rows[~known]]
+        if broken:
+            advice = "a division by zero, or a root or logarithm of a negative number, or their derivatives?"
+            return (
+                f"{broken[0]} is not a number at t = {at:.6g} s",
+                f"Look at the law of {broken[0].split()[-1]}: {advice}",
+            )
     return None
+
+
+def _not_a_number(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str]:
+    motion.evaluate(time, y)
+    message = f"the state after a step of {step:.3g} s is no longer a number; {_worst(motion)}"
+    advice = f"Try a smaller step, for instance --step {step / 10:.3g}; if it stops at the same time, look at the forces near it."
+    return message, advice
 
 
 def _drifted(motion: MotionEquations) -> bool:

@@ -17,9 +17,10 @@ from nivel.kernels.record import NONE, record_at
 from nivel.kernels.saddle import solve_rows
 from nivel.kernels.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
 
-# columns of `columns`; JOINT: whose reaction is the load, or NONE; FRAME: marker whose z axis is that of the motion
+# columns of `columns`; JOINT: whose reaction is the load, or NONE; FRAME: marker whose z axis is that of the motion;
+# BEARING: marker about whose point moments are taken
 # outputs: effort, power, normal load, the bristle
-COORDINATE, MODEL, JOINT, ROTATES, STATE, OUTPUT, FRAME = 0, 1, 2, 3, 4, 5, 6
+COORDINATE, MODEL, JOINT, ROTATES, STATE, OUTPUT, FRAME, BEARING = 0, 1, 2, 3, 4, 5, 6, 7
 COULOMB, STICTION, LUGRE = 0, 1, 2
 # columns of `number`; ARM: a speed of the coordinate times it is the speed of the surfaces
 KINETIC, STATIC, STRIBECK, TRANSITION, VISCOUS, STIFFNESS, DAMPING = 0, 1, 2, 3, 4, 5, 6
@@ -104,7 +105,7 @@ def superpose(machine):
 def normal_load(machine, k):
     """What presses the surfaces of friction k together [N], from the multipliers and the constant load.
 
-    With the reaction (F, M) at the joint's first marker, across (⊥) and along the axis of the motion, z: for a turning joint
+    With the reaction (F, M) about the bearing, across (⊥) and along the axis of the motion, z: for a turning joint
     |F_⊥| + 2 |M_⊥|/length + |F_z| collar/radius, for a sliding one |F_⊥| + 2 |M_⊥|/length + |M_z|/radius.
     """
     record = record_at(machine)
@@ -122,6 +123,10 @@ def normal_load(machine, k):
         m0 += lam * J[3]
         m1 += lam * J[4]
         m2 += lam * J[5]
+    # the moment about the bearing: M + (r_first - r_bearing) × F
+    r, b = markers.r[joints.first_marker[joint]], markers.r[friction.columns[k, BEARING]]
+    d0, d1, d2 = r[0] - b[0], r[1] - b[1], r[2] - b[2]
+    m0, m1, m2 = m0 + d1 * f2 - d2 * f1, m1 + d2 * f0 - d0 * f2, m2 + d0 * f1 - d1 * f0
     A = markers.A[friction.columns[k, FRAME]]
     fx = A[0, 0] * f0 + A[1, 0] * f1 + A[2, 0] * f2
     fy = A[0, 1] * f0 + A[1, 1] * f1 + A[2, 1] * f2

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import leaf, stage
 from nivel.kernels.dense import factorise_pivoted, gather, solve_pivoted
 from nivel.kernels.record import record_at
 from nivel.kernels.sparse import factorise, solve
 from nivel.kernels.status import OK, SINGULAR
+
+CONTRADICTORY = 1e-3
 
 
 @stage
@@ -92,6 +94,19 @@ def correction(machine, violation, width):
         for i in range(width):
             saddle.z[body, i] = 0.0
     subtract_rows(saddle, width)
+
+
+@leaf
+def contradicts(saddle, constraints, failure):
+    """Whether a row of a redundant machine is open by more than CONTRADICTORY of its scale: it contradicts the rows that it repeated
+    at the start. `failure` (1,) gets the row."""
+    if saddle.dense.shape[0] == 0:
+        return False
+    for row in range(constraints.C.shape[0]):
+        if np.abs(constraints.C[row]) > CONTRADICTORY * constraints.scale[row]:
+            failure[0] = row
+            return True
+    return False
 
 
 @stage

@@ -7,4 +7,5 @@ BUFFER_FULL = 3  # the output buffer must be taken
 BUDGET_SPENT = 4  # the chunk of steps is done
 DONE = 5  # the end of the run is reached
 BRISTLE_TOO_FAST = 7  # LuGre friction relaxes faster than the step can follow: control.failure is its number
+CONTRADICTION = 8  # a redundant row no longer follows from the others: control.failure names it
 FRICTION_DIVERGES = 6  # no friction is consistent with the reactions it causes: control.failure is its number

@@ -40,6 +40,7 @@ def point_mass_faults(machine: Any, index: Index) -> Faults:
                 if body in index.point_masses:
                     yield ("forces", at, *place), f"`{body}`: {_TURN}; a {entry(force, 'type')} cannot act on it"
         yield from _not_on_one(entry(force, "plane"), index, ("forces", at, "plane"))
+        yield from _no_axes_of_one(force, index, ("forces", at, "axes"))
     for at, driver in enumerate(elements(machine, "drivers")):
         if entry(driver, "about") is not None:
             yield from _not_on_one(entry(driver, "marker"), index, ("drivers", at, "marker"))
@@ -73,6 +74,14 @@ def _bodies(element: Any, index: Index) -> Iterator[tuple[Place, str]]:
         on = index.body_of(end)
         if on is not None:
             yield ("markers", at), on
+
+
+def _no_axes_of_one(force: Any, index: Index, place: Place) -> Faults:
+    """Vectors in the axes of a point mass."""
+    axes = entry(force, "axes")
+    on = [body for _, body in _bodies(force, index)] or [index.body_of(entry(force, "marker"))]
+    if axes in ("body", "first") and on[0] in index.point_masses:
+        yield place, f"`{on[0]}`: {_TURN} and has no axes of its own; write `axes: global`"
 
 
 def _not_on_one(marker: Any, index: Index, place: Place) -> Faults:

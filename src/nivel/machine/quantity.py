@@ -32,7 +32,9 @@ from nivel.machine.dimension import KINDS, Dimension, counts_turns, described, i
 from nivel.machine.grammar import parse
 from nivel.machine.measure import measure
 
-MASSLESS = "; a link without mass is a joint: distance, revolute-spherical, revolute-cylindrical, revolute-translational"
+MASSLESS = (
+    "; a link without mass is a joint: distance, revolute-spherical, revolute-cylindrical, revolute-translational"
+)
 FAULT = "nivel"  # type of the validation errors that carry a finished sentence
 REPORTED = "nivel_reported"  # type of those that follow from a fault reported elsewhere
 

@@ -6,7 +6,8 @@ from nivel.kernels.compile import entry, leaf
 from nivel.kernels.handle import address_type
 from nivel.kernels.observe import accept, observe
 from nivel.kernels.record import record_at
-from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE, NOT_FINITE, OK
+from nivel.kernels.saddle import contradicts
+from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK
 from nivel.march.run import (
     ALL_STEPS,
     BUDGET,
@@ -87,6 +88,9 @@ def advance(evaluate, correct, step, machine, history):
                 return status
             if not finite(run.rate):
                 return NOT_FINITE
+            record = record_at(machine)
+            if contradicts(record.saddle, record.constraints, record.control.failure):
+                return CONTRADICTION
             counter[EVALUATED] = 1
             accept(machine, clock[TIME])
             if due:

@@ -30,7 +30,7 @@ from nivel.machine.body import Body
 from nivel.machine.inertia import mass_properties
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.placement import initial_velocity, placement
-from nivel.system.draft import Draft
+from nivel.system.draft import Draft, located
 from nivel.system.elimination import plan
 from nivel.system.forces import FORCES, family_addresses
 from nivel.system.layout import frame_layout
@@ -114,12 +114,8 @@ def build(machine: MachineRecord, equations: Equations) -> System:
 
 
 def _add_force(draft: Draft, force: Any) -> None:
-    """Add a force; a fault without a place gets that of the force."""
-    try:
+    with located(f"forces.{force.name}"):
         FORCES[force.type].add(draft, force)
-    except ModelError as error:
-        place = f"forces.{force.name}"
-        raise ModelError([replace(fault, path=fault.path or place) for fault in error.faults]) from error
 
 
 def _hooks(draft: Draft, sensors: bool) -> Hooks:

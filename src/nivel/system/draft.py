@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from nivel.errors import ModelError
 from nivel.kernels.coordinate import DISTANCE, ROTATION
 from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, POSITION, RATE, VELOCITY
 from nivel.machine.coordinate_reference import Kind, resolve
@@ -21,6 +24,15 @@ from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, Outp
 
 GROUND = "ground"
 AXES = "xyz"
+
+
+@contextmanager
+def located(place: str) -> Iterator[None]:
+    """Faults without a place that come up inside get this one."""
+    try:
+        yield
+    except ModelError as error:
+        raise ModelError([replace(fault, path=fault.path or place) for fault in error.faults]) from error
 
 
 @dataclass

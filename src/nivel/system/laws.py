@@ -5,6 +5,7 @@ Each is a module named by its content in the cache directory: a function made fr
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
 import importlib.util
 import sys
@@ -12,9 +13,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from nivel.errors import Fault, ModelError
 from nivel.kernels import cache
-from nivel.machine.arithmetic import Call, Name, Negative, Node, Number, Operation, Signal, Time
+from nivel.machine.arithmetic import TIME, Call, Name, Negative, Node, Number, Operation, Signal, Time
 from nivel.machine.expression import Expression
 from nivel.machine.python_law import PythonLaw
 
@@ -74,6 +77,16 @@ def law_address(law: PythonLaw, *, motion: bool) -> int:
 
     Raises ModelError where it cannot be compiled.
     """
+    try:
+        return _address(_law_text(law, motion=motion))
+    except Exception as problem:  # whatever a foreign text does while it is compiled is the user's fault to mend
+        where = f" in {law.file}" if law.file else ""
+        message = f"the law `{law.function}`{where} cannot be compiled: {_telling(problem)}"
+        raise ModelError(Fault("", 0, 0, "", message)) from problem
+
+
+def _law_text(law: PythonLaw, *, motion: bool) -> str:
+    """The module that is compiled: the law's own text and the C function that calls it."""
     count = len(law.arguments)
     call = f"{law.function}({', '.join(f'x[{n}]' for n in range(count))})"
     if motion:
@@ -85,13 +98,42 @@ def law_address(law: PythonLaw, *, motion: bool) -> int:
         ]
     else:
         lines = [f"return {call}"]
-    text = LAW.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
-    try:
-        return _address(text)
-    except Exception as problem:  # whatever a foreign text does while it is compiled is the user's fault to mend
-        where = f" in {law.file}" if law.file else ""
-        message = f"the law `{law.function}`{where} cannot be compiled: {_telling(problem)}"
-        raise ModelError(Fault("", 0, 0, "", message)) from problem
+    return LAW.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
+
+
+def false_derivative(law: PythonLaw, end: float) -> str:
+    """What is wrong with the rate or the acceleration that the law of a motion returns, by differences at times up to `end` [s].
+
+    Empty where both fit their functions at nine of ten times: at corners they may not.
+    """
+    function = _module(_law_text(law, motion=True)).nivel_law.ctypes
+    count = len(law.arguments)
+
+    def at(time: float) -> tuple[float, float, float]:
+        places = [time if argument == TIME else float(argument) for argument in law.arguments]
+        arguments = (ctypes.c_double * (count + 2))(*places)
+        value = function(arguments)
+        return value, arguments[count], arguments[count + 1]
+
+    grid = np.linspace(0.0, end, 2001)
+    values, rates = np.array([at(t)[:2] for t in grid]).T
+    jump = np.abs(np.diff(values)) - 2.0 * grid[1] * np.abs(rates).max()
+    if jump.max() > 1e-9 * np.abs(values).max():
+        k = int(np.argmax(jump))
+        return f"its value jumps from {values[k]:.6g} to {values[k + 1]:.6g} at about t = {grid[k + 1]:.6g} s"
+    h = 1e-6 * end
+    triples = [(at(t - h), at(t), at(t + h)) for t in np.random.default_rng(1).uniform(0.01, 0.99, 60) * end]
+    for order, name in ((1, "rate"), (2, "acceleration")):
+        found = np.array([(after[order - 1] - before[order - 1]) / (2 * h) for before, _, after in triples])
+        given = np.array([here[order] for _, here, _ in triples])
+        size = max(np.abs(found).max(), np.abs(given).max())
+        values = max(abs(here[order - 1]) for _, here, _ in triples)
+        wrong = ~(np.abs(found - given) <= 1e-3 * size + 1e-9 * values / h)
+        if wrong.mean() > 0.1:
+            k = int(np.argmax(wrong))
+            what = "value" if order == 1 else "rate"
+            return f"its {name} is {given[k]:.6g} where the {what} it returns changes by {found[k]:.6g} a second"
+    return ""
 
 
 def _telling(problem: Exception) -> str:

@@ -11,7 +11,7 @@ from nivel.kernels.record import NONE, Constraints
 from nivel.machine.coordinate_reference import COORDINATE_KINDS
 from nivel.machine.driver import Driver
 from nivel.machine.joint import Joint
-from nivel.system.draft import Draft
+from nivel.system.draft import Draft, located
 from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
 from nivel.system.joints import (
     AXES,
@@ -214,7 +214,8 @@ def add_drivers(draft: Draft, rows: RowTable) -> None:
             (f"driver.{driver.name}.effort", effort, f"effort of {driver.name} on its coordinate"),
             (f"driver.{driver.name}.power", "W", f"power of {driver.name} into the machine"),
         )
-        function = draft.function(driver.value, motion=True)
+        with located(f"drivers.{driver.name}.value"):
+            function = draft.function(driver.value, motion=True)
         rows.combine(draft, row, [(coordinate, 1.0)], offset=0.0, function=function, report=(output, 1))
 
 

@@ -9,7 +9,7 @@ from nivel.kernels.coordinate import DISTANCE, LAST_ANGLE, ROTATION
 from nivel.kernels.record import NONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.sensor import Sensor
-from nivel.system.draft import Draft
+from nivel.system.draft import Draft, located
 
 VECTOR_UNITS = {
     "position": "m",
@@ -58,7 +58,8 @@ def sensor_columns(draft: Draft) -> list[list[int]]:
                 case _:
                     assert sensor.value is not None  # the record was checked
                     output = draft.outputs.add((f"sensor.{sensor.name}", sensor.units, f"sensor {sensor.name}"))
-                    columns.append([output, kernel.FUNCTION, draft.function(sensor.value), NONE])
+                    with located(f"sensors.{sensor.name}.value"):
+                        columns.append([output, kernel.FUNCTION, draft.function(sensor.value), NONE])
     return columns
 
 

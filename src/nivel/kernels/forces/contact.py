@@ -112,10 +112,10 @@ def find_point(machine, k, n):
     if kind == SPHERES:
         d0, d1, d2 = r[0] - o[0], r[1] - o[1], r[2] - o[2]
         distance = np.sqrt(d0 * d0 + d1 * d1 + d2 * d2)
-        if distance == 0.0:
-            d2, distance = 1.0, 1.0
-        normal[0], normal[1], normal[2] = d0 / distance, d1 / distance, d2 / distance
         depth = size[0] + size[1] - distance
+        if distance == 0.0:
+            d2, distance = 1.0, 1.0  # any direction will do
+        normal[0], normal[1], normal[2] = d0 / distance, d1 / distance, d2 / distance
         for a in range(3):
             p[a] = o[a] + (size[1] - 0.5 * depth) * normal[a]
         return depth

@@ -8,7 +8,7 @@ from nivel.kernels.coordinate import CROSS_SECOND
 from nivel.kernels.record import NONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
-from nivel.system.draft import Draft
+from nivel.system.draft import GROUND, Draft
 from nivel.system.forces.outputs import force_outputs, is_angle
 
 
@@ -34,7 +34,7 @@ def add_friction(draft: Draft, force: Friction) -> None:
     radius = force.radius or 0.0
     kind, seen_from, to, _ = draft.coordinates.what[coordinate]
     frame = to if kind == CROSS_SECOND else seen_from
-    index = [coordinate, model, loaded_by, int(angle), state, first, frame]
+    index = [coordinate, model, loaded_by, int(angle), state, first, frame, _bearing(draft, seen_from, to)]
     numbers = [
         force.coefficient,
         force.static,
@@ -50,3 +50,9 @@ def add_friction(draft: Draft, force: Friction) -> None:
         force.normal_load if force.normal_load is not None else force.preload,
     ]
     draft.frictions.append((index, numbers))
+
+
+def _bearing(draft: Draft, first: int, second: int) -> int:
+    """Which of two markers is at the bearing: that of the second body, unless this is the ground and the first is not."""
+    ground = draft.body(GROUND)
+    return first if draft.markers.body[second] == ground != draft.markers.body[first] else second

@@ -3,6 +3,7 @@
 import functools
 import math
 from math import tanh
+from typing import Annotated
 
 import numpy as np
 import pytest
@@ -11,7 +12,9 @@ from nivel.errors import ModelError
 from nivel.machine.arithmetic import Number
 from nivel.machine.forces import PointForce
 from nivel.machine.record import Record
-from nivel.machine.time_function import AngleMotion, ForceComponent, PythonLaw, SpringForce
+from nivel.machine.time_function import ForceComponent, PythonLaw, SpringForce, TimeFunction, varying
+
+AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]
 
 BRAKE = """import math
 

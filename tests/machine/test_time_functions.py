@@ -12,13 +12,9 @@ from nivel.errors import ModelError
 from nivel.machine.arithmetic import ExpressionError, Number
 from nivel.machine.record import Record
 from nivel.machine.time_function import (
-    AngleMotion,
-    Effort,
     Expression,
     ForceComponent,
-    LengthMotion,
     Measured,
-    Motion,
     PythonLaw,
     SpringForce,
     SpringTorque,
@@ -29,6 +25,11 @@ from nivel.machine.time_function import (
     signals_of,
     varying,
 )
+
+AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]
+LengthMotion = Annotated[TimeFunction, varying("length", smooth=True)]
+Motion = Annotated[TimeFunction, varying(("angle", "length"), smooth=True)]
+Effort = Annotated[TimeFunction, varying(("force", "torque"))]
 
 
 class Fields(Record):

@@ -16,15 +16,12 @@ from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
 from nivel.analysis.outcome import failure
 from nivel.analysis.redundancy import Redundancy, analyse
+from nivel.analysis.refusals import refuse_deep_starts, refuse_rough_motions, refuse_uncertain_loads
 from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
-from nivel.machine.coordinate_reference import resolve
-from nivel.machine.forces import Contact, Friction, Stop
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.python_law import PythonLaw
-from nivel.machine.table import Table
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.run import (
     ALL_STEPS,
@@ -43,14 +40,10 @@ from nivel.march.run import (
 from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
-from nivel.system.laws import false_derivative
-from nivel.system.system import Array
 
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
 CHUNK = 0.05
 BUFFER_BYTES = 1_000_000
-# Stops and contacts may start inside what they touch by this share of the machine's length, or of a radian.
-DEEPEST_START = 0.02
 # Stiction stops a joint within this many steps.
 STICK_STEPS = 2.0
 
@@ -86,74 +79,12 @@ def prepare(machine: MachineRecord, formulation: str) -> Prepared:
         rows = ", ".join(redundancy.singular_rows)
         message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby; start it a little aside"
         raise ModelError(Fault("", 0, 0, "machine", message))
-    _refuse_uncertain_loads(machine, redundancy)
-    _refuse_rough_motions(machine)
+    refuse_uncertain_loads(machine, redundancy)
+    refuse_rough_motions(machine)
     rank = len(motion.system.rows) - len(redundancy.redundant_rows)
     motion = MotionEquations(motion.system.known_rank(rank), motion.kernels)
-    _refuse_deep_starts(machine, motion, assembly.y)
+    refuse_deep_starts(machine, motion, assembly.y)
     return Prepared(motion, assembly, redundancy, len(machine.drivers))
-
-
-def _refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> None:
-    """Stops and contacts that start far inside what they touch: they would throw the machine apart."""
-    motion.evaluate(0.0, y)
-    system, faults = motion.system, []
-    names = [variable.name for variable in system.layout.variables]
-    first = len(names) - len(system.record.outputs.value)
-    for force in machine.forces:
-        if isinstance(force, Stop | Contact):
-            place = names.index(f"force.{force.name}.depth")
-            depth, units = float(system.record.outputs.value[place - first]), system.layout.variables[place].units
-            deepest = DEEPEST_START * (system.size if units == "m" else 1.0)
-            if depth > deepest:
-                message = (
-                    f"starts {depth:.4g} {units} inside what it touches (up to {deepest:.3g} {units} are taken): it would throw the "
-                    f"machine apart; move the bodies, or the ends of the way"
-                )
-                faults.append(Fault("", 0, 0, f"forces.{force.name}", message))
-    if faults:
-        raise ModelError(faults)
-
-
-def _refuse_rough_motions(machine: MachineRecord) -> None:
-    """Tables of drivers that end on the way, or begin later than the run: the speed would jump there. Laws whose derivatives are not
-    those of what they return."""
-    faults = []
-    end = machine.simulation.duration
-    for driver in machine.drivers:
-        table = driver.value
-        if isinstance(table, PythonLaw) and (wrong := false_derivative(table, end)):
-            message = (
-                f"the law `{table.function}` must return value, rate and acceleration that belong together: {wrong}"
-            )
-            faults.append(Fault("", 0, 0, f"drivers.{driver.name}.value", message))
-        if not isinstance(table, Table):
-            continue
-        first, last = table.times[0], table.times[-1]
-        if first > 0.0 or last < end * (1.0 - 1e-12):
-            message = (
-                f"the table holds from {first:.6g} to {last:.6g} s and the run lasts from 0 to {end:.6g} s: beyond its ends the speed "
-                f"would jump to zero; add points, or run for {last:.6g} s"
-            )
-            faults.append(Fault("", 0, 0, f"drivers.{driver.name}.value", message))
-    if faults:
-        raise ModelError(faults)
-
-
-def _refuse_uncertain_loads(machine: MachineRecord, redundancy: Redundancy) -> None:
-    """Friction whose normal load is a reaction that the equations do not determine: the motion would be one of many."""
-    faults = []
-    for force in machine.forces:
-        if isinstance(force, Friction) and force.normal_load is None:
-            joint, _ = resolve(force.coordinate, machine.joints)
-            if joint in redundancy.non_unique_joints:
-                message = (
-                    f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(redundancy.redundant_rows)} "
-                    f"repeat other constraints; give a `normal_load`, or replace joints until nothing is redundant"
-                )
-                faults.append(Fault("", 0, 0, f"forces.{force.name}.coordinate", message))
-    if faults:
-        raise ModelError(faults)
 
 
 def march(

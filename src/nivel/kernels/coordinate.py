@@ -21,7 +21,7 @@ import numpy as np
 
 from nivel.kernels.analytic import arctan2, real
 from nivel.kernels.compile import leaf, stage
-from nivel.kernels.spatial import dot
+from nivel.kernels.spatial import cross, dot
 
 ROTATION, CROSS_FIRST, CROSS_SECOND, POLAR, TRANSLATION, DISTANCE, COSINE, MOMENT, RADIUS = 0, 1, 2, 3, 4, 5, 6, 7, 8
 LAST_ANGLE = POLAR
@@ -135,12 +135,6 @@ def cosine(bodies, markers, i, p, j, o, Ji, Jj):
     Ji[3], Ji[4], Ji[5] = n0, n1, n2
     Jj[3], Jj[4], Jj[5] = -n0, -n1, -n2
     return value, rate, bias
-
-
-@leaf
-def cross(a, b):
-    """a × b of tuples."""
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 @stage

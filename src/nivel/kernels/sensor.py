@@ -7,6 +7,7 @@ from nivel.kernels.coordinate import measure
 from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
+from nivel.kernels.spatial import cross
 from nivel.kernels.status import OK
 
 # columns of `columns`; WHAT: marker, coordinate, function or output; FRAME: marker that it is seen from, or NONE
@@ -48,12 +49,6 @@ def motion_of(machine, m, kind):
         a[1] + bias[1] + alpha[2] * u[0] - alpha[0] * u[2],
         a[2] + bias[2] + alpha[0] * u[1] - alpha[1] * u[0],
     )
-
-
-@stage
-def cross(a, b):
-    """a × b of tuples."""
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 @stage

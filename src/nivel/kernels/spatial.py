@@ -12,6 +12,12 @@ def dot(a, b):
 
 
 @leaf
+def cross(a, b):
+    """a × b of 3-vectors, as a tuple."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@leaf
 def multiply(A, x, out):
     """out = A x; `out` may not be x."""
     for i in range(3):

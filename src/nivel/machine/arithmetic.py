@@ -159,9 +159,6 @@ def varies(node: Node) -> bool:
     return any(isinstance(leaf, Time | Signal) for leaf in leaves(node))
 
 
-uses_time = varies
-
-
 def bind(node: Node, parameters: Parameters, local: Collection[str] = ()) -> Node:
     """`node` with every name replaced by what it stands for: one of the `local` symbols, else a parameter, a constant
     or a unit.

@@ -14,7 +14,7 @@ from nivel.machine.arithmetic import (
     evaluate,
     given,
     names,
-    uses_time,
+    varies,
 )
 from nivel.machine.grammar import parse
 from nivel.machine.measure import measure
@@ -48,7 +48,7 @@ def _tree(name: str, value: object) -> Node:
         raise ExpressionError(f"`{name}` is a unit; choose another name")
     if isinstance(value, str):
         tree = parse(value)
-        if uses_time(tree):
+        if varies(tree):
             raise ExpressionError("a parameter cannot change with `time`")
         return tree
     if isinstance(value, int | float) and not isinstance(value, bool):

@@ -195,13 +195,8 @@ def _table_schemas(smooth: bool) -> list[dict[str, Any]]:
 
 ForceComponent = Annotated[TimeFunction, varying("force")]
 TorqueComponent = Annotated[TimeFunction, varying("torque")]
-Effort = Annotated[TimeFunction, varying(("force", "torque"))]
 Measured = Annotated[TimeFunction, varying(ANY)]
 
 # Laws of springs: what the spring measures has a name of its own.
 SpringForce = Annotated[TimeFunction, varying("force", local=("length", "rate"))]
 SpringTorque = Annotated[TimeFunction, varying("torque", local=("angle", "rate"))]
-
-AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]
-LengthMotion = Annotated[TimeFunction, varying("length", smooth=True)]
-Motion = Annotated[TimeFunction, varying(("angle", "length"), smooth=True)]

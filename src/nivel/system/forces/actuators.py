@@ -6,7 +6,7 @@ import math
 
 from nivel.machine.forces import Motor, Stop
 from nivel.system.draft import Draft
-from nivel.system.forces.outputs import force_outputs, is_angle
+from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 from nivel.system.forces.restitution import damping_of_restitution
 
 
@@ -17,8 +17,7 @@ def add_stop(draft: Draft, force: Stop) -> None:
     first = force_outputs(
         draft,
         force.name,
-        ("magnitude", "N m" if angle else "N", "effort on the coordinate"),
-        ("power", "W", "power into the machine"),
+        *effort_and_power(angle, "effort on the coordinate"),
         ("depth", "rad" if angle else "m", "overlap"),
     )
     lower = -math.inf if force.lower is None else force.lower
@@ -34,8 +33,7 @@ def add_motor(draft: Draft, force: Motor) -> None:
     first = force_outputs(
         draft,
         force.name,
-        ("magnitude", "N m" if angle else "N", "effort on the coordinate"),
-        ("power", "W", "power into the machine"),
+        *effort_and_power(angle, "effort on the coordinate"),
         ("value", "rad" if angle else "m", "coordinate"),
         ("rate", "rad/s" if angle else "m/s", "rate of the coordinate"),
     )

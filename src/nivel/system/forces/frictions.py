@@ -9,7 +9,7 @@ from nivel.kernels.record import NONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.system.draft import GROUND, Draft
-from nivel.system.forces.outputs import force_outputs, is_angle
+from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 
 
 def add_friction(draft: Draft, force: Friction) -> None:
@@ -19,8 +19,7 @@ def add_friction(draft: Draft, force: Friction) -> None:
     coordinate = draft.coordinate(force.coordinate)
     angle = is_angle(draft, coordinate)
     entries = [
-        ("magnitude", "N m" if angle else "N", "effort on the coordinate"),
-        ("power", "W", "power into the machine"),
+        *effort_and_power(angle, "effort on the coordinate"),
         ("normal_load", "N", "normal load"),
     ]
     state = NONE

@@ -12,9 +12,17 @@ def force_outputs(draft: Draft, name: str, *entries: tuple[str, str, str]) -> in
     return draft.outputs.add(*named)
 
 
-def magnitude_and_power(units: str) -> tuple[tuple[str, str, str], tuple[str, str, str]]:
+Output = tuple[str, str, str]
+
+
+def magnitude_and_power(units: str, words: str = "magnitude") -> tuple[Output, Output]:
     """The two outputs that all forces begin with."""
-    return ("magnitude", units, "magnitude"), ("power", "W", "power into the machine")
+    return ("magnitude", units, words), ("power", "W", "power into the machine")
+
+
+def effort_and_power(angle: bool, words: str) -> tuple[Output, Output]:
+    """The same of what acts on a coordinate: a torque on an angle, a force on a length."""
+    return magnitude_and_power("N m" if angle else "N", words)
 
 
 def is_angle(draft: Draft, coordinate: int) -> bool:

@@ -9,7 +9,7 @@ from nivel.kernels.function import COORDINATE, RATE
 from nivel.kernels.record import NONE
 from nivel.machine.forces import Characteristic, JointSpringDamper, SpringDamper, TorsionalSpringDamper
 from nivel.system.draft import Draft
-from nivel.system.forces.outputs import force_outputs, is_angle
+from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 
 
 def add_spring_damper(draft: Draft, force: SpringDamper) -> None:
@@ -40,8 +40,7 @@ def _add_spring(
     first = force_outputs(
         draft,
         force.name,
-        ("magnitude", "N m" if angle else "N", "effort that resists the coordinate"),
-        ("power", "W", "power into the machine"),
+        *effort_and_power(angle, "effort that resists the coordinate"),
         (symbol, "rad" if angle else "m", symbol),
         ("rate", "rad/s" if angle else "m/s", f"rate of the {symbol}"),
     )

@@ -10,6 +10,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.compilation import compile_path
 from nivel.analysis.listener import Listener
 from nivel.errors import ModelError
@@ -94,7 +95,9 @@ class Machine:
 
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
-        compile_path(self.record, self.record.simulation.formulation, "", "", listener or Listener())
+        settings = self.record.simulation
+        path = (choose_coordinates(self.record), settings.formulation, settings.rotations)
+        compile_path(self.record, path, listener or Listener())
         from nivel.analysis.check import check
 
         with self._faults_in_file():
@@ -133,7 +136,11 @@ class Machine:
         chosen = self.with_settings({key: value for key, value in given.items() if value is not None})
         settings = chosen.record.simulation
         compile_seconds = compile_path(
-            chosen.record, settings.formulation, settings.integrator, settings.stabilisation, listener or Listener()
+            chosen.record,
+            (choose_coordinates(chosen.record), settings.formulation, settings.rotations),
+            listener or Listener(),
+            integrator=settings.integrator,
+            stabilisation=settings.stabilisation,
         )
         # after the kernels: what follows imports them
         from nivel.analysis.simulate import simulate

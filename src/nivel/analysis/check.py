@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.elements import coupling_in_words, driver_in_words, force_in_words, sensor_in_words
 from nivel.analysis.settings import RunSettings, complete
@@ -137,8 +138,8 @@ def _vector(values: tuple[float, ...]) -> str:
 
 def check(machine: MachineRecord) -> Check:
     """Check and assemble `machine`. Raises ModelError with what is wrong."""
-    settings = complete(machine.simulation)
-    prepared = prepare(machine, settings.formulation)
+    settings = complete(machine.simulation, choose_coordinates(machine))
+    prepared = prepare(machine, settings.formulation, settings.coordinates)
     system = prepared.motion.system
     record, redundancy, assembly = system.record, prepared.redundancy, prepared.assembly
     from nivel.kernels.observe import observe

@@ -11,9 +11,11 @@ from nivel.kernels import cache
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import FORMULATIONS
+from nivel.motion.catalogue import path_of
 from nivel.system.forces import FORCES
 
+# in these equations every machine is assembled
+ASSEMBLY = "nivel.motion.newton_euler"
 LOADS = ("force", "torque")
 RARE = {
     "nivel.kernels.measure": "measured coordinates",
@@ -23,18 +25,26 @@ RARE = {
 
 
 def compile_path(
-    machine: MachineRecord, formulation: str, integrator: str, stabilisation: str, listener: Listener
+    machine: MachineRecord,
+    path: tuple[str, str, str],
+    listener: Listener,
+    *,
+    integrator: str = "",
+    stabilisation: str = "",
 ) -> float:
     """Import the kernel modules of a run of `machine`; tell the listener about each that is not in the cache.
 
-    A check has no integrator and no stabilisation: empty names. Unknown names are left alone. Returns the wall time [s].
+    path : coordinates, formulation and rotations. A check has no integrator and no stabilisation. Unknown names are left alone.
+    Returns the wall time [s].
     """
     begin = perf_counter()
     parts = [("nivel.kernels.observe", "output"), *_rare_parts(machine)]
-    if formulation in FORMULATIONS:
-        parts.insert(0, (FORMULATIONS[formulation].module, f"the equations of motion, {formulation}"))
+    parts.insert(0, (ASSEMBLY, "the equations of motion, newton-euler"))
+    if (facts := path_of(*path)) is not None:
+        if facts.module != ASSEMBLY:
+            parts.insert(1, (facts.module, f"the equations of motion, {path[1]} in {path[0]} coordinates"))
         if stabilisation in STABILISATIONS and STABILISATIONS[stabilisation].CORRECTS:
-            parts.insert(1, (FORMULATIONS[formulation].correction, "the direct correction"))
+            parts.append((facts.correction, "the direct correction"))
     if integrator in INTEGRATORS:
         parts.append(("nivel.march.loop", "the time loop"))
         parts.append((INTEGRATORS[integrator].module, f"the integrator {integrator}"))

@@ -11,10 +11,12 @@ from typing import Any
 import numpy as np
 
 from nivel.analysis.assemble import Assembly, assemble
+from nivel.analysis.combinations import refuse_combinations
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
 from nivel.analysis.outcome import failure
+from nivel.analysis.penalties import feedback, penalise
 from nivel.analysis.redundancy import Redundancy, analyse
 from nivel.analysis.refusals import refuse_deep_starts, refuse_rough_motions, refuse_uncertain_loads
 from nivel.analysis.settings import RunSettings
@@ -22,24 +24,37 @@ from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import INTEGRATORS
+from nivel.march.catalogue import INTEGRATORS, IntegratorFacts
 from nivel.march.run import (
     ALL_STEPS,
     BUDGET,
+    CLOCKS,
+    CONSERVE,
+    CORRECTOR_TOLERANCE,
     COUNTS,
+    DENSE_ROWS,
     DONE_STEPS,
     END,
     EVALUATIONS,
     EVERY,
     FRAMES,
+    INTERVAL,
+    ITERATIONS,
+    LARGEST,
     LAST_FRAME,
+    MOST_ITERATIONS,
+    NEWTON,
+    REJECTED,
     STEP,
     TIME,
+    TOLERANCE,
+    UNCONSERVED,
     Run,
 )
 from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import FORMULATIONS
+from nivel.motion.catalogue import FORMULATIONS, path_of
+from nivel.system.system import Array, System
 
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
 CHUNK = 0.05
@@ -50,9 +65,12 @@ STICK_STEPS = 2.0
 
 @dataclass(frozen=True)
 class Prepared:
-    """A machine ready to run: its equations, its assembled state, its redundancy, the number of its drivers."""
+    """A machine ready to run: its equations and its state at the start in the coordinates of the run, both again in absolute ones as
+    assembled, its redundancy, the number of its drivers."""
 
     motion: MotionEquations
+    start: Array
+    absolute: MotionEquations
     assembly: Assembly
     redundancy: Redundancy
     drivers: int
@@ -67,12 +85,12 @@ class Finished:
     failure: tuple[str, str, float] | None = None
 
 
-def prepare(machine: MachineRecord, formulation: str) -> Prepared:
-    """Build and assemble `machine`.
+def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinates: str = "absolute") -> Prepared:
+    """Build and assemble `machine`, for the rotations, cut joints and penalties of its own settings.
 
     Raises ModelError where it cannot be closed, starts in a singular position, or has friction of no certain load.
     """
-    motion = equations(machine, formulation)
+    motion = equations(machine)
     assembly = assemble(machine, motion)
     redundancy = analyse(motion, 0.0, assembly.y)
     if redundancy.singular_rows:
@@ -81,10 +99,19 @@ def prepare(machine: MachineRecord, formulation: str) -> Prepared:
         raise ModelError(Fault("", 0, 0, "machine", message))
     refuse_uncertain_loads(machine, redundancy)
     refuse_rough_motions(machine)
-    rank = len(motion.system.rows) - len(redundancy.redundant_rows)
-    motion = MotionEquations(motion.system.known_rank(rank), motion.kernels)
-    refuse_deep_starts(machine, motion, assembly.y)
-    return Prepared(motion, assembly, redundancy, len(machine.drivers))
+    rank = motion.system.machine_rows - len(redundancy.redundant_rows)
+    absolute = MotionEquations(motion.system.known_rank(rank), motion.kernels)
+    refuse_deep_starts(machine, absolute, assembly.y)
+    facts = path_of(coordinates, formulation, machine.simulation.rotations)
+    if facts is None:
+        raise ModelError(refuse_combinations(machine.simulation.replace(formulation=formulation), coordinates))
+    arrange = import_module(facts.arrangement).arrange
+    system, y = arrange(machine, motion.system, assembly.y, rank, machine.simulation)
+    system.record.coordinates.reference[:] = assembly.reference
+    prepared = MotionEquations(system, import_module(facts.module))
+    if FORMULATIONS[formulation].factor > 0.0:
+        prepared = penalise(prepared, y, machine.simulation, FORMULATIONS[formulation])
+    return Prepared(prepared, y, absolute, assembly, redundancy, len(machine.drivers))
 
 
 def march(
@@ -104,12 +131,16 @@ def march(
     stabilisation = STABILISATIONS[settings.stabilisation]
     alpha, beta = settings.baumgarte or (None, None)
     system.record.control.stabilise[:] = stabilisation.coefficients(settings.step, alpha, beta)
-    kernels, formulation = prepared.motion.kernels, FORMULATIONS[settings.formulation]
-    correct = import_module(formulation.correction).correct if stabilisation.CORRECTS else kernels.keep
+    if settings.penalty is not None:
+        system.record.control.stabilise[:2] = feedback(settings.penalty, settings.step, stabilisation.CORRECTS)
+    kernels, path = prepared.motion.kernels, path_of(settings.coordinates, settings.formulation, settings.rotations)
+    assert path is not None
+    correct = import_module(path.correction).correct if stabilisation.CORRECTS else kernels.keep
     facts = INTEGRATORS[settings.integrator]
     step = getattr(import_module(facts.module), facts.function)
     advance = import_module("nivel.march.loop").advance
-    run = _start(prepared, settings, facts.stages)
+    run = _start(prepared, settings, facts)
+    run.counter[CONSERVE] = int(stabilisation.CONSERVES)
     machine, history = prepared.motion.handle, Handle(run)
     finished = Finished("done")
     wall = clock_of_python.perf_counter()
@@ -135,28 +166,39 @@ def march(
                 break
     if status not in (BUDGET_SPENT, BUFFER_FULL, DONE):
         finished.outcome = "failed"
-        message, advice = failure(prepared.motion, status, float(run.clock[TIME]), settings.step, run.previous)
+        step_size = float(run.clock[STEP])
+        message, advice = failure(prepared.motion, status, float(run.clock[TIME]), step_size, run.previous)
         finished.failure = (message, advice, float(run.clock[TIME]))
     finished.timing = {
         "steps": int(run.counter[DONE_STEPS]),
         "evaluations": int(run.counter[EVALUATIONS]),
+        "iterations": int(run.counter[ITERATIONS]) + int(system.record.control.iterations[1]),
+        "rejected": int(run.counter[REJECTED]),
+        "unconserved": int(run.counter[UNCONSERVED]),
         "loop_seconds": loop_seconds,
         "wall_seconds": clock_of_python.perf_counter() - wall,
     }
     return finished
 
 
-def _start(prepared: Prepared, settings: RunSettings, stages: int) -> Run:
+def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
     """History of a run at its start: energies referred to the assembled state, joint angles followed from it, nothing remembered."""
     system = prepared.motion.system
-    y = prepared.assembly.y.copy()
+    y = prepared.start.copy()
     width = system.layout.width
     rows = max(2, min(4096, BUFFER_BYTES // (8 * width)))
-    clock = np.zeros(4)
-    clock[STEP], clock[END] = settings.step, settings.duration
+    clock = np.zeros(CLOCKS)
+    clock[STEP], clock[END], clock[INTERVAL] = settings.step, settings.duration, settings.output_interval
+    clock[TOLERANCE], clock[LARGEST] = settings.tolerance or 0.0, settings.largest_step
     count = np.zeros(COUNTS, dtype=np.int64)
     count[ALL_STEPS], count[EVERY], count[LAST_FRAME] = settings.steps, settings.every, -1
+    if settings.corrector is not None:
+        clock[CORRECTOR_TOLERANCE] = settings.corrector.tolerance
+        count[MOST_ITERATIONS] = settings.corrector.most_iterations
+        count[NEWTON] = int(settings.corrector.iteration == "newton")
+    newton = len(y) if count[NEWTON] else 0
     record = system.record
+    record.control.iterations[1] = 0
     record.coordinates.reference[:] = prepared.assembly.reference
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
@@ -175,9 +217,36 @@ def _start(prepared: Prepared, settings: RunSettings, stages: int) -> Run:
         rate=np.zeros_like(y),
         previous=y.copy(),
         scratch=np.zeros_like(y),
-        stages=np.zeros((stages, len(y))),
+        trial=np.zeros_like(y),
+        scale=_scales(system, y, settings.duration),
+        stages=np.zeros((facts.stages, len(y))),
+        numbers=np.zeros(facts.numbers),
+        matrix=np.zeros((newton, newton)),
+        pivot=np.zeros(newton, dtype=np.uint32),
+        plain=system.map.plain,
+        turns=system.map.turns,
+        dense=np.zeros((DENSE_ROWS, len(y))),
         frames=np.zeros((rows, width)),
+        event_values=np.zeros((2, 0)),
+        events=np.zeros((0, 3)),
     )
+
+
+def _scales(system: System, y: Array, duration: float) -> Array:
+    """What errors of the entries of y are measured by, at least: the machine's length, a radian, these once in the run, its energy.
+
+    The largest value that an entry has taken so far counts where it is larger.
+    """
+    energy = max(abs(float(system.record.control.energy[0])), _weight_energy(system), 1e-300)
+    floors = {"m": system.size, "1": 1.0, "m/s": system.size / duration, "1/s": 1.0 / duration}
+    scale = np.array([floors.get(unit, 0.0) for unit in system.map.units])
+    scale[-2:] = energy
+    return np.maximum(scale, np.abs(y))
+
+
+def _weight_energy(system: System) -> float:
+    bodies = system.record.bodies
+    return float(bodies.mass.sum() * np.linalg.norm(bodies.gravity) * system.size)
 
 
 def _give(run: Run, sinks: Sequence[Sink]) -> None:

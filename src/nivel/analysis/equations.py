@@ -15,7 +15,6 @@ from nivel.kernels.handle import Handle
 from nivel.kernels.record import NONE
 from nivel.kernels.status import OK
 from nivel.machine.machine_record import MachineRecord
-from nivel.motion.catalogue import FORMULATIONS
 from nivel.system.build import build
 from nivel.system.system import Array, Equations, System, parameter_rates
 
@@ -67,11 +66,16 @@ class MotionEquations:
         return np.hstack([f, n_b])
 
 
-def equations(machine: MachineRecord, formulation: str) -> MotionEquations:
-    """Numbers and compiled equations of `machine` in absolute coordinates; compiles on first use."""
-    facts = FORMULATIONS[formulation]
-    system = build(machine, Equations(facts.velocities, facts.normalisation))
-    motion = MotionEquations(system, import_module(facts.module))
+def equations(machine: MachineRecord, formulation: str = "newton-euler") -> MotionEquations:
+    """Numbers and compiled equations of `machine` in absolute coordinates, as placed; compiles on first use.
+
+    formulation : "newton-euler", six velocities a body, or "lagrange", seven and normalisation.
+    """
+    lagrange = formulation == "lagrange"
+    system = build(machine, Equations(7 if lagrange else 6, normalisation=lagrange))
+    motion = MotionEquations(
+        system, import_module("nivel.motion.lagrange" if lagrange else "nivel.motion.newton_euler")
+    )
     if system.as_placed.any():
         # a combination is constant at the value that it has as the machine is placed
         motion.evaluate(0.0, system.start)

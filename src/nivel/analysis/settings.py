@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil
 
+from nivel.analysis.combinations import refuse_combinations
 from nivel.errors import Fault, ModelError
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings import Corrector, Penalty, SimulationSettings
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
@@ -19,7 +20,11 @@ MOST_STEPS = 1e12
 
 @dataclass(frozen=True)
 class RunSettings:
-    """Everything that decides a run. Times in s; `every` steps between frames; coordinates as chosen."""
+    """Everything that decides a run. Times in s; coordinates as chosen.
+
+    steps : in all, `every` of them between frames; both 0 where the integrator chooses its steps. tolerance, corrector, penalty : None
+    where the methods have none.
+    """
 
     duration: float
     step: float
@@ -30,19 +35,34 @@ class RunSettings:
     formulation: str
     coordinates: str
     stabilisation: str
+    rotations: str
+    tolerance: float | None
+    largest_step: float
+    corrector: Corrector | None
+    penalty: Penalty | None
     baumgarte: tuple[float, float] | None
 
     def as_dict(self) -> dict[str, object]:
         """For the result's `settings`."""
         names = ("duration", "step", "output_interval", "integrator", "formulation", "coordinates", "stabilisation")
         out: dict[str, object] = {name: getattr(self, name) for name in names}
+        if self.formulation == "lagrange":
+            out["rotations"] = self.rotations
+        if self.tolerance is not None:
+            out["tolerance"] = self.tolerance
+        for name in ("corrector", "penalty"):
+            if (given := getattr(self, name)) is not None:
+                out[name] = given.model_dump(exclude_none=True)
         if self.baumgarte is not None:
             out["baumgarte"] = {"alpha": self.baumgarte[0], "beta": self.baumgarte[1]}
         return out
 
 
-def complete(settings: SimulationSettings) -> RunSettings:
-    """Complete settings. Raises ModelError where the words are not known or the output interval is not a multiple of the step."""
+def complete(settings: SimulationSettings, coordinates: str = "absolute") -> RunSettings:
+    """Complete settings; `coordinates` are what `auto` means for the machine.
+
+    Raises ModelError where words are not known or do not go together, or the output interval is not a multiple of the step.
+    """
     faults: list[Fault] = []
     for field, known in (
         ("integrator", INTEGRATORS),
@@ -56,21 +76,36 @@ def complete(settings: SimulationSettings) -> RunSettings:
         wanted = f"a duration of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
         faults.append(_fault("step", f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step"))
         raise ModelError(faults)
-    steps = max(1, ceil(settings.duration / settings.step * (1.0 - 1e-12)))
-    every = _every(settings, steps, faults)
+    facts = INTEGRATORS.get(settings.integrator)
+    chooses = facts is not None and facts.chooses_steps
+    steps, every = 0, 0
+    if chooses:
+        interval = settings.output_interval or settings.duration / FRAMES
+    else:
+        steps = max(1, ceil(settings.duration / settings.step * (1.0 - 1e-12)))
+        every = _every(settings, steps, faults)
+        interval = every * settings.step
+    chosen = coordinates if settings.coordinates == "auto" else settings.coordinates
+    faults += refuse_combinations(settings, chosen)
     if faults:
         raise ModelError(faults)
     own = settings.baumgarte
+    implicit = facts is not None and facts.implicit
     return RunSettings(
         duration=settings.duration,
         step=settings.step,
-        output_interval=every * settings.step,
+        output_interval=interval,
         every=every,
         steps=steps,
         integrator=settings.integrator,
         formulation=settings.formulation,
-        coordinates="absolute",
+        coordinates=chosen,
         stabilisation=settings.stabilisation,
+        rotations=settings.rotations,
+        tolerance=settings.tolerance if chooses else None,
+        largest_step=settings.largest_step or settings.duration,
+        corrector=settings.corrector if implicit else None,
+        penalty=settings.penalty if FORMULATIONS[settings.formulation].factor > 0.0 else None,
         baumgarte=None if own is None else (own.alpha, own.beta),
     )
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from os import PathLike
 
 import nivel
+from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.dynamics import Finished, Prepared, march, prepare
 from nivel.analysis.listener import Listener
 from nivel.analysis.settings import RunSettings, complete
@@ -40,11 +41,11 @@ def simulate(
     Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails.
     """
     listener = listener or Listener()
-    settings = complete(machine.simulation)
+    settings = complete(machine.simulation, choose_coordinates(machine))
     sink = Memory() if out is None else Store(out, force)
     begin = time.perf_counter()
     listener.say("preparing")
-    prepared = prepare(machine, settings.formulation)
+    prepared = prepare(machine, settings.formulation, settings.coordinates)
     sink.begin(Header(prepared.motion.system.layout, _attributes(machine, source, prepared, settings)))
     prepare_seconds = time.perf_counter() - begin
     listener.say("running", settings.duration)
@@ -115,7 +116,7 @@ def _half_the_step(machine: MachineRecord, coarse: Result, settings: RunSettings
     """Largest difference of `coarse` from a run with half the step and frames at the same times."""
     halved = replace(settings, step=settings.step / 2, every=2 * settings.every, steps=2 * settings.steps)
     sink = Memory()
-    prepared = prepare(machine, settings.formulation)
+    prepared = prepare(machine, settings.formulation, settings.coordinates)
     sink.begin(Header(prepared.motion.system.layout, {}))
     march(prepared, halved, [sink], progress=listener.progress)
     return step_halving(coarse, sink.result(), INTEGRATORS[settings.integrator].order)

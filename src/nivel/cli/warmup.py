@@ -20,11 +20,11 @@ def command(quiet: bool) -> None:
     from nivel.analysis.compilation import rare_modules
     from nivel.kernels import cache
     from nivel.march.catalogue import INTEGRATORS
-    from nivel.motion.catalogue import FORMULATIONS
+    from nivel.motion.catalogue import PATHS
 
     console = Console(stderr=True, highlight=False, quiet=quiet)
     modules = ["nivel.kernels.observe", "nivel.march.loop"]
-    modules += [module for facts in FORMULATIONS.values() for module in (facts.module, facts.correction)]
+    modules += [module for facts in PATHS.values() for module in (facts.module, facts.correction)]
     modules += [facts.module for facts in INTEGRATORS.values()]
     modules += rare_modules()
     total = time.perf_counter()

@@ -42,7 +42,7 @@ def respond(machine):
     """Multipliers and whitened accelerations for a unit effort on each coordinate, and S."""
     record = record_at(machine)
     friction, saddle = record.friction, record.saddle
-    width, rows = saddle.z.shape[1], record.constraints.C.shape[0]
+    width, rows = saddle.z.shape[1], saddle.b.shape[0]
     for k in range(friction.columns.shape[0]):
         change, response = friction.change[k], friction.response[k]
         for body in range(change.shape[0]):
@@ -59,11 +59,11 @@ def respond(machine):
                 saddle.b[row] += saddle.W[n, i] * change[body, i]
         solve_rows(machine)
         for row in range(rows):
-            response[row] = saddle.b[row]
+            response[saddle.row[row]] = saddle.b[row]
         for n in range(saddle.blocks[0]):
             row, body = saddle.block[n, 0], saddle.block[n, 3]
             for i in range(width):
-                change[body, i] -= saddle.W[n, i] * response[row]
+                change[body, i] -= saddle.W[n, i] * saddle.b[row]
     for k in range(friction.columns.shape[0]):
         for other in range(friction.columns.shape[0]):
             total = 0.0

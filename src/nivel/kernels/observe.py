@@ -6,7 +6,7 @@ import numpy as np
 
 from nivel.kernels.compile import entry, stage
 from nivel.kernels.hook import ACCEPTED, SHOWN, call_hook
-from nivel.kernels.record import MEASURE, NONE, SENSE, observe_signature, record_at
+from nivel.kernels.record import COMPLETE, MEASURE, NONE, SENSE, observe_signature, record_at
 from nivel.kernels.rigid import kinetic_energy, potential_energy
 
 
@@ -78,6 +78,7 @@ def _outputs(machine, t, frame, at):
 @entry(observe_signature)
 def observe(machine, t, y, frame):
     """Fill `frame[1:]` from the state last evaluated; the columns are those of `nivel.system.layout`."""
+    call_hook(machine, COMPLETE, 0, t)
     record = record_at(machine)
     bodies, constraints, control = record.bodies, record.constraints, record.control
     nb = bodies.mass.shape[0]
@@ -107,9 +108,8 @@ def observe(machine, t, y, frame):
         frame[at + 2 * rows + row] = constraints.lam[row]
     at += 3 * rows
     kinetic, potential = 0.0, 0.0
-    work = record.saddle.z[0]
     for b in range(nb):
-        kinetic += kinetic_energy(bodies, b, work)
+        kinetic += kinetic_energy(bodies, b)
         potential += potential_energy(bodies, b)
     potential += control.stored[0]
     control.energy[0], control.energy[1] = kinetic, potential

@@ -165,7 +165,7 @@ class Sensors(NamedTuple):
 class Hooks(NamedTuple):
     """Addresses of what only some machines need, or zero: see `family_signature`."""
 
-    address: A1  # (3,) measure, friction, sense
+    address: A1  # (5,) measure, friction, sense, complete, watch
 
 
 class Saddle(NamedTuple):
@@ -175,6 +175,7 @@ class Saddle(NamedTuple):
     S is a sum of dot products. S and its factor L D Lᵀ are in elimination order.
     """
 
+    row: U1  # (K,) row of the constraints that each row here is; they are the same ones unless coordinates carry some joints
     block: U2  # (N, 4) row, part of C_q (or NONE: normalisation), marker, body; those of extra rows last
     blocks: U1  # (1,) number of those of constraint rows
     pair: U2  # (·, 3) block, block, entry of S
@@ -186,6 +187,7 @@ class Saddle(NamedTuple):
     P_start: U1  # (K+1,) pattern of row k of L: its columns ...
     P_column: U1
     P_entry: U1  # ... and where each entry stands in column order
+    shift: F1  # (K,) added to the diagonal of S: 1/α of penalty methods, else 0
     # work
     W: F2  # (N, width)
     G: F3  # (B, width, width) what the formulation needs of each body's mass matrix
@@ -198,12 +200,14 @@ class Saddle(NamedTuple):
     dense: F2  # (K, K) redundant machines: pivoted factor; (0, 0) otherwise
     null: F2  # (K, redundant) null space of S and its normal equations
     pivot: U1  # (K,)
+    target: F1  # (K,) right-hand side while the augmented Lagrangian iterates
 
 
 class Control(NamedTuple):
     """Numbers that steer an evaluation."""
 
     rank: U1  # (1,) independent rows
+    iterations: U1  # (2,) most iterations of the augmented Lagrangian (1: none), those of all evaluations so far
     stabilise: F1  # (4,) Baumgarte 2α and β²; tolerances of |C|/scale and |Ċ|/scale for the direct correction
     energy: F1  # (3,) kinetic and potential energy of the last observation, their sum at the start
     power: F1  # (2,) work of external forces and dissipation per second
@@ -240,4 +244,4 @@ correct_signature = types.int64(address_type, types.float64, state_type)
 family_signature = types.int64(address_type, types.int64, types.float64)
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
-MEASURE, FRICTION, SENSE = 0, 1, 2  # entries of Hooks.address
+MEASURE, FRICTION, SENSE, COMPLETE, WATCH = 0, 1, 2, 3, 4  # entries of Hooks.address

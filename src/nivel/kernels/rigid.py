@@ -33,14 +33,14 @@ def load_weight(bodies):
 
 
 @stage
-def kinetic_energy(bodies, b, work):
-    """½ m |Ṙ + ω × c|² + ½ ω̄ᵀ J ω̄ of body b [J]; `work` (3,) is overwritten."""
-    w, c, V = bodies.omega[b], bodies.c[b], bodies.Rdot[b]
+def kinetic_energy(bodies, b):
+    """½ m |Ṙ + ω × c|² + ½ ω̄ᵀ J ω̄ of body b [J]."""
+    w, c, V, J, w_b = bodies.omega[b], bodies.c[b], bodies.Rdot[b], bodies.inertia_b[b], bodies.omega_b[b]
     vx = V[0] + w[1] * c[2] - w[2] * c[1]
     vy = V[1] + w[2] * c[0] - w[0] * c[2]
     vz = V[2] + w[0] * c[1] - w[1] * c[0]
-    multiply(bodies.inertia_b[b], bodies.omega_b[b], work)
-    return 0.5 * bodies.mass[b] * (vx * vx + vy * vy + vz * vz) + 0.5 * dot(bodies.omega_b[b], work)
+    turning = w_b[0] * dot(J[0], w_b) + w_b[1] * dot(J[1], w_b) + w_b[2] * dot(J[2], w_b)
+    return 0.5 * bodies.mass[b] * (vx * vx + vy * vy + vz * vz) + 0.5 * turning
 
 
 @stage

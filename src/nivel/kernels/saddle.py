@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.analytic import real
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.dense import factorise_pivoted, gather, solve_pivoted
 from nivel.kernels.record import record_at
@@ -15,6 +16,8 @@ from nivel.kernels.sparse import factorise, solve
 from nivel.kernels.status import OK, SINGULAR
 
 CONTRADICTORY = 1e-3
+# The augmented Lagrangian has converged where the square of its last change is below this share of the multipliers'.
+SETTLED = 1e-24
 
 
 @stage
@@ -31,25 +34,53 @@ def factorise_rows(machine, width):
         for i in range(1, width):
             total += W[a, i] * W[b, i]
         S[saddle.pair[p, 2]] += total
+    for k in range(saddle.order.shape[0]):
+        S[saddle.S_start[k + 1] - 1] += saddle.shift[saddle.order[k]]
     if saddle.dense.shape[0] > 0:
         gather(saddle)
         failed = factorise_pivoted(saddle, np.int64(record.control.rank[0]))
     else:
         failed = factorise(saddle)
     if failed >= 0:
-        record.control.failure[0] = saddle.order[failed]
+        record.control.failure[0] = saddle.row[saddle.order[failed]]
         return SINGULAR
     return OK
 
 
 @stage
 def solve_rows(machine):
-    """Overwrite b with the solution of S x = b."""
+    """Overwrite b with the solution of S x = b, or of (S + 1/α) x = b for penalty methods.
+
+    The augmented Lagrangian repeats (S + 1/α) xₖ₊₁ = b + xₖ/α, which is eq. 120 after elimination of the accelerations, until x is that
+    of S x = b. It holds for dependent rows too.
+    """
     record = record_at(machine)
-    if record.saddle.dense.shape[0] > 0:
-        solve_pivoted(record.saddle, np.int64(record.control.rank[0]))
-    else:
-        solve(record.saddle)
+    saddle, most = record.saddle, record.control.iterations
+    if saddle.dense.shape[0] > 0:
+        solve_pivoted(saddle, np.int64(record.control.rank[0]))
+        return
+    if most[0] <= 1:
+        solve(saddle)
+        return
+    # b becomes the change d of x from one iteration to the next: (S + 1/α) dₖ₊₁ = dₖ/α
+    b, x = saddle.b, saddle.target
+    solve(saddle)
+    for k in range(b.shape[0]):
+        x[k] = b[k]
+    for _ in range(1, most[0]):
+        for k in range(b.shape[0]):
+            b[k] *= saddle.shift[k]
+        solve(saddle)
+        most[1] += 1
+        change, size = 0.0, 0.0
+        for k in range(b.shape[0]):
+            x[k] += b[k]
+            change += saddle.shift[k] * real(b[k] * b[k])
+            size += saddle.shift[k] * real(x[k] * x[k])
+        if change <= SETTLED * size:
+            break
+    for k in range(b.shape[0]):
+        b[k] = x[k]
 
 
 @stage
@@ -59,8 +90,9 @@ def multipliers(machine, width):
     saddle, constraints = record.saddle, record.constraints
     twice_alpha, beta_squared = record.control.stabilise[0], record.control.stabilise[1]
     b = saddle.b
-    for row in range(b.shape[0]):
-        b[row] = twice_alpha * constraints.Cdot[row] + beta_squared * constraints.C[row] - constraints.gamma[row]
+    for k in range(b.shape[0]):
+        row = saddle.row[k]
+        b[k] = twice_alpha * constraints.Cdot[row] + beta_squared * constraints.C[row] - constraints.gamma[row]
     for k in range(saddle.blocks[0]):
         row, body = saddle.block[k, 0], saddle.block[k, 3]
         total = b[row]
@@ -68,8 +100,8 @@ def multipliers(machine, width):
             total += saddle.W[k, i] * saddle.z[body, i]
         b[row] = total
     solve_rows(machine)
-    for row in range(b.shape[0]):
-        constraints.lam[row] = b[row]
+    for k in range(b.shape[0]):
+        constraints.lam[saddle.row[k]] = b[k]
     subtract_rows(saddle, width)
 
 
@@ -87,8 +119,8 @@ def correction(machine, violation, width):
     """z = -Wᵀ S⁻¹ violation: the whitened change that removes a violation of the linearised rows, least in the mass metric."""
     record = record_at(machine)
     saddle = record.saddle
-    for row in range(saddle.b.shape[0]):
-        saddle.b[row] = violation[row]
+    for k in range(saddle.b.shape[0]):
+        saddle.b[k] = violation[saddle.row[k]]
     solve_rows(machine)
     for body in range(saddle.z.shape[0]):
         for i in range(width):

@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
 from nivel.machine.quantity import Duration, Rate, fault
 from nivel.machine.record import Record
+
+Integrator = Literal[
+    "euler", "heun", "rk4", "rkn4",
+    "ab1", "ab2", "ab3", "ab4", "ab5",
+    "am1", "am2", "am3", "am4", "am5",
+    "abm1", "abm2", "abm3", "abm4", "abm5",
+    "gear1", "gear2", "gear3", "gear4",
+    "dopri5", "dop853", "adams", "gear",
+]  # fmt: skip
+Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangian"]
+Coordinates = Literal["auto", "absolute", "relative", "independent"]
+Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]
+Stabilisation = Literal["none", "baumgarte", "direct", "geometric"]
+Tolerance = Annotated[float, Field(gt=0.0, lt=1.0)]
 
 
 class Baumgarte(Record):
@@ -15,6 +29,28 @@ class Baumgarte(Record):
 
     alpha: Rate
     beta: Rate
+
+
+class Penalty(Record):
+    """Penalty and augmented Lagrangian: λ = α (C̈ + 2 Ω μ Ċ + Ω² C).
+
+    `alpha` is one number for all rows, in SI units; without it every row gets `factor` times the mass that it moves. Without `omega`,
+    Ω = 0.1/step, or 0 where the stabilisation corrects states anyway.
+    """
+
+    factor: Annotated[float, Field(gt=0.0)] | None = None
+    alpha: Annotated[float, Field(gt=0.0)] | None = None
+    omega: Rate | None = None
+    mu: Annotated[float, Field(ge=0.0)] = 1.0
+    iterations: Annotated[int, Field(ge=1, le=1000)] = 30
+
+
+class Corrector(Record):
+    """How the equations of implicit multistep methods are solved: iteration, its tolerance (relative to each coordinate) and limit."""
+
+    iteration: Literal["functional", "newton"] = "functional"
+    tolerance: Tolerance = 1e-10
+    most_iterations: Annotated[int, Field(ge=1, le=1000)] = 50
 
 
 class SimulationSettings(Record):
@@ -25,10 +61,16 @@ class SimulationSettings(Record):
     output_interval: Duration | None = Field(
         default=None, description="time between stored results; absent, the run chooses"
     )
-    integrator: Literal["rk4"] = "rk4"
-    formulation: Literal["newton-euler", "lagrange"] = "newton-euler"
-    coordinates: Literal["auto", "absolute"] = "absolute"
-    stabilisation: Literal["none", "baumgarte", "direct"] = "direct"
+    integrator: Integrator = "rk4"
+    formulation: Formulation = "newton-euler"
+    coordinates: Coordinates = "auto"
+    stabilisation: Stabilisation = "direct"
+    rotations: Rotations = Field(default="euler-parameters", description="of lagrange in absolute coordinates")
+    cut: tuple[str, ...] = Field(default=(), description="joints that stay constraints in relative coordinates")
+    tolerance: Tolerance = Field(default=1e-6, description="of integrators that choose their steps")
+    largest_step: Duration | None = Field(default=None, description="of integrators that choose their steps")
+    corrector: Corrector = Field(default=Corrector(), description="of implicit multistep methods")
+    penalty: Penalty = Field(default=Penalty(), description="of penalty and augmented-lagrangian")
     baumgarte: Baumgarte | None = Field(
         default=None, description="own coefficients alpha and beta of the baumgarte stabilisation"
     )
@@ -41,4 +83,6 @@ class SimulationSettings(Record):
             raise fault(f"`output_interval` {self.output_interval:g} s is shorter than `step` {self.step:g} s")
         if self.baumgarte is not None and self.stabilisation != "baumgarte":
             raise fault(f"`baumgarte` needs `stabilisation: baumgarte`; it is `{self.stabilisation}`")
+        if self.penalty.factor is not None and self.penalty.alpha is not None:
+            raise fault("`penalty` takes `factor` or `alpha`, not both")
         return self

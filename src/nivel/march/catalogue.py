@@ -7,12 +7,18 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class IntegratorFacts:
-    """`function` of `module` is the compiled step; `stages` vectors of work; `order` of convergence."""
+    """`function` of `module` is the compiled step; `stages` vectors and `numbers` of work and history; `order` of convergence.
+
+    chooses_steps : controls its error. implicit : iterates a corrector, by Newton's method on request.
+    """
 
     module: str
     function: str
     stages: int
     order: int
+    numbers: int = 0
+    chooses_steps: bool = False
+    implicit: bool = False
 
 
 INTEGRATORS: dict[str, IntegratorFacts] = {

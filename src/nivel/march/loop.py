@@ -8,18 +8,25 @@ from nivel.kernels.observe import accept, observe
 from nivel.kernels.record import record_at
 from nivel.kernels.saddle import contradicts
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK
+from nivel.march.dense import cubic, frame_time, inside
+from nivel.march.energy import conserve
 from nivel.march.run import (
     ALL_STEPS,
     BUDGET,
+    CONSERVE,
+    DENSE,
     DONE_STEPS,
     END,
     EVALUATED,
     EVALUATIONS,
     EVERY,
     FRAMES,
+    INSIDE,
     LAST_FRAME,
+    REACHED,
     START,
     STEP,
+    STOPPED,
     TIME,
     correct_type,
     evaluate_type,
@@ -30,7 +37,7 @@ from nivel.march.run import (
 
 @leaf
 def time_of(run, n):
-    """Time after n steps; not a running sum, so it carries no round-off from step to step. The last step ends at the end."""
+    """Time after n fixed steps; not a running sum, so it carries no round-off from step to step. The last step ends at the end."""
     if n == run.counter[ALL_STEPS]:
         return run.clock[END]
     return run.clock[START] + n * run.clock[STEP]
@@ -46,7 +53,30 @@ def finite(y):
 
 
 @leaf
-def unfed_evaluation(evaluate, machine, history):
+def at_end(run):
+    """Whether the accepted state is the last one of the run."""
+    counter = run.counter
+    if counter[STOPPED] == 1:
+        return True
+    if counter[ALL_STEPS] > 0:
+        return counter[DONE_STEPS] == counter[ALL_STEPS]
+    return run.clock[TIME] >= run.clock[END]
+
+
+@leaf
+def is_due(run):
+    """Whether the accepted state is to be a frame. LAST_FRAME counts steps where they are fixed, frames otherwise."""
+    counter = run.counter
+    if counter[ALL_STEPS] > 0:
+        n = counter[DONE_STEPS]
+        return (n % counter[EVERY] == 0 or at_end(run)) and counter[LAST_FRAME] != n
+    if run.clock[TIME] >= frame_time(run, counter[LAST_FRAME] + 1):
+        return True
+    return counter[STOPPED] == 1
+
+
+@leaf
+def unfed_evaluation(evaluate, machine, t, y, history):
     """Evaluate again without Baumgarte's feedback where there is one: its multipliers and accelerations steer the numbers back, they
     are not those of the machine (with eq. 111 the difference is per cent and does not vanish with the step). `rate` stays."""
     run = run_at(history)
@@ -55,66 +85,135 @@ def unfed_evaluation(evaluate, machine, history):
     if twice_alpha == 0.0 and beta_squared == 0.0:
         return OK
     feedback[0], feedback[1] = 0.0, 0.0
-    status = evaluate(machine, run.clock[TIME], run.y, run.scratch)
+    status = evaluate(machine, t, y, run.scratch)
     feedback[0], feedback[1] = twice_alpha, beta_squared
     run.counter[EVALUATIONS] += 1
     return status
+
+
+@leaf
+def write_frame(machine, history, t, y):
+    """One frame from the state last evaluated, which is y."""
+    run = run_at(history)
+    counter = run.counter
+    frame = run.frames[counter[FRAMES]]
+    frame[0] = t
+    observe(machine, t, y, frame)
+    counter[FRAMES] += 1
+    counter[LAST_FRAME] = counter[DONE_STEPS] if counter[ALL_STEPS] > 0 else counter[LAST_FRAME] + 1
+
+
+@leaf
+def write_inside(evaluate, correct, machine, history):
+    """Frames at times inside the last step. Returns a status; BUFFER_FULL where it has to be called again."""
+    run = run_at(history)
+    clock, counter = run.clock, run.counter
+    while counter[ALL_STEPS] == 0:
+        t = frame_time(run, counter[LAST_FRAME] + 1)
+        if t >= clock[REACHED]:
+            break
+        if counter[FRAMES] == run.frames.shape[0]:
+            return BUFFER_FULL
+        if counter[DENSE] == 0:
+            status = evaluate(machine, clock[REACHED], run.y, run.scratch)
+            counter[EVALUATIONS] += 1
+            if status != OK:
+                return status
+            cubic(run, run.rate, run.scratch)
+        inside(run, (t - clock[TIME]) / (clock[REACHED] - clock[TIME]), run.trial)
+        status = correct(machine, t, run.trial)
+        if status == OK:
+            status = evaluate(machine, t, run.trial, run.scratch)
+            counter[EVALUATIONS] += 1
+        if status == OK:
+            status = unfed_evaluation(evaluate, machine, t, run.trial, history)
+        if status != OK:
+            return status
+        write_frame(machine, history, t, run.trial)
+    return OK
+
+
+@leaf
+def accept_state(evaluate, machine, history, due):
+    """Evaluate at the state reached, keep what has to be kept, write a frame if one is due. Returns a status."""
+    run = run_at(history)
+    clock, counter = run.clock, run.counter
+    status = evaluate(machine, clock[TIME], run.y, run.rate)
+    counter[EVALUATIONS] += 1
+    if status == OK and counter[CONSERVE] == 1 and counter[DONE_STEPS] > 0:
+        status = conserve(evaluate, machine, history)
+    for i in range(run.y.shape[0]):
+        run.previous[i] = run.y[i]
+    if status != OK:
+        return status
+    if not finite(run.rate):
+        return NOT_FINITE
+    record = record_at(machine)
+    if contradicts(record.saddle, record.constraints, record.control.failure):
+        return CONTRADICTION
+    counter[EVALUATED] = 1
+    accept(machine, clock[TIME])
+    if due:
+        status = unfed_evaluation(evaluate, machine, clock[TIME], run.y, history)
+        if status != OK:
+            return status
+        write_frame(machine, history, clock[TIME], run.y)
+    return OK
+
+
+@leaf
+def take_step(evaluate, correct, step, machine, history):
+    """One step from the accepted state to clock[REACHED], with the correction. Returns a status."""
+    run = run_at(history)
+    clock, counter = run.clock, run.counter
+    n, h = counter[DONE_STEPS], clock[STEP]
+    fixed = counter[ALL_STEPS] > 0
+    if fixed:
+        clock[REACHED] = time_of(run, n + 1)
+        clock[STEP] = clock[REACHED] - clock[TIME] if n + 1 == counter[ALL_STEPS] else h
+    counter[DENSE] = 0
+    status = step(evaluate, machine, history)
+    if fixed:
+        clock[STEP] = h
+    counter[EVALUATED] = 0
+    if status == OK:
+        status = correct(machine, clock[REACHED], run.y)
+    if status != OK:
+        return status
+    return OK if finite(run.y) else NOT_FINITE
 
 
 @entry((evaluate_type, correct_type, step_type, address_type, address_type))
 def advance(evaluate, correct, step, machine, history):
     """March until something has to be done outside; returns a status of `nivel.kernels.status`.
 
-    Each step: evaluate at the accepted state, accept it, write a frame if one is due, step, correct. Where a step fails, `run.y` is
-    not that of an accepted state; `run.previous` and `run.clock` are.
+    Each step: evaluate at the accepted state, accept it, write a frame if one is due, step, correct, write the frames inside the step.
+    Where a step fails, `run.y` is not that of an accepted state; `run.previous` and `run.clock` are.
     """
     run = run_at(history)
     clock, counter = run.clock, run.counter
-    h = clock[STEP]
     budget = counter[BUDGET]
     while True:
-        n = counter[DONE_STEPS]
-        clock[TIME] = time_of(run, n)
-        last = n == counter[ALL_STEPS]
-        due = (n % counter[EVERY] == 0 or last) and counter[LAST_FRAME] != n
+        if counter[INSIDE] == 1:
+            status = write_inside(evaluate, correct, machine, history)
+            if status != OK:
+                return status
+            counter[INSIDE] = 0
+            clock[TIME] = clock[REACHED]
+            counter[DONE_STEPS] += 1
+        due = is_due(run)
         if due and counter[FRAMES] == run.frames.shape[0]:
             return BUFFER_FULL
         if counter[EVALUATED] == 0:
-            for i in range(run.y.shape[0]):
-                run.previous[i] = run.y[i]
-            status = evaluate(machine, clock[TIME], run.y, run.rate)
-            counter[EVALUATIONS] += 1
+            status = accept_state(evaluate, machine, history, due)
             if status != OK:
                 return status
-            if not finite(run.rate):
-                return NOT_FINITE
-            record = record_at(machine)
-            if contradicts(record.saddle, record.constraints, record.control.failure):
-                return CONTRADICTION
-            counter[EVALUATED] = 1
-            accept(machine, clock[TIME])
-            if due:
-                status = unfed_evaluation(evaluate, machine, history)
-                if status != OK:
-                    return status
-                frame = run.frames[counter[FRAMES]]
-                frame[0] = clock[TIME]
-                observe(machine, clock[TIME], run.y, frame)
-                counter[FRAMES] += 1
-                counter[LAST_FRAME] = n
-        if last:
+        if at_end(run):
             return DONE
         if budget == 0:
             return BUDGET_SPENT
         budget -= 1
-        clock[STEP] = time_of(run, n + 1) - clock[TIME] if n + 1 == counter[ALL_STEPS] else h
-        status = step(evaluate, machine, history)
-        clock[STEP] = h
-        counter[EVALUATED] = 0
-        if status == OK:
-            status = correct(machine, time_of(run, n + 1), run.y)
+        status = take_step(evaluate, correct, step, machine, history)
         if status != OK:
             return status
-        if not finite(run.y):
-            return NOT_FINITE
-        counter[DONE_STEPS] = n + 1
+        counter[INSIDE] = 1

@@ -6,30 +6,55 @@ from typing import NamedTuple
 
 from numba import types
 
-from nivel.kernels.arrays import F1, F2, I1, numba_type
+from nivel.kernels.arrays import F1, F2, I1, U1, U2, numba_type
 from nivel.kernels.handle import address_type, reader
 from nivel.kernels.record import correct_signature, evaluate_signature
 
 # entries of Run.clock
-TIME, STEP, START, END = 0, 1, 2, 3
-# entries of Run.count
+TIME, STEP, START, END, REACHED, INTERVAL, TOLERANCE, LARGEST, CORRECTOR_TOLERANCE = 0, 1, 2, 3, 4, 5, 6, 7, 8
+CLOCKS = 9
+# entries of Run.counter
 DONE_STEPS, ALL_STEPS, EVERY, FRAMES, LAST_FRAME, BUDGET, EVALUATIONS, EVALUATED = 0, 1, 2, 3, 4, 5, 6, 7
-COUNTS = 8
+ITERATIONS, REJECTED, RESTART, DENSE, INSIDE, STOPPED, EVENTS, ORDER, MOST_ITERATIONS, NEWTON = (
+    8, 9, 10, 11, 12, 13, 14, 15, 16, 17,
+)  # fmt: skip
+POWERS, UNCONSERVED, CONSERVE = 18, 19, 20
+COUNTS = 21
+# most rows of Run.dense
+DENSE_ROWS = 13
 
 
 class Run(NamedTuple):
-    """History and output of one run. All of it is here, so the result does not depend on how the run is cut into chunks."""
+    """History and output of one run. All of it is here, so the result does not depend on how the run is cut into chunks.
 
-    clock: F1  # (4,) [s] time, step size, start, end
-    # (8,) steps done, steps in all, steps between frames, frames in the buffer, step of the last frame, budget, evaluations,
-    # and whether `rate` is that of y
+    An integrator with a fixed step finds ALL_STEPS > 0 and leaves clock[STEP] and clock[REACHED] alone. One that chooses its steps finds
+    ALL_STEPS = 0, tries clock[STEP], and leaves the time reached in clock[REACHED] (never past clock[END]) and the step to try next in
+    clock[STEP].
+    """
+
+    clock: F1  # [s] TIME of the accepted state, STEP, START, END, REACHED by the last step, INTERVAL of frames; TOLERANCE, LARGEST step
+    # steps done, steps in all (0: not known), steps between frames, frames in the buffer, number of the last frame, budget, evaluations,
+    # whether `rate` is that of y; corrector iterations, steps rejected, whether the history must be forgotten, rows of `dense` in use,
+    # whether frames or events inside the last step are looked for, whether an event ended the run, events in the buffer, order in use, ...
     counter: I1
     y: F1  # (ny,) state
     rate: F1  # (ny,) ẏ at the accepted state
     previous: F1  # (ny,) the accepted state: where a failed step started
     scratch: F1  # (ny,) rates that nobody needs
+    trial: F1  # (ny,) states inside a step
+    scale: F1  # (ny,) what errors are measured by: a floor from the machine, raised to the largest |y| so far
     stages: F2  # (·, ny) work and history of the integrator
+    numbers: F1  # (·,) further history of the integrator
+    matrix: F2  # (ny, ny) of Newton's iteration, or (0, 0)
+    pivot: U1  # (ny,)
+    # Where a position stands in y and where its rate: plain ones, q̇ = v; and rotations, four Euler parameters and three body-axis
+    # angular velocities, each group by its first place.
+    plain: U2  # (·, 2)
+    turns: U2  # (·, 2)
+    dense: F2  # (DENSE_ROWS, ny) the state inside the last step, see `nivel.march.dense`
     frames: F2  # (capacity, width) output
+    event_values: F2  # (2, events) at the accepted state, and at the state reached
+    events: F2  # (capacity, 3) time, number of the event, direction
 
 
 run_at = reader(numba_type(Run))

@@ -1,4 +1,4 @@
-"""Formulations by name. This file imports no kernel: a formulation's module is loaded, and compiled, when it is used."""
+"""Coordinates and formulations by name. This file imports no kernel: a path's modules are loaded, and compiled, when it is used."""
 
 from __future__ import annotations
 
@@ -6,21 +6,46 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class FormulationFacts:
-    """Where a formulation's kernels are (`correction`: its direct correction), and what its state looks like.
+class PathFacts:
+    """Where the equations of motion in some coordinates are.
 
-    velocities a rigid body, and whether normalisation is a row: see `nivel.system.system.Equations`.
+    module : its `evaluate` and `keep`; correction : its `correct`, the direct correction; arrangement : a module of `nivel.system.states`
+    that turns an assembled machine in absolute coordinates into the numbers and the state of this path.
     """
 
     module: str
     correction: str
-    velocities: int
-    normalisation: bool
+    arrangement: str
 
+
+@dataclass(frozen=True)
+class FormulationFacts:
+    """How constraints enter. penalty : λ = α (C̈ + 2 Ω μ Ċ + Ω² C) with this share of the mass behind each row, once or iterated."""
+
+    factor: float = 0.0
+    iterated: bool = False
+
+
+_ABSOLUTE = PathFacts(
+    "nivel.motion.newton_euler", "nivel.motion.newton_euler_correction", "nivel.system.states.absolute"
+)
+_PARAMETERS = PathFacts("nivel.motion.lagrange", "nivel.motion.lagrange_correction", "nivel.system.states.parameters")
+
+# coordinates, velocities and rotations → equations; penalty methods share those of newton-euler
+PATHS: dict[tuple[str, str, str], PathFacts] = {
+    ("absolute", "newton-euler", "euler-parameters"): _ABSOLUTE,
+    ("absolute", "lagrange", "euler-parameters"): _PARAMETERS,
+}
 
 FORMULATIONS: dict[str, FormulationFacts] = {
-    "lagrange": FormulationFacts("nivel.motion.lagrange", "nivel.motion.lagrange_correction", 7, normalisation=True),
-    "newton-euler": FormulationFacts(
-        "nivel.motion.newton_euler", "nivel.motion.newton_euler_correction", 6, normalisation=False
-    ),
+    "newton-euler": FormulationFacts(),
+    "lagrange": FormulationFacts(),
+    "penalty": FormulationFacts(factor=1e8),
+    "augmented-lagrangian": FormulationFacts(factor=1e4, iterated=True),
 }
+
+
+def path_of(coordinates: str, formulation: str, rotations: str) -> PathFacts | None:
+    """The equations of these methods, or None where the combination has no meaning."""
+    velocities = "lagrange" if formulation == "lagrange" else "newton-euler"
+    return PATHS.get((coordinates, velocities, rotations))

@@ -120,7 +120,7 @@ def _add_force(draft: Draft, force: Any) -> None:
 
 def _hooks(draft: Draft, sensors: bool) -> Hooks:
     """Addresses of the compiled functions that only some machines need."""
-    address = np.zeros(3, dtype=np.uint64)
+    address = np.zeros(5, dtype=np.uint64)
     if draft.coordinates.what:
         address[MEASURE] = import_module("nivel.kernels.measure").measure.address
     if draft.frictions:
@@ -182,9 +182,11 @@ def _saddle(
     elimination = plan(_groups(rows, row_count), block[:count, 0].tolist(), block[:count, 3].tolist())
     width = equations.velocities
     return Saddle(
+        row=np.arange(row_count, dtype=np.uint32),
         block=block,
         blocks=np.array([count], dtype=np.uint32),
         **vars(elimination),
+        shift=np.zeros(row_count),
         W=np.zeros((len(block), width)),
         G=np.zeros((bodies, width, width)),
         z=np.zeros((bodies, width)),
@@ -196,6 +198,7 @@ def _saddle(
         dense=np.zeros((0, 0)),
         null=np.zeros((0, 0)),
         pivot=np.zeros(0, dtype=np.uint32),
+        target=np.zeros(row_count),
     )
 
 
@@ -209,6 +212,7 @@ def _groups(rows: RowTable, row_count: int) -> list[list[int]]:
 def _control(rows: int) -> Control:
     return Control(
         rank=np.array([rows], dtype=np.uint32),
+        iterations=np.array([1, 0], dtype=np.uint32),
         stabilise=np.zeros(4),
         energy=np.zeros(3),
         power=np.zeros(2),

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.record import Record
 from nivel.system.layout import FrameLayout
-from nivel.system.tables import Array
+from nivel.system.tables import Array, index_array
 
 
 @dataclass(frozen=True)
@@ -21,13 +21,26 @@ class Equations:
 
 
 @dataclass(frozen=True)
+class StateMap:
+    """What the entries of y are.
+
+    plain : (n, 2) where a position stands and where its rate, q̇ = v. turns : (n, 2) where four Euler parameters stand and where their
+    body-axis angular velocity. units : of every entry, "m", "1", "m/s" or "1/s", "" for those of forces and energies.
+    """
+
+    plain: NDArray[np.uint32]
+    turns: NDArray[np.uint32]
+    units: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class System:
     """The numbers of one machine for one formulation.
 
     rows : name of every constraint row of the formulation, e.g. ``hinge.s.x``; the first `machine_rows` belong to joints, couplings
     and drivers. row_owner : name of the joint, coupling or driver of each of these. point_masses : (B,) bodies that do not turn.
     as_placed : combinations that keep the value that they have as the machine is placed.
-    size : length of the machine [m], the scale of its tolerances.
+    size : length of the machine [m], the scale of its tolerances. state_map : what the entries of y are; None: as `absolute_map`.
     """
 
     record: Record
@@ -44,6 +57,7 @@ class System:
     as_placed: NDArray[np.bool_]
     size: float
     start: Array
+    state_map: StateMap | None = None
 
     @property
     def body_count(self) -> int:
@@ -62,6 +76,23 @@ class System:
     def positions(self) -> int:
         """Length of q: seven a body."""
         return 7 * self.body_count
+
+    @property
+    def map(self) -> StateMap:
+        """What the entries of y are."""
+        return self.state_map or self._absolute_map()
+
+    def _absolute_map(self) -> StateMap:
+        count, width = self.body_count, self.equations.velocities
+        plain, turns, units = [], [], ["m", "m", "m", "1", "1", "1", "1"] * count
+        for b in range(count):
+            q, v = 7 * b, 7 * count + width * b
+            plain += [(q + i, v + i) for i in range(7 if self.equations.normalisation else 3)]
+            if not self.equations.normalisation:
+                turns.append((q + 3, v + 3))
+            units += ["m/s"] * 3 + ["1/s"] * (width - 3)
+        units += [""] * (len(self.record.elements.state) + 2)
+        return StateMap(index_array(plain, 2), index_array(turns, 2), tuple(units))
 
     def state(self, q: Array, velocity: Array, angular_velocity_b: Array) -> Array:
         """State y = (q, v, x) from q (7 B,), Ṙ (B, 3) [m/s] and ω̄ (B, 3) [rad/s, body axes]; x = 0: no bristle is bent."""

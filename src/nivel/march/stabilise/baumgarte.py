@@ -5,7 +5,7 @@ The feedback steers the motion; recorded accelerations and reactions are evaluat
 
 from __future__ import annotations
 
-CORRECTS = False
+CORRECTS, CONSERVES = False, False
 
 
 def coefficients(step: float, alpha: float | None, beta: float | None) -> tuple[float, float, float, float]:

@@ -4,6 +4,6 @@ from __future__ import annotations
 
 from types import ModuleType
 
-from nivel.march.stabilise import baumgarte, direct, none
+from nivel.march.stabilise import baumgarte, direct, geometric, none
 
-STABILISATIONS: dict[str, ModuleType] = {"none": none, "baumgarte": baumgarte, "direct": direct}
+STABILISATIONS: dict[str, ModuleType] = {"none": none, "baumgarte": baumgarte, "direct": direct, "geometric": geometric}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-CORRECTS = True
+CORRECTS, CONSERVES = True, False
 
 # Violations below this share of the machine's length or of a cosine's 1 (per second, for rates) are round-off, and left alone.
 TOLERANCE = 1e-13

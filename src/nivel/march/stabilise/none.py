@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-CORRECTS = False
+CORRECTS, CONSERVES = False, False
 
 
 def coefficients(step: float, alpha: float | None, beta: float | None) -> tuple[float, float, float, float]:

@@ -1,0 +1,34 @@
+"""Combinations of methods that have no meaning, each with its reason."""
+
+from __future__ import annotations
+
+from nivel.errors import Fault
+from nivel.machine.settings import SimulationSettings
+from nivel.motion.catalogue import FORMULATIONS, PATHS, path_of
+
+
+def refuse_combinations(settings: SimulationSettings, coordinates: str) -> list[Fault]:
+    """Faults of `settings` with these coordinates (`auto` resolved)."""
+    faults = []
+    formulation, stabilisation = settings.formulation, settings.stabilisation
+    if settings.rotations != "euler-parameters" and (formulation, coordinates) != ("lagrange", "absolute"):
+        message = (
+            f"'{settings.rotations}' are rotation coordinates of `formulation: lagrange` with `coordinates: absolute`; "
+            f"{formulation} in {coordinates} coordinates has no use for them"
+        )
+        faults.append(_fault("rotations", message))
+    elif path_of(coordinates, formulation, settings.rotations) is None:
+        known = sorted({c for c, f, _ in PATHS if f == ("lagrange" if formulation == "lagrange" else "newton-euler")})
+        message = f"'{coordinates}' does not go with `formulation: {formulation}`, which is for {' or '.join(known)}"
+        faults.append(_fault("coordinates", message))
+    if stabilisation == "baumgarte" and FORMULATIONS[formulation].factor > 0.0:
+        message = (
+            f"'baumgarte' does not go with `formulation: {formulation}`, which feeds violations back itself: "
+            f"set `penalty: {{omega: …, mu: …}}` and take none, direct or geometric"
+        )
+        faults.append(_fault("stabilisation", message))
+    return faults
+
+
+def _fault(field: str, message: str) -> Fault:
+    return Fault("", 0, 0, f"simulation.{field}", message)

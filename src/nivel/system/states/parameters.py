@@ -1,0 +1,20 @@
+"""q = (R, θ), v = q̇: seven velocities a body and one normalisation row."""
+
+from __future__ import annotations
+
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings import SimulationSettings
+from nivel.system.build import build
+from nivel.system.system import Array, Equations, System
+
+
+def arrange(
+    machine: MachineRecord, absolute: System, y: Array, rank: int, settings: SimulationSettings
+) -> tuple[System, Array]:
+    """Numbers of the Lagrange equations in Euler parameters."""
+    del settings
+    system = build(machine, Equations(7, normalisation=True))
+    system.record.constraints.offset[:] = absolute.record.constraints.offset
+    count = absolute.body_count
+    v = y[7 * count : 13 * count].reshape(count, 6)
+    return system.known_rank(rank + count), system.state(y[: 7 * count], v[:, :3], v[:, 3:])

@@ -22,7 +22,7 @@ def run(machine, *, chunk_steps=None, **settings):
     """Arrays of all variables, `time`, the prepared machine and how the run finished."""
     record = machine.replace(simulation=machine.simulation.replace(**settings)) if settings else machine
     complete_settings = complete(record.simulation)
-    prepared = prepare(record, complete_settings.formulation)
+    prepared = prepare(record, complete_settings.formulation, complete_settings.coordinates)
     sink = Frames()
     finished = march(prepared, complete_settings, [sink], chunk_steps=chunk_steps)
     frames = np.vstack(sink.blocks)

@@ -18,6 +18,8 @@ from nivel.system.system import Array
 
 # Ω times the step, without an Ω of the user: violations die out within some ten steps, and explicit methods stay stable
 FEEDBACK = 0.1
+# mobility 1/S_kk of a row, as a share of the largest, below which it counts as this share
+IMMOBILE = 1e-6
 
 
 def penalise(
@@ -31,9 +33,12 @@ def penalise(
     system = replace(motion.system, record=record._replace(saddle=saddle))
     penalised = MotionEquations(system, motion.kernels)
     penalised.evaluate(0.0, y)
-    moved_mass = np.zeros(rows)
-    moved_mass[saddle.order] = 1.0 / saddle.S[saddle.S_start[1:].astype(int) - 1]
-    saddle.shift[:] = 1.0 / (penalty.alpha or (penalty.factor or facts.factor) * moved_mass)
+    mobility = np.zeros(rows)
+    mobility[saddle.order] = saddle.S[saddle.S_start[1:].astype(int) - 1]
+    units = record.constraints.scale[saddle.row] ** 2
+    # what nothing can move still needs a penalty
+    mobility = np.maximum(mobility, IMMOBILE * units * np.max(mobility / units, initial=0.0))
+    saddle.shift[:] = 1.0 / penalty.alpha if penalty.alpha else mobility / (penalty.factor or facts.factor)
     record.control.rank[0] = rows
     record.control.iterations[0] = penalty.iterations if facts.iterated else 1
     return penalised

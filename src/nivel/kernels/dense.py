@@ -14,16 +14,27 @@ from nivel.kernels.analytic import real
 from nivel.kernels.compile import leaf
 
 DEPENDENT = 1e-13
+# squares of round-off against the most mobile row
+IMMOBILE = 1e-24
 
 
 @leaf
-def gather(saddle):
-    """Copy S from its sparse form to the full symmetric matrix `dense`, in elimination order, scaled to a unit diagonal."""
+def gather(saddle, row_scale):
+    """Copy S from its sparse form to the full symmetric matrix `dense`, in elimination order, scaled to a unit diagonal.
+
+    Rows that nothing can move (those out of the plane of a tree that moves in a plane) have a diagonal of round-off, and become zero.
+    """
     K, scale = saddle.dense, saddle.Dinv
     K[:, :] = 0.0
+    largest = 0.0
+    for k in range(saddle.order.shape[0]):
+        unit = row_scale[saddle.row[saddle.order[k]]]
+        largest = max(largest, real(saddle.S[saddle.S_start[k + 1] - 1]) / (unit * unit))
     for k in range(saddle.order.shape[0]):
         last = saddle.S_start[k + 1]
-        scale[k] = 1.0 / np.sqrt(saddle.S[last - 1])
+        unit = row_scale[saddle.row[saddle.order[k]]]
+        alive = real(saddle.S[last - 1]) > IMMOBILE * largest * unit * unit
+        scale[k] = 1.0 / np.sqrt(saddle.S[last - 1]) if alive else 0.0 * saddle.S[last - 1]
         for p in range(saddle.S_start[k], last):
             i = saddle.S_row[p]
             value = saddle.S[p] * scale[k] * scale[i]

@@ -203,6 +203,48 @@ class Saddle(NamedTuple):
     target: F1  # (K,) right-hand side while the augmented Lagrangian iterates
 
 
+class Tree(NamedTuple):
+    """The spanning tree of relative coordinates; empty in others. D nodes, one a body; U columns, one a joint velocity.
+
+    Node n carries the body `child` on the body `parent`. Each body has a point of reference, the second marker of the joint that carries
+    it; all vectors are in global axes. Articulated inertias: NOTATION.md.
+    """
+
+    node: U2  # (D, 8) child, parent, first marker, second marker, kind, whether the first body is the child, columns from, to
+    place: U2  # (D, 2) where the joint's positions start in y, and its velocities
+    number: (
+        F2  # (D, 4) lead of a screw [m/rad], its displacement at angle zero, cosine and sine of a constant turn about z
+    )
+    marker: U1  # markers that every evaluation needs
+    rows: Constraints  # of the joints that carry bodies: they hold by themselves, and are filled for frames only
+    carried: U2  # (D, 2) in `reaction`, from, to
+    reaction: U2  # (·, 3) row of the joint that carries the body, part of its marker on the child, that marker
+    part: U2  # (·, 4) row of the saddle (then of friction), part, marker, body: of the constraints that are left
+    part_start: U1  # (K + X + 1,)
+    path: U2  # (·, 2) nodes between the bodies of a row and the ground, outermost first; first block of the node
+    path_start: U1  # (K + X + 1,)
+    theta: F3  # (D, 2, 4) constant turns before and after that of the joint, as Euler parameters
+    size: F1  # (1,) [m] length of the machine
+    positions: U1  # (1,) their number
+    # work
+    first: F3  # (D, 3, 3) axes of the first marker
+    second: F3  # (D, 3, 3) axes of the second
+    reference: F2  # (B+1, 3) [m] the point of reference of each body
+    alpha0: F2  # (B+1, 3) angular acceleration for joint accelerations of zero
+    Rddot0: F2  # (B+1, 3) acceleration of the frame origin for joint accelerations of zero
+    column: F2  # (U, 6) motion of a joint velocity: angular velocity, velocity of the point of reference
+    inertia: F2  # (B+1, 27) articulated inertia: I (6), H (9), M (6); own inertia about the centre of mass (6)
+    U: F2  # (U, 6) inertia times column
+    Dinv: F1  # (U,) 1/(columnᵀ U)
+    root: F1  # (U,) its root
+    wrench: F2  # (B+1, 6) moment about the point of reference, force
+    delta: F2  # (B+1, 6) angular acceleration and acceleration of the point of reference, less those for joint accelerations of zero
+    state: F1  # (positions,) those last evaluated
+    change: F1  # (U,) of joint coordinates in a correction
+    moved: F1  # (positions,) the same of positions
+    small: F2  # (6, 7) equations for the reactions of one joint
+
+
 class Control(NamedTuple):
     """Numbers that steer an evaluation."""
 
@@ -228,6 +270,7 @@ class Record(NamedTuple):
     elements: Elements
     friction: Friction
     saddle: Saddle
+    tree: Tree
     sensors: Sensors
     outputs: Outputs
     hooks: Hooks
@@ -237,6 +280,8 @@ class Record(NamedTuple):
 record_type = numba_type(Record)
 record_at = reader(record_type)
 state_type = types.Array(types.float64, 1, "C")
+# kinds of nodes
+REVOLUTE, TRANSLATIONAL, CYLINDRICAL, SCREW, UNIVERSAL, SPHERICAL, PLANAR, FIXED, FREE = 0, 1, 2, 3, 4, 5, 6, 7, 8
 evaluate_signature = types.int64(address_type, types.float64, state_type, state_type)
 observe_signature = types.void(address_type, types.float64, state_type, state_type)
 correct_signature = types.int64(address_type, types.float64, state_type)

@@ -37,7 +37,7 @@ def factorise_rows(machine, width):
     for k in range(saddle.order.shape[0]):
         S[saddle.S_start[k + 1] - 1] += saddle.shift[saddle.order[k]]
     if saddle.dense.shape[0] > 0:
-        gather(saddle)
+        gather(saddle, record.constraints.scale)
         failed = factorise_pivoted(saddle, np.int64(record.control.rank[0]))
     else:
         failed = factorise(saddle)
@@ -142,9 +142,10 @@ def contradicts(saddle, constraints, failure):
 
 
 @stage
-def exceeds(violation, scale, tolerance):
-    """Whether any entry is larger in size than `tolerance` times its scale."""
-    for row in range(violation.shape[0]):
+def exceeds(saddle, violation, scale, tolerance):
+    """Whether any row of the saddle is violated by more than `tolerance` times its scale."""
+    for k in range(saddle.row.shape[0]):
+        row = saddle.row[k]
         limit = tolerance * scale[row]
         if violation[row] > limit or violation[row] < -limit:
             return True

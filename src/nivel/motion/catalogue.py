@@ -35,6 +35,9 @@ _PARAMETERS = PathFacts("nivel.motion.lagrange", "nivel.motion.lagrange_correcti
 PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "newton-euler", "euler-parameters"): _ABSOLUTE,
     ("absolute", "lagrange", "euler-parameters"): _PARAMETERS,
+    ("relative", "newton-euler", "euler-parameters"): PathFacts(
+        "nivel.motion.relative", "nivel.motion.relative_correction", "nivel.system.states.relative"
+    ),
 }
 
 FORMULATIONS: dict[str, FormulationFacts] = {

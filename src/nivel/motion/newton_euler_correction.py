@@ -31,15 +31,15 @@ def correct(machine, t, y):
         status = read_state(machine, t, y)
         if status != OK:
             return status
-        at_positions = attempt < MAX_CORRECTIONS and exceeds(constraints.C, constraints.scale, tolerance[2])
-        if not at_positions and not exceeds(constraints.Cdot, constraints.scale, tolerance[3]):
+        at_positions = attempt < MAX_CORRECTIONS and exceeds(saddle, constraints.C, constraints.scale, tolerance[2])
+        if not at_positions and not exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]):
             return OK
         if not factorised:
             whiten_rows(machine)
             status = factorise_rows(machine, WIDTH)
             if status != OK:
                 return status
-        factorised = not exceeds(constraints.C, constraints.scale, NEAR * tolerance[2])
+        factorised = not exceeds(saddle, constraints.C, constraints.scale, NEAR * tolerance[2])
         correction(machine, constraints.C if at_positions else constraints.Cdot, WIDTH)
         for b in range(nb):
             unwhiten(bodies, saddle, b)

@@ -38,6 +38,7 @@ from nivel.system.rows import RowTable, add_couplings, add_drivers, add_joint, c
 from nivel.system.sensors import sensor_columns
 from nivel.system.system import Equations, System
 from nivel.system.tables import Array, index_array, padded
+from nivel.system.tree_tables import empty_tree
 
 # [m] a tenth of a light year: squares and products of longer machines leave the range of numbers
 LARGEST = 1e15
@@ -68,13 +69,14 @@ def build(machine: MachineRecord, equations: Equations) -> System:
     markers = draft.markers.arrays()
     size = _machine_size(poses, markers)
     extra = _extra_parts(draft, rows, len(row_names))
+    constraints = rows.arrays([size if unit == "m" else 1.0 for unit in units], len(draft.frictions), len(extra))
     saddle = _saddle(rows, draft, extra, len(names), len(row_names), equations)
     system = System(
         record=Record(
             bodies=_bodies(machine, size),
             markers=markers,
             coordinates=draft.coordinates.arrays(),
-            constraints=rows.arrays([size if unit == "m" else 1.0 for unit in units], len(draft.frictions), len(extra)),
+            constraints=constraints,
             joints=Joints(
                 first_marker=index_array([pair[0] for pair in rows.first_marker], 1),
                 rows=index_array(rows.spans, 2),
@@ -85,6 +87,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
             elements=draft.elements.arrays(family_addresses(list(draft.elements.families))),
             friction=_friction(draft, saddle, extra, len(row_names)),
             saddle=saddle,
+            tree=empty_tree(constraints),
             sensors=Sensors(index_array(sensors, 4)),
             outputs=Outputs(np.zeros(len(draft.outputs.entries)), index_array(rows.reports, 2)),
             hooks=_hooks(draft, bool(sensors)),

@@ -107,8 +107,8 @@ class System:
 
     def known_rank(self, rank: int) -> System:
         """The same system prepared for `rank` independent rows: with redundant ones, for the rank-revealing path."""
-        rows = len(self.rows)
         record = self.record
+        rows = len(record.saddle.row)
         if rank < rows:
             saddle = record.saddle._replace(
                 dense=np.zeros((rows, rows)), null=np.zeros((rows, rows - rank)), pivot=np.zeros(rows, dtype=np.uint32)

@@ -1,0 +1,289 @@
+"""Articulated bodies: recursion over a tree in O(n) (Featherstone 1983), as a factorisation of its mass matrix.
+
+Written with accelerations (α, a) of the point of reference and wrenches (N, F) about it, in global axes:
+
+    [N; F] = [I, H; Hᵀ, M] [α; a] + (N, F)₀
+
+Accelerations are counted from those that the bodies have while no joint velocity changes, so the recursion itself has no velocity
+terms. Columns of a joint are eliminated one after another, the last one first: with U = P s, D = sᵀ U,
+
+    P := P - U Uᵀ/D        the inertia that the next column, and at last the parent, feels
+
+In the columns' own order that is M = L D Lᵀ of the mass matrix in joint coordinates; "whitened" rows and forces are D^{-1/2} L⁻¹ of
+their generalised forces, the form in which `nivel.kernels.saddle` takes them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import leaf, stage
+from nivel.kernels.record import record_at
+from nivel.kernels.spatial import cross, dot
+
+
+@stage
+def own_inertia(bodies, tree, b):
+    """Inertia of body b about its point of reference, and in columns 21 to 26 about its centre of mass; global axes.
+
+    A J̄ Aᵀ, then m (u² 1 - u uᵀ) with u from the point of reference to the centre of mass; H = m ũ, M = m 1.
+    """
+    A, J, P, m = bodies.A[b], bodies.inertia_b[b], tree.inertia[b], bodies.mass[b]
+    k = 0
+    for i in range(3):
+        x = A[i, 0] * J[0, 0] + A[i, 1] * J[1, 0] + A[i, 2] * J[2, 0]
+        y = A[i, 0] * J[0, 1] + A[i, 1] * J[1, 1] + A[i, 2] * J[2, 1]
+        z = A[i, 0] * J[0, 2] + A[i, 1] * J[1, 2] + A[i, 2] * J[2, 2]
+        for j in range(i, 3):
+            P[21 + k] = x * A[j, 0] + y * A[j, 1] + z * A[j, 2]
+            k += 1
+    R, c, point = bodies.R[b], bodies.c[b], tree.reference[b]
+    u0, u1, u2 = R[0] + c[0] - point[0], R[1] + c[1] - point[1], R[2] + c[2] - point[2]
+    m0, m1, m2 = m * u0, m * u1, m * u2
+    P[0] = P[21] + m1 * u1 + m2 * u2
+    P[1] = P[22] - m0 * u1
+    P[2] = P[23] - m0 * u2
+    P[3] = P[24] + m0 * u0 + m2 * u2
+    P[4] = P[25] - m1 * u2
+    P[5] = P[26] + m0 * u0 + m1 * u1
+    P[6], P[7], P[8] = 0.0, -m2, m1
+    P[9], P[10], P[11] = m2, 0.0, -m0
+    P[12], P[13], P[14] = -m1, m0, 0.0
+    P[15], P[16], P[17], P[18], P[19], P[20] = m, 0.0, 0.0, m, 0.0, m
+
+
+@leaf
+def eliminate(P, s, U):
+    """U = P s, 1/(sᵀ U) returned, P := P - U Uᵀ/(sᵀ U)."""
+    w0, w1, w2, v0, v1, v2 = s[0], s[1], s[2], s[3], s[4], s[5]
+    U0 = P[0] * w0 + P[1] * w1 + P[2] * w2 + P[6] * v0 + P[7] * v1 + P[8] * v2
+    U1 = P[1] * w0 + P[3] * w1 + P[4] * w2 + P[9] * v0 + P[10] * v1 + P[11] * v2
+    U2 = P[2] * w0 + P[4] * w1 + P[5] * w2 + P[12] * v0 + P[13] * v1 + P[14] * v2
+    U3 = P[6] * w0 + P[9] * w1 + P[12] * w2 + P[15] * v0 + P[16] * v1 + P[17] * v2
+    U4 = P[7] * w0 + P[10] * w1 + P[13] * w2 + P[16] * v0 + P[18] * v1 + P[19] * v2
+    U5 = P[8] * w0 + P[11] * w1 + P[14] * w2 + P[17] * v0 + P[19] * v1 + P[20] * v2
+    Dinv = 1.0 / (U0 * w0 + U1 * w1 + U2 * w2 + U3 * v0 + U4 * v1 + U5 * v2)
+    U[0], U[1], U[2], U[3], U[4], U[5] = U0, U1, U2, U3, U4, U5
+    d0, d1, d2, d3, d4, d5 = Dinv * U0, Dinv * U1, Dinv * U2, Dinv * U3, Dinv * U4, Dinv * U5
+    P[0] -= d0 * U0
+    P[1] -= d0 * U1
+    P[2] -= d0 * U2
+    P[3] -= d1 * U1
+    P[4] -= d1 * U2
+    P[5] -= d2 * U2
+    P[6] -= d0 * U3
+    P[7] -= d0 * U4
+    P[8] -= d0 * U5
+    P[9] -= d1 * U3
+    P[10] -= d1 * U4
+    P[11] -= d1 * U5
+    P[12] -= d2 * U3
+    P[13] -= d2 * U4
+    P[14] -= d2 * U5
+    P[15] -= d3 * U3
+    P[16] -= d3 * U4
+    P[17] -= d3 * U5
+    P[18] -= d4 * U4
+    P[19] -= d4 * U5
+    P[20] -= d5 * U5
+    return Dinv
+
+
+@leaf
+def hand_inertia(P, r, parent):
+    """Add the inertia P about a point to that of the parent about its own, r = point - the parent's point.
+
+    H' = H + r̃ M and I' = I - (K r̃ + (K r̃)ᵀ) with K = H + ½ r̃ M.
+    """
+    x, y, z = r
+    a, b, c, d, e, f = P[15], P[16], P[17], P[18], P[19], P[20]
+    # B = r̃ M, rows
+    B0, B1, B2 = y * c - z * b, y * e - z * d, y * f - z * e
+    B3, B4, B5 = z * a - x * c, z * b - x * e, z * c - x * f
+    B6, B7, B8 = x * b - y * a, x * d - y * b, x * e - y * c
+    K0, K1, K2 = P[6] + 0.5 * B0, P[7] + 0.5 * B1, P[8] + 0.5 * B2
+    K3, K4, K5 = P[9] + 0.5 * B3, P[10] + 0.5 * B4, P[11] + 0.5 * B5
+    K6, K7, K8 = P[12] + 0.5 * B6, P[13] + 0.5 * B7, P[14] + 0.5 * B8
+    # (K r̃) row by row: [k1 z - k2 y, k2 x - k0 z, k0 y - k1 x]
+    parent[0] += P[0] - 2.0 * (K1 * z - K2 * y)
+    parent[1] += P[1] - (K2 * x - K0 * z) - (K4 * z - K5 * y)
+    parent[2] += P[2] - (K0 * y - K1 * x) - (K7 * z - K8 * y)
+    parent[3] += P[3] - 2.0 * (K5 * x - K3 * z)
+    parent[4] += P[4] - (K3 * y - K4 * x) - (K8 * x - K6 * z)
+    parent[5] += P[5] - 2.0 * (K6 * y - K7 * x)
+    parent[6] += P[6] + B0
+    parent[7] += P[7] + B1
+    parent[8] += P[8] + B2
+    parent[9] += P[9] + B3
+    parent[10] += P[10] + B4
+    parent[11] += P[11] + B5
+    parent[12] += P[12] + B6
+    parent[13] += P[13] + B7
+    parent[14] += P[14] + B8
+    parent[15] += a
+    parent[16] += b
+    parent[17] += c
+    parent[18] += d
+    parent[19] += e
+    parent[20] += f
+
+
+@stage
+def arm_of(tree, child, parent):
+    """From the parent's point of reference to the child's."""
+    p, o = tree.reference[child], tree.reference[parent]
+    return p[0] - o[0], p[1] - o[1], p[2] - o[2]
+
+
+@stage
+def factorise_tree(bodies, tree):
+    """Inertias of all bodies, and the factors of all columns, from the outermost node inwards."""
+    ground = bodies.mass.shape[0]
+    for b in range(ground):
+        own_inertia(bodies, tree, b)
+    count = tree.node.shape[0]
+    for m in range(count):
+        node = tree.node[count - 1 - m]
+        child, parent, first, last = node[0], node[1], np.int64(node[6]), np.int64(node[7])
+        P = tree.inertia[child]
+        for c in range(last - first):
+            k = last - 1 - c
+            Dinv = eliminate(P, tree.column[k], tree.U[k])
+            tree.Dinv[k] = Dinv
+            tree.root[k] = np.sqrt(Dinv)
+        if parent != ground:
+            hand_inertia(P, arm_of(tree, child, parent), tree.inertia[parent])
+
+
+@leaf
+def transmit(tree, k, wrench):
+    """Generalised force of a wrench on column k over √D, then the wrench less what the column takes of it."""
+    s, U = tree.column[k], tree.U[k]
+    effort = dot(s[0:3], wrench[0:3]) + dot(s[3:6], wrench[3:6])
+    share = effort * tree.Dinv[k]
+    for i in range(6):
+        wrench[i] -= share * U[i]
+    return effort * tree.root[k]
+
+
+@leaf
+def hand_wrench(wrench, r, parent):
+    """Add a wrench about a point to that of the parent about its own."""
+    parent[0] += wrench[0] + r[1] * wrench[5] - r[2] * wrench[4]
+    parent[1] += wrench[1] + r[2] * wrench[3] - r[0] * wrench[5]
+    parent[2] += wrench[2] + r[0] * wrench[4] - r[1] * wrench[3]
+    parent[3] += wrench[3]
+    parent[4] += wrench[4]
+    parent[5] += wrench[5]
+
+
+@leaf
+def applied(bodies, tree, b, out):
+    """Wrench about the point of reference: applied forces less the inertia forces of the accelerations counted from."""
+    F, c, w, P = bodies.wrench[b], bodies.c[b], bodies.omega[b], tree.inertia[b]
+    alpha, a, m = tree.alpha0[b], tree.Rddot0[b], bodies.mass[b]
+    wc, ww = dot(w, c), dot(w, w)
+    ac = cross(alpha, c)
+    f0 = F[0] - m * (a[0] + ac[0] + w[0] * wc - c[0] * ww)
+    f1 = F[1] - m * (a[1] + ac[1] + w[1] * wc - c[1] * ww)
+    f2 = F[2] - m * (a[2] + ac[2] + w[2] * wc - c[2] * ww)
+    # moment about the centre of mass: τ - c × F - J α - ω × (J ω); then about the point of reference
+    xx, xy, xz, yy, yz, zz = P[21], P[22], P[23], P[24], P[25], P[26]
+    h = (xx * w[0] + xy * w[1] + xz * w[2], xy * w[0] + yy * w[1] + yz * w[2], xz * w[0] + yz * w[1] + zz * w[2])
+    g = cross(w, h)
+    n0 = F[3] - (c[1] * F[2] - c[2] * F[1]) - (xx * alpha[0] + xy * alpha[1] + xz * alpha[2]) - g[0]
+    n1 = F[4] - (c[2] * F[0] - c[0] * F[2]) - (xy * alpha[0] + yy * alpha[1] + yz * alpha[2]) - g[1]
+    n2 = F[5] - (c[0] * F[1] - c[1] * F[0]) - (xz * alpha[0] + yz * alpha[1] + zz * alpha[2]) - g[2]
+    R, point = bodies.R[b], tree.reference[b]
+    u0, u1, u2 = R[0] + c[0] - point[0], R[1] + c[1] - point[1], R[2] + c[2] - point[2]
+    out[0], out[1], out[2] = n0 + u1 * f2 - u2 * f1, n1 + u2 * f0 - u0 * f2, n2 + u0 * f1 - u1 * f0
+    out[3], out[4], out[5] = f0, f1, f2
+
+
+@stage
+def whiten_efforts(machine):
+    """z of all applied and inertia forces, from the outermost node inwards."""
+    record = record_at(machine)
+    bodies, tree, z = record.bodies, record.tree, record.saddle.z
+    ground = bodies.mass.shape[0]
+    for b in range(ground):
+        applied(bodies, tree, b, tree.wrench[b])
+    count = tree.node.shape[0]
+    for m in range(count):
+        node = tree.node[count - 1 - m]
+        child, parent, first, last = node[0], node[1], np.int64(node[6]), np.int64(node[7])
+        wrench = tree.wrench[child]
+        for c in range(last - first):
+            k = last - 1 - c
+            z[k, 0] = transmit(tree, k, wrench)
+        if parent != ground:
+            hand_wrench(wrench, arm_of(tree, child, parent), tree.wrench[parent])
+
+
+@stage
+def whiten_row(machine, row):
+    """W of one row: its parts act as wrenches on their bodies; and what the joint acceleration of zero leaves of C̈, returned."""
+    record = record_at(machine)
+    bodies, markers, tree, saddle = record.bodies, record.markers, record.tree, record.saddle
+    ground = bodies.mass.shape[0]
+    for p in range(tree.path_start[row], tree.path_start[row + 1]):
+        wrench = tree.wrench[tree.node[tree.path[p, 0], 0]]
+        for i in range(6):
+            wrench[i] = 0.0
+    bias = 0.0 * bodies.R[0, 0]
+    for p in range(tree.part_start[row], tree.part_start[row + 1]):
+        J, marker, b = record.constraints.J[tree.part[p, 1]], tree.part[p, 2], tree.part[p, 3]
+        u, alpha, a, wrench = markers.u[marker], tree.alpha0[b], tree.Rddot0[b], tree.wrench[b]
+        n0 = J[3] + u[1] * J[2] - u[2] * J[1]
+        n1 = J[4] + u[2] * J[0] - u[0] * J[2]
+        n2 = J[5] + u[0] * J[1] - u[1] * J[0]
+        bias += J[0] * a[0] + J[1] * a[1] + J[2] * a[2] + n0 * alpha[0] + n1 * alpha[1] + n2 * alpha[2]
+        R, point = bodies.R[b], tree.reference[b]
+        d0, d1, d2 = R[0] - point[0], R[1] - point[1], R[2] - point[2]
+        wrench[0] += n0 + d1 * J[2] - d2 * J[1]
+        wrench[1] += n1 + d2 * J[0] - d0 * J[2]
+        wrench[2] += n2 + d0 * J[1] - d1 * J[0]
+        wrench[3] += J[0]
+        wrench[4] += J[1]
+        wrench[5] += J[2]
+    for p in range(tree.path_start[row], tree.path_start[row + 1]):
+        node, block = tree.node[tree.path[p, 0]], tree.path[p, 1]
+        child, parent, first, last = node[0], node[1], np.int64(node[6]), np.int64(node[7])
+        wrench = tree.wrench[child]
+        for c in range(last - first):
+            saddle.W[block + c, 0] = transmit(tree, last - 1 - c, wrench)
+        if parent != ground:
+            hand_wrench(wrench, arm_of(tree, child, parent), tree.wrench[parent])
+    return bias
+
+
+@stage
+def whiten_tree_rows(machine):
+    """W of all rows that are left, and of friction; their γ becomes the right-hand side for joint accelerations."""
+    record = record_at(machine)
+    saddle, gamma = record.saddle, record.constraints.gamma
+    rows, all_rows = saddle.row.shape[0], record.constraints.C.shape[0]
+    for k in range(record.tree.part_start.shape[0] - 1):
+        bias = whiten_row(machine, k)
+        gamma[saddle.row[k] if k < rows else all_rows + k - rows] -= bias
+
+
+@stage
+def accelerate(machine, change):
+    """Joint accelerations from z, in `change` (U,), and `delta` of all bodies; also the change of joint coordinates in a correction."""
+    record = record_at(machine)
+    tree, z = record.tree, record.saddle.z
+    for n in range(tree.node.shape[0]):
+        node = tree.node[n]
+        child, parent = node[0], node[1]
+        r, ap, a = arm_of(tree, child, parent), tree.delta[parent], tree.delta[child]
+        a[0], a[1], a[2] = ap[0], ap[1], ap[2]
+        a[3] = ap[3] + ap[1] * r[2] - ap[2] * r[1]
+        a[4] = ap[4] + ap[2] * r[0] - ap[0] * r[2]
+        a[5] = ap[5] + ap[0] * r[1] - ap[1] * r[0]
+        for k in range(node[6], node[7]):
+            s, U = tree.column[k], tree.U[k]
+            x = z[k, 0] * tree.root[k] - tree.Dinv[k] * (dot(U[0:3], a[0:3]) + dot(U[3:6], a[3:6]))
+            change[k] = x
+            for i in range(6):
+                a[i] += x * s[i]

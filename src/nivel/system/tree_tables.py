@@ -1,0 +1,45 @@
+"""The arrays of a spanning tree, still without numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.record import Constraints, Tree
+
+
+def empty_tree(constraints: Constraints, nodes: int = 0, columns: int = 0, positions: int = 0) -> Tree:
+    """Work arrays for a tree of so many nodes (one a body), columns and positions; tables are empty."""
+    bodies = nodes + 1 if nodes else 0
+    empty = np.zeros(0, dtype=np.uint32)
+    return Tree(
+        node=empty.reshape(0, 8),
+        place=empty.reshape(0, 2),
+        number=np.zeros((nodes, 4)),
+        marker=empty,
+        rows=constraints,
+        carried=empty.reshape(0, 2),
+        reaction=empty.reshape(0, 3),
+        part=empty.reshape(0, 4),
+        part_start=empty,
+        path=empty.reshape(0, 2),
+        path_start=empty,
+        theta=np.zeros((nodes, 2, 4)),
+        size=np.ones(1),
+        positions=np.array([positions], dtype=np.uint32),
+        first=np.zeros((nodes, 3, 3)),
+        second=np.zeros((nodes, 3, 3)),
+        reference=np.zeros((bodies, 3)),
+        alpha0=np.zeros((bodies, 3)),
+        Rddot0=np.zeros((bodies, 3)),
+        column=np.zeros((columns, 6)),
+        inertia=np.zeros((bodies, 27)),
+        U=np.zeros((columns, 6)),
+        Dinv=np.zeros(columns),
+        root=np.zeros(columns),
+        wrench=np.zeros((bodies, 6)),
+        delta=np.zeros((bodies, 6)),
+        state=np.zeros(positions),
+        change=np.zeros(columns),
+        moved=np.zeros(positions),
+        small=np.zeros((6, 7)),
+    )

@@ -1,6 +1,6 @@
 """Articulated bodies: recursion over a tree in O(n) (Featherstone 1983), as a factorisation of its mass matrix.
 
-Written with accelerations (α, a) of the point of reference and wrenches (N, F) about it, in global axes:
+Written with accelerations (α, a) of a body's frame and wrenches (N, F) about its origin, in global axes:
 
     [N; F] = [I, H; Hᵀ, M] [α; a] + (N, F)₀
 
@@ -19,33 +19,32 @@ import numpy as np
 
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.record import record_at
-from nivel.kernels.spatial import cross, dot
+from nivel.kernels.spatial import cross
+from nivel.kernels.tree import swing
 
 
 @stage
 def own_inertia(bodies, tree, b):
-    """Inertia of body b about its point of reference, and in columns 21 to 26 about its centre of mass; global axes.
-
-    A J̄ Aᵀ, then m (u² 1 - u uᵀ) with u from the point of reference to the centre of mass; H = m ũ, M = m 1.
-    """
-    A, J, P, m = bodies.A[b], bodies.inertia_b[b], tree.inertia[b], bodies.mass[b]
-    k = 0
-    for i in range(3):
-        x = A[i, 0] * J[0, 0] + A[i, 1] * J[1, 0] + A[i, 2] * J[2, 0]
-        y = A[i, 0] * J[0, 1] + A[i, 1] * J[1, 1] + A[i, 2] * J[2, 1]
-        z = A[i, 0] * J[0, 2] + A[i, 1] * J[1, 2] + A[i, 2] * J[2, 2]
-        for j in range(i, 3):
-            P[21 + k] = x * A[j, 0] + y * A[j, 1] + z * A[j, 2]
-            k += 1
-    R, c, point = bodies.R[b], bodies.c[b], tree.reference[b]
-    u0, u1, u2 = R[0] + c[0] - point[0], R[1] + c[1] - point[1], R[2] + c[2] - point[2]
-    m0, m1, m2 = m * u0, m * u1, m * u2
-    P[0] = P[21] + m1 * u1 + m2 * u2
-    P[1] = P[22] - m0 * u1
-    P[2] = P[23] - m0 * u2
-    P[3] = P[24] + m0 * u0 + m2 * u2
-    P[4] = P[25] - m1 * u2
-    P[5] = P[26] + m0 * u0 + m1 * u1
+    """Inertia of body b about its frame's origin, global axes, and again from column 21 on: A J̄_O Aᵀ; H = m c̃, M = m 1."""
+    A, J, P, m, c = bodies.A[b], bodies.inertia_origin_b[b], tree.inertia[b], bodies.mass[b], bodies.c[b]
+    x0 = A[0, 0] * J[0, 0] + A[0, 1] * J[1, 0] + A[0, 2] * J[2, 0]
+    y0 = A[0, 0] * J[0, 1] + A[0, 1] * J[1, 1] + A[0, 2] * J[2, 1]
+    z0 = A[0, 0] * J[0, 2] + A[0, 1] * J[1, 2] + A[0, 2] * J[2, 2]
+    x1 = A[1, 0] * J[0, 0] + A[1, 1] * J[1, 0] + A[1, 2] * J[2, 0]
+    y1 = A[1, 0] * J[0, 1] + A[1, 1] * J[1, 1] + A[1, 2] * J[2, 1]
+    z1 = A[1, 0] * J[0, 2] + A[1, 1] * J[1, 2] + A[1, 2] * J[2, 2]
+    x2 = A[2, 0] * J[0, 0] + A[2, 1] * J[1, 0] + A[2, 2] * J[2, 0]
+    y2 = A[2, 0] * J[0, 1] + A[2, 1] * J[1, 1] + A[2, 2] * J[2, 1]
+    z2 = A[2, 0] * J[0, 2] + A[2, 1] * J[1, 2] + A[2, 2] * J[2, 2]
+    P[0] = x0 * A[0, 0] + y0 * A[0, 1] + z0 * A[0, 2]
+    P[1] = x0 * A[1, 0] + y0 * A[1, 1] + z0 * A[1, 2]
+    P[2] = x0 * A[2, 0] + y0 * A[2, 1] + z0 * A[2, 2]
+    P[3] = x1 * A[1, 0] + y1 * A[1, 1] + z1 * A[1, 2]
+    P[4] = x1 * A[2, 0] + y1 * A[2, 1] + z1 * A[2, 2]
+    P[5] = x2 * A[2, 0] + y2 * A[2, 1] + z2 * A[2, 2]
+    for k in range(6):
+        P[21 + k] = P[k]
+    m0, m1, m2 = m * c[0], m * c[1], m * c[2]
     P[6], P[7], P[8] = 0.0, -m2, m1
     P[9], P[10], P[11] = m2, 0.0, -m0
     P[12], P[13], P[14] = -m1, m0, 0.0
@@ -91,11 +90,11 @@ def eliminate(P, s, U):
 
 @leaf
 def hand_inertia(P, r, parent):
-    """Add the inertia P about a point to that of the parent about its own, r = point - the parent's point.
+    """Add the inertia P of a child to that of its parent, r = from the parent's origin to the child's.
 
     H' = H + r̃ M and I' = I - (K r̃ + (K r̃)ᵀ) with K = H + ½ r̃ M.
     """
-    x, y, z = r
+    x, y, z = r[0], r[1], r[2]
     a, b, c, d, e, f = P[15], P[16], P[17], P[18], P[19], P[20]
     # B = r̃ M, rows
     B0, B1, B2 = y * c - z * b, y * e - z * d, y * f - z * e
@@ -129,13 +128,6 @@ def hand_inertia(P, r, parent):
 
 
 @stage
-def arm_of(tree, child, parent):
-    """From the parent's point of reference to the child's."""
-    p, o = tree.reference[child], tree.reference[parent]
-    return p[0] - o[0], p[1] - o[1], p[2] - o[2]
-
-
-@stage
 def factorise_tree(bodies, tree):
     """Inertias of all bodies, and the factors of all columns, from the outermost node inwards."""
     ground = bodies.mass.shape[0]
@@ -144,7 +136,7 @@ def factorise_tree(bodies, tree):
     count = tree.node.shape[0]
     for m in range(count):
         node = tree.node[count - 1 - m]
-        child, parent, first, last = node[0], node[1], np.int64(node[6]), np.int64(node[7])
+        child, parent, first, last = node[0], node[1], np.int64(node[4]), np.int64(node[5])
         P = tree.inertia[child]
         for c in range(last - first):
             k = last - 1 - c
@@ -152,14 +144,15 @@ def factorise_tree(bodies, tree):
             tree.Dinv[k] = Dinv
             tree.root[k] = np.sqrt(Dinv)
         if parent != ground:
-            hand_inertia(P, arm_of(tree, child, parent), tree.inertia[parent])
+            hand_inertia(P, tree.arm[child], tree.inertia[parent])
 
 
 @leaf
 def transmit(tree, k, wrench):
     """Generalised force of a wrench on column k over √D, then the wrench less what the column takes of it."""
     s, U = tree.column[k], tree.U[k]
-    effort = dot(s[0:3], wrench[0:3]) + dot(s[3:6], wrench[3:6])
+    effort = s[0] * wrench[0] + s[1] * wrench[1] + s[2] * wrench[2]
+    effort += s[3] * wrench[3] + s[4] * wrench[4] + s[5] * wrench[5]
     share = effort * tree.Dinv[k]
     for i in range(6):
         wrench[i] -= share * U[i]
@@ -168,7 +161,7 @@ def transmit(tree, k, wrench):
 
 @leaf
 def hand_wrench(wrench, r, parent):
-    """Add a wrench about a point to that of the parent about its own."""
+    """Add the wrench of a child to that of its parent, r = from the parent's origin to the child's."""
     parent[0] += wrench[0] + r[1] * wrench[5] - r[2] * wrench[4]
     parent[1] += wrench[1] + r[2] * wrench[3] - r[0] * wrench[5]
     parent[2] += wrench[2] + r[0] * wrench[4] - r[1] * wrench[3]
@@ -179,25 +172,20 @@ def hand_wrench(wrench, r, parent):
 
 @leaf
 def applied(bodies, tree, b, out):
-    """Wrench about the point of reference: applied forces less the inertia forces of the accelerations counted from."""
+    """Wrench about the frame's origin: applied forces less the inertia forces of the accelerations that others are counted from.
+
+    F - m (a + α × c + ω × (ω × c)), τ - J_O α - ω × (J_O ω) - m c × a.
+    """
     F, c, w, P = bodies.wrench[b], bodies.c[b], bodies.omega[b], tree.inertia[b]
     alpha, a, m = tree.alpha0[b], tree.Rddot0[b], bodies.mass[b]
-    wc, ww = dot(w, c), dot(w, w)
-    ac = cross(alpha, c)
-    f0 = F[0] - m * (a[0] + ac[0] + w[0] * wc - c[0] * ww)
-    f1 = F[1] - m * (a[1] + ac[1] + w[1] * wc - c[1] * ww)
-    f2 = F[2] - m * (a[2] + ac[2] + w[2] * wc - c[2] * ww)
-    # moment about the centre of mass: τ - c × F - J α - ω × (J ω); then about the point of reference
+    s = swing(alpha, w, c)
     xx, xy, xz, yy, yz, zz = P[21], P[22], P[23], P[24], P[25], P[26]
     h = (xx * w[0] + xy * w[1] + xz * w[2], xy * w[0] + yy * w[1] + yz * w[2], xz * w[0] + yz * w[1] + zz * w[2])
-    g = cross(w, h)
-    n0 = F[3] - (c[1] * F[2] - c[2] * F[1]) - (xx * alpha[0] + xy * alpha[1] + xz * alpha[2]) - g[0]
-    n1 = F[4] - (c[2] * F[0] - c[0] * F[2]) - (xy * alpha[0] + yy * alpha[1] + yz * alpha[2]) - g[1]
-    n2 = F[5] - (c[0] * F[1] - c[1] * F[0]) - (xz * alpha[0] + yz * alpha[1] + zz * alpha[2]) - g[2]
-    R, point = bodies.R[b], tree.reference[b]
-    u0, u1, u2 = R[0] + c[0] - point[0], R[1] + c[1] - point[1], R[2] + c[2] - point[2]
-    out[0], out[1], out[2] = n0 + u1 * f2 - u2 * f1, n1 + u2 * f0 - u0 * f2, n2 + u0 * f1 - u1 * f0
-    out[3], out[4], out[5] = f0, f1, f2
+    g, ca = cross(w, h), cross(c, a)
+    out[0] = F[3] - (xx * alpha[0] + xy * alpha[1] + xz * alpha[2]) - g[0] - m * ca[0]
+    out[1] = F[4] - (xy * alpha[0] + yy * alpha[1] + yz * alpha[2]) - g[1] - m * ca[1]
+    out[2] = F[5] - (xz * alpha[0] + yz * alpha[1] + zz * alpha[2]) - g[2] - m * ca[2]
+    out[3], out[4], out[5] = F[0] - m * (a[0] + s[0]), F[1] - m * (a[1] + s[1]), F[2] - m * (a[2] + s[2])
 
 
 @stage
@@ -211,61 +199,87 @@ def whiten_efforts(machine):
     count = tree.node.shape[0]
     for m in range(count):
         node = tree.node[count - 1 - m]
-        child, parent, first, last = node[0], node[1], np.int64(node[6]), np.int64(node[7])
+        child, parent, first, last = node[0], node[1], np.int64(node[4]), np.int64(node[5])
         wrench = tree.wrench[child]
         for c in range(last - first):
             k = last - 1 - c
             z[k, 0] = transmit(tree, k, wrench)
         if parent != ground:
-            hand_wrench(wrench, arm_of(tree, child, parent), tree.wrench[parent])
+            hand_wrench(wrench, tree.arm[child], tree.wrench[parent])
 
 
 @stage
-def whiten_row(machine, row):
-    """W of one row: its parts act as wrenches on their bodies; and what the joint acceleration of zero leaves of C̈, returned."""
+def load_row(machine, row, slot):
+    """Put the parts of a row as wrenches on their bodies, in place `slot`; returns what is left of C̈ while no joint velocity changes."""
     record = record_at(machine)
-    bodies, markers, tree, saddle = record.bodies, record.markers, record.tree, record.saddle
-    ground = bodies.mass.shape[0]
-    for p in range(tree.path_start[row], tree.path_start[row + 1]):
-        wrench = tree.wrench[tree.node[tree.path[p, 0], 0]]
-        for i in range(6):
-            wrench[i] = 0.0
-    bias = 0.0 * bodies.R[0, 0]
+    markers, tree = record.markers, record.tree
+    bias = 0.0 * tree.Rddot0[0, 0]
     for p in range(tree.part_start[row], tree.part_start[row + 1]):
         J, marker, b = record.constraints.J[tree.part[p, 1]], tree.part[p, 2], tree.part[p, 3]
-        u, alpha, a, wrench = markers.u[marker], tree.alpha0[b], tree.Rddot0[b], tree.wrench[b]
-        n0 = J[3] + u[1] * J[2] - u[2] * J[1]
-        n1 = J[4] + u[2] * J[0] - u[0] * J[2]
-        n2 = J[5] + u[0] * J[1] - u[1] * J[0]
-        bias += J[0] * a[0] + J[1] * a[1] + J[2] * a[2] + n0 * alpha[0] + n1 * alpha[1] + n2 * alpha[2]
-        R, point = bodies.R[b], tree.reference[b]
-        d0, d1, d2 = R[0] - point[0], R[1] - point[1], R[2] - point[2]
-        wrench[0] += n0 + d1 * J[2] - d2 * J[1]
-        wrench[1] += n1 + d2 * J[0] - d0 * J[2]
-        wrench[2] += n2 + d0 * J[1] - d1 * J[0]
-        wrench[3] += J[0]
-        wrench[4] += J[1]
-        wrench[5] += J[2]
-    for p in range(tree.path_start[row], tree.path_start[row + 1]):
-        node, block = tree.node[tree.path[p, 0]], tree.path[p, 1]
-        child, parent, first, last = node[0], node[1], np.int64(node[6]), np.int64(node[7])
-        wrench = tree.wrench[child]
-        for c in range(last - first):
-            saddle.W[block + c, 0] = transmit(tree, last - 1 - c, wrench)
-        if parent != ground:
-            hand_wrench(wrench, arm_of(tree, child, parent), tree.wrench[parent])
+        u, alpha, a, wrench = markers.u[marker], tree.alpha0[b], tree.Rddot0[b], tree.load[slot, b]
+        f0, f1, f2 = J[0], J[1], J[2]
+        n0 = J[3] + u[1] * f2 - u[2] * f1
+        n1 = J[4] + u[2] * f0 - u[0] * f2
+        n2 = J[5] + u[0] * f1 - u[1] * f0
+        bias += f0 * a[0] + f1 * a[1] + f2 * a[2] + n0 * alpha[0] + n1 * alpha[1] + n2 * alpha[2]
+        wrench[0] += n0
+        wrench[1] += n1
+        wrench[2] += n2
+        wrench[3] += f0
+        wrench[4] += f1
+        wrench[5] += f2
     return bias
 
 
 @stage
-def whiten_tree_rows(machine):
-    """W of all rows that are left, and of friction; their γ becomes the right-hand side for joint accelerations."""
+def whiten_bundle(machine, first, last):
+    """W of rows first to last - 1, which have the same path from their bodies to the ground."""
     record = record_at(machine)
-    saddle, gamma = record.saddle, record.constraints.gamma
+    tree, W = record.tree, record.saddle.W
+    ground, count = record.bodies.mass.shape[0], last - first
+    start, stop = tree.path_start[first], tree.path_start[first + 1]
+    length = np.int64(tree.row_blocks[first])
+    for p in range(start, stop):
+        node, block = tree.node[tree.path[p, 0]], np.int64(tree.path[p, 1])
+        child, parent, low, columns = node[0], node[1], np.int64(node[4]), np.int64(node[5]) - np.int64(node[4])
+        for c in range(columns):
+            k = low + columns - 1 - c
+            s, U, Dinv, root = tree.column[k], tree.U[k], tree.Dinv[k], tree.root[k]
+            s0, s1, s2, s3, s4, s5 = s[0], s[1], s[2], s[3], s[4], s[5]
+            U0, U1, U2, U3, U4, U5 = U[0], U[1], U[2], U[3], U[4], U[5]
+            for i in range(count):
+                x = tree.load[i, child]
+                effort = s0 * x[0] + s1 * x[1] + s2 * x[2] + s3 * x[3] + s4 * x[4] + s5 * x[5]
+                W[block + i * length + c, 0] = effort * root
+                share = effort * Dinv
+                x[0] -= share * U0
+                x[1] -= share * U1
+                x[2] -= share * U2
+                x[3] -= share * U3
+                x[4] -= share * U4
+                x[5] -= share * U5
+        for i in range(count):
+            x = tree.load[i, child]
+            if parent != ground:
+                hand_wrench(x, tree.arm[child], tree.load[i, parent])
+            x[0], x[1], x[2], x[3], x[4], x[5] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+@stage
+def whiten_tree_rows(machine):
+    """W of all rows that are left, and of friction; their γ becomes the right-hand side for joint accelerations.
+
+    `load` is zero before and after.
+    """
+    record = record_at(machine)
+    tree, saddle, gamma = record.tree, record.saddle, record.constraints.gamma
     rows, all_rows = saddle.row.shape[0], record.constraints.C.shape[0]
-    for k in range(record.tree.part_start.shape[0] - 1):
-        bias = whiten_row(machine, k)
-        gamma[saddle.row[k] if k < rows else all_rows + k - rows] -= bias
+    for n in range(tree.bundle.shape[0] - 1):
+        first, last = np.int64(tree.bundle[n]), np.int64(tree.bundle[n + 1])
+        for k in range(first, last):
+            bias = load_row(machine, k, k - first)
+            gamma[saddle.row[k] if k < rows else all_rows + k - rows] -= bias
+        whiten_bundle(machine, first, last)
 
 
 @stage
@@ -276,14 +290,15 @@ def accelerate(machine, change):
     for n in range(tree.node.shape[0]):
         node = tree.node[n]
         child, parent = node[0], node[1]
-        r, ap, a = arm_of(tree, child, parent), tree.delta[parent], tree.delta[child]
+        r, ap, a = tree.arm[child], tree.delta[parent], tree.delta[child]
         a[0], a[1], a[2] = ap[0], ap[1], ap[2]
         a[3] = ap[3] + ap[1] * r[2] - ap[2] * r[1]
         a[4] = ap[4] + ap[2] * r[0] - ap[0] * r[2]
         a[5] = ap[5] + ap[0] * r[1] - ap[1] * r[0]
-        for k in range(node[6], node[7]):
+        for k in range(np.int64(node[4]), np.int64(node[5])):
             s, U = tree.column[k], tree.U[k]
-            x = z[k, 0] * tree.root[k] - tree.Dinv[k] * (dot(U[0:3], a[0:3]) + dot(U[3:6], a[3:6]))
+            felt = U[0] * a[0] + U[1] * a[1] + U[2] * a[2] + U[3] * a[3] + U[4] * a[4] + U[5] * a[5]
+            x = z[k, 0] * tree.root[k] - tree.Dinv[k] * felt
             change[k] = x
             for i in range(6):
                 a[i] += x * s[i]

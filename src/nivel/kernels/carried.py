@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.articulated import arm_of, hand_wrench
+from nivel.kernels.articulated import hand_wrench
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.constraint import combine, constraint_rows
 from nivel.kernels.hook import family
 from nivel.kernels.marker import move_markers, place_markers
 from nivel.kernels.record import FIXED, FREE, PLANAR, SPHERICAL, TRANSLATIONAL, UNIVERSAL, record_at
+from nivel.kernels.rigid import turn_to_body_axes
 from nivel.kernels.spatial import cross, dot
 from nivel.kernels.status import OK
+from nivel.kernels.tree import swing
 
 
 @leaf
@@ -31,14 +33,15 @@ def quaternion_product(a, b):
 
 
 @stage
-def joint_turn(kind, q):
-    """Euler parameters of the second marker seen from the first: half angles, so whole turns change no sign suddenly."""
+def joint_turn(kind, number, q):
+    """Euler parameters of the child seen from the marker of the parent: half angles, so whole turns change no sign suddenly."""
     if kind == SPHERICAL:
         return q[0], q[1], q[2], q[3]
     if kind == FREE:
         return q[3], q[4], q[5], q[6]
     if kind in (TRANSLATIONAL, FIXED):
-        return 1.0, 0.0, 0.0, 0.0
+        # markers may be half a turn apart
+        return (1.0, 0.0, 0.0, 0.0) if number[2] > 0.0 else (0.0, 0.0, 0.0, 1.0)
     half = 0.5 * (q[2] if kind == PLANAR else q[0])
     about_first = (np.cos(half), 0.0, 0.0, np.sin(half))
     if kind != UNIVERSAL:
@@ -49,66 +52,75 @@ def joint_turn(kind, q):
 
 
 @stage
-def orient(machine, y):
-    """Euler parameters of all bodies."""
+def orient(machine):
+    """Euler parameters of all bodies in these coordinates, then of their own frames."""
     record = record_at(machine)
-    bodies, tree = record.bodies, record.tree
+    theta, tree = record.bodies.theta, record.tree
     for n in range(tree.node.shape[0]):
-        node = tree.node[n]
-        a, b, parent, theta = tree.theta[n, 0], tree.theta[n, 1], bodies.theta[node[1]], bodies.theta[node[0]]
-        e = joint_turn(node[4], y[tree.place[n, 0] :])
-        if node[5] == 1:
-            e = (e[0], -e[1], -e[2], -e[3])
-        before = quaternion_product((parent[0], parent[1], parent[2], parent[3]), (a[0], a[1], a[2], a[3]))
-        e = quaternion_product(quaternion_product(before, e), (b[0], b[1], b[2], b[3]))
-        theta[0], theta[1], theta[2], theta[3] = e
+        node, a, p = tree.node[n], tree.theta[n], theta[tree.node[n, 1]]
+        before = quaternion_product((p[0], p[1], p[2], p[3]), (a[0], a[1], a[2], a[3]))
+        turned = quaternion_product(before, joint_turn(node[2], tree.number[n], tree.state[tree.place[n, 0] :]))
+        for i in range(4):
+            theta[node[0], i] = turned[i]
 
 
 @stage
-def bodies_accelerate(bodies, tree):
-    """(R̈, ᾱ) of all bodies from those for joint accelerations of zero and `delta`."""
+def show_frames(machine):
+    """Positions, Euler parameters, velocities and accelerations of the bodies' own frames; ω̄ and ᾱ of these coordinates' frames."""
+    record = record_at(machine)
+    bodies, tree, frames = record.bodies, record.tree, record.frames
     for b in range(bodies.mass.shape[0]):
-        d, A, R, point = tree.delta[b], bodies.A[b], bodies.R[b], tree.reference[b]
+        d, A, w, own, e, f = (
+            tree.delta[b],
+            bodies.A[b],
+            bodies.omega[b],
+            tree.own[b],
+            bodies.theta[b],
+            tree.own_theta[b],
+        )
         alpha = (tree.alpha0[b, 0] + d[0], tree.alpha0[b, 1] + d[1], tree.alpha0[b, 2] + d[2])
-        arm = (R[0] - point[0], R[1] - point[1], R[2] - point[2])
-        turned = cross((d[0], d[1], d[2]), arm)
+        u = (dot(A[0], own), dot(A[1], own), dot(A[2], own))
+        speed, acceleration = cross(w, u), swing(alpha, w, u)
         for i in range(3):
-            bodies.Rddot[b, i] = tree.Rddot0[b, i] + d[3 + i] + turned[i]
+            bodies.Rddot[b, i] = tree.Rddot0[b, i] + d[3 + i]
             bodies.alpha_b[b, i] = A[0, i] * alpha[0] + A[1, i] * alpha[1] + A[2, i] * alpha[2]
+            frames.R[b, i] = bodies.R[b, i] + u[i]
+            frames.Rdot[b, i] = bodies.Rdot[b, i] + speed[i]
+            frames.Rddot[b, i] = bodies.Rddot[b, i] + acceleration[i]
+        turn_to_body_axes(bodies, b)
+        turned = quaternion_product((e[0], e[1], e[2], e[3]), (f[0], f[1], f[2], f[3]))
+        for i in range(4):
+            frames.theta[b, i] = turned[i]
 
 
 @stage
 def needed(bodies, tree, b, out):
-    """Wrench about the point of reference that the joints of body b must give it: inertia forces less applied forces."""
-    F, c, w, w_b, a_b = bodies.wrench[b], bodies.c[b], bodies.omega[b], bodies.omega_b[b], bodies.alpha_b[b]
-    A, J, m, a = bodies.A[b], bodies.inertia_b[b], bodies.mass[b], bodies.Rddot[b]
-    alpha = (dot(A[0], a_b), dot(A[1], a_b), dot(A[2], a_b))
-    ac, wc, ww = cross(alpha, c), dot(w, c), dot(w, w)
-    h = (dot(J[0], w_b), dot(J[1], w_b), dot(J[2], w_b))
-    g = cross(w_b, h)
-    n = (dot(J[0], a_b) + g[0], dot(J[1], a_b) + g[1], dot(J[2], a_b) + g[2])
-    f = (
-        m * (a[0] + ac[0] + w[0] * wc - c[0] * ww) - F[0],
-        m * (a[1] + ac[1] + w[1] * wc - c[1] * ww) - F[1],
-        m * (a[2] + ac[2] + w[2] * wc - c[2] * ww) - F[2],
-    )
-    R, point = bodies.R[b], tree.reference[b]
-    u = (R[0] + c[0] - point[0], R[1] + c[1] - point[1], R[2] + c[2] - point[2])
-    moment, moved = cross(u, f), cross(c, F)
+    """Wrench about the frame's origin that the joints of body b must give it: inertia forces less applied forces."""
+    F, c, w, P, d = bodies.wrench[b], bodies.c[b], bodies.omega[b], tree.inertia[b], tree.delta[b]
+    m, a = bodies.mass[b], bodies.Rddot[b]
+    alpha = (tree.alpha0[b, 0] + d[0], tree.alpha0[b, 1] + d[1], tree.alpha0[b, 2] + d[2])
+    s, ca = swing(alpha, w, c), cross(c, a)
+    xx, xy, xz, yy, yz, zz = P[21], P[22], P[23], P[24], P[25], P[26]
+    h = (xx * w[0] + xy * w[1] + xz * w[2], xy * w[0] + yy * w[1] + yz * w[2], xz * w[0] + yz * w[1] + zz * w[2])
+    g = cross(w, h)
+    out[0] = xx * alpha[0] + xy * alpha[1] + xz * alpha[2] + g[0] + m * ca[0] - F[3]
+    out[1] = xy * alpha[0] + yy * alpha[1] + yz * alpha[2] + g[1] + m * ca[1] - F[4]
+    out[2] = xz * alpha[0] + yz * alpha[1] + zz * alpha[2] + g[2] + m * ca[2] - F[5]
     for i in range(3):
-        out[i] = dot(A[i], n) - F[3 + i] + moved[i] + moment[i]
-        out[3 + i] = f[i]
+        out[3 + i] = m * (a[i] + s[i]) - F[i]
 
 
 @stage
 def add_part(machine, p, factor):
     """Add `factor` times part p of the rows that are left to the wrench of its body."""
     record = record_at(machine)
-    bodies, tree = record.bodies, record.tree
-    J, marker, b = record.constraints.J[tree.part[p, 1]], tree.part[p, 2], tree.part[p, 3]
-    u, R, point, wrench = record.markers.u[marker], bodies.R[b], tree.reference[b], tree.wrench[b]
-    arm = (R[0] + u[0] - point[0], R[1] + u[1] - point[1], R[2] + u[2] - point[2])
-    moment = cross(arm, (J[0], J[1], J[2]))
+    tree = record.tree
+    J, u, wrench = (
+        record.constraints.J[tree.part[p, 1]],
+        record.markers.u[tree.part[p, 2]],
+        tree.wrench[tree.part[p, 3]],
+    )
+    moment = cross(u, J)
     for i in range(3):
         wrench[i] += factor * (J[3 + i] + moment[i])
         wrench[3 + i] += factor * J[i]
@@ -136,16 +148,13 @@ def solve_small(K, n):
 
 
 @stage
-def row_wrench(machine, n, r):
-    """Row r of the joint of node n as a wrench on the child about its point of reference, moments over the machine's length."""
+def row_wrench(machine, r):
+    """Row r of a joint that carries a body as a wrench on it about its frame's origin, moments over the machine's length."""
     record = record_at(machine)
-    tree, bodies = record.tree, record.bodies
-    child, part, marker = tree.node[n, 0], tree.reaction[r, 1], tree.reaction[r, 2]
-    J, u, R, point = record.constraints.J[part], record.markers.u[marker], bodies.R[child], tree.reference[child]
-    f = (J[0], J[1], J[2])
-    moment = cross((R[0] + u[0] - point[0], R[1] + u[1] - point[1], R[2] + u[2] - point[2]), f)
-    over = 1.0 / tree.size[0]
-    return (J[3] + moment[0]) * over, (J[4] + moment[1]) * over, (J[5] + moment[2]) * over, f[0], f[1], f[2]
+    tree = record.tree
+    J, u, over = record.constraints.J[tree.reaction[r, 1]], record.markers.u[tree.reaction[r, 2]], 1.0 / tree.size[0]
+    moment = cross(u, J)
+    return (J[3] + moment[0]) * over, (J[4] + moment[1]) * over, (J[5] + moment[2]) * over, J[0], J[1], J[2]
 
 
 @stage
@@ -156,9 +165,9 @@ def multipliers_of(machine, n):
     first, count = np.int64(tree.carried[n, 0]), np.int64(tree.carried[n, 1]) - np.int64(tree.carried[n, 0])
     K, over = tree.small, 1.0 / tree.size[0]
     for i in range(count):
-        a = row_wrench(machine, n, first + i)
+        a = row_wrench(machine, first + i)
         for k in range(i + 1):
-            b = row_wrench(machine, n, first + k)
+            b = row_wrench(machine, first + k)
             K[i, k] = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
         K[i, 6] = -(a[0] * wrench[0] + a[1] * wrench[1] + a[2] * wrench[2]) * over
         K[i, 6] -= a[3] * wrench[3] + a[4] * wrench[4] + a[5] * wrench[5]
@@ -185,15 +194,15 @@ def reactions(machine):
         child, parent = tree.node[n, 0], tree.node[n, 1]
         multipliers_of(machine, n)
         if parent != ground:
-            hand_wrench(tree.wrench[child], arm_of(tree, child, parent), tree.wrench[parent])
+            hand_wrench(tree.wrench[child], tree.arm[child], tree.wrench[parent])
 
 
 @family
 def complete(machine, number, t):
     """Everything of the state last evaluated that frames show and its equations did not need."""
     record = record_at(machine)
-    bodies_accelerate(record.bodies, record.tree)
-    orient(machine, record.tree.state)
+    orient(machine)
+    show_frames(machine)
     place_markers(record.bodies, record.markers)
     move_markers(record.bodies, record.markers)
     constraint_rows(record.bodies, record.markers, record.tree.rows)

@@ -80,24 +80,24 @@ def observe(machine, t, y, frame):
     """Fill `frame[1:]` from the state last evaluated; the columns are those of `nivel.system.layout`."""
     call_hook(machine, COMPLETE, 0, t)
     record = record_at(machine)
-    bodies, constraints, control = record.bodies, record.constraints, record.control
+    bodies, constraints, control, frames = record.bodies, record.constraints, record.control, record.frames
     nb = bodies.mass.shape[0]
     at = 1
     for b in range(nb):
         for i in range(3):
-            frame[at + 3 * b + i] = bodies.R[b, i]
-            frame[at + 7 * nb + 3 * b + i] = bodies.Rdot[b, i]
+            frame[at + 3 * b + i] = frames.R[b, i]
+            frame[at + 7 * nb + 3 * b + i] = frames.Rdot[b, i]
             frame[at + 10 * nb + 3 * b + i] = bodies.omega[b, i]
-            frame[at + 13 * nb + 3 * b + i] = bodies.Rddot[b, i]
+            frame[at + 13 * nb + 3 * b + i] = frames.Rddot[b, i]
             alpha = 0.0
             for j in range(3):
                 alpha += bodies.A[b, i, j] * bodies.alpha_b[b, j]
             frame[at + 16 * nb + 3 * b + i] = alpha
         length = 0.0
         for i in range(4):
-            length += bodies.theta[b, i] * bodies.theta[b, i]
+            length += frames.theta[b, i] * frames.theta[b, i]
         for i in range(4):
-            frame[at + 3 * nb + 4 * b + i] = bodies.theta[b, i] / np.sqrt(length)
+            frame[at + 3 * nb + 4 * b + i] = frames.theta[b, i] / np.sqrt(length)
     at += 19 * nb
     at = _reactions(machine, frame, at)
     at = _joint_coordinates(machine, t, frame, at)

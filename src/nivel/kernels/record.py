@@ -203,18 +203,28 @@ class Saddle(NamedTuple):
     target: F1  # (K,) right-hand side while the augmented Lagrangian iterates
 
 
+class Frames(NamedTuple):
+    """The frames of the bodies as their user placed them; those of `Bodies` themselves unless coordinates use others."""
+
+    R: F2  # (B+1, 3) [m]
+    theta: F2  # (B+1, 4)
+    Rdot: F2  # (B+1, 3) [m/s]
+    Rddot: F2  # (B+1, 3) [m/s²]
+
+
 class Tree(NamedTuple):
     """The spanning tree of relative coordinates; empty in others. D nodes, one a body; U columns, one a joint velocity.
 
-    Node n carries the body `child` on the body `parent`. Each body has a point of reference, the second marker of the joint that carries
-    it; all vectors are in global axes. Articulated inertias: NOTATION.md.
+    Node n carries the body `child` on the body `parent`. The frame of a body is that of the marker by which it is carried, and all that is
+    fixed to the body (markers, centre of mass, inertia) is given in it. Vectors are in global axes; wrenches are (moment about the
+    frame's origin, force), motions (angular, of the origin).
     """
 
-    node: U2  # (D, 8) child, parent, first marker, second marker, kind, whether the first body is the child, columns from, to
+    node: U2  # (D, 6) child, parent, kind, joint or NONE, columns from, to
     place: U2  # (D, 2) where the joint's positions start in y, and its velocities
-    number: (
-        F2  # (D, 4) lead of a screw [m/rad], its displacement at angle zero, cosine and sine of a constant turn about z
-    )
+    # (D, 7) lead of a screw [m/rad], its displacement at angle zero, cosine and sine of a constant turn about z, the parent's marker
+    number: F2
+    first: F3  # (D, 3, 3) axes of the parent's marker, in the parent
     marker: U1  # markers that every evaluation needs
     rows: Constraints  # of the joints that carry bodies: they hold by themselves, and are filled for frames only
     carried: U2  # (D, 2) in `reaction`, from, to
@@ -223,22 +233,28 @@ class Tree(NamedTuple):
     part_start: U1  # (K + X + 1,)
     path: U2  # (·, 2) nodes between the bodies of a row and the ground, outermost first; first block of the node
     path_start: U1  # (K + X + 1,)
-    theta: F3  # (D, 2, 4) constant turns before and after that of the joint, as Euler parameters
+    row_blocks: U1  # (K + X,) blocks of each row
+    bundle: (
+        U1  # rows with one and the same path follow each other: first row of each such bundle, then the number of rows
+    )
+    theta: F2  # (D, 4) turn from the parent's frame to its marker, as Euler parameters
+    own: F2  # (B, 3) [m] the origin of the body's own frame
+    own_theta: F2  # (B, 4) its axes, as Euler parameters
     size: F1  # (1,) [m] length of the machine
     positions: U1  # (1,) their number
     # work
-    first: F3  # (D, 3, 3) axes of the first marker
-    second: F3  # (D, 3, 3) axes of the second
-    reference: F2  # (B+1, 3) [m] the point of reference of each body
-    alpha0: F2  # (B+1, 3) angular acceleration for joint accelerations of zero
-    Rddot0: F2  # (B+1, 3) acceleration of the frame origin for joint accelerations of zero
-    column: F2  # (U, 6) motion of a joint velocity: angular velocity, velocity of the point of reference
-    inertia: F2  # (B+1, 27) articulated inertia: I (6), H (9), M (6); own inertia about the centre of mass (6)
+    axes: F2  # (3, 3) of a marker
+    arm: F2  # (B+1, 3) from the parent's origin to the body's
+    alpha0: F2  # (B+1, 3) angular acceleration while no joint velocity changes
+    Rddot0: F2  # (B+1, 3) acceleration of the origin while no joint velocity changes
+    column: F2  # (U, 6) motion of a joint velocity
+    inertia: F2  # (B+1, 27) articulated inertia: I (6), H (9), M (6); I of the body alone (6)
     U: F2  # (U, 6) inertia times column
     Dinv: F1  # (U,) 1/(columnᵀ U)
     root: F1  # (U,) its root
-    wrench: F2  # (B+1, 6) moment about the point of reference, force
-    delta: F2  # (B+1, 6) angular acceleration and acceleration of the point of reference, less those for joint accelerations of zero
+    wrench: F2  # (B+1, 6)
+    load: F3  # (rows of the largest bundle, B+1, 6) zero between uses
+    delta: F2  # (B+1, 6) acceleration less that while no joint velocity changes
     state: F1  # (positions,) those last evaluated
     change: F1  # (U,) of joint coordinates in a correction
     moved: F1  # (positions,) the same of positions
@@ -271,6 +287,7 @@ class Record(NamedTuple):
     friction: Friction
     saddle: Saddle
     tree: Tree
+    frames: Frames
     sensors: Sensors
     outputs: Outputs
     hooks: Hooks

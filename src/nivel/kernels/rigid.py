@@ -33,6 +33,14 @@ def load_weight(bodies):
 
 
 @stage
+def turn_to_body_axes(bodies, b):
+    """ω̄ of body b from ω; not all coordinates need it."""
+    A, w = bodies.A[b], bodies.omega[b]
+    for i in range(3):
+        bodies.omega_b[b, i] = A[0, i] * w[0] + A[1, i] * w[1] + A[2, i] * w[2]
+
+
+@stage
 def kinetic_energy(bodies, b):
     """½ m |Ṙ + ω × c|² + ½ ω̄ᵀ J ω̄ of body b [J]."""
     w, c, V, J, w_b = bodies.omega[b], bodies.c[b], bodies.Rdot[b], bodies.inertia_b[b], bodies.omega_b[b]

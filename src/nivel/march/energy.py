@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.kernels.compile import leaf
 from nivel.kernels.record import record_at
-from nivel.kernels.rigid import kinetic_energy, potential_energy
+from nivel.kernels.rigid import kinetic_energy, potential_energy, turn_to_body_axes
 from nivel.kernels.status import OK
 from nivel.march.run import EVALUATIONS, TIME, UNCONSERVED, run_at
 
@@ -26,6 +26,7 @@ def conserve(evaluate, machine, history):
     bodies, y = record.bodies, run.y
     kinetic, potential = 0.0, record.control.stored[0]
     for b in range(bodies.mass.shape[0]):
+        turn_to_body_axes(bodies, b)
         kinetic += kinetic_energy(bodies, b)
         potential += potential_energy(bodies, b)
     last = y.shape[0] - 1

@@ -18,7 +18,7 @@ from nivel.kernels.rigid import load_weight
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.kernels.status import OK
-from nivel.kernels.tree import place_tree
+from nivel.kernels.tree import move_tree
 
 WIDTH = 1
 
@@ -36,7 +36,7 @@ def normalise(machine, y):
     """θ := θ/|θ| for every spherical and free joint."""
     tree = record_at(machine).tree
     for n in range(tree.node.shape[0]):
-        k = parameters_of(tree.node[n, 4], np.int64(tree.place[n, 0]))
+        k = parameters_of(tree.node[n, 2], np.int64(tree.place[n, 0]))
         if k >= 0:
             square = y[k] * y[k] + y[k + 1] * y[k + 1] + y[k + 2] * y[k + 2] + y[k + 3] * y[k + 3]
             scale = 1.0 / square**0.5
@@ -49,7 +49,7 @@ def read_state(machine, t, y):
     """Poses and velocities of bodies and of the markers in use, and the rows that are left. Returns a status."""
     record = record_at(machine)
     bodies, markers = record.bodies, record.markers
-    place_tree(bodies, markers, record.tree, y)
+    move_tree(bodies, record.tree, y)
     for n in range(record.tree.marker.shape[0]):
         k = record.tree.marker[n]
         place_marker(bodies, markers, k)
@@ -63,7 +63,7 @@ def write_positions(machine, y, change, out, n, first):
     """out = rates (or changes) of the positions of node n for the joint velocities (or their changes) from change[first] on."""
     tree = record_at(machine).tree
     node, q = tree.node[n], np.int64(tree.place[n, 0])
-    kind, count = node[4], np.int64(node[7]) - np.int64(node[6])
+    kind, count = node[2], np.int64(node[5]) - np.int64(node[4])
     k = parameters_of(kind, q)
     if k < 0:
         for i in range(count):

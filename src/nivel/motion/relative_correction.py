@@ -51,7 +51,7 @@ def correct(machine, t, y):
                 y[positions + k] += change[k]
             return OK
         for n in range(tree.node.shape[0]):
-            write_positions(machine, y, change, tree.moved, n, np.int64(tree.node[n, 6]))
+            write_positions(machine, y, change, tree.moved, n, np.int64(tree.node[n, 4]))
         for k in range(positions):
             y[k] += tree.moved[k]
         normalise(machine, y)

@@ -17,6 +17,7 @@ from nivel.kernels.record import (
     SENSE,
     Bodies,
     Control,
+    Frames,
     Friction,
     Hooks,
     Joints,
@@ -69,11 +70,12 @@ def build(machine: MachineRecord, equations: Equations) -> System:
     markers = draft.markers.arrays()
     size = _machine_size(poses, markers)
     extra = _extra_parts(draft, rows, len(row_names))
+    bodies = _bodies(machine, size)
     constraints = rows.arrays([size if unit == "m" else 1.0 for unit in units], len(draft.frictions), len(extra))
     saddle = _saddle(rows, draft, extra, len(names), len(row_names), equations)
     system = System(
         record=Record(
-            bodies=_bodies(machine, size),
+            bodies=bodies,
             markers=markers,
             coordinates=draft.coordinates.arrays(),
             constraints=constraints,
@@ -88,6 +90,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
             friction=_friction(draft, saddle, extra, len(row_names)),
             saddle=saddle,
             tree=empty_tree(constraints),
+            frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
             sensors=Sensors(index_array(sensors, 4)),
             outputs=Outputs(np.zeros(len(draft.outputs.entries)), index_array(rows.reports, 2)),
             hooks=_hooks(draft, bool(sensors)),

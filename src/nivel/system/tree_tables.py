@@ -7,14 +7,15 @@ import numpy as np
 from nivel.kernels.record import Constraints, Tree
 
 
-def empty_tree(constraints: Constraints, nodes: int = 0, columns: int = 0, positions: int = 0) -> Tree:
-    """Work arrays for a tree of so many nodes (one a body), columns and positions; tables are empty."""
+def empty_tree(constraints: Constraints, nodes: int = 0, columns: int = 0, positions: int = 0, bundle: int = 0) -> Tree:
+    """Work arrays for a tree of so many nodes (one a body), columns, positions and rows in its largest bundle; tables are empty."""
     bodies = nodes + 1 if nodes else 0
     empty = np.zeros(0, dtype=np.uint32)
     return Tree(
-        node=empty.reshape(0, 8),
+        node=empty.reshape(0, 6),
         place=empty.reshape(0, 2),
-        number=np.zeros((nodes, 4)),
+        number=np.zeros((nodes, 7)),
+        first=np.zeros((nodes, 3, 3)),
         marker=empty,
         rows=constraints,
         carried=empty.reshape(0, 2),
@@ -23,12 +24,15 @@ def empty_tree(constraints: Constraints, nodes: int = 0, columns: int = 0, posit
         part_start=empty,
         path=empty.reshape(0, 2),
         path_start=empty,
-        theta=np.zeros((nodes, 2, 4)),
+        row_blocks=empty,
+        bundle=np.zeros(1, dtype=np.uint32),
+        theta=np.zeros((nodes, 4)),
+        own=np.zeros((nodes, 3)),
+        own_theta=np.zeros((nodes, 4)),
         size=np.ones(1),
         positions=np.array([positions], dtype=np.uint32),
-        first=np.zeros((nodes, 3, 3)),
-        second=np.zeros((nodes, 3, 3)),
-        reference=np.zeros((bodies, 3)),
+        axes=np.zeros((3, 3)),
+        arm=np.zeros((bodies, 3)),
         alpha0=np.zeros((bodies, 3)),
         Rddot0=np.zeros((bodies, 3)),
         column=np.zeros((columns, 6)),
@@ -37,6 +41,7 @@ def empty_tree(constraints: Constraints, nodes: int = 0, columns: int = 0, posit
         Dinv=np.zeros(columns),
         root=np.zeros(columns),
         wrench=np.zeros((bodies, 6)),
+        load=np.zeros((bundle, bodies, 6)),
         delta=np.zeros((bodies, 6)),
         state=np.zeros(positions),
         change=np.zeros(columns),

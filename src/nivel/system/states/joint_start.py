@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.kernels.record import Markers
+from nivel.kernels.record import NONE, Markers
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.system.system import Array, System
@@ -14,27 +14,51 @@ from nivel.system.system import Array, System
 
 @dataclass(frozen=True)
 class Node:
-    """One node of the tree: bodies, joint (or FREE), markers, and where its positions and velocities stand in the state."""
+    """One node of the tree: bodies, joint (or FREE), the markers of the joint on them (NONE: their frames), and where its positions and
+    velocities stand in the state."""
 
     child: int
     parent: int
     joint: int
     kind: str
-    turned: bool
-    first: int
-    second: int
+    near: int
+    far: int
     position: int
     velocity: int
 
 
 @dataclass(frozen=True)
+class Frames:
+    """The frames that the bodies (and, last, the ground) have in these coordinates: axes (B+1, 3, 3) and origins (B+1, 3) in their own."""
+
+    axes: Array
+    origin: Array
+
+    def marker(self, markers: Markers, k: int, body: int) -> tuple[Array, Array]:
+        """Axes and point of marker k of `body` in the body's frame of these coordinates; NONE: of its own frame."""
+        frame, point = (np.eye(3), np.zeros(3)) if k == NONE else (markers.frame_b[k], markers.position_b[k])
+        return self.axes[body].T @ frame, self.axes[body].T @ (point - self.origin[body])
+
+
+def carried_frames(markers: Markers, nodes: list[Node]) -> Frames:
+    """Every body takes the marker by which it is carried for its frame."""
+    axes, origin = np.tile(np.eye(3), (len(nodes) + 1, 1, 1)), np.zeros((len(nodes) + 1, 3))
+    for node in nodes:
+        if node.far != NONE:
+            axes[node.child], origin[node.child] = markers.frame_b[node.far], markers.position_b[node.far]
+    return Frames(axes, origin)
+
+
+@dataclass(frozen=True)
 class JointStart:
-    """State (q, v) in joint coordinates; `number` and `theta` as in `nivel.kernels.record.Tree`."""
+    """State (q, v) in joint coordinates; number, first, theta and own_theta as in `nivel.kernels.record.Tree`."""
 
     q: Array
     v: Array
     number: Array
+    first: Array
     theta: Array
+    own_theta: Array
 
 
 @dataclass(frozen=True)
@@ -50,7 +74,7 @@ class _Bodies:
 
 @dataclass(frozen=True)
 class _Relative:
-    """Motion of a second marker seen from the first: turn Q, displacement d, relative velocities, in the first marker's axes."""
+    """Motion of the child seen from the parent's marker: turn Q, displacement d, relative velocities, in the marker's axes."""
 
     Q: Array
     d: Array
@@ -58,45 +82,54 @@ class _Relative:
     velocity: Array
 
 
-def joint_start(absolute: System, y: Array, markers: Markers, nodes: list[Node], machine: MachineRecord) -> JointStart:
+def joint_start(absolute: System, y: Array, frames: Frames, nodes: list[Node], machine: MachineRecord) -> JointStart:
     """Joint coordinates of all nodes in the state y of absolute coordinates (R, θ; Ṙ, ω̄)."""
-    bodies = _bodies(absolute, y)
+    bodies, markers = _bodies(absolute, y, frames), absolute.record.markers
     q: list[float] = []
     v: list[float] = []
-    number, theta = np.zeros((len(nodes), 4)), np.zeros((len(nodes), 2, 4))
+    count = len(nodes)
+    number, first, theta = np.zeros((count, 7)), np.zeros((count, 3, 3)), np.zeros((count, 4))
+    turned = np.zeros((count + 1, 4))
+    turned[count, 0] = 1.0
     for n, node in enumerate(nodes):
-        seen = _seen(bodies, markers, node)
+        first[n], number[n, 4:] = frames.marker(markers, node.near, node.parent)
+        seen = _seen(bodies, node, first[n], number[n, 4:])
         pitch = machine.joints[node.joint].pitch or 0.0 if node.kind == "screw" else 0.0
-        positions, velocities, number[n] = _coordinates(node.kind, seen, pitch / (2.0 * np.pi))
+        positions, velocities, number[n, :4] = _coordinates(node.kind, seen, pitch / (2.0 * np.pi))
         q += positions
         v += velocities
-        theta[n] = _constant_turns(bodies, markers, node, joint_turn(node.kind, positions, number[n]))
-    return JointStart(np.array(q), np.array(v), number, theta)
+        theta[n] = parameters_of(first[n])
+        joint = joint_turn(node.kind, positions, number[n])
+        turned[node.child] = product(product(turned[node.parent], theta[n]), joint)
+    own_theta = np.array([product(_conjugate(e), f) for e, f in zip(turned[:-1], bodies.theta, strict=True)])
+    return JointStart(np.array(q), np.array(v), number, first, theta, own_theta.reshape(count, 4))
 
 
-def _bodies(absolute: System, y: Array) -> _Bodies:
+def _bodies(absolute: System, y: Array, frames: Frames) -> _Bodies:
+    """Poses and velocities of the frames of these coordinates; Euler parameters of the bodies' own."""
     count = absolute.body_count
     q, v = y[: 7 * count].reshape(count, 7), y[7 * count : 13 * count].reshape(count, 6)
-    theta = np.vstack([q[:, 3:] / np.linalg.norm(q[:, 3:], axis=1, keepdims=True), [[1.0, 0.0, 0.0, 0.0]]])
-    A = np.array([matrix_from_euler_parameters(e) for e in theta])
+    theta = q[:, 3:] / np.linalg.norm(q[:, 3:], axis=1, keepdims=True)
+    own = np.array([*(matrix_from_euler_parameters(e) for e in theta), np.eye(3)])
     zero = np.zeros((1, 3))
-    omega = np.vstack([np.einsum("bij,bj->bi", A[:-1], v[:, 3:]), zero])
-    return _Bodies(np.vstack([q[:, :3], zero]), theta, A, np.vstack([v[:, :3], zero]), omega)
-
-
-def _seen(bodies: _Bodies, markers: Markers, node: Node) -> _Relative:
-    i, j = node.first, node.second
-    b, c = int(markers.body[i]), int(markers.body[j])
-    Ai, Aj = bodies.A[b] @ markers.frame_b[i], bodies.A[c] @ markers.frame_b[j]
-    ui, uj = bodies.A[b] @ markers.position_b[i], bodies.A[c] @ markers.position_b[j]
-    distance = bodies.R[c] + uj - bodies.R[b] - ui
-    speed = bodies.Rdot[c] + np.cross(bodies.omega[c], uj) - bodies.Rdot[b] - np.cross(bodies.omega[b], ui)
-    return _Relative(
-        Ai.T @ Aj,
-        Ai.T @ distance,
-        Ai.T @ (bodies.omega[c] - bodies.omega[b]),
-        Ai.T @ (speed - np.cross(bodies.omega[b], distance)),
+    omega = np.vstack([np.einsum("bij,bj->bi", own[:-1], v[:, 3:]), zero])
+    u = np.einsum("bij,bj->bi", own, frames.origin)
+    return _Bodies(
+        np.vstack([q[:, :3], zero]) + u,
+        theta,
+        own @ frames.axes,
+        np.asarray(np.vstack([v[:, :3], zero]) + np.cross(omega, u), dtype=np.float64),
+        omega,
     )
+
+
+def _seen(bodies: _Bodies, node: Node, frame: Array, point: Array) -> _Relative:
+    b, c = node.parent, node.child
+    Ai = bodies.A[b] @ frame
+    distance = bodies.R[c] - bodies.R[b]
+    omega = bodies.omega[c] - bodies.omega[b]
+    speed = bodies.Rdot[c] - bodies.Rdot[b] - np.cross(bodies.omega[b], distance)
+    return _Relative(Ai.T @ bodies.A[c], Ai.T @ distance - frame.T @ point, Ai.T @ omega, Ai.T @ speed)
 
 
 def _coordinates(kind: str, seen: _Relative, lead: float) -> tuple[list[float], list[float], list[float]]:
@@ -141,13 +174,13 @@ def parameters_of(Q: Array) -> Array:
 
 
 def joint_turn(kind: str, q: list[float], number: Array) -> Array:
-    """Euler parameters of the second marker seen from the first, as in `nivel.kernels.carried.joint_turn`."""
+    """Euler parameters of the child seen from the parent's marker, as in `nivel.kernels.carried.joint_turn`."""
     if kind == "spherical":
         return np.array(q)
     if kind == "free":
         return np.array(q[3:])
     if kind in ("translational", "fixed"):
-        return np.array([1.0, 0.0, 0.0, 0.0])
+        return np.array([1.0, 0.0, 0.0, 0.0] if number[2] > 0.0 else [0.0, 0.0, 0.0, 1.0])
     half = 0.5 * (q[2] if kind == "planar" else q[0])
     about = np.array([np.cos(half), 0.0, 0.0, np.sin(half)])
     if kind != "universal":
@@ -164,13 +197,3 @@ def product(a: Array, b: Array) -> Array:
 
 def _conjugate(a: Array) -> Array:
     return a * np.array([1.0, -1.0, -1.0, -1.0])
-
-
-def _constant_turns(bodies: _Bodies, markers: Markers, node: Node, turn: Array) -> tuple[Array, Array]:
-    """The turns before and after that of the joint with which the child's Euler parameters are those of the assembled state."""
-    near = node.second if node.turned else node.first
-    before = parameters_of(markers.frame_b[near])
-    if node.turned:
-        turn = _conjugate(turn)
-    so_far = product(product(bodies.theta[node.parent], before), turn)
-    return before, product(_conjugate(so_far), bodies.theta[node.child])

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels import record as kernels
-from nivel.kernels.record import COMPLETE, NONE, Constraints, Markers, Record, Saddle
+from nivel.kernels.record import COMPLETE, NONE, Bodies, Constraints, Frames, Markers, Record, Saddle
 from nivel.kernels.record import Friction as FrictionTables
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
@@ -18,7 +18,8 @@ from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
 from nivel.system.elimination import plan
-from nivel.system.states.joint_start import Node, joint_start
+from nivel.system.states.joint_start import Frames as OwnFrames
+from nivel.system.states.joint_start import Node, carried_frames, joint_start
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array
 from nivel.system.topology import FREE, Edge, SpanningTree, spanning_tree
@@ -38,6 +39,8 @@ KINDS = {
 }
 
 
+# rows that are whitened together
+LARGEST_BUNDLE = 6
 Index = NDArray[np.uint32]
 
 
@@ -62,46 +65,43 @@ def arrange(
 ) -> tuple[System, Array]:
     """Numbers and state in the joint coordinates of the spanning tree."""
     old = absolute.record
-    tree = tree_of(machine, settings)
-    markers = _with_free_markers(old, tree)
-    nodes = _nodes(machine, old, tree)
-    columns = sum(KINDS[node.kind][2] for node in nodes)
-    positions = sum(len(KINDS[node.kind][1]) for node in nodes)
-    nodes = [replace(node, velocity=positions + node.velocity) for node in nodes]
+    nodes, columns, positions = _nodes(machine, old, tree_of(machine, settings))
+    frames = carried_frames(old.markers, nodes)
+    start = joint_start(absolute, y, frames, nodes, machine)
     carried = {machine.joints[node.joint].name for node in nodes if node.joint != FREE}
     left = np.array([owner not in carried for owner in absolute.row_owner], dtype=bool)
     rows = np.flatnonzero(left).astype(np.uint32)
     constraints, reports = _chosen(old, left)
-    own_rows, _ = _chosen(old, ~left)
-    start = joint_start(absolute, y, markers, nodes, machine)
     parts = _parts(old, rows)
-    count = len(rows) + len(old.friction.columns)
-    touched: list[set[int]] = [set() for _ in range(count)]
-    for row, _, _, body in parts:
-        touched[row].add(body)
-    branch_of = {node.child: n for n, node in enumerate(nodes)}
-    blocks, path, path_start = _blocks(nodes, [_path(nodes, branch_of, bodies) for bodies in touched], positions)
-    saddle = _saddle(old, rows, blocks, [absolute.row_owner[row] for row in rows], columns)
+    paths = _paths(nodes, parts, len(rows) + len(old.friction.columns))
+    blocks, path_tables = _blocks(nodes, paths, positions)
     record = old._replace(
-        markers=markers,
+        bodies=_bodies_in(frames, old),
+        markers=_markers_in(frames, old.markers),
         constraints=constraints,
-        saddle=saddle,
+        saddle=_saddle(rows, blocks, [absolute.row_owner[row] for row in rows], columns),
         outputs=old.outputs._replace(combination=reports),
         friction=_friction(old, blocks, len(rows), columns),
-        tree=empty_tree(old.constraints, len(nodes), columns, positions)._replace(
+        tree=empty_tree(
+            old.constraints, len(nodes), columns, positions, int(np.diff(path_tables["bundle"]).max(initial=0))
+        )._replace(
             node=_node_table(nodes, positions),
             place=index_array([(node.position, node.velocity) for node in nodes], 2),
-            size=np.array([absolute.size]),
-            rows=own_rows,
-            marker=_markers_in_use(old, nodes),
             number=start.number,
+            first=start.first,
             theta=start.theta,
+            own=-np.einsum("bji,bj->bi", frames.axes, frames.origin)[:-1],
+            own_theta=start.own_theta,
+            size=np.array([absolute.size]),
+            rows=_chosen(old, ~left)[0],
+            marker=_markers_in_use(old, nodes),
             part=index_array(parts, 4),
-            part_start=_starts([part[0] for part in parts], count),
-            path=path,
-            path_start=path_start,
-            **_reactions(absolute, machine, nodes),
+            part_start=_starts([part[0] for part in parts], len(paths)),
+            **path_tables,
+            **_reactions(old, nodes),
         ),
+        frames=Frames(*(np.zeros((len(nodes) + 1, width)) for width in (3, 4, 3, 3))),
+        hooks=old.hooks._replace(address=old.hooks.address.copy()),
     )
     record.hooks.address[COMPLETE] = import_module("nivel.kernels.carried").complete.address
     x = np.zeros(len(old.elements.state) + 2)
@@ -121,36 +121,47 @@ def _bodies_of(machine: MachineRecord, joint: Joint) -> tuple[str, str]:
     return first, second
 
 
-def _with_free_markers(old: Record, tree: SpanningTree) -> Markers:
-    """The markers, and for each free body the ground's frame and its own."""
-    count = len(old.bodies.mass)
-    bodies = [b for branch in tree.branches if branch.joint == FREE for b in (count, branch.child)]
-    added, all_markers = len(bodies), len(old.markers.body) + len(bodies)
-    return Markers(
-        body=np.append(old.markers.body, np.array(bodies, dtype=np.uint32)).astype(np.uint32),
-        position_b=np.vstack([old.markers.position_b, np.zeros((added, 3))]),
-        frame_b=np.concatenate([old.markers.frame_b, np.tile(np.eye(3), (added, 1, 1))]),
-        u=np.zeros((all_markers, 3)),
-        r=np.zeros((all_markers, 3)),
-        A=np.zeros((all_markers, 3, 3)),
-        rdot=np.zeros((all_markers, 3)),
-        bias=np.zeros((all_markers, 3)),
-    )
-
-
-def _nodes(machine: MachineRecord, old: Record, tree: SpanningTree) -> list[Node]:
+def _nodes(machine: MachineRecord, old: Record, tree: SpanningTree) -> tuple[list[Node], int, int]:
+    """Nodes in the order of the tree, the number of their velocities, the number of their positions."""
     nodes: list[Node] = []
-    position, velocity, marker = 0, 0, len(old.markers.body)
+    position, velocity = 0, 0
     for branch in tree.branches:
-        kind = "free" if branch.joint == FREE else machine.joints[branch.joint].type
-        first = marker if branch.joint == FREE else int(old.joints.first_marker[branch.joint])
-        nodes.append(
-            Node(branch.child, branch.parent, branch.joint, kind, branch.turned, first, first + 1, position, velocity)
-        )
+        kind, near, far = "free", NONE, NONE
+        if branch.joint != FREE:
+            kind, near = machine.joints[branch.joint].type, int(old.joints.first_marker[branch.joint])
+            near, far = (near + 1, near) if branch.turned else (near, near + 1)
+        nodes.append(Node(branch.child, branch.parent, branch.joint, kind, near, far, position, velocity))
         position += len(KINDS[kind][1])
         velocity += KINDS[kind][2]
-        marker += 2 if branch.joint == FREE else 0
-    return nodes
+    return [replace(node, velocity=position + node.velocity) for node in nodes], velocity, position
+
+
+def _bodies_in(frames: OwnFrames, old: Record) -> Bodies:
+    """What is fixed to the bodies, in the frames of these coordinates, and work arrays of their own."""
+    F, o, bodies = frames.axes[:-1], frames.origin[:-1], old.bodies
+    centre = np.einsum("bji,bj->bi", F, bodies.centre_b - o)
+    inertia = np.einsum("bji,bjk,bkl->bil", F, bodies.inertia_b, F)
+    square = np.einsum("bi,bi->b", centre, centre)
+    steiner = square[:, None, None] * np.eye(3) - np.einsum("bi,bj->bij", centre, centre)
+    fixed = {
+        "centre_b": centre,
+        "inertia_b": np.ascontiguousarray(inertia),
+        "inertia_origin_b": np.ascontiguousarray(inertia + bodies.mass[:, None, None] * steiner),
+    }
+    work = ("R", "theta", "A", "Rdot", "omega", "omega_b", "c", "wrench", "Rddot", "alpha_b")
+    new = bodies._replace(**fixed, **{name: getattr(bodies, name).copy() for name in work})
+    for name in ("R", "Rdot", "omega", "omega_b", "c"):
+        getattr(new, name)[-1] = 0.0
+    return new
+
+
+def _markers_in(frames: OwnFrames, markers: Markers) -> Markers:
+    F, o = frames.axes[markers.body], frames.origin[markers.body]
+    return markers._replace(
+        position_b=np.ascontiguousarray(np.einsum("kji,kj->ki", F, markers.position_b - o)),
+        frame_b=np.ascontiguousarray(np.einsum("kji,kjl->kil", F, markers.frame_b)),
+        **{name: getattr(markers, name).copy() for name in ("u", "r", "A", "rdot", "bias")},
+    )
 
 
 def _chosen(old: Record, rows: NDArray[np.bool_]) -> tuple[Constraints, Index]:
@@ -177,34 +188,42 @@ def _parts(old: Record, rows: Index) -> list[tuple[int, int, int, int]]:
     return sorted(chosen)  # type: ignore[arg-type]
 
 
-def _path(nodes: list[Node], branch_of: dict[int, int], bodies: set[int]) -> list[int]:
-    """Nodes between some bodies and the ground, outermost first: nodes are numbered from the ground outwards."""
-    found: set[int] = set()
-    for body in bodies:
+def _paths(nodes: list[Node], parts: list[tuple[int, int, int, int]], count: int) -> list[tuple[int, ...]]:
+    """For each row the nodes between its bodies and the ground, outermost first: nodes are numbered from the ground outwards."""
+    branch_of = {node.child: n for n, node in enumerate(nodes)}
+    found: list[set[int]] = [set() for _ in range(count)]
+    for row, _, _, body in parts:
         at = body
-        while at in branch_of and branch_of[at] not in found:
-            found.add(branch_of[at])
+        while at in branch_of and branch_of[at] not in found[row]:
+            found[row].add(branch_of[at])
             at = nodes[branch_of[at]].parent
-    return sorted(found, reverse=True)
+    return [tuple(sorted(path, reverse=True)) for path in found]
 
 
 def _blocks(
-    nodes: list[Node], paths: list[list[int]], first_velocity: int
-) -> tuple[list[tuple[int, ...]], Index, Index]:
-    """Blocks of W, one a row and column of its path, last column of a node first; path table with the first block of each node."""
+    nodes: list[Node], paths: list[tuple[int, ...]], first_velocity: int
+) -> tuple[list[tuple[int, ...]], dict[str, Index]]:
+    """Blocks of W, one a row and column of its path, the last column of a node first; tables of paths and bundles."""
     blocks: list[tuple[int, ...]] = []
     table: list[tuple[int, int]] = []
+    lengths: list[int] = []
     for row, path in enumerate(paths):
+        before = len(blocks)
         for n in path:
             table.append((n, len(blocks)))
             first = nodes[n].velocity - first_velocity
-            columns = range(first, first + KINDS[nodes[n].kind][2])
-            blocks += [(row, NONE, 0, column) for column in reversed(columns)]
-    starts = np.cumsum([0, *(len(path) for path in paths)]).astype(np.uint32)
-    return blocks, index_array(table, 2), starts
+            blocks += [(row, NONE, 0, column) for column in reversed(range(first, first + KINDS[nodes[n].kind][2]))]
+        lengths.append(len(blocks) - before)
+    bundle = [k for k, path in enumerate(paths) if k == 0 or path != paths[k - 1] or k % LARGEST_BUNDLE == 0]
+    return blocks, {
+        "path": index_array(table, 2),
+        "path_start": np.cumsum([0, *(len(path) for path in paths)]).astype(np.uint32),
+        "row_blocks": index_array(lengths, 1),
+        "bundle": index_array([*bundle, len(paths)], 1),
+    }
 
 
-def _saddle(old: Record, rows: Index, blocks: list[tuple[int, ...]], owners: list[str], columns: int) -> Saddle:
+def _saddle(rows: Index, blocks: list[tuple[int, ...]], owners: list[str], columns: int) -> Saddle:
     own = [block for block in blocks if block[0] < len(rows)]
     groups: dict[str, list[int]] = {}
     for k, owner in enumerate(owners):
@@ -247,17 +266,16 @@ def _starts(rows: list[int], count: int) -> Index:
 
 def _markers_in_use(old: Record, nodes: list[Node]) -> Index:
     """Markers that every evaluation needs: not those of joints that carry bodies, unless a coordinate in use is measured between them."""
-    carrying = {marker for node in nodes for marker in (node.first, node.second)}
+    carrying = {marker for node in nodes for marker in (node.near, node.far)}
     measured = set(old.coordinates.what[old.coordinates.active, 1:3].ravel().tolist())
     return index_array([k for k in range(len(old.markers.body)) if k not in carrying or k in measured], 1)
 
 
-def _reactions(absolute: System, machine: MachineRecord, nodes: list[Node]) -> dict[str, Index]:
+def _reactions(old: Record, nodes: list[Node]) -> dict[str, Index]:
     """Rows of the joint that carries each body, with their parts on it."""
-    old, spans, table = absolute.record, [], []
-    on_body: dict[tuple[int, int], tuple[int, int]] = {}
-    for row, part, marker, body in old.saddle.block.astype(int):
-        on_body[row, body] = (part, marker)
+    spans: list[tuple[int, int]] = []
+    table: list[tuple[int, int, int]] = []
+    on_body = {(int(row), int(body)): (int(part), int(marker)) for row, part, marker, body in old.saddle.block}
     for node in nodes:
         begin = len(table)
         if node.joint != FREE:
@@ -270,10 +288,10 @@ def _reactions(absolute: System, machine: MachineRecord, nodes: list[Node]) -> d
 def _node_table(nodes: list[Node], positions: int) -> Index:
     first = [node.velocity - positions for node in nodes]
     rows = [
-        (n.child, n.parent, n.first, n.second, KINDS[n.kind][0], int(n.turned), k, k + KINDS[n.kind][2])
+        (n.child, n.parent, KINDS[n.kind][0], NONE if n.joint == FREE else n.joint, k, k + KINDS[n.kind][2])
         for n, k in zip(nodes, first, strict=True)
     ]
-    return index_array(rows, 8)
+    return index_array(rows, 6)
 
 
 def _map(nodes: list[Node], positions: int, rest: int) -> StateMap:

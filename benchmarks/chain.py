@@ -1,6 +1,6 @@
 """Time per link and step of a chain of N bars joined by revolutes, N = 4, 16, 64, 256.
 
-    python benchmarks/chain.py [--links 4 16 64 256] [--formulation newton-euler] [--stabilisation none] [--runs 5]
+    python benchmarks/chain.py [--links 4 16 64 256] [--coordinates auto] [--formulation newton-euler] [--stabilisation none] [--runs 5]
 
 The bars hang on a hinge at the origin, stretched along X and at rest; all hinge axes are Z, gravity is -Y. The machine
 is built in Python. The first run of each length compiles (only once in all) and orders the unknowns; it is not counted.
@@ -45,12 +45,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("--links", type=int, nargs="+", default=[4, 16, 64, 256])
     parser.add_argument("--formulation", default="newton-euler")
+    parser.add_argument("--coordinates", default="auto")
     parser.add_argument("--stabilisation", default="none")
     parser.add_argument("--steps", type=int, default=500)
     parser.add_argument("--step", type=float, default=1e-3, help="step [s]")
     parser.add_argument("--runs", type=int, default=5, help="timed runs (median)")
     options = parser.parse_args()
-    table = Table(title=f"{options.formulation}, stabilisation {options.stabilisation}", title_justify="left")
+    table = Table(title=f"{options.coordinates}, {options.formulation}, stabilisation {options.stabilisation}", title_justify="left")
     for heading in ("links", "µs/step", "µs/link and step", "energy error / max T"):
         table.add_column(heading, justify="right")
     for links in options.links:
@@ -60,6 +61,7 @@ def main() -> None:
             "step": options.step,
             "integrator": "rk4",
             "formulation": options.formulation,
+            "coordinates": options.coordinates,
             "stabilisation": options.stabilisation,
             "output_interval": options.steps * options.step / 10,
         }

@@ -19,10 +19,10 @@ from numba import njit, types
 
 _compile: Any = njit  # its stubs do not know all options
 
-leaf: Callable[..., Any] = _compile(error_model="numpy", _nrt=False)
-stage: Callable[..., Any] = _compile(error_model="numpy", forceinline=True, _nrt=False)
+leaf: Callable[..., Any] = _compile(error_model="numpy", fastmath={"contract"}, _nrt=False)
+stage: Callable[..., Any] = _compile(error_model="numpy", fastmath={"contract"}, forceinline=True, _nrt=False)
 
 
 def entry(signature: types.abstract.Type | Any) -> Callable[..., Any]:
     """Decorator: compile now for `signature`, keep the machine code in the cache."""
-    return _compile(signature, error_model="numpy", nogil=True, cache=True, _nrt=False)
+    return _compile(signature, error_model="numpy", fastmath={"contract"}, nogil=True, cache=True, _nrt=False)

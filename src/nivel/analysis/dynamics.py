@@ -175,10 +175,16 @@ def march(
         "iterations": int(run.counter[ITERATIONS]) + int(system.record.control.iterations[1]),
         "rejected": int(run.counter[REJECTED]),
         "unconserved": int(run.counter[UNCONSERVED]),
+        "partitions": _partitions_changed(system),
         "loop_seconds": loop_seconds,
         "wall_seconds": clock_of_python.perf_counter() - wall,
     }
     return finished
+
+
+def _partitions_changed(system: System) -> int:
+    """How often independent coordinates were chosen anew during the run."""
+    return max(0, int(system.record.partition.count.sum()) - 1)
 
 
 def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
@@ -199,6 +205,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     newton = len(y) if count[NEWTON] else 0
     record = system.record
     record.control.iterations[1] = 0
+    record.partition.count[:] = 0
     record.coordinates.reference[:] = prepared.assembly.reference
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0

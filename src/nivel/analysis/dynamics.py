@@ -184,7 +184,7 @@ def march(
 
 def _partitions_changed(system: System) -> int:
     """How often independent coordinates were chosen anew during the run."""
-    return max(0, int(system.record.partition.count.sum()) - 1)
+    return max(0, int(system.record.partition.choices.sum()) - 1)
 
 
 def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
@@ -205,7 +205,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     newton = len(y) if count[NEWTON] else 0
     record = system.record
     record.control.iterations[1] = 0
-    record.partition.count[:] = 0
+    record.partition.choices[:] = 0
     record.coordinates.reference[:] = prepared.assembly.reference
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0

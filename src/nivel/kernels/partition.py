@@ -177,7 +177,7 @@ def divide(machine):
     quality = partition.quality
     redundant = partition.null.shape[0] > 0
     fill_rows(machine)
-    if partition.count[0] > 0:
+    if partition.choices[0] > 0:
         if redundant:
             weigh_rows(machine)
         failed, smallest = eliminate(partition, rank, False)
@@ -193,7 +193,7 @@ def divide(machine):
     if failed >= 0:
         record.control.failure[0] = partition.row[failed]
         return SINGULAR
-    partition.count[0] += 1
+    partition.choices[0] += 1
     quality[0], quality[1] = spread(partition, rank), smallest
     return OK
 

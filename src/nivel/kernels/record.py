@@ -270,7 +270,7 @@ class Partition(NamedTuple):
     unit: F1  # (n,) what each velocity is measured in: the length of the machine [m], or 1 for angles
     column: U1  # (n,) the dependent velocities, then the independent ones
     row: U1  # (K,) rows that determine the dependent velocities, then those that follow from them
-    count: U1  # (1,) partitions chosen so far
+    choices: U1  # (1,) partitions chosen so far
     quality: F1  # (2,) least growth of B since the last choice; smallest pivot of C_d
     # work
     column_place: U1  # (n,) where each velocity stands in `column`

@@ -175,7 +175,7 @@ def keep(machine, t, y):
     record = record_at(machine)
     constraints, partition, rank = record.constraints, record.partition, np.int64(record.control.rank[0])
     first = 7 * record.bodies.mass.shape[0]
-    factorised, before = False, np.inf
+    factorised, before, worst = False, np.inf, 0
     for attempt in range(MOST_PASSES + 1):
         normalise(machine, y)
         status = read_state(machine, t, y)

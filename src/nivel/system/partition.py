@@ -13,14 +13,14 @@ def no_partition() -> Partition:
 
 
 def partition(bodies: int, rows: int, rank: int, size: float) -> Partition:
-    """For the 6 velocities (Ṙ, ω̄) of each body, `rank` independent ones of `rows` rows, a machine of the length `size` [m]; none chosen yet."""
+    """For six velocities (Ṙ, ω̄) a body, `rank` independent ones of `rows` rows and a machine of the length `size` [m]; none chosen yet."""
     n = 6 * bodies
     free = n - rank
     return Partition(
         unit=np.tile([size, size, size, 1.0, 1.0, 1.0], bodies),
         column=np.arange(n, dtype=np.uint32),
         row=np.arange(rows, dtype=np.uint32),
-        count=np.zeros(1, dtype=np.uint32),
+        choices=np.zeros(1, dtype=np.uint32),
         quality=np.zeros(2),
         column_place=np.zeros(n, dtype=np.uint32),
         row_place=np.zeros(rows, dtype=np.uint32),

@@ -37,11 +37,8 @@ def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
     faults = []
     left = "they solve the constraints for the dependent coordinates after every step, so no violation is left to feed back"
     if stabilisation == "baumgarte":
-        faults.append(
-            _fault(
-                "stabilisation", f"'baumgarte' does not go with independent coordinates: {left}; take none or geometric"
-            )
-        )
+        message = f"'baumgarte' does not go with independent coordinates: {left}; take none, direct or geometric"
+        faults.append(_fault("stabilisation", message))
     if FORMULATIONS[formulation].factor > 0.0:
         message = f"'{formulation}' does not go with independent coordinates: {left}; take newton-euler"
         faults.append(_fault("formulation", message))

@@ -54,6 +54,7 @@ from nivel.march.run import (
 from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS, path_of
+from nivel.system.partition import forget
 from nivel.system.system import Array, System
 
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
@@ -205,7 +206,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     newton = len(y) if count[NEWTON] else 0
     record = system.record
     record.control.iterations[1] = 0
-    record.partition.choices[:] = 0
+    forget(record.partition)
     record.coordinates.reference[:] = prepared.assembly.reference
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0

@@ -13,7 +13,6 @@ import numpy as np
 from nivel.kernels.analytic import real
 from nivel.kernels.compile import leaf
 from nivel.kernels.record import record_at
-from nivel.kernels.spatial import dot
 from nivel.kernels.status import OK, SINGULAR
 
 # A pivot this small is round-off; squared, it is what pivots of S = C_q M⁻¹ C_qᵀ are held against.
@@ -272,38 +271,3 @@ def normalise_vector(x):
         square += x[k] * x[k]
     for k in range(x.shape[0]):
         x[k] /= np.sqrt(square)
-
-
-@leaf
-def times_mass(bodies, b, x, out):
-    """out = M x of body b about its frame origin for x = (Ṙ, ω̄) or its derivative: (m a, J̄ ω̄ + Aᵀ (c × m a)), a = Ṙ + ω × c."""
-    A, c, J, m = bodies.A[b], bodies.c[b], bodies.inertia_b[b], bodies.mass[b]
-    w_b = x[3:6]
-    w0, w1, w2 = dot(A[0], w_b), dot(A[1], w_b), dot(A[2], w_b)
-    p0 = m * (x[0] + w1 * c[2] - w2 * c[1])
-    p1 = m * (x[1] + w2 * c[0] - w0 * c[2])
-    p2 = m * (x[2] + w0 * c[1] - w1 * c[0])
-    l0, l1, l2 = c[1] * p2 - c[2] * p1, c[2] * p0 - c[0] * p2, c[0] * p1 - c[1] * p0
-    out[0], out[1], out[2] = p0, p1, p2
-    for i in range(3):
-        out[3 + i] = dot(J[i], w_b) + A[0, i] * l0 + A[1, i] * l1 + A[2, i] * l2
-
-
-@leaf
-def solve_definite(H, x):
-    """Overwrite x with H⁻¹ x for a symmetric positive definite H, of which the Cholesky factor is left in the lower triangle."""
-    n = x.shape[0]
-    for k in range(n):
-        for j in range(k + 1):
-            value = H[k, j]
-            for i in range(j):
-                value -= H[k, i] * H[j, i]
-            H[k, j] = np.sqrt(value) if j == k else value / H[j, j]
-        for j in range(k):
-            x[k] -= H[k, j] * x[j]
-        x[k] /= H[k, k]
-    for i in range(n):
-        k = n - 1 - i
-        for j in range(k + 1, n):
-            x[k] -= H[j, k] * x[j]
-        x[k] /= H[k, k]

@@ -277,7 +277,7 @@ class Partition(NamedTuple):
     row_place: U1  # (K,)
     scale: F1  # (K,) what makes the rows of C_q unit length
     weight: F1  # (K,) √(C_q M⁻¹ C_qᵀ)_kk of the scaled rows
-    E: F2  # (K, n) scaled C_q, then its factors L, U and U B_d, in the order of `row` and `column`
+    E: F2  # (K, n) scaled C_q, then L, U and L⁻¹ C_i of C_d = L U, in the order of `row` and `column`
     null: F2  # (K - r, K) combinations of rows that vanish, in the order of `row`
     B: F2  # (f, n) columns of B: v̇ = B u̇ + D
     MB: F2  # (f, n) columns of M B

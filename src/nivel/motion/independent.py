@@ -14,83 +14,19 @@ import numpy as np
 
 from nivel.kernels.analytic import real
 from nivel.kernels.compile import entry, leaf
+from nivel.kernels.embedding import embed, generalised_forces
 from nivel.kernels.hook import apply_forces, finish_forces
-from nivel.kernels.partition import divide, solve_definite, solve_dependent, solve_multipliers, times_mass
+from nivel.kernels.partition import divide, solve_dependent, solve_multipliers
 from nivel.kernels.record import correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.rotation import rates_of_parameters
-from nivel.kernels.spatial import dot
 from nivel.kernels.status import OK, SINGULAR
-from nivel.motion import newton_euler
+from nivel.motion.newton_euler import evaluate as evaluate_newton_euler
 from nivel.motion.newton_euler import normalise, read_state
-
-evaluate_newton_euler = newton_euler.evaluate
 
 # Positions: passes at most, and shares of the scales of the rows: closed; near enough that the factor serves for the next pass; lost.
 MOST_PASSES = 10
 CLOSED, NEAR, LOST = 1e-13, 1e-6, 1e-6
-
-
-@leaf
-def generalised_forces(machine):
-    """Q = Q_e + Q_v about the frame origins (eq. 75): (F - m ω × (ω × c), Aᵀ(τ - c × m ω × (ω × c)) - ω̄ × J̄ ω̄)."""
-    record = record_at(machine)
-    bodies, Q = record.bodies, record.partition.Q
-    for b in range(bodies.mass.shape[0]):
-        F, c, w, w_b = bodies.wrench[b], bodies.c[b], bodies.omega[b], bodies.omega_b[b]
-        A, J, m = bodies.A[b], bodies.inertia_b[b], bodies.mass[b]
-        wc, ww = dot(w, c), dot(w, w)
-        p0, p1, p2 = m * (w[0] * wc - c[0] * ww), m * (w[1] * wc - c[1] * ww), m * (w[2] * wc - c[2] * ww)
-        t0 = F[3] - (c[1] * p2 - c[2] * p1)
-        t1 = F[4] - (c[2] * p0 - c[0] * p2)
-        t2 = F[5] - (c[0] * p1 - c[1] * p0)
-        h0, h1, h2 = dot(J[0], w_b), dot(J[1], w_b), dot(J[2], w_b)
-        Q[6 * b], Q[6 * b + 1], Q[6 * b + 2] = F[0] - p0, F[1] - p1, F[2] - p2
-        Q[6 * b + 3] = A[0, 0] * t0 + A[1, 0] * t1 + A[2, 0] * t2 - (w_b[1] * h2 - w_b[2] * h1)
-        Q[6 * b + 4] = A[0, 1] * t0 + A[1, 1] * t1 + A[2, 1] * t2 - (w_b[2] * h0 - w_b[0] * h2)
-        Q[6 * b + 5] = A[0, 2] * t0 + A[1, 2] * t1 + A[2, 2] * t2 - (w_b[0] * h1 - w_b[1] * h0)
-
-
-@leaf
-def subtract_inertia(machine, x):
-    """Q -= M x."""
-    record = record_at(machine)
-    partition = record.partition
-    for b in range(record.bodies.mass.shape[0]):
-        times_mass(record.bodies, b, x[6 * b : 6 * b + 6], partition.p[6 * b : 6 * b + 6])
-    for i in range(x.shape[0]):
-        partition.Q[i] -= partition.p[i]
-
-
-@leaf
-def embed(machine):
-    """v: the accelerations B u̇ + D, from B, D and Q; Q becomes C_qᵀ λ (eqs. 87–89)."""
-    record = record_at(machine)
-    partition = record.partition
-    B, MB, H, u, v = partition.B, partition.MB, partition.H, partition.u, partition.v
-    free, n = B.shape
-    subtract_inertia(machine, partition.D)
-    for k in range(free):
-        for b in range(record.bodies.mass.shape[0]):
-            times_mass(record.bodies, b, B[k, 6 * b : 6 * b + 6], MB[k, 6 * b : 6 * b + 6])
-        total = 0.0
-        for i in range(n):
-            total += B[k, i] * partition.Q[i]
-        u[k] = total
-        for j in range(k + 1):
-            total = 0.0
-            for i in range(n):
-                total += MB[k, i] * B[j, i]
-            H[k, j] = total
-    solve_definite(H, u)
-    for i in range(n):
-        v[i] = 0.0
-    for k in range(free):
-        for i in range(n):
-            v[i] += u[k] * B[k, i]
-    subtract_inertia(machine, v)
-    for i in range(n):
-        v[i] += partition.D[i]
 
 
 @leaf

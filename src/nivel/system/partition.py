@@ -38,3 +38,10 @@ def partition(bodies: int, rows: int, rank: int, size: float) -> Partition:
         p=np.zeros(n),
         b=np.zeros(rows),
     )
+
+
+def forget(chosen: Partition) -> None:
+    """As it was built: the next evaluation chooses."""
+    for order in (chosen.column, chosen.row):
+        order[:] = np.arange(len(order))
+    chosen.choices[:] = 0

@@ -9,10 +9,10 @@ from nivel.kernels.compile import leaf
 from nivel.kernels.observe import observe
 from nivel.march.loop import advance
 from nivel.march.runge_kutta import rk4
-from nivel.motion import lagrange, lagrange_correction, newton_euler, newton_euler_correction
+from nivel.motion import independent, lagrange, lagrange_correction, newton_euler, newton_euler_correction
 
 ENTRIES = [observe, advance, rk4]
-ENTRIES += [getattr(module, name) for module in (newton_euler, lagrange) for name in ("evaluate", "keep")]
+ENTRIES += [getattr(module, name) for module in (newton_euler, lagrange, independent) for name in ("evaluate", "keep")]
 ENTRIES += [newton_euler_correction.correct, lagrange_correction.correct]
 
 

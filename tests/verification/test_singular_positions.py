@@ -30,19 +30,20 @@ def parallelogram(speed, axis_offset=0.0):
 
 @pytest.mark.parametrize("step", [3.3e-3, 7e-4])
 @pytest.mark.parametrize("speed", [2.0, -2.0])
-@pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
-def test_flat_position_between_two_steps_is_passed(speed, step, formulation):
+@pytest.mark.parametrize("methods", [{}, {"formulation": "lagrange"}, {"coordinates": "independent"}])
+def test_flat_position_between_two_steps_is_passed(speed, step, methods):
     """At 2 rad/s the angle is START + 2 t for ever: the parallelogram stays one through every flat position, 0, π, 2π."""
-    r = simulate(parallelogram(speed), duration=3.0, step=step, formulation=formulation)
+    r = simulate(parallelogram(speed), duration=3.0, step=step, **methods)
     np.testing.assert_allclose(r.array("left.angle"), speed * r.time, atol=1e-8)
     np.testing.assert_allclose(r.array("right.angle"), speed * r.time, atol=1e-8)
     assert r.trust.verdict == "green"
 
 
-def test_flat_position_hit_by_a_step_is_named():
+@pytest.mark.parametrize("coordinates", ["absolute", "independent"])
+def test_flat_position_hit_by_a_step_is_named(coordinates):
     """At t = 1 s exactly: S has no inverse there. The result until then is kept."""
     with pytest.raises(SolveError, match="singular position") as caught:
-        simulate(parallelogram(-0.5), duration=3.0, step=1e-3)
+        simulate(parallelogram(-0.5), duration=3.0, step=1e-3, coordinates=coordinates)
     assert caught.value.time == pytest.approx(0.999, abs=2e-3)
     assert "Look at" in caught.value.advice
     assert caught.value.result.time[-1] == pytest.approx(0.999, abs=5e-3)

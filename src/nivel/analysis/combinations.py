@@ -27,6 +27,21 @@ def refuse_combinations(settings: SimulationSettings, coordinates: str) -> list[
             f"set `penalty: {{omega: …, mu: …}}` and take none, direct or geometric"
         )
         faults.append(_fault("stabilisation", message))
+    if coordinates == "independent":
+        faults += _refuse_feedback(formulation, stabilisation)
+    return faults
+
+
+def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
+    """What feeds violations of constraints back, in coordinates that have none."""
+    faults = []
+    left = "they solve the constraints for the dependent coordinates after every step, so no violation is left to feed back"
+    if stabilisation == "baumgarte":
+        message = f"'baumgarte' does not go with independent coordinates: {left}; take none, direct or geometric"
+        faults.append(_fault("stabilisation", message))
+    if FORMULATIONS[formulation].factor > 0.0:
+        message = f"'{formulation}' does not go with independent coordinates: {left}; take newton-euler"
+        faults.append(_fault("formulation", message))
     return faults
 
 

@@ -43,7 +43,8 @@ def compile_path(
     if (facts := path_of(*path)) is not None:
         if facts.module != ASSEMBLY:
             parts.insert(1, (facts.module, f"the equations of motion, {path[1]} in {path[0]} coordinates"))
-        if stabilisation in STABILISATIONS and STABILISATIONS[stabilisation].CORRECTS:
+        corrects = stabilisation in STABILISATIONS and STABILISATIONS[stabilisation].CORRECTS
+        if corrects and facts.correction != facts.module:
             parts.append((facts.correction, "the direct correction"))
     if integrator in INTEGRATORS:
         parts.append(("nivel.march.loop", "the time loop"))

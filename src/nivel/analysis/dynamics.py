@@ -54,6 +54,7 @@ from nivel.march.run import (
 from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS, path_of
+from nivel.system.partition import forget
 from nivel.system.system import Array, System
 
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
@@ -175,10 +176,16 @@ def march(
         "iterations": int(run.counter[ITERATIONS]) + int(system.record.control.iterations[1]),
         "rejected": int(run.counter[REJECTED]),
         "unconserved": int(run.counter[UNCONSERVED]),
+        "partitions": _partitions_changed(system),
         "loop_seconds": loop_seconds,
         "wall_seconds": clock_of_python.perf_counter() - wall,
     }
     return finished
+
+
+def _partitions_changed(system: System) -> int:
+    """How often independent coordinates were chosen anew during the run."""
+    return max(0, int(system.record.partition.choices.sum()) - 1)
 
 
 def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
@@ -199,6 +206,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     newton = len(y) if count[NEWTON] else 0
     record = system.record
     record.control.iterations[1] = 0
+    forget(record.partition)
     record.coordinates.reference[:] = prepared.assembly.reference
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0

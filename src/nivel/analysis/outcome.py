@@ -147,7 +147,9 @@ def _drifted(motion: MotionEquations) -> bool:
 
 def _far_from_singular(motion: MotionEquations) -> bool:
     """Whether all constraints are well independent in the state last evaluated."""
-    saddle = motion.system.record.saddle
+    saddle, partition = motion.system.record.saddle, motion.system.record.partition
+    if len(partition.unit) and not len(motion.system.frictions):
+        return bool(partition.quality[1] ** 2 > NEAR_SINGULAR)
     if len(saddle.dense):
         return True
     diagonal = saddle.S[saddle.S_start[1:].astype(int) - 1]

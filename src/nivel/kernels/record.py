@@ -261,6 +261,35 @@ class Tree(NamedTuple):
     small: F2  # (6, 7) equations for the reactions of one joint
 
 
+class Partition(NamedTuple):
+    """Velocities in two groups, dependent and independent; n = 6 B of them, r independent rows, f = n - r. Empty for other coordinates.
+
+    Indices before r in `column` and `row` belong to C_d, the square part of C_q that gives the dependent velocities.
+    """
+
+    unit: F1  # (n,) what each velocity is measured in: the length of the machine [m], or 1 for angles
+    column: U1  # (n,) the dependent velocities, then the independent ones
+    row: U1  # (K,) rows that determine the dependent velocities, then those that follow from them
+    choices: U1  # (1,) partitions chosen so far
+    quality: F1  # (2,) least growth of B since the last choice; smallest pivot of C_d
+    # work
+    column_place: U1  # (n,) where each velocity stands in `column`
+    row_place: U1  # (K,)
+    scale: F1  # (K,) what makes the rows of C_q unit length
+    weight: F1  # (K,) √(C_q M⁻¹ C_qᵀ)_kk of the scaled rows
+    E: F2  # (K, n) scaled C_q, then L, U and L⁻¹ C_i of C_d = L U, in the order of `row` and `column`
+    null: F2  # (K - r, K) combinations of rows that vanish, in the order of `row`
+    B: F2  # (f, n) columns of B: v̇ = B u̇ + D
+    MB: F2  # (f, n) columns of M B
+    H: F2  # (f, f) Bᵀ M B, then its Cholesky factor
+    u: F1  # (f,) accelerations of the independent velocities
+    D: F1  # (n,) dependent accelerations for u̇ = 0; changes of the dependent velocities in a correction
+    Q: F1  # (n,) forces, then what the multipliers have to balance
+    v: F1  # (n,) accelerations
+    p: F1  # (n,) M times a vector
+    b: F1  # (K,) right-hand sides, multipliers of the scaled rows
+
+
 class Control(NamedTuple):
     """Numbers that steer an evaluation."""
 
@@ -288,6 +317,7 @@ class Record(NamedTuple):
     saddle: Saddle
     tree: Tree
     frames: Frames
+    partition: Partition
     sensors: Sensors
     outputs: Outputs
     hooks: Hooks

@@ -30,6 +30,7 @@ _ABSOLUTE = PathFacts(
     "nivel.motion.newton_euler", "nivel.motion.newton_euler_correction", "nivel.system.states.absolute"
 )
 _PARAMETERS = PathFacts("nivel.motion.lagrange", "nivel.motion.lagrange_correction", "nivel.system.states.parameters")
+_INDEPENDENT = PathFacts("nivel.motion.independent", "nivel.motion.independent", "nivel.system.states.independent")
 
 # coordinates, velocities and rotations → equations; penalty methods share those of newton-euler
 PATHS: dict[tuple[str, str, str], PathFacts] = {
@@ -38,6 +39,7 @@ PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("relative", "newton-euler", "euler-parameters"): PathFacts(
         "nivel.motion.relative", "nivel.motion.relative_correction", "nivel.system.states.relative"
     ),
+    ("independent", "newton-euler", "euler-parameters"): _INDEPENDENT,
 }
 
 FORMULATIONS: dict[str, FormulationFacts] = {

@@ -35,6 +35,7 @@ from nivel.system.draft import Draft, located
 from nivel.system.elimination import plan
 from nivel.system.forces import FORCES, family_addresses
 from nivel.system.layout import frame_layout
+from nivel.system.partition import no_partition
 from nivel.system.rows import RowTable, add_couplings, add_drivers, add_joint, coordinate_units
 from nivel.system.sensors import sensor_columns
 from nivel.system.system import Equations, System
@@ -91,6 +92,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
             saddle=saddle,
             tree=empty_tree(constraints),
             frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
+            partition=no_partition(),
             sensors=Sensors(index_array(sensors, 4)),
             outputs=Outputs(np.zeros(len(draft.outputs.entries)), index_array(rows.reports, 2)),
             hooks=_hooks(draft, bool(sensors)),

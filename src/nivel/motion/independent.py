@@ -1,0 +1,143 @@
+"""Independent coordinates: the embedding technique on the velocities v = (Ṙ, ω̄) of all bodies (report 44, eqs. 78–89).
+
+v̇ = B u̇ + D with the independent accelerations u̇ from Bᵀ M B u̇ = Bᵀ (Q - M D). The state is that of `newton_euler`, all of (q, v):
+histories of multistep methods outlive a new partition. After every step the dependent velocities and positions are replaced by what
+the independent ones leave them; that is what these coordinates mean, so every stabilisation begins with it.
+
+With friction in joints the accelerations come from `newton_euler`: the efforts are found there, with the Schur complement. They are
+the same accelerations.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.analytic import real
+from nivel.kernels.compile import entry, leaf
+from nivel.kernels.embedding import embed, generalised_forces
+from nivel.kernels.hook import apply_forces, finish_forces
+from nivel.kernels.partition import divide, solve_dependent, solve_multipliers
+from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.rigid import load_weight
+from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.status import OK, SINGULAR
+from nivel.motion.newton_euler import evaluate as evaluate_newton_euler
+from nivel.motion.newton_euler import normalise, read_state
+
+# Positions: passes at most, and shares of the scales of the rows: closed; near enough that the factor serves for the next pass; lost.
+MOST_PASSES = 10
+CLOSED, NEAR, LOST = 1e-13, 1e-6, 1e-6
+
+
+@leaf
+def write_rates(machine, ydot):
+    """(Ṙ, θ̇, R̈, ᾱ) of ẏ, and the accelerations of the bodies."""
+    record = record_at(machine)
+    bodies, acceleration = record.bodies, record.partition.v
+    nb = bodies.mass.shape[0]
+    for b in range(nb):
+        q, v = 7 * b, 7 * nb + 6 * b
+        rates_of_parameters(bodies.theta[b], bodies.omega_b[b], ydot[q + 3 : q + 7])
+        for i in range(3):
+            bodies.Rddot[b, i], bodies.alpha_b[b, i] = acceleration[6 * b + i], acceleration[6 * b + 3 + i]
+            ydot[q + i] = bodies.Rdot[b, i]
+            ydot[v + i] = bodies.Rddot[b, i]
+            ydot[v + 3 + i] = bodies.alpha_b[b, i]
+
+
+@entry(evaluate_signature)
+def evaluate(machine, t, y, ydot):
+    """ẏ of y = (q, v, x): x are the states of forces, the work of external forces and the dissipated energy [J].
+
+    Leaves everything else in the record.
+    """
+    record = record_at(machine)
+    if record.friction.columns.shape[0] > 0:
+        return evaluate_newton_euler(machine, t, y, ydot)
+    rank = np.int64(record.control.rank[0])
+    status = read_state(machine, t, y)
+    if status != OK:
+        return status
+    load_weight(record.bodies)
+    status = apply_forces(machine, t, y)
+    if status != OK:
+        return status
+    status = divide(machine)
+    if status != OK:
+        return status
+    generalised_forces(machine)
+    solve_dependent(record.partition, rank, record.constraints.gamma)
+    embed(machine)
+    solve_multipliers(record.partition, rank, record.partition.Q, record.constraints.lam)
+    status = finish_forces(machine, t, ydot)
+    write_rates(machine, ydot)
+    return status
+
+
+@leaf
+def widest(machine):
+    """(largest violation of the rows that determine the dependent positions, as a share of its scale, its row); NaN where one is."""
+    record = record_at(machine)
+    constraints, row = record.constraints, record.partition.row
+    largest, worst = 0.0, 0
+    for k in range(record.control.rank[0]):
+        if np.isnan(constraints.C[row[k]]):
+            return np.nan, row[k]
+        share = np.abs(real(constraints.C[row[k]])) / constraints.scale[row[k]]
+        if not share <= largest:
+            largest, worst = share, row[k]
+    return largest, worst
+
+
+@leaf
+def move_dependent(machine, y):
+    """Positions: subtract D from the dependent ones, as tangent increments."""
+    record = record_at(machine)
+    D, theta, change = record.partition.D, record.bodies.theta, record.partition.p
+    for b in range(record.bodies.mass.shape[0]):
+        rates_of_parameters(theta[b], D[6 * b + 3 : 6 * b + 6], change)
+        for i in range(3):
+            y[7 * b + i] -= D[6 * b + i]
+        for i in range(4):
+            y[7 * b + 3 + i] -= change[i]
+
+
+@entry(correct_signature)
+def keep(machine, t, y):
+    """Dependent positions from C = 0 by Newton's method with the independent ones held, then dependent velocities from Ċ = 0.
+
+    SINGULAR where the positions cannot be found: control.failure is the row that is farthest open.
+    """
+    record = record_at(machine)
+    constraints, partition, rank = record.constraints, record.partition, np.int64(record.control.rank[0])
+    first = 7 * record.bodies.mass.shape[0]
+    factorised, before, worst = False, np.inf, 0
+    for attempt in range(MOST_PASSES + 1):
+        normalise(machine, y)
+        status = read_state(machine, t, y)
+        if status != OK:
+            return status
+        share, worst = widest(machine)
+        if np.isnan(share):
+            return OK  # the next evaluation finds out
+        # below LOST a pass that does not halve the violation is stopped by round-off
+        closed = not share > CLOSED or (share <= LOST and share > 0.5 * before)
+        if not closed and attempt == MOST_PASSES:
+            break
+        if closed or not factorised:
+            status = divide(machine)
+            if status != OK:
+                return status
+        solve_dependent(partition, rank, constraints.Cdot if closed else constraints.C)
+        if closed:
+            for i in range(partition.D.shape[0]):
+                y[first + i] -= partition.D[i]
+            return OK
+        move_dependent(machine, y)
+        factorised, before = share <= NEAR, share
+    record.control.failure[0] = worst
+    return SINGULAR
+
+
+# the dependent coordinates are solved for with every stabilisation, so there is nothing left to correct directly
+correct = keep

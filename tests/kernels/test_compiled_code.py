@@ -1,5 +1,7 @@
 """Kernels cannot allocate: they are compiled without Numba's runtime, which makes an allocation a compile error."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 from numba.core.errors import NumbaError
@@ -9,11 +11,12 @@ from nivel.kernels.compile import leaf
 from nivel.kernels.observe import observe
 from nivel.march.loop import advance
 from nivel.march.runge_kutta import rk4
-from nivel.motion import independent, lagrange, lagrange_correction, newton_euler, newton_euler_correction
+from nivel.motion.catalogue import PATHS
 
 ENTRIES = [observe, advance, rk4]
-ENTRIES += [getattr(module, name) for module in (newton_euler, lagrange, independent) for name in ("evaluate", "keep")]
-ENTRIES += [newton_euler_correction.correct, lagrange_correction.correct]
+MODULES = dict.fromkeys(facts.module for facts in PATHS.values())
+ENTRIES += [getattr(import_module(module), name) for module in MODULES for name in ("evaluate", "keep")]
+ENTRIES += [import_module(module).correct for module in dict.fromkeys(facts.correction for facts in PATHS.values())]
 
 
 @pytest.mark.parametrize("kernel", ENTRIES, ids=lambda kernel: kernel.__module__ + "." + kernel.__name__)

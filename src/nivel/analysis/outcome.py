@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from nivel.analysis.equations import MotionEquations
-from nivel.kernels.status import BRISTLE_TOO_FAST, CONTRADICTION, FRICTION_DIVERGES, SINGULAR
+from nivel.kernels.status import BRISTLE_TOO_FAST, CONTRADICTION, FRICTION_DIVERGES, ROTATION_SINGULAR, SINGULAR
 from nivel.system.system import Array
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
@@ -26,6 +26,8 @@ def failure(motion: MotionEquations, status: int, time: float, step: float, y: A
         told = _jammed(motion.system.frictions[number])
     elif status == BRISTLE_TOO_FAST:
         told = _fast_bristles(motion, number, step)
+    elif status == ROTATION_SINGULAR:
+        told = _singular_rotation(motion.system.bodies[number])
     else:
         # what is not a number spoils pivots as well, so look for it first
         told = _broken_function(motion, time, step, y)
@@ -103,6 +105,17 @@ def _fast_bristles(motion: MotionEquations, number: int, step: float) -> tuple[s
     advice = (
         f"The step has to be below 2.7 coefficient/(bristle_stiffness v): try --step {1.5 / relaxation:.2g} or, for higher speeds to "
         f"come, less; or a smaller bristle_stiffness of {name}; or `model: stiction`."
+    )
+    return message, advice
+
+
+def _singular_rotation(body: str) -> tuple[str, str]:
+    message = (
+        f"the rotation coordinates of {body} come to a singular position, where they no longer tell its orientation"
+    )
+    advice = (
+        "Three rotation coordinates are singular somewhere: Euler angles where the axes of the first and the third angle are parallel, "
+        "a rotation vector at a full turn from the start. The motion goes on: take --rotations euler-parameters, which never are."
     )
     return message, advice
 

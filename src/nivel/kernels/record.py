@@ -39,6 +39,20 @@ class Bodies(NamedTuple):
     alpha_b: F2  # (B+1, 3) [rad/s²]
 
 
+class Rotations(NamedTuple):
+    """Three rotation coordinates a body, φ, of A = A(space) A(φ) A(body); all empty where the state has Euler parameters."""
+
+    kind: U1  # (1,) EULER_ANGLES or ROTATION_VECTOR
+    space: F2  # (B, 4) Euler parameters, constant: the axes from which φ turns, in global axes
+    body: F2  # (B, 4) Euler parameters, constant: the body axes in those that φ turns
+    turned_b: F3  # (B, 3, 3) columns are the axes that φ turns, in body axes: A(body)ᵀ
+    # work
+    theta: F2  # (B, 4) Euler parameters of A(φ)
+    G: F3  # (B, 3, 3) Ḡ: ω̄ = Ḡ φ̇
+    bias: F2  # (B, 3) [rad/s²] Ḡ̇ φ̇
+    regularity: F1  # (B,) distance from the first singular position of the coordinates, zero there
+
+
 class Markers(NamedTuple):
     """Frames fixed to bodies."""
 
@@ -300,13 +314,14 @@ class Control(NamedTuple):
     power: F1  # (2,) work of external forces and dissipation per second
     stored: F1  # (1,) [J] elastic energy of the forces
     stick: F1  # (1,) [s] time within which stiction stops a joint
-    failure: U1  # (1,) row that could not be eliminated, friction that did not converge
+    failure: U1  # (1,) row that could not be eliminated, friction that did not converge, body of singular rotations
 
 
 class Record(NamedTuple):
     """One machine in numbers."""
 
     bodies: Bodies
+    rotations: Rotations
     markers: Markers
     coordinates: Coordinates
     constraints: Constraints
@@ -336,4 +351,5 @@ correct_signature = types.int64(address_type, types.float64, state_type)
 family_signature = types.int64(address_type, types.int64, types.float64)
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
+EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
 MEASURE, FRICTION, SENSE, COMPLETE, WATCH = 0, 1, 2, 3, 4  # entries of Hooks.address

@@ -14,6 +14,12 @@ def place_body(bodies, b, q):
         bodies.R[b, i] = q[i]
     for i in range(4):
         bodies.theta[b, i] = q[3 + i]
+    set_axes(bodies, b)
+
+
+@stage
+def set_axes(bodies, b):
+    """Axes and centre of mass of body b from its Euler parameters."""
     rotation_matrix(bodies.theta[b], bodies.A[b])
     multiply(bodies.A[b], bodies.centre_b[b], bodies.c[b])
 

@@ -54,3 +54,14 @@ def transformation(theta, G):
     G[0, 0], G[0, 1], G[0, 2], G[0, 3] = -scale * e1, scale * e0, scale * e3, -scale * e2
     G[1, 0], G[1, 1], G[1, 2], G[1, 3] = -scale * e2, -scale * e3, scale * e0, scale * e1
     G[2, 0], G[2, 1], G[2, 2], G[2, 3] = -scale * e3, scale * e2, -scale * e1, scale * e0
+
+
+@leaf
+def product(first, second, out):
+    """Euler parameters of A(first) A(second); `out` may be either."""
+    a0, a1, a2, a3 = first[0], first[1], first[2], first[3]
+    b0, b1, b2, b3 = second[0], second[1], second[2], second[3]
+    out[0] = a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3
+    out[1] = a0 * b1 + a1 * b0 + a2 * b3 - a3 * b2
+    out[2] = a0 * b2 - a1 * b3 + a2 * b0 + a3 * b1
+    out[3] = a0 * b3 + a1 * b2 - a2 * b1 + a3 * b0

@@ -31,3 +31,17 @@ def centripetal(w, u, out):
     ww = dot(w, w)
     for i in range(3):
         out[i] = w[i] * wu - u[i] * ww
+
+
+@leaf
+def solve(A, b, x):
+    """x of A x = b for a regular 3×3 matrix, by Cramer's rule; `x` may be b."""
+    # rows of the adjugate: cross products of the columns
+    p0, p1, p2 = cross(A[:, 1], A[:, 2])
+    q0, q1, q2 = cross(A[:, 2], A[:, 0])
+    r0, r1, r2 = cross(A[:, 0], A[:, 1])
+    determinant = A[0, 0] * p0 + A[1, 0] * p1 + A[2, 0] * p2
+    b0, b1, b2 = b[0], b[1], b[2]
+    x[0] = (p0 * b0 + p1 * b1 + p2 * b2) / determinant
+    x[1] = (q0 * b0 + q1 * b1 + q2 * b2) / determinant
+    x[2] = (r0 * b0 + r1 * b1 + r2 * b2) / determinant

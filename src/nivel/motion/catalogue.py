@@ -31,11 +31,17 @@ _ABSOLUTE = PathFacts(
 )
 _PARAMETERS = PathFacts("nivel.motion.lagrange", "nivel.motion.lagrange_correction", "nivel.system.states.parameters")
 _INDEPENDENT = PathFacts("nivel.motion.independent", "nivel.motion.independent", "nivel.system.states.independent")
+_ANGLES, _VECTOR = (
+    PathFacts("nivel.motion.lagrange_three", "nivel.motion.lagrange_three_correction", f"nivel.system.states.{kind}")
+    for kind in ("euler_angles", "rotation_vector")
+)
 
 # coordinates, velocities and rotations → equations; penalty methods share those of newton-euler
 PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "newton-euler", "euler-parameters"): _ABSOLUTE,
     ("absolute", "lagrange", "euler-parameters"): _PARAMETERS,
+    ("absolute", "lagrange", "euler-angles"): _ANGLES,
+    ("absolute", "lagrange", "rotation-vector"): _VECTOR,
     ("relative", "newton-euler", "euler-parameters"): PathFacts(
         "nivel.motion.relative", "nivel.motion.relative_correction", "nivel.system.states.relative"
     ),

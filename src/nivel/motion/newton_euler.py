@@ -41,15 +41,21 @@ def read_state(machine, t, y):
     nb = bodies.mass.shape[0]
     for b in range(nb):
         place_body(bodies, b, y[7 * b : 7 * b + 7])
-    place_markers(bodies, record.markers)
-    for b in range(nb):
         v = 7 * nb + 6 * b
         for i in range(3):
             bodies.Rdot[b, i] = y[v + i]
             bodies.omega_b[b, i] = y[v + 3 + i]
         multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
-    move_markers(bodies, record.markers)
-    constraint_rows(bodies, record.markers, record.constraints)
+    return read_markers(machine, t)
+
+
+@stage
+def read_markers(machine, t):
+    """Markers and all constraint rows from the poses and velocities of the bodies. Returns a status."""
+    record = record_at(machine)
+    place_markers(record.bodies, record.markers)
+    move_markers(record.bodies, record.markers)
+    constraint_rows(record.bodies, record.markers, record.constraints)
     return measure_active(machine, t)
 
 
@@ -140,16 +146,13 @@ def write_rates(machine, ydot):
             ydot[v + 3 + i] = bodies.alpha_b[b, i]
 
 
-@entry(evaluate_signature)
-def evaluate(machine, t, y, ydot):
-    """ẏ of y = (q, v, x): x are the states of forces, the work of external forces and the dissipated energy [J].
+@stage
+def accelerate(machine, t, y, ydot):
+    """Multipliers, whitened accelerations in `saddle.z`, and the rates of the states of forces and energies, from the state read before.
 
-    Leaves everything else in the record.
+    Returns a status.
     """
     record = record_at(machine)
-    status = read_state(machine, t, y)
-    if status != OK:
-        return status
     load_weight(record.bodies)
     status = apply_forces(machine, t, y)
     if status != OK:
@@ -160,8 +163,20 @@ def evaluate(machine, t, y, ydot):
         return status
     whiten_forces(machine)
     multipliers(machine, WIDTH)
-    status = finish_forces(machine, t, ydot)
-    write_rates(machine, ydot)
+    return finish_forces(machine, t, ydot)
+
+
+@entry(evaluate_signature)
+def evaluate(machine, t, y, ydot):
+    """ẏ of y = (q, v, x): x are the states of forces, the work of external forces and the dissipated energy [J].
+
+    Leaves everything else in the record.
+    """
+    status = read_state(machine, t, y)
+    if status == OK:
+        status = accelerate(machine, t, y, ydot)
+    if status == OK:
+        write_rates(machine, ydot)
     return status
 
 

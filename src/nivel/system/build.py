@@ -24,6 +24,7 @@ from nivel.kernels.record import (
     Markers,
     Outputs,
     Record,
+    Rotations,
     Saddle,
     Sensors,
 )
@@ -77,6 +78,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
     system = System(
         record=Record(
             bodies=bodies,
+            rotations=_no_rotations(),
             markers=markers,
             coordinates=draft.coordinates.arrays(),
             constraints=constraints,
@@ -215,6 +217,12 @@ def _groups(rows: RowTable, row_count: int) -> list[list[int]]:
     groups = [list(range(a, b)) for a, b in rows.spans if b > a]
     last = rows.spans[-1][1] if rows.spans else 0
     return groups + [[row] for row in range(last, row_count)]
+
+
+def _no_rotations() -> Rotations:
+    """Of states with Euler parameters."""
+    four, nine, none = np.zeros((0, 4)), np.zeros((0, 3, 3)), np.zeros(0, dtype=np.uint32)
+    return Rotations(none, four, four, nine, theta=four, G=nine, bias=np.zeros((0, 3)), regularity=np.zeros(0))
 
 
 def _control(rows: int) -> Control:

@@ -74,8 +74,10 @@ class System:
 
     @property
     def positions(self) -> int:
-        """Length of q: seven a body."""
-        return 7 * self.body_count
+        """Length of q."""
+        if self.state_map is None:
+            return 7 * self.body_count
+        return len(self.state_map.plain) + 4 * len(self.state_map.turns)
 
     @property
     def map(self) -> StateMap:
@@ -95,7 +97,10 @@ class System:
         return StateMap(index_array(plain, 2), index_array(turns, 2), tuple(units))
 
     def state(self, q: Array, velocity: Array, angular_velocity_b: Array) -> Array:
-        """State y = (q, v, x) from q (7 B,), Ṙ (B, 3) [m/s] and ω̄ (B, 3) [rad/s, body axes]; x = 0: no bristle is bent."""
+        """State y = (q, v, x) in Euler parameters from q (7 B,), Ṙ (B, 3) [m/s] and ω̄ (B, 3) [rad/s, body axes].
+
+        x = 0: no bristle is bent.
+        """
         count, per_body = self.body_count, self.equations.velocities
         v = np.zeros((count, per_body))
         v[:, :3] = velocity

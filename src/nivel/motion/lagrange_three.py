@@ -1,0 +1,101 @@
+"""Absolute coordinates, Lagrange equations in three rotation coordinates: q = (R, φ), v = q̇, six a body (report 44, eqs. 57–77).
+
+φ are Euler angles or the rotation vector, ω̄ = Ḡ φ̇ with their own Ḡ. With T = diag(1, Ḡ) of all bodies, the report's mass matrix
+(m_RR = m 1, m_Rθ = -m c̃ A Ḡ, m_θθ = Ḡᵀ J̄_O Ḡ) is Tᵀ M T with M of (Ṙ, ω̄), and its C_q, with (n + u × f)ᵀ A Ḡ for φ, is that of
+(Ṙ, ω̄) times T. So Tᵀ L is a factor of the mass matrix where L is one of M; whitened by it, rows and forces (eqs. 63, 71) are those of
+the Newton–Euler equations, and so are the multipliers. Ḡ appears where the state is read and where φ̈ = Ḡ⁻¹ (ᾱ - Ḡ̇ φ̇) is written.
+"""
+
+from __future__ import annotations
+
+from nivel.kernels import euler_angles, rotation_vector
+from nivel.kernels.compile import entry, stage
+from nivel.kernels.record import EULER_ANGLES, correct_signature, evaluate_signature, record_at
+from nivel.kernels.rigid import set_axes
+from nivel.kernels.rotation import product
+from nivel.kernels.spatial import multiply, solve
+from nivel.kernels.status import OK, ROTATION_SINGULAR
+from nivel.motion.newton_euler import accelerate, read_markers, unwhiten
+
+# Nearer to a singular position φ turns so much faster than the body that steps no longer follow it: where the body turns by 0.01 rad
+# a step, passing at this distance (2.9° from parallel axes, 17° from a full turn) leaves an error of about 1e-5 rad with RK4.
+SINGULAR = 0.05
+
+
+@stage
+def turn_body(rotations, b, phi, phidot):
+    """θ of A(φ), Ḡ and Ḡ̇ φ̇ of body b; ω̄ = Ḡ φ̇ in body axes."""
+    N, theta, G, bias = rotations.turned_b[b], rotations.theta[b], rotations.G[b], rotations.bias[b]
+    if rotations.kind[0] == EULER_ANGLES:
+        rotations.regularity[b] = euler_angles.turn(phi, phidot, theta, G, bias)
+    else:
+        rotations.regularity[b] = rotation_vector.turn(phi, phidot, theta, G, bias)
+    for k in range(3):
+        x, y, z = G[0, k], G[1, k], G[2, k]
+        for i in range(3):
+            G[i, k] = N[i, 0] * x + N[i, 1] * y + N[i, 2] * z
+    x, y, z = bias[0], bias[1], bias[2]
+    for i in range(3):
+        bias[i] = N[i, 0] * x + N[i, 1] * y + N[i, 2] * z
+
+
+@stage
+def read_state(machine, t, y):
+    """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
+    record = record_at(machine)
+    bodies, rotations = record.bodies, record.rotations
+    nb = bodies.mass.shape[0]
+    for b in range(nb):
+        q, v = 6 * b, 6 * nb + 6 * b
+        phidot = y[v + 3 : v + 6]
+        turn_body(rotations, b, y[q + 3 : q + 6], phidot)
+        product(rotations.space[b], rotations.theta[b], bodies.theta[b])
+        product(bodies.theta[b], rotations.body[b], bodies.theta[b])
+        set_axes(bodies, b)
+        for i in range(3):
+            bodies.R[b, i], bodies.Rdot[b, i] = y[q + i], y[v + i]
+        multiply(rotations.G[b], phidot, bodies.omega_b[b])
+        multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
+    status = read_markers(machine, t)
+    for b in range(nb):
+        if rotations.regularity[b] < SINGULAR:
+            record.control.failure[0] = b
+            return ROTATION_SINGULAR
+    return status
+
+
+@stage
+def write_rates(machine, y, ydot):
+    """(q̇, q̈) of ẏ, and the accelerations of the bodies."""
+    record = record_at(machine)
+    bodies, rotations = record.bodies, record.rotations
+    nb = bodies.mass.shape[0]
+    for b in range(nb):
+        unwhiten(bodies, record.saddle, b)
+        q, v = 6 * b, 6 * nb + 6 * b
+        for i in range(6):
+            ydot[q + i] = y[v + i]
+        for i in range(3):
+            ydot[v + i] = bodies.Rddot[b, i]
+            ydot[v + 3 + i] = bodies.alpha_b[b, i] - rotations.bias[b, i]
+        solve(rotations.G[b], ydot[v + 3 : v + 6], ydot[v + 3 : v + 6])
+
+
+@entry(evaluate_signature)
+def evaluate(machine, t, y, ydot):
+    """ẏ of y = (q, q̇, x): x are the states of forces, the work of external forces and the dissipated energy [J].
+
+    Leaves everything else in the record.
+    """
+    status = read_state(machine, t, y)
+    if status == OK:
+        status = accelerate(machine, t, y, ydot)
+    if status == OK:
+        write_rates(machine, y, ydot)
+    return status
+
+
+@entry(correct_signature)
+def keep(machine, t, y):
+    """No correction: three coordinates have nothing to keep."""
+    return OK

@@ -9,3 +9,4 @@ DONE = 5  # the end of the run is reached
 BRISTLE_TOO_FAST = 7  # LuGre friction relaxes faster than the step can follow: control.failure is its number
 CONTRADICTION = 8  # a redundant row no longer follows from the others: control.failure names it
 FRICTION_DIVERGES = 6  # no friction is consistent with the reactions it causes: control.failure is its number
+NOT_CONVERGED = 9  # an implicit step has no solution that its iteration finds

@@ -1,5 +1,7 @@
 """Kernels cannot allocate: they are compiled without Numba's runtime, which makes an allocation a compile error."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 from numba.core.errors import NumbaError
@@ -7,11 +9,12 @@ from numba.core.errors import NumbaError
 from nivel.kernels import cache
 from nivel.kernels.compile import leaf
 from nivel.kernels.observe import observe
+from nivel.march.catalogue import INTEGRATORS
 from nivel.march.loop import advance
-from nivel.march.runge_kutta import rk4
 from nivel.motion import lagrange, lagrange_correction, newton_euler, newton_euler_correction
 
-ENTRIES = [observe, advance, rk4]
+STEPS = dict.fromkeys((facts.module, facts.function) for facts in INTEGRATORS.values())
+ENTRIES = [observe, advance, *(getattr(import_module(module), function) for module, function in STEPS)]
 ENTRIES += [getattr(module, name) for module in (newton_euler, lagrange) for name in ("evaluate", "keep")]
 ENTRIES += [newton_euler_correction.correct, lagrange_correction.correct]
 

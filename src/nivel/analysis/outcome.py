@@ -118,7 +118,7 @@ def _fast_bristles(motion: MotionEquations, number: int, step: float) -> tuple[s
 
 def _singular_rotation(body: str) -> tuple[str, str]:
     message = (
-        f"the rotation coordinates of {body} come to a singular position, where they no longer tell its orientation"
+        f"the rotation coordinates of {body} come to a singular position, where they cannot follow its motion"
     )
     advice = (
         "Three rotation coordinates are singular somewhere: Euler angles where the axes of the first and the third angle are parallel, "

@@ -44,6 +44,7 @@ from nivel.march.run import (
     LAST_FRAME,
     MOST_ITERATIONS,
     NEWTON,
+    ORDER,
     REJECTED,
     STEP,
     TIME,
@@ -199,6 +200,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     clock[TOLERANCE], clock[LARGEST] = settings.tolerance or 0.0, settings.largest_step
     count = np.zeros(COUNTS, dtype=np.int64)
     count[ALL_STEPS], count[EVERY], count[LAST_FRAME] = settings.steps, settings.every, -1
+    count[ORDER] = facts.order
     if settings.corrector is not None:
         clock[CORRECTOR_TOLERANCE] = settings.corrector.tolerance
         count[MOST_ITERATIONS] = settings.corrector.most_iterations

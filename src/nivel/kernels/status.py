@@ -10,3 +10,4 @@ BRISTLE_TOO_FAST = 7  # LuGre friction relaxes faster than the step can follow: 
 CONTRADICTION = 8  # a redundant row no longer follows from the others: control.failure names it
 FRICTION_DIVERGES = 6  # no friction is consistent with the reactions it causes: control.failure is its number
 ROTATION_SINGULAR = 9  # rotation coordinates come to a singular position: control.failure is the body
+NOT_CONVERGED = 10  # an implicit step has no solution that its iteration finds

@@ -1,4 +1,7 @@
-"""Integrators by name: the module and the function, the work vectors, the order. Imports no kernel."""
+"""Integrators by name: the module and the function, the work vectors, the order. Imports no kernel.
+
+One compiled function serves all orders of a family; it finds the order in counter[ORDER].
+"""
 
 from __future__ import annotations
 
@@ -21,6 +24,17 @@ class IntegratorFacts:
     implicit: bool = False
 
 
+_ADAMS, _MOULTON, _GEAR = "nivel.march.adams", "nivel.march.moulton", "nivel.march.gear"
+# the rows and numbers of `nivel.march.workspace`
+_ROWS, _NUMBERS = 17, 3
+
 INTEGRATORS: dict[str, IntegratorFacts] = {
-    "rk4": IntegratorFacts("nivel.march.runge_kutta", "rk4", 4, 4),
+    "euler": IntegratorFacts("nivel.march.runge_kutta", "step", 4, 1),
+    "heun": IntegratorFacts("nivel.march.runge_kutta", "step", 4, 2),
+    "rk4": IntegratorFacts("nivel.march.runge_kutta", "step", 4, 4),
+    "rkn4": IntegratorFacts("nivel.march.nystrom", "rkn4", 5, 4),
+    **{f"ab{k}": IntegratorFacts(_ADAMS, "bashforth", _ROWS, k, _NUMBERS) for k in range(1, 6)},
+    **{f"am{k}": IntegratorFacts(_MOULTON, "moulton", _ROWS, k, _NUMBERS, implicit=True) for k in range(1, 6)},
+    **{f"abm{k}": IntegratorFacts(_ADAMS, "predict_correct", _ROWS, k, _NUMBERS) for k in range(1, 6)},
+    **{f"gear{k}": IntegratorFacts(_GEAR, "gear", _ROWS, k, _NUMBERS, implicit=True) for k in range(1, 5)},
 }

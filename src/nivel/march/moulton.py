@@ -1,0 +1,23 @@
+"""Adams–Moulton methods with a fixed step, their equations solved by iteration; order 1 is the implicit Euler method, 2 the
+trapezoidal rule."""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import entry
+from nivel.march.adams_weights import MOULTON, predict_moulton, rates_before
+from nivel.march.corrector import solve
+from nivel.march.diagonal import begin_implicit
+from nivel.march.multistep import remember
+from nivel.march.run import ORDER, REACHED, STEP, run_at, step_signature
+
+
+@entry(step_signature)
+def moulton(evaluate, machine, history):
+    """One step of Adams–Moulton of counter[ORDER]."""
+    run = run_at(history)
+    order = run.counter[ORDER]
+    count = rates_before(order)
+    if remember(history, count, 0) < count:
+        return begin_implicit(evaluate, machine, history, order)
+    predict_moulton(history, order)
+    return solve(evaluate, machine, history, run.clock[REACHED], run.clock[STEP] * MOULTON[order, 0])

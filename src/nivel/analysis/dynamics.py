@@ -243,15 +243,31 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
 
 
 def _scales(system: System, y: Array, duration: float) -> Array:
-    """What errors of the entries of y are measured by, at least: the machine's length, a radian, these once in the run, its energy.
+    """What errors of the entries of y are measured by, at least: the machine's length, a radian, these once in the run, its energy; the
+    deflections of bristles by that in which they slide.
 
     The largest value that an entry has taken so far counts where it is larger.
     """
     energy = max(abs(float(system.record.control.energy[0])), _weight_energy(system), 1e-300)
     floors = {"m": system.size, "1": 1.0, "m/s": system.size / duration, "1/s": 1.0 / duration}
     scale = np.array([floors.get(unit, 0.0) for unit in system.map.units])
+    states = len(system.record.elements.state)
+    scale[len(scale) - 2 - states : -2] = _deflections(system)
     scale[-2:] = energy
     return np.maximum(scale, np.abs(y))
+
+
+def _deflections(system: System) -> Array:
+    """Deflection [m] of bristles in steady sliding, coefficient/bristle_stiffness, in the order of their states."""
+    record = system.record
+    out = np.zeros(len(record.elements.state))
+    if len(out):
+        columns: Any = import_module("nivel.kernels.friction")
+        state = record.friction.columns[:, columns.STATE]
+        has = state < len(out)
+        numbers = record.friction.number[has]
+        out[state[has]] = numbers[:, columns.KINETIC] / numbers[:, columns.STIFFNESS]
+    return out
 
 
 def _weight_energy(system: System) -> float:

@@ -8,7 +8,14 @@ from typing import Any
 import numpy as np
 
 from nivel.analysis.equations import MotionEquations
-from nivel.kernels.status import BRISTLE_TOO_FAST, CONTRADICTION, FRICTION_DIVERGES, ROTATION_SINGULAR, SINGULAR
+from nivel.kernels.status import (
+    BRISTLE_TOO_FAST,
+    CONTRADICTION,
+    FRICTION_DIVERGES,
+    NOT_CONVERGED,
+    ROTATION_SINGULAR,
+    SINGULAR,
+)
 from nivel.system.system import Array
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
@@ -31,10 +38,10 @@ def failure(motion: MotionEquations, status: int, time: float, step: float, y: A
     else:
         # what is not a number spoils pivots as well, so look for it first
         told = _broken_function(motion, time, step, y)
-        if told is None:
-            told = (
-                _singular(motion, number, time, step, y) if status == SINGULAR else _not_a_number(motion, time, step, y)
-            )
+        if told is None and status == SINGULAR:
+            told = _singular(motion, number, time, step, y)
+        elif told is None:
+            told = (_not_converged if status == NOT_CONVERGED else _not_a_number)(motion, time, step, y)
     return f"stopped at t = {time:.6g} s: {told[0]}", told[1]
 
 
@@ -143,6 +150,19 @@ def _broken_function(motion: MotionEquations, time: float, step: float, y: Array
                 f"Look at the law of {broken[0].split()[-1]}: {advice}",
             )
     return None
+
+
+def _not_converged(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str]:
+    motion.evaluate(time, y)
+    message = (
+        f"the iteration of the corrector does not converge within a step of {step:.3g} s: the motion changes too much in it, or a force "
+        f"is too stiff; {_worst(motion)}"
+    )
+    advice = (
+        f"Try --step {step / 10:.3g}; or, where `iteration: functional`, `corrector: {{iteration: newton}}`, which stiff forces do not "
+        f"limit. With a tolerance near round-off (1e-13) no iteration may come to an end: then a larger `tolerance` of `corrector`."
+    )
+    return message, advice
 
 
 def _not_a_number(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str]:

@@ -9,11 +9,12 @@ from numba.core.errors import NumbaError
 from nivel.kernels import cache
 from nivel.kernels.compile import leaf
 from nivel.kernels.observe import observe
+from nivel.march.catalogue import INTEGRATORS
 from nivel.march.loop import advance
-from nivel.march.runge_kutta import rk4
 from nivel.motion.catalogue import PATHS
 
-ENTRIES = [observe, advance, rk4]
+STEPS = dict.fromkeys((facts.module, facts.function) for facts in INTEGRATORS.values())
+ENTRIES = [observe, advance, *(getattr(import_module(module), function) for module, function in STEPS)]
 MODULES = dict.fromkeys(facts.module for facts in PATHS.values())
 ENTRIES += [getattr(import_module(module), name) for module in MODULES for name in ("evaluate", "keep")]
 ENTRIES += [import_module(module).correct for module in dict.fromkeys(facts.correction for facts in PATHS.values())]

@@ -117,7 +117,13 @@ def test_functional_iteration_that_cannot_converge_says_so(name):
 def test_bristles_do_not_keep_the_corrector_from_its_end(pull, iteration):
     """A bristle that is hardly bent is measured by its deflection in steady sliding, not by its own value. Pulled within its bristles
     the block follows the scalar equations, solved by LSODA."""
-    number = {"coefficient": 0.25, "static_coefficient": 0.4, "stribeck_speed": 0.02, "bristle_stiffness": 1e4, "bristle_damping": 60}
+    number = {
+        "coefficient": 0.25,
+        "static_coefficient": 0.4,
+        "stribeck_speed": 0.02,
+        "bristle_stiffness": 1e4,
+        "bristle_damping": 60,
+    }
     block = {
         "bodies": {"block": solid(2.0)},
         "gravity": [0, -G, 0],

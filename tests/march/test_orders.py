@@ -53,7 +53,9 @@ def test_order_on_the_slider_crank_with_direct_correction(name):
 def test_order_in_lagrange(name, stabilisation):
     order = INTEGRATORS[name].order
     steps = LONGEST[order] * np.array([1 / 2, 1 / 4, 1 / 8])
-    errors = slider_crank_errors(name, steps, 0.8, formulation="lagrange", stabilisation=stabilisation, **corrector(name))
+    errors = slider_crank_errors(
+        name, steps, 0.8, formulation="lagrange", stabilisation=stabilisation, **corrector(name)
+    )
     assert abs(slope(steps, errors) - order) < 0.2, errors
 
 

@@ -4,8 +4,14 @@ import numpy as np
 import pytest
 
 import machines
+from nivel.analysis.dynamics import _start, prepare
+from nivel.analysis.settings import complete
+from nivel.kernels.handle import Handle
 from nivel.machine import Body, Joint, MachineRecord, SpringDamper
 from nivel.march.catalogue import INTEGRATORS
+from nivel.march.multistep import remember
+from nivel.march.run import RESTART, STEP
+from nivel.march.workspace import SHARE
 from references import stick_slip
 from running import run
 from simulating import G, simulate, slide, solid
@@ -40,6 +46,22 @@ def test_newtons_and_functional_iteration_give_the_same_motion(name, formulation
     assert plain.finished.outcome == newton.finished.outcome == "done"
     assert np.abs(plain.position - newton.position).max() < 1e-9
     assert np.abs(plain.joint_rate - newton.joint_rate).max() < 1e-7
+
+
+def test_an_event_makes_the_history_forgotten_with_its_matrix():
+    settings = complete(machines.slider_crank(integrator="gear3").simulation)
+    history = _start(prepare(machines.slider_crank()), settings, INTEGRATORS["gear3"])
+    handle = Handle(history)
+    kept = [remember(handle.address, 2, 3) for _ in range(4)]
+    assert kept == [1, 2, 3, 4]
+    history.numbers[SHARE] = 0.5
+    history.counter[RESTART] = 1
+    assert remember(handle.address, 2, 3) == 1
+    assert history.counter[RESTART] == 0
+    assert history.numbers[SHARE] == 0
+    assert remember(handle.address, 2, 3) == 2
+    history.clock[STEP] *= 0.5
+    assert remember(handle.address, 2, 3) == 1
 
 
 def test_iterations_are_counted():

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.failures import say_faults
-from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
+from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option, simulation_options
 
 if TYPE_CHECKING:
     from nivel.analysis.listener import Listener
@@ -22,13 +22,7 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 
 @click.command(short_help="Simulate a machine: result file, report, summary.")
 @file_argument("machine")
-@click.option("--duration", metavar="TIME", help="Simulated time, e.g. 8 or '8 s'.")
-@click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'.")
-@click.option("--output-interval", metavar="TIME", help="Time between frames of the result; a multiple of the step.")
-@click.option("--integrator", metavar="NAME", help="rk4.")
-@click.option("--formulation", metavar="NAME", help="newton-euler or lagrange.")
-@click.option("--coordinates", metavar="NAME", help="auto or absolute.")
-@click.option("--stabilisation", metavar="NAME", help="none, baumgarte or direct.")
+@simulation_options
 @override_option
 @allow_code_option
 @click.option("--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here.")
@@ -39,13 +33,6 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")
 def command(
     machine: str,
-    duration: str | None,
-    step: str | None,
-    output_interval: str | None,
-    integrator: str | None,
-    formulation: str | None,
-    coordinates: str | None,
-    stabilisation: str | None,
     overrides: dict[str, str],
     allow_code: bool,
     out: str | None,
@@ -54,11 +41,13 @@ def command(
     no_report: bool,
     quiet: bool,
     as_json: bool,
+    settings: dict[str, Any],
 ) -> None:
     """Simulate MACHINE and write its result (NetCDF) and report (HTML).
 
-    Options go before what the machine file says under `simulation:`. Exit code 0 done, 2 the input is at fault, 3 the computation
-    failed, 130 interrupted; what was computed is kept in every case.
+    Options go before what the machine file says under `simulation:`. The file may hold settings of several methods; an option that has
+    no effect with the methods of this run is refused. Exit code 0 done, 2 the input is at fault, 3 the computation failed, 130
+    interrupted; what was computed is kept in every case.
     """
     from nivel.api import load
     from nivel.errors import ModelError, SolveError
@@ -72,13 +61,7 @@ def command(
     with _listener(quiet) as listener:
         try:
             result = loaded.simulate(
-                duration=duration,
-                step=step,
-                output_interval=output_interval,
-                integrator=integrator,
-                formulation=formulation,
-                coordinates=coordinates,
-                stabilisation=stabilisation,
+                **settings,
                 out=target,
                 force=force,
                 verify=verify,

@@ -10,7 +10,9 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from nivel.analysis.changes import changed
 from nivel.analysis.choice import choose_coordinates
+from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import compile_path
 from nivel.analysis.idle import refuse_idle
 from nivel.analysis.listener import Listener
@@ -32,6 +34,7 @@ from nivel.machine import (
 
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
+    from nivel.results.comparison import Comparison
     from nivel.results.result import Result
 
 
@@ -182,6 +185,53 @@ class Machine:
                 compile_seconds=compile_seconds,
             )
 
+    def compare(
+        self,
+        *,
+        integrators: Sequence[str] | str = (),
+        formulations: Sequence[str] | str = (),
+        coordinates: Sequence[str] | str = (),
+        rotations: Sequence[str] | str = (),
+        stabilisations: Sequence[str] | str = (),
+        steps: Sequence[float | str] | float | str = (),
+        tolerances: Sequence[float | str] | float | str = (),
+        duration: float | str | None = None,
+        output_interval: float | str | None = None,
+        largest_step: float | str | None = None,
+        cut: Sequence[str] | None = None,
+        repeat: int = 3,
+        listener: Listener | None = None,
+    ) -> Comparison:
+        """Run all combinations of the given words; an axis that is not given has the machine's own setting.
+
+        steps [s] : of integrators with a fixed one; tolerances : of the others. duration, output_interval, largest_step [s], cut : of
+        all runs. repeat : every cell runs so often, its time is the least. Times are numbers in seconds, or texts with units.
+        A cell that fails or has no meaning is told in its row. Interrupted, it returns what was computed.
+        Raises ModelError where words are not known, or the machine cannot be run at all.
+        """
+        if repeat < 1:
+            raise ModelError(f"`repeat` is at least 1, got {repeat}")
+        words: dict[str, Any] = {
+            "integrators": integrators,
+            "formulations": formulations,
+            "coordinates": coordinates,
+            "rotations": rotations,
+            "stabilisations": stabilisations,
+            "steps": steps,
+            "tolerances": tolerances,
+        }
+        axes = Axes(**words)
+        common = {"duration": duration, "output_interval": output_interval, "largest_step": largest_step, "cut": cut}
+        given = {name: value for name, value in common.items() if value is not None}
+        chosen = self.with_settings(given)
+        grid = lay_out(chosen.record, axes, given)
+        compile_grid(chosen.record, grid, listener or Listener())
+        # after the kernels: what follows imports them
+        from nivel.analysis.compare import compare
+
+        with self._faults_in_file():
+            return compare(chosen.record, grid, repeat=repeat, listener=listener)
+
     @contextmanager
     def _faults_in_file(self) -> Iterator[None]:
         """Faults that the assembly finds get the line of the element in the machine's file."""
@@ -201,15 +251,7 @@ class Machine:
         """The same machine with some simulation settings replaced."""
         if not settings:
             return self
-        old = self.record.simulation
-        changes = dict(settings)
-        # own Baumgarte coefficients belong to the stabilisation they were given with
-        if changes.get("stabilisation", "baumgarte") != "baumgarte" and old.baumgarte is not None:
-            changes["baumgarte"] = None
-        # rotation coordinates belong to lagrange in absolute coordinates
-        if (changes.get("formulation", "lagrange"), changes.get("coordinates", "absolute")) != ("lagrange", "absolute"):
-            changes.setdefault("rotations", "euler-parameters")
-        record = self.record.replace(simulation=old.replace(**changes))
+        record = self.record.replace(simulation=changed(self.record.simulation, settings))
         return Machine.from_record(record, self.source, self.file, self.asked)
 
     def save(self, path: str | PathLike[str]) -> None:

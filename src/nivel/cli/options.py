@@ -42,6 +42,11 @@ allow_code_option = click.option(
 quiet_option = click.option("--quiet", is_flag=True, help="Say nothing on standard error but errors.")
 
 
+def separated(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...]:
+    """The words of an option that takes several, separated by commas, or that is repeated."""
+    return tuple(word.strip() for text in values for word in text.split(",") if word.strip())
+
+
 class MethodOption(click.Option):
     """An option whose help ends with the words that the simulation setting `setting` knows, looked up when help is shown."""
 
@@ -68,11 +73,11 @@ METHODS: Final[dict[str, str]] = {
 
 def method_option(setting: str, *, plural: bool = False) -> Any:
     """`--integrator NAME`, or `--integrators NAMES` that takes several."""
-    help_text = METHODS[setting]
+    common: dict[str, Any] = {"cls": MethodOption, "setting": setting, "help": METHODS[setting]}
     if not plural:
-        return click.option(f"--{setting}", cls=MethodOption, setting=setting, metavar="NAME", help=help_text)
+        return click.option(f"--{setting}", metavar="NAME", **common)
     name = f"--{setting}" if setting.endswith("s") else f"--{setting}s"
-    return click.option(name, cls=MethodOption, setting=setting, metavar="NAMES", multiple=True, help=help_text)
+    return click.option(name, metavar="NAMES", multiple=True, callback=separated, **common)
 
 
 duration_option = click.option("--duration", metavar="TIME", help="Simulated time, e.g. 8 or '8 s'.")

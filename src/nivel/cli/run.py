@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,9 +11,9 @@ import click
 
 from nivel.cli.failures import say_faults
 from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option, simulation_options
+from nivel.cli.progress import progress_listener
 
 if TYPE_CHECKING:
-    from nivel.analysis.listener import Listener
     from nivel.results import Result
 
 COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
@@ -58,7 +57,7 @@ def command(
     _refuse_to_replace(report, target, force, Path(machine))
     failure: SolveError | None = None
     unwritten: ModelError | None = None
-    with _listener(quiet) as listener:
+    with progress_listener(quiet) as listener:
         try:
             result = loaded.simulate(
                 **settings,
@@ -111,33 +110,6 @@ def _refuse_to_replace(report: Path | None, target: Path, force: bool, machine: 
     check_target(target, "result file", force=force, sources=[machine])
     if report is not None:
         check_target(report, "report", force=force, sources=[machine])
-
-
-@contextmanager
-def _listener(quiet: bool) -> Iterator[Listener]:
-    """What the run tells on standard error: nothing, or stages and a progress bar."""
-    from nivel.analysis.listener import Listener
-
-    if quiet:
-        yield Listener()
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[reached]}"), TimeElapsedColumn())
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task("starting", total=None, reached="")
-
-        def stage(text: str, total: float | None = None) -> None:
-            if text.startswith("compiling"):
-                console.print(text)  # stays, also where no bar can be shown
-            bar.update(task, description=text, total=total, completed=0, reached="")
-
-        def progress(time: float) -> None:
-            bar.update(task, completed=time, reached=f"t = {time:.3f} s")
-
-        yield Listener(stage, progress)
 
 
 def _say(result: Result, target: Path, report: Path | None) -> None:

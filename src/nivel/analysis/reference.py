@@ -21,6 +21,7 @@ from nivel.analysis.settings import complete
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS
 from nivel.results.comparison import Reference
+from nivel.results.comparison_table import seconds
 from nivel.results.motion import Motion, common_frames, distance
 from nivel.results.result import Result
 from nivel.results.scales import machine_size
@@ -93,7 +94,7 @@ def _extrapolated(machine: MachineRecord, grid: Grid, listener: Listener) -> Sol
                 best is not None and best.facts.error < ROUND_OFF and error > NO_GAIN * best.facts.error
             )
             if best is None or error < best.facts.error:
-                name = f"{EXTRAPOLATED} extrapolated from steps of {2.0 * step:.3g} s and {step:.3g} s"
+                name = f"{EXTRAPOLATED} extrapolated from steps of {seconds(2.0 * step)} and {seconds(step)}"
                 facts = Reference(name, EXTRAPOLATED, error, "its distance from the extrapolation of twice these steps")
                 best = Solution(facts, finer, size, _kinetic(result))
             if ends:
@@ -139,7 +140,11 @@ def _run(machine: MachineRecord, grid: Grid, listener: Listener, **settings: obj
     fixed = {"formulation": "newton-euler", "coordinates": "absolute"}
     step = {"step": min(machine.simulation.step, grid.interval), "output_interval": grid.interval}
     own = changed(machine.simulation, {**fixed, **step, **settings})
-    what = f"step {settings['step']:.3g} s" if "step" in settings else f"tolerance {settings['tolerance']:.0e}"
+    what = (
+        f"step {seconds(float(str(settings['step'])))}"
+        if "step" in settings
+        else f"tolerance {settings['tolerance']:.0e}"
+    )
     listener.say(f"reference: {settings['integrator']}, {what}", own.duration)
     machine = machine.replace(simulation=own)
     return run_in_memory(machine, complete(own), listener.progress)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from nivel.report.work_precision import NARROW, WIDE, curves, diagram, legend_mark
-from nivel.results.comparison import Comparison, Method, Row
+from nivel.results.comparison import Comparison, Row
 from nivel.results.comparison_files import write_text
 from nivel.results.comparison_table import fineness, motion, number, seconds
 from nivel.results.motion import DEFINITION
@@ -28,8 +28,8 @@ MEANINGS = (
     ),
     (
         "Constraints",
-        "how far joints, couplings and drivers are open: the largest magnitude over all frames and rows, and the mean below it. Lengths are "
-        "shares of the size of the machine; rows that only normalise rotation coordinates are left out",
+        "how far joints, couplings and drivers are open: the largest magnitude over all frames and rows, and the mean below it. Lengths "
+        "are shares of the size of the machine; rows that only normalise rotation coordinates are left out",
     ),
     ("Rates", "the same for the first derivatives, per second"),
     ("Energy", "the largest error of the energy balance as a share of the largest kinetic energy, and in joules"),
@@ -48,8 +48,8 @@ MEANINGS = (
     ),
     (
         "Spread",
-        "the distance between those two completed methods that are furthest apart, each at its finest step or tolerance. Methods that share "
-        "no equations and still agree are right about this machine, or wrong for the same reason",
+        "the distance between those two completed methods that are furthest apart, each at its finest step or tolerance. Methods that "
+        "share no equations and still agree are right about this machine, or wrong for the same reason",
     ),
 )
 
@@ -135,13 +135,11 @@ def _title(comparison: Comparison) -> str:
 
 def _facts(comparison: Comparison) -> list[str]:
     """What all cells share."""
-    same = [name for name in Method._fields if name not in comparison.varying and comparison.rows]
-    words = [str(getattr(comparison.rows[0], name)) for name in same]
     return [
         f"{seconds(comparison.duration)} simulated",
         f"a frame every {seconds(comparison.output_interval)}",
         f"times are the least of {comparison.repeat}",
-        *words,
+        *comparison.common,
     ]
 
 

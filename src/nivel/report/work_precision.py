@@ -80,7 +80,7 @@ def diagram(comparison: Comparison, size: Size, kind: str) -> str:
     times = [row.loop_seconds or 0.0 for row in rows]
     errors = [_error(row) for row in rows] + ([max(floor, LEAST)] if floor > 0.0 else [])
     across = LogAxis.around(times, size.left, size.width - size.right)
-    up = LogAxis.around(errors, size.height - size.bottom, size.top, room=0.25)
+    up = LogAxis.around(errors, size.height - size.bottom, size.top, room=0.6)
     parts = [_grid(across, up, size), _floor(floor, across, up)]
     parts += [_curve(comparison, curve, across, up) for curve in shown]
     label = f"Work–precision diagram: error of the motion against loop time of {len(shown)} methods; its numbers are in the table"
@@ -122,10 +122,10 @@ def _floor(error: float, across: LogAxis, up: LogAxis) -> str:
     """What lies below the error of the references cannot be told apart."""
     if error <= up.low:
         return ""
-    y = up.at(error)
+    y, word = up.at(error), "below the error of the reference"
     return (
         f'<rect class="floor" x="{across.start:.1f}" y="{y:.1f}" width="{across.end - across.start:.1f}" height="{up.start - y:.1f}"/>'
-        f'<text class="tick" x="{across.end - 6:.1f}" y="{min(y + 14, up.start - 4):.1f}" text-anchor="end">below the error of the reference</text>'
+        f'<text class="tick" x="{across.end - 6:.1f}" y="{min(y + 14, up.start - 4):.1f}" text-anchor="end">{word}</text>'
     )
 
 

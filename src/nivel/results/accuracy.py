@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from nivel.results.motion import Motion, distance
 from nivel.results.scales import Readable, machine_size
 from nivel.results.trust import Peak
 
 
+@np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
 def step_halving(result: Readable, finer: Readable, order: int) -> Peak:
     """Estimated largest error of the positions of `result` [m], with its body and time.
 

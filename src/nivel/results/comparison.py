@@ -129,6 +129,18 @@ class Comparison:
         """The axes of the grid on which there are several words."""
         return tuple(name for name in Method._fields if len({getattr(row, name) for row in self.rows}) > 1)
 
+    @property
+    def common(self) -> tuple[str, ...]:
+        """The words that all cells share; rotation coordinates only where there are some to choose."""
+        if not self.rows:
+            return ()
+        method = self.rows[0].method
+        return tuple(
+            word
+            for name, word in method._asdict().items()
+            if name not in self.varying and (name != "rotations" or method.formulation == "lagrange")
+        )
+
     def label(self, row: Row) -> str:
         """The words of a row that tell it from others, without the step."""
         return method_label(row.method, self.varying)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from html import escape
 from typing import Final, NamedTuple
 
-from nivel.results.comparison import Comparison, Method, Row
+from nivel.results.comparison import Comparison, Row
 
 MEANING: Final = (
     "constraints and their rates: the largest, lengths as shares of the machine's size; energy: the largest error as a share of the "
@@ -49,12 +49,8 @@ def lines(comparison: Comparison) -> list[str]:
     """What stands below the table: rows without numbers, what is the same for all, references, agreement."""
     out = _failures(comparison)
     if comparison.rows:
-        first = comparison.rows[0]
-        same = [getattr(first, name) for name in Method._fields if name not in comparison.varying]
-        out.append(
-            f"all: {', '.join([*same, f'{seconds(comparison.duration)} simulated'])}; "
-            f"times are the least of {_plural(comparison.repeat, 'run')}"
-        )
+        words = ", ".join([*comparison.common, f"{seconds(comparison.duration)} simulated"])
+        out.append(f"all: {words}; times are the least of {_plural(comparison.repeat, 'run')}")
     out += [
         f"reference: {each.name}, its own error {number(each.error, 2)} ({each.how})" for each in comparison.references
     ]

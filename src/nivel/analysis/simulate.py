@@ -7,7 +7,7 @@ import time
 from dataclasses import replace
 from os import PathLike
 
-import nivel
+from nivel.analysis.attributes import run_attributes
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.dynamics import Finished, Prepared, march, prepare
 from nivel.analysis.listener import Listener
@@ -21,7 +21,6 @@ from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
 from nivel.results.trust import Facts, Peak, assess
-from nivel.system.scene import scene
 
 
 def simulate(
@@ -46,7 +45,7 @@ def simulate(
     begin = time.perf_counter()
     listener.say("preparing")
     prepared = prepare(machine, settings.formulation, settings.coordinates)
-    sink.begin(Header(prepared.motion.system.layout, _attributes(machine, source, prepared, settings)))
+    sink.begin(Header(prepared.motion.system.layout, run_attributes(machine, source, prepared, settings)))
     prepare_seconds = time.perf_counter() - begin
     listener.say("running", settings.duration)
     finished = march(prepared, settings, [sink], progress=listener.progress)
@@ -84,32 +83,6 @@ def _close(
     if finished.failure is not None:
         raise SolveError(message, time=at, advice=advice, result=result)
     return result
-
-
-def _attributes(
-    machine: MachineRecord, source: str, prepared: Prepared, settings: RunSettings
-) -> dict[str, str | float | int]:
-    system, assembly = prepared.motion.system, prepared.assembly
-    coordinates = system.layout.coordinates["joint_coordinate"]
-    return {
-        "machine": machine.name,
-        "machine_record": machine.model_dump_json(by_alias=True, exclude_none=True),
-        "machine_source": source,
-        "scene": json.dumps(scene(machine, system)),
-        "settings": json.dumps(settings.as_dict()),
-        "nivel_version": nivel.__version__,
-        "outcome": "running",
-        "coordinate_units": json.dumps(dict(zip(coordinates, system.coordinate_units, strict=True))),
-        "constraint_units": json.dumps(dict(zip(system.rows, system.row_units, strict=True))),
-        "assembly": json.dumps(
-            {
-                "gap": assembly.gap,
-                "gap_row": assembly.gap_row,
-                "moved": assembly.moved,
-                "velocity_change": assembly.velocity_change,
-            }
-        ),
-    }
 
 
 def _half_the_step(machine: MachineRecord, coarse: Result, settings: RunSettings, listener: Listener) -> Peak:

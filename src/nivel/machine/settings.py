@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from pydantic import Field, model_validator
 
@@ -86,3 +86,8 @@ class SimulationSettings(Record):
         if self.penalty.factor is not None and self.penalty.alpha is not None:
             raise fault("`penalty` takes `factor` or `alpha`, not both")
         return self
+
+
+def known_words(setting: str) -> tuple[str, ...]:
+    """The words that a setting may be, e.g. of `integrator`."""
+    return get_args(SimulationSettings.model_fields[setting].annotation)

@@ -59,7 +59,8 @@ def test_every_combination_is_a_row(compared):
     assert len(compared.rows) == 8
     assert len({(row.method, row.step) for row in compared.rows}) == 8
     assert {row.outcome for row in compared.rows} == {"done"}
-    assert compared.varying == ("formulation", "stabilisation")
+    # `auto` means relative coordinates for newton-euler and absolute ones for lagrange
+    assert compared.varying == ("formulation", "coordinates", "stabilisation")
 
 
 @pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])

@@ -117,9 +117,7 @@ def _fast_bristles(motion: MotionEquations, number: int, step: float) -> tuple[s
 
 
 def _singular_rotation(body: str) -> tuple[str, str]:
-    message = (
-        f"the rotation coordinates of {body} come to a singular position, where they cannot follow its motion"
-    )
+    message = f"the rotation coordinates of {body} come to a singular position, where they cannot follow its motion"
     advice = (
         "Three rotation coordinates are singular somewhere: Euler angles where the axes of the first and the third angle are parallel, "
         "a rotation vector at a full turn from the start. The motion goes on: take --rotations euler-parameters, which never are."

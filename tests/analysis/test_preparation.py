@@ -135,7 +135,7 @@ def test_point_mass_counts_three_freedoms_and_never_turns():
     machine = MachineRecord(name="m", bodies=(bob,), joints=(rope,), gravity=(0, -9.81, 0))
     prepared = prepare(machine, "newton-euler")
     assert prepared.redundancy.degrees_of_freedom == 2
-    prepared.motion.evaluate(0.0, prepared.assembly.y)
+    prepared.motion.evaluate(0.0, prepared.start)
     record = prepared.motion.system.record
     np.testing.assert_array_equal(record.bodies.alpha_b[0], 0.0)
     np.testing.assert_allclose(record.bodies.Rddot[0], [0, -9.81, 0], atol=1e-12)

@@ -18,7 +18,12 @@ from nivel.analysis.listener import Progress
 from nivel.analysis.outcome import failure
 from nivel.analysis.penalties import feedback, penalise
 from nivel.analysis.redundancy import Redundancy, analyse
-from nivel.analysis.refusals import refuse_conserved_drivers, refuse_deep_starts, refuse_rough_motions, refuse_uncertain_loads
+from nivel.analysis.refusals import (
+    refuse_conserved_drivers,
+    refuse_deep_starts,
+    refuse_rough_motions,
+    refuse_uncertain_loads,
+)
 from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle

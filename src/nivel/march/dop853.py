@@ -12,11 +12,11 @@ from nivel.kernels.status import OK
 from nivel.march.dense import wanted
 from nivel.march.dop853_coefficients import ALL_STAGES, E3, E5, STAGES, A, C, D
 from nivel.march.embedded import add_stages, begin, evaluate_stages, is_accepted, sum_stages
-from nivel.march.run import DENSE, POWERS, TOLERANCE, run_at, step_signature
-from nivel.march.step_control import reach, size, too_small
+from nivel.march.run import DENSE, POWERS, run_at, step_signature
+from nivel.march.step_control import allowed, reach, size, too_small
 
 ORDER = 8.0  # of the error of one step with its estimate
-SHARE = 0.1
+SHARE = 0.3
 NEW = STAGES - 1  # the stage at the new state
 
 
@@ -59,13 +59,13 @@ def _fill_dense(evaluate, machine, history, h):
 def dop853(evaluate, machine, history):
     """One accepted step."""
     run = run_at(history)
-    tolerance = SHARE * run.clock[TOLERANCE]
+    tolerance = allowed(run, SHARE)
     begin(evaluate, machine, history, ORDER, tolerance)
     status, error = OK, 0.0
     while True:
         h = reach(run)
         if h == 0.0:
-            return too_small(status, error)
+            return too_small(run, status, error)
         status, error = _attempt(evaluate, machine, history, h)
         if is_accepted(run, h, ORDER, status, error / tolerance):
             break

@@ -12,8 +12,8 @@ from nivel.kernels.compile import entry, leaf
 from nivel.kernels.status import OK
 from nivel.march.dense import wanted
 from nivel.march.embedded import begin, evaluate_stages, is_accepted, sum_stages
-from nivel.march.run import DENSE, POWERS, TOLERANCE, run_at, step_signature
-from nivel.march.step_control import reach, size, too_small
+from nivel.march.run import DENSE, POWERS, run_at, step_signature
+from nivel.march.step_control import allowed, reach, size, too_small
 
 STAGES = 7
 ORDER = 5.0  # of the error of one step with its estimate
@@ -73,13 +73,13 @@ def _fill_dense(run, h):
 def dopri5(evaluate, machine, history):
     """One accepted step."""
     run = run_at(history)
-    tolerance = SHARE * run.clock[TOLERANCE]
+    tolerance = allowed(run, SHARE)
     begin(evaluate, machine, history, ORDER, tolerance)
     status, error = OK, 0.0
     while True:
         h = reach(run)
         if h == 0.0:
-            return too_small(status, error)
+            return too_small(run, status, error)
         status, error = _attempt(evaluate, machine, history, h)
         if is_accepted(run, h, ORDER, status, error / tolerance):
             break

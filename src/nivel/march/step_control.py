@@ -16,7 +16,20 @@ import numpy as np
 from nivel.kernels.compile import leaf
 from nivel.kernels.record import record_at
 from nivel.kernels.status import NOT_FINITE, OK, STEP_TOO_SMALL
-from nivel.march.run import DONE_STEPS, END, EVALUATIONS, LARGEST, REACHED, REJECTED, RESTART, START, STEP, TIME, run_at
+from nivel.march.run import (
+    DONE_STEPS,
+    END,
+    EVALUATIONS,
+    LARGEST,
+    REACHED,
+    REJECTED,
+    RESTART,
+    START,
+    STEP,
+    TIME,
+    TOLERANCE,
+    run_at,
+)
 
 ROUND_OFF = 2.220446049250313e-16
 # A step below this many units in the last place of the time gets nowhere.
@@ -24,12 +37,20 @@ SMALLEST = 16.0
 # No body turns by more in one step [rad], so that two bodies turn by less than half a turn against each other and the angles of joints,
 # which are followed from step to step, count their turns.
 LARGEST_TURN = 1.4
+# A step is never asked to be more exact than this.
+EXACT = 10.0 * ROUND_OFF
 # A step that could not be evaluated is tried again with this share of it.
 AFTER_FAILURE = 0.25
 # The step that a tolerance asks for is not taken to its edge (Hairer, Nørsett, Wanner 1993, §II.4).
 SAFETY, LEAST_CHANGE, MOST_CHANGE = 0.9, 0.2, 5.0
 # A step may be longer by this share where it then ends the run.
 STRETCH = 1.05
+
+
+@leaf
+def allowed(run, share):
+    """What one step may be wrong by, as a share of the scales, for an integrator that gives a step this share of the tolerance."""
+    return max(share * run.clock[TOLERANCE], EXACT)
 
 
 @leaf
@@ -126,8 +147,9 @@ def reach(run):
 
 
 @leaf
-def too_small(status, error):
-    """The status of a run whose steps became too small: what the last attempt failed with."""
+def too_small(run, status, error):
+    """The status of a run whose steps became too small: what the last attempt failed with. Its step is left in clock[STEP]."""
+    run.clock[STEP] = run.clock[REACHED] - run.clock[TIME]
     if status != OK:
         return status
     return STEP_TOO_SMALL if error == error else NOT_FINITE

@@ -170,7 +170,7 @@ def variable_step(evaluate, machine, history, family, most, tolerance):
     while True:
         h = reach(run)
         if h == 0.0:
-            return too_small(status, error)
+            return too_small(run, status, error)
         q = run.counter[ORDER]
         place_points(run, h)
         c = numbers[C : C + MOST_ORDER + 1]
@@ -189,8 +189,9 @@ def variable_step(evaluate, machine, history, family, most, tolerance):
         if rejections % PATIENCE == 0:
             start(run)
     accept(run, c)
+    extrapolated = factors[2] / factors[0] if family == ADAMS and run.counter[NEWTON] == 0 else 0.0
     for i in range(run.y.shape[0]):
-        run.y[i] = run.stages[Z, i]
+        run.y[i] = run.stages[Z, i] - extrapolated * run.stages[CORRECTION, i]
         run.stages[SLOPE, i] = run.stages[Z + 1, i]
     if wanted(run):
         fill_dense(run)

@@ -20,7 +20,7 @@ def test_runge_kutta_methods_have_their_order_at_fixed_steps(integrator, order, 
         run = toys.march(integrator, toys.swing, [1.0, 0.5, 0, 0], 8.0, tolerance=1e6, step=step, fixed=True)
         assert np.allclose(np.diff(run.time), step)
         errors.append(np.abs(run.y[:, :2] - swing(run.time)).max())
-    assert abs(slope(steps, errors) - order) < 0.3, errors
+    assert abs(slope(steps, errors) - order) < 0.5, errors
 
 
 @pytest.mark.parametrize(("integrator", "order", "coarsest"), [("dopri5", 4, 0.4), ("dop853", 7, 1.2)])

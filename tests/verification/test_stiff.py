@@ -17,9 +17,7 @@ def overdamped():
         bodies=(Body(name="block", mass=MASS, inertia=(1e-4,) * 3),),
         joints=(Joint(name="rail", type="translational", bodies=("ground", "block"), point=(0, 0, 0), axis=(1, 0, 0)),),
         forces=(
-            JointSpringDamper(
-                name="buffer", coordinate="rail", stiffness=STIFFNESS, damping=DAMPING, free_value=1.0
-            ),
+            JointSpringDamper(name="buffer", coordinate="rail", stiffness=STIFFNESS, damping=DAMPING, free_value=1.0),
         ),
         simulation=SimulationSettings(duration=2.0, step=1e-4, output_interval=0.1),
     )

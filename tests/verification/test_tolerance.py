@@ -148,6 +148,31 @@ def test_kepler_orbit(integrator, tolerance):
     assert np.abs(apart[:, :2] - orbit.position(result.time)).max() < 10 * tolerance * orbit.semi_axis
 
 
+WAYS = {
+    "relative": {"coordinates": "relative"},
+    "independent": {"coordinates": "independent"},
+    "euler-angles": {"formulation": "lagrange", "rotations": "euler-angles"},
+    "rotation-vector": {"formulation": "lagrange", "rotations": "rotation-vector"},
+    "penalty": {"formulation": "penalty"},
+    "augmented-lagrangian": {"formulation": "augmented-lagrangian"},
+}
+
+
+@MEETS
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-8])
+@pytest.mark.parametrize("way", WAYS)
+def test_other_equations_of_motion(integrator, tolerance, way):
+    """The slider-crank for 1 s, before a rotation vector comes to a full turn. Penalties of 1e8 are off by 1e-8 themselves."""
+    if way == "penalty" and tolerance < 1e-6:
+        tolerance = 1e-6
+    settings = {"duration": 1.0, "output_interval": 0.05, "tolerance": tolerance, **WAYS[way]}
+    result = run(machines.slider_crank(), integrator=integrator, **settings)
+    expected = slider_crank.solve(result.time)
+    assert np.abs(result.position - expected.position).max() < 10 * tolerance * machine_size(result)
+    chunks = run(machines.slider_crank(), integrator=integrator, chunk_steps=3, **settings)
+    assert np.array_equal(result.frames, chunks.frames)
+
+
 @MEETS
 @pytest.mark.parametrize("stabilisation", ["none", "direct", "geometric", "baumgarte"])
 def test_all_stabilisations(integrator, stabilisation):

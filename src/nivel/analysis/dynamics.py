@@ -253,7 +253,11 @@ def _scales(system: System, y: Array, duration: float) -> Array:
     The largest value that an entry has taken so far counts where it is larger.
     """
     mass = float(system.record.bodies.mass.sum())
-    energies = float(system.record.control.energy[0]), _weight_energy(system), 0.5 * mass * (system.size / duration) ** 2
+    energies = (
+        float(system.record.control.energy[0]),
+        _weight_energy(system),
+        0.5 * mass * (system.size / duration) ** 2,
+    )
     energy = max(*energies, 1e-300)
     floors = {"m": system.size, "1": 1.0, "m/s": system.size / duration, "1/s": 1.0 / duration}
     scale = np.array([floors.get(unit, 0.0) for unit in system.map.units])

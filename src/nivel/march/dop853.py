@@ -67,7 +67,7 @@ def dop853(evaluate, machine, history):
         if h == 0.0:
             return too_small(run, status, error)
         status, error = _attempt(evaluate, machine, history, h)
-        if is_accepted(run, h, ORDER, status, error / tolerance):
+        if is_accepted(machine, history, h, ORDER, status, error / tolerance):
             break
     if wanted(run):
         status = _fill_dense(evaluate, machine, history, h)

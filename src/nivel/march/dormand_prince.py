@@ -81,7 +81,7 @@ def dopri5(evaluate, machine, history):
         if h == 0.0:
             return too_small(run, status, error)
         status, error = _attempt(evaluate, machine, history, h)
-        if is_accepted(run, h, ORDER, status, error / tolerance):
+        if is_accepted(machine, history, h, ORDER, status, error / tolerance):
             break
     if wanted(run):
         _fill_dense(run, h)

@@ -11,6 +11,7 @@ from nivel.march.step_control import (
     factor_after_success,
     is_fresh,
     reject,
+    turned_too_far,
 )
 
 # entries of run.numbers: the error of the last accepted step; whether this step was rejected before
@@ -65,8 +66,16 @@ def begin(evaluate, machine, history, order, tolerance):
 
 
 @leaf
-def is_accepted(run, h, order, status, error):
-    """Whether a step h whose error is `error` times the allowed one is taken; then y is the new state, `run.trial`. Sets clock[STEP]."""
+def is_accepted(machine, history, h, order, status, error):
+    """Whether a step h whose error is `error` times the allowed one is taken; then y is the new state, `run.trial`. Sets clock[STEP].
+
+    The last evaluation was one at the end of the step.
+    """
+    run = run_at(history)
+    if status == OK and error <= 1.0 and turned_too_far(machine, h) < 1.0:
+        reject(run, h, turned_too_far(machine, h))
+        run.numbers[REPEATED] = 1.0
+        return False
     if status != OK or not error <= 1.0:
         reject(run, h, factor_after_rejection(status, error, order))
         run.numbers[REPEATED] = 1.0

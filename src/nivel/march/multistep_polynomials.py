@@ -15,6 +15,8 @@ D_q = h^{q+1} y^{(q+1)}/(q+1)! the error formula of interpolation gives e = K D_
 
     Adams–Moulton  K = (q+1) ξ_q ∫ Π_{1}^{q-1} (x + ξ_i) dx,   C_q = (q+1) |∫ x Π_{1}^{q-1} (x + ξ_i) dx|,   ∫ from -1 to 0
     BDF            K = Π_{1}^{q+1} ξ_i,                          C_q = Π_{1}^{q} ξ_i / Σ_{1}^{q} 1/ξ_i
+
+With BDF the remembered values err like the new one, so e is a difference of values that all miss the solution by about the same.
 """
 
 from __future__ import annotations

@@ -10,11 +10,12 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf
-from nivel.kernels.lu import factorise_lu, solve_lu
+from nivel.kernels.lu import solve_lu
 from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.march.newton import renew
 from nivel.march.run import EVALUATIONS, ITERATIONS, MOST_ITERATIONS, NEWTON, REACHED, run_at
 from nivel.march.step_control import size
-from nivel.march.variable_workspace import C, CHANGE, CONTRACTION, CORRECTION, PREDICTED, RATE, SHARE
+from nivel.march.variable_workspace import CHANGE, CONTRACTION, CORRECTION, PREDICTED, RATE, SHARE, C
 
 # More iterations than this are dearer than a shorter step.
 MOST = 4
@@ -24,8 +25,6 @@ CLOSE = 0.1
 FORGET, DIVERGES = 0.3, 2.0
 # Newton's matrix is found again where h/c_1 has changed by more than this share.
 SAME = 0.3
-# Differences of this share of a scale: half the digits are left for the change of the rate.
-DIFFERENCE = 1.5e-8
 
 
 @leaf
@@ -84,31 +83,15 @@ def _iterate(evaluate, machine, history, h, tolerance):
 
 @leaf
 def _find_matrix(evaluate, machine, history, share):
-    """matrix := factors of 1 - share ∂f/∂y at the predicted state, by differences. Returns a status."""
+    """matrix := factors of 1 - share ∂f/∂y at the predicted state. Returns a status."""
     run = run_at(history)
-    y, rate, ahead, matrix, t = run.trial, run.stages[RATE], run.stages[CHANGE], run.matrix, run.clock[REACHED]
-    n = y.shape[0]
+    for i in range(run.y.shape[0]):
+        run.trial[i] = run.stages[PREDICTED, i]
     run.numbers[SHARE] = 0.0
-    for i in range(n):
-        y[i] = run.stages[PREDICTED, i]
-        for j in range(n):
-            matrix[i, j] = 0.0
-        matrix[i, i] = 1.0
-    status = evaluate(machine, t, y, rate)
+    status = evaluate(machine, run.clock[REACHED], run.trial, run.stages[RATE])
     run.counter[EVALUATIONS] += 1
-    # nothing depends on the two energies at the end of y
-    for j in range(n - 2):
-        if status != OK:
-            return status
-        kept = y[j]
-        y[j] += DIFFERENCE * run.scale[j]
-        width = y[j] - kept
-        status = evaluate(machine, t, y, ahead)
-        run.counter[EVALUATIONS] += 1
-        y[j] = kept
-        for i in range(n):
-            matrix[i, j] -= share * (ahead[i] - rate[i]) / width
-    if status != OK or not factorise_lu(matrix, run.pivot):
-        return status if status != OK else NOT_CONVERGED
-    run.numbers[SHARE] = share
-    return OK
+    if status == OK:
+        status = renew(evaluate, machine, history, run.clock[REACHED], share, run.trial, run.stages[RATE])
+    if status == OK:
+        run.numbers[SHARE] = share
+    return status

@@ -5,8 +5,11 @@ q + 1 the one that promises the longest step is taken, q + 1 once q + 1 steps of
 
 The direct correction of the loop moves y a little after every step. The polynomial follows: its value at t_n is replaced by the
 corrected one, and for Adams–Moulton with functional iteration its rate by that of the corrected state, which is what that method
-remembers. BDF remembers values: they are all moved alike, and their differences, which are what counts, stay. With Newton's method the rate is
-kept, since in stiff directions a small change of y would change it beyond measure.
+remembers. BDF remembers values: they are all moved alike, and their differences, which are what counts, stay. With Newton's method the
+rate is kept, since in stiff directions a small change of y would change it beyond measure.
+
+With functional iteration the Adams methods go on from the next order: the estimated error of the corrected state is subtracted, which
+makes it that of the method of order q + 1 (Shampine, Gordon 1975), and what a step errs by is well below its estimate.
 """
 
 from __future__ import annotations
@@ -19,10 +22,19 @@ from nivel.march.dense import wanted
 from nivel.march.multistep_polynomials import ADAMS, correction, monic
 from nivel.march.nordsieck import accept, add_polynomial, fill_dense, predict
 from nivel.march.run import NEWTON, ORDER, RESTART, STEP, run_at
-from nivel.march.step_control import AFTER_FAILURE, LEAST_CHANGE, enter, is_fresh, reach, reject, size, too_small
+from nivel.march.step_control import (
+    AFTER_FAILURE,
+    LEAST_CHANGE,
+    enter,
+    is_fresh,
+    reach,
+    reject,
+    size,
+    too_small,
+    turned_too_far,
+)
 from nivel.march.variable_corrector import FORGET, correct
 from nivel.march.variable_workspace import (
-    C,
     CHANGE,
     CONTRACTION,
     CORRECTION,
@@ -36,6 +48,7 @@ from nivel.march.variable_workspace import (
     WAIT,
     WORK,
     XI,
+    C,
     Z,
 )
 
@@ -130,7 +143,7 @@ def longer(error, order, margin):
 @leaf
 def choose(run, family, most, h, tolerance, error, factors):
     """The next order and step. error : of the step just done, a share of the allowed one; factors : (K, C_{q-1}, C_q, C_{q+1})."""
-    K, below, same, above = factors
+    K, below, _, above = factors
     q, numbers = run.counter[ORDER], run.numbers
     growth, change = longer(error, q, SAME), 0
     numbers[WAIT] -= 1.0
@@ -182,9 +195,10 @@ def variable_step(evaluate, machine, history, family, most, tolerance):
             rejections += 1
             continue
         error = factors[2] / factors[0] * size(run, run.stages[CORRECTION]) / tolerance
-        if error <= 1.0:
+        shorter = turned_too_far(machine, h)
+        if error <= 1.0 and shorter == 1.0:
             break
-        reject(run, h, max(LEAST_CHANGE, min(0.9, longer(error, q, SAME))))
+        reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
         rejections += 1
         if rejections % PATIENCE == 0:
             start(run)

@@ -102,7 +102,8 @@ class Trust:
     cosine).
     size_kind : what `size` is, to be said after "the". at_rest : `speed` is not that of the machine, which is at rest,
     but the least speed that counts.
-    accuracy_refinement : what the run was done again with to find `accuracy_estimate`. degrees_of_freedom : None where the run did not live to tell. drivers : motions that are prescribed.
+    accuracy_refinement : what the run was done again with to find `accuracy_estimate`. degrees_of_freedom : None where the run did not
+    live to tell. drivers : motions that are prescribed.
     """
 
     verdict: Verdict

@@ -138,7 +138,8 @@ class Machine:
         duration, step, output_interval, largest_step : [s], or texts with units. tolerance : of integrators that choose their steps.
         cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte : mappings as in a machine file.
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : estimate the accuracy with a second
-        run at half the step. A setting given here that has no effect with the methods of the run is refused; in a file it rests.
+        run, at half the step or a tenth of the tolerance. A setting given here that has no effect with the methods of the run is
+        refused; in a file it rests.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
         given = {

@@ -13,6 +13,7 @@ from nivel.kernels.status import (
     CONTRADICTION,
     FRICTION_DIVERGES,
     NOT_CONVERGED,
+    NOT_FINITE,
     ROTATION_SINGULAR,
     SINGULAR,
 )
@@ -24,8 +25,13 @@ NEAR_SINGULAR = 1e-6
 DRIFTED = 1e-2
 
 
-def failure(motion: MotionEquations, status: int, time: float, step: float, y: Array) -> tuple[str, str]:
-    """(message, advice) for a run that failed in the step from `time` [s], whose last accepted state is y."""
+def failure(
+    motion: MotionEquations, status: int, time: float, step: float, y: Array, *, chosen: bool = False
+) -> tuple[str, str]:
+    """(message, advice) for a run that failed in the step from `time` [s], whose last accepted state is y.
+
+    chosen : the integrator chose the step, and tried ever smaller ones.
+    """
     number = int(motion.system.record.control.failure[0])
     if status == CONTRADICTION:
         told = _contradiction(motion, number)
@@ -38,11 +44,34 @@ def failure(motion: MotionEquations, status: int, time: float, step: float, y: A
     else:
         # what is not a number spoils pivots as well, so look for it first
         told = _broken_function(motion, time, step, y)
-        if told is None and status == SINGULAR:
+        if told is None and chosen:
+            told = _no_step(motion, status, time, step, y)
+        elif told is None and status == SINGULAR:
             told = _singular(motion, number, time, step, y)
         elif told is None:
             told = (_not_converged if status == NOT_CONVERGED else _not_a_number)(motion, time, step, y)
     return f"stopped at t = {time:.6g} s: {told[0]}", told[1]
+
+
+def _no_step(motion: MotionEquations, status: int, time: float, step: float, y: Array) -> tuple[str, str]:
+    """Where an integrator that chooses its steps finds none that is small enough."""
+    motion.evaluate(time, y)
+    singular = status == SINGULAR or not _far_from_singular(motion)
+    reason = {
+        SINGULAR: "leads out of a singular position",
+        NOT_FINITE: "leads to a state of numbers",
+        NOT_CONVERGED: "lets the corrector converge",
+    }.get(status, "meets the tolerance")
+    message = f"no step from here, down to {step:.2g} s, {reason}; {_worst(motion)}"
+    if singular:
+        return message, (
+            "The machine is in or near a singular position, where constraints depend on each other: two links in line, or a loop folded "
+            "flat? Start the run elsewhere, or move a joint by a small amount so that the machine does not pass through it exactly."
+        )
+    return message, (
+        "Does a force or a law jump here, or grow without bounds? Give it a smooth passage of finite length. A very stiff force asks for "
+        "`integrator: gear` with `corrector: {iteration: newton}`. A larger `tolerance` may also help, or an integrator of fixed step."
+    )
 
 
 def _singular(motion: MotionEquations, number: int, time: float, step: float, y: Array) -> tuple[str, str]:

@@ -102,7 +102,7 @@ _SIMULATION: Final[dict[str, Any]] = {
     "output_interval": output_interval_option,
     **{setting: method_option(setting) for setting in METHODS},
     "tolerance": click.option(
-        "--tolerance", metavar="NUMBER", help="Error of a step, relative, of integrators that choose their steps."
+        "--tolerance", metavar="NUMBER", help="Of the motion, relative: for integrators that choose their steps."
     ),
     "largest_step": largest_step_option,
     "cut": cut_option,

@@ -26,7 +26,11 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 @allow_code_option
 @click.option("--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here.")
 @click.option("--force", is_flag=True, help="Replace an existing result.")
-@click.option("--verify", is_flag=True, help="Run again with half the step and estimate the accuracy.")
+@click.option(
+    "--verify",
+    is_flag=True,
+    help="Run again with half the step, or a tenth of the tolerance, and estimate the accuracy.",
+)
 @click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
 @quiet_option
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")

@@ -227,7 +227,7 @@ def _control(rows: int) -> Control:
         energy=np.zeros(3),
         power=np.zeros(2),
         stored=np.zeros(1),
-        stick=np.full(1, STICK),
+        stick=np.array([STICK, 0.0]),
         failure=np.zeros(1, dtype=np.uint32),
     )
 

@@ -93,7 +93,7 @@ def test_every_row_and_every_number_is_there():
         assert part in text
     assert "failed : stopped at t = 0.2 s" in text
     assert "≲ 1.0e-12" in text  # not to be told from the error of the reference
-    assert "error ≤ 1e-6 newton-euler · none, 1 ms: 10 ms" in text
+    assert "error ≤ 1e-6 newton-euler · none, 1 ms: 10 ms" in text  # no-break spaces are spaces to `words`
     assert "Furthest apart of 2 methods, each at its finest: none and direct." in text
 
 

@@ -127,6 +127,14 @@ def test_the_spread_is_the_largest_distance_between_the_finest(compared):
     assert max(finest.values()) - min(finest.values()) <= compared.spread.distance <= sum(largest) + 1e-12
 
 
+def test_methods_that_have_not_converged_are_left_out_of_the_spread():
+    """Errors of cos(2π t) after 1 s, in a machine of 1 m: 2π² h for euler, (2π)³ h²/6 for heun."""
+    comparison = oscillator().compare(integrators=["euler", "heun", "rk4"], steps=[0.004, 0.002], repeat=1)
+    assert (comparison.spread.methods, comparison.spread.left_out) == (2, 1)
+    assert {comparison.spread.first, comparison.spread.second} == {"heun", "rk4"}
+    assert "1 method is left out" in str(comparison)
+
+
 def test_a_cell_that_fails_does_not_stop_the_others():
     """ω h = 10 is beyond the stability of rk4: the state grows 400-fold a step until it is no number."""
     comparison = oscillator(stiffness=1e4, duration=20).compare(steps=[0.1, 0.001], stabilisations="none", repeat=1)

@@ -239,3 +239,45 @@ def test_velocities_and_accelerations_are_derivatives_of_the_motion(name, rng):
         [-np.sum(omega * theta[:, 1:], axis=1), theta[:, :1] * omega + np.cross(omega, theta[:, 1:])]
     )
     np.testing.assert_allclose(got, expected, atol=1e-6 * (1 + np.abs(omega).max()))
+
+
+PENALISED = {
+    **LOOPS,
+    "bennett": machines.bennett,
+    "tree": MACHINES["tree"],
+    "every element": MACHINES["every element, coulomb"],
+    "rssr": MACHINES["rssr.yaml"],
+}
+
+
+def accelerations(machine, formulation, coordinates, **penalty):
+    """R̈ and α of all bodies at the start, as the formulation has them."""
+    simulation = machine.simulation.replace(formulation=formulation, coordinates=coordinates, penalty=penalty)
+    prepared = prepare(machine.replace(simulation=simulation), formulation, coordinates)
+    motion = prepared.motion
+    motion.system.record.control.stabilise[:] = 0.0
+    row = np.zeros(motion.system.layout.width)
+    assert motion.evaluate(0.0, prepared.start)[0] == OK
+    observe(motion.handle.address, 0.0, prepared.start, row)
+    columns = {variable.name: variable.columns for variable in motion.system.layout.variables}
+    return np.concatenate([row[columns["acceleration"]], row[columns["angular_acceleration"]]])
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("name", PENALISED)
+def test_penalties_come_near_as_they_grow_and_augmented_lagrangian_arrives(name, coordinates):
+    """Accelerations of M v̇ + C_qᵀ α (C_q v̇ - γ) = Q: what is left of C̈ is λ/α, so the error falls as 1/α; iterated, it goes. Redundant
+    machines too."""
+    machine = PENALISED[name]()
+    exact = accelerations(machine, "newton-euler", "absolute")
+    scale = 1 + np.abs(exact).max()
+
+    def error(formulation, **penalty):
+        return np.abs(accelerations(machine, formulation, coordinates, **penalty) - exact).max() / scale
+
+    assert error("augmented-lagrangian") < 1e-8
+    assert error("penalty") < 1e-6
+    coarse, fine = error("penalty", factor=1e4), error("penalty", factor=1e5)
+    assert coarse < 1e-2
+    if coarse > 1e-12:  # a tree has no rows left
+        assert coarse / fine == pytest.approx(10.0, rel=0.05)

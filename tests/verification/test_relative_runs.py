@@ -84,7 +84,7 @@ def test_every_joint_may_be_cut(name):
 @pytest.mark.parametrize("name", ["four-bar of revolutes", "bennett"])
 def test_every_joint_of_a_redundant_loop_may_be_cut(name):
     """Rows too many: the loop loses three (planar) or three (Bennett, 1903) wherever it is cut, the motion does not show it."""
-    machine = machines.four_bar("revolute", "revolute") if name != "bennett" else bennett()
+    machine = machines.four_bar("revolute", "revolute") if name != "bennett" else machines.bennett()
     settings = {"duration": 0.2, "step": 1e-3, "output_interval": 0.02}
     expected = run(machine, coordinates="absolute", **settings)
     assert len(expected.prepared.redundancy.redundant_rows) == 3
@@ -96,11 +96,6 @@ def test_every_joint_of_a_redundant_loop_may_be_cut(name):
         same_motion(expected, r, 1e-8)
 
 
-def bennett():
-    """Bennett's linkage (1903) of equal links 1 with twists ±τ, all four hinges given, the first turning."""
-    raise NotImplementedError
-
-
 @pytest.mark.parametrize("formulation", ["newton-euler", "penalty", "augmented-lagrangian"])
 @pytest.mark.parametrize("stabilisation", ["none", "baumgarte", "direct", "geometric"])
 @pytest.mark.parametrize("redundant", [False, True])
@@ -110,6 +105,9 @@ def test_all_methods_make_the_same_motion(formulation, stabilisation, redundant)
     machine = machines.four_bar("revolute", "revolute") if redundant else machines.slider_crank()
     settings = {"duration": 0.3, "step": 5e-4, "output_interval": 0.03}
     expected = run(machine, coordinates="absolute", **settings)
+    if stabilisation == "baumgarte":
+        # with coefficients of the order of 1/step stages off the constraints disturb the motion: order one
+        settings["baumgarte"] = {"alpha": 50.0, "beta": 50.0}
     r = run(machine, coordinates="relative", formulation=formulation, stabilisation=stabilisation, **settings)
     assert r.finished.outcome == "done"
     same_motion(expected, r, 1e-5 if formulation == "penalty" else 1e-7)

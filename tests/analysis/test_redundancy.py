@@ -2,11 +2,9 @@
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 import machines
 from nivel.analysis.dynamics import prepare
-from nivel.machine import Body, Joint, MachineRecord
 from running import run
 
 

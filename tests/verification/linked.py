@@ -53,7 +53,9 @@ def marked_joint(name, kind, first, second, rng, *, turned=False, half=False):
     names = ["ground" if first == "ground" else first.name, second.name]
     ends = [
         Marker(
-            body=body, position=tuple(place), orientation={"euler_parameters": frame.as_quat(scalar_first=True).tolist()}
+            body=body,
+            position=tuple(place),
+            orientation={"euler_parameters": frame.as_quat(scalar_first=True).tolist()},
         )
         for body, place, frame in zip(names, places, frames, strict=True)
     ]
@@ -87,7 +89,13 @@ def marked_tree(rng, *, free=False, branches=2):
         for kind in rng.permutation([*CARRIERS]):
             name = f"{kind}{k}"
             joint, at = marked_joint(
-                name, str(kind), at, random_body(f"b_{name}", rng), rng, turned=rng.random() < 0.5, half=rng.random() < 0.5
+                name,
+                str(kind),
+                at,
+                random_body(f"b_{name}", rng),
+                rng,
+                turned=rng.random() < 0.5,
+                half=rng.random() < 0.5,
             )
             bodies.append(at)
             joints.append(joint)
@@ -97,9 +105,14 @@ def marked_tree(rng, *, free=False, branches=2):
 def chain(count, kinds, *, ends="ground", point=(0.0, 0.0, 0.0), step=(0.3, 0.1, 0.0)):
     """`count` bars end to end from `point`, joints of `kinds` between them in turn; ends: on the "ground", or "free"."""
     bodies, joints = {}, {}
-    points = [np.array(point) + k * np.array(step) + 0.05 * np.array([0, math.sin(k), math.cos(2 * k)]) for k in range(count + 1)]
+    points = [
+        np.array(point) + k * np.array(step) + 0.05 * np.array([0, math.sin(k), math.cos(2 * k)])
+        for k in range(count + 1)
+    ]
     for k in range(count):
-        bodies[f"b{k}"] = solid(1.0 + 0.1 * k, (0.02, 0.03, 0.04), position=(points[k] + 0.4 * (points[k + 1] - points[k])).tolist())
+        bodies[f"b{k}"] = solid(
+            1.0 + 0.1 * k, (0.02, 0.03, 0.04), position=(points[k] + 0.4 * (points[k + 1] - points[k])).tolist()
+        )
         first = "ground" if k == 0 else f"b{k - 1}"
         if k > 0 or ends == "ground":
             joints[f"j{k}"] = placed(kinds[k % len(kinds)], first, f"b{k}", points[k], k)
@@ -141,9 +154,13 @@ def every_element(carried_friction="coulomb"):
     a driver, frictions of given and of their own load, bushing, contacts, springs, stop, motor, a point mass, sensors."""
     gravity = [1.0, -G, 2.0]
     bodies = {
-        "base": solid(4.0, (0.3, 0.4, 0.5), centre_of_mass=[0.05, 0.1, -0.02], orientation={"axis": [1, 2, 3], "angle": 0.7}),
+        "base": solid(
+            4.0, (0.3, 0.4, 0.5), centre_of_mass=[0.05, 0.1, -0.02], orientation={"axis": [1, 2, 3], "angle": 0.7}
+        ),
         "arm": solid(1.0, (0.02, 0.03, 0.035), position=[0.4, 0.1, 0.1], centre_of_mass=[0.1, 0, 0.05]),
-        "hand": solid(0.5, (0.01, 0.012, 0.015), position=[0.8, 0.1, 0.2], orientation={"axis": [0, 1, 1], "angle": -0.4}),
+        "hand": solid(
+            0.5, (0.01, 0.012, 0.015), position=[0.8, 0.1, 0.2], orientation={"axis": [0, 1, 1], "angle": -0.4}
+        ),
         "slider": solid(0.8, (0.02, 0.02, 0.03), position=[-0.4, 0.3, 0], centre_of_mass=[0, 0.05, 0]),
         "wheel": solid(0.6, (0.01, 0.01, 0.02), position=[-0.4, 0.5, 0.1]),
         "ball": {"shape": {"type": "sphere", "radius": 0.2}, "mass": 1.0, "position": [0.2, -0.81, 0.3]},
@@ -151,7 +168,12 @@ def every_element(carried_friction="coulomb"):
         "crate": {"shape": {"type": "box", "size": [0.2, 0.3, 0.4]}, "mass": 1.0, "position": [2.0, -0.86, 0.0]},
     }
     joints = {
-        "foot": {"type": "universal", "bodies": ["base", "ground"], "point": [0, -0.5, 0], "axes": [[1, 0, 0], [0, 0, 1]]},
+        "foot": {
+            "type": "universal",
+            "bodies": ["base", "ground"],
+            "point": [0, -0.5, 0],
+            "axes": [[1, 0, 0], [0, 0, 1]],
+        },
         "shoulder": hinge("arm", "base", (0.2, 0.1, 0.0)),
         "wrist": {"type": "cylindrical", "bodies": ["arm", "hand"], "point": [0.7, 0.1, 0.1], "axis": [1, 0.3, 0]},
         "guide": slide("base", "slider", (0.2, 1.0, 0.1), point=[-0.3, 0.3, 0]),
@@ -172,7 +194,7 @@ def every_element(carried_friction="coulomb"):
         "rail": {"type": "joint-spring-damper", "coordinate": "wrist.displacement", "stiffness": 90.0, "damping": 0.5},
         "stop": {"type": "stop", "coordinate": "wrist.angle", "lower": -0.01, "upper": 0.01, "stiffness": 50.0, "restitution": 0.5},
         "motor": {"type": "motor", "coordinate": "axle", "speed": 3.0, "gain": 0.2, "limit": 0.4},
-        "mount": {"type": "bushing", "markers": ["tip", "eye"], "stiffness": [4, 6, 8, 0.5, 0.8, 0.6], "damping": [1, 2, 1, 0.01, 0.02, 0.01]},
+        "mount": {"type": "bushing", "markers": ["tip", "eye"], "stiffness": [4, 6, 8, 0.5, 0.8, 0.6], "damping": [1, 2, 1, 0.1, 0.2, 0.1]},
         "cord": {"type": "spring-damper", "markers": ["tip", "floor"], "law": "50*(length - 0.3) + 0.5*rate"},
         "pull": {"type": "pair-force", "markers": ["eye", "tip"], "magnitude": "-3/length + 2*sin(4*time)"},
         "ground": {"type": "contact", "body": "ball", "plane": "floor", "stiffness": 1e4, "restitution": 0.5, "friction": 0.3,

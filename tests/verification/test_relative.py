@@ -227,8 +227,12 @@ def test_velocities_and_accelerations_are_derivatives_of_the_motion(name, rng):
     second = (later - earlier) / 2e-6
     ahead, behind = (frame(motion, own + k * s * rate + 0.5 * s**2 * second) for k in (1, -1))
     now = frame(motion, own)
-    for value, derivative in (("position", "velocity"), ("velocity", "acceleration"), ("angular_velocity", "angular_acceleration"),
-                              ("joint_coordinate", "joint_rate")):
+    for value, derivative in (
+        ("position", "velocity"),
+        ("velocity", "acceleration"),
+        ("angular_velocity", "angular_acceleration"),
+        ("joint_coordinate", "joint_rate"),
+    ):
         expected = now[layout[derivative]]
         got = (ahead[layout[value]] - behind[layout[value]]) / (2 * s)
         np.testing.assert_allclose(got, expected, atol=1e-6 * (1 + np.abs(expected).max(initial=0)), err_msg=derivative)

@@ -1,6 +1,5 @@
 """Runs in relative coordinates: what is conserved, what is at round-off, and that no choice of tree or method shows in the motion."""
 
-import json
 from itertools import pairwise
 
 import numpy as np
@@ -9,12 +8,9 @@ from scipy.spatial.transform import Rotation
 
 import linked
 import machines
-from nivel.errors import ModelError
-from nivel.files.reader import parse_machine
 from nivel.system.states.relative import tree_of
-from nivel.system.topology import CARRIERS
 from running import run
-from simulating import G, hinge, simulate, solid, wheel
+from simulating import G, simulate, wheel
 
 MOTION = ("position", "orientation", "velocity", "angular_velocity", "acceleration", "angular_acceleration")
 
@@ -157,7 +153,13 @@ def test_angles_are_counted_over_many_turns(kind):
         joint = {"type": kind, "bodies": ["ground", "w"], "point": [0, 0, 0], "axes": [[0, 0, 1], [1, 0, 0]],
                  "start_rates": {"angle_1": rate, "angle_2": 0.0}}  # fmt: skip
     else:
-        joint = {"type": kind, "bodies": ["ground", "w"], "point": [0, 0, 0], "axis": [0, 0, 1], "start_rates": {"angle": rate}}
+        joint = {
+            "type": kind,
+            "bodies": ["ground", "w"],
+            "point": [0, 0, 0],
+            "axis": [0, 0, 1],
+            "start_rates": {"angle": rate},
+        }
     if kind == "screw":
         joint["pitch"] = 0.01
     sections = {"bodies": {"w": wheel(0.2)}, "joints": {"j": joint}}
@@ -182,7 +184,9 @@ def test_machine_with_every_element_runs_as_in_absolute_coordinates(model):
     settings = {"duration": 0.1, "step": 1e-4, "output_interval": 0.01}
     a, b = (run(machine, coordinates=c, **settings) for c in ("absolute", "relative"))
     assert a.finished.outcome == b.finished.outcome == "done"
-    same_motion(a, b, 1e-7, (*MOTION, "joint_force", "external_work", "dissipated_energy", "potential_energy", "energy_error"))
+    same_motion(
+        a, b, 1e-7, (*MOTION, "joint_force", "external_work", "dissipated_energy", "potential_energy", "energy_error")
+    )
 
 
 def test_a_pendulum_of_200_links_is_the_one_of_absolute_coordinates():

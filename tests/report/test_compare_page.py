@@ -150,8 +150,8 @@ const column = (k) => [...document.querySelectorAll(".cells tbody tr")].map((row
 const button = document.querySelectorAll(".cells thead button")[8];
 button.click(); const rising = column(8); button.click(); const falling = column(8);
 const entry = document.querySelectorAll(".legend button")[1];
-entry.focus(); const chosen = document.querySelectorAll(".precision.one .chosen").length;
-entry.blur();
+entry.dispatchEvent(new Event("focus")); const chosen = document.querySelectorAll(".precision.one .chosen").length;
+entry.dispatchEvent(new Event("blur"));
 const shown = [...document.querySelectorAll(".precision")].map((svg) => svg.getBoundingClientRect().width > 0);
 document.title = JSON.stringify({ rising, falling, chosen, shown, left: document.querySelectorAll(".precision.one").length,
   wide: document.documentElement.scrollWidth - document.documentElement.clientWidth });

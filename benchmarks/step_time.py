@@ -1,4 +1,4 @@
-"""Time of one step and energy error of the two report machines, for each formulation and stabilisation, beside Exudyn.
+"""Time of one step and energy error of the two report machines, for coordinates, formulations and stabilisations, beside Exudyn.
 
     python benchmarks/step_time.py [--peer PYTHON] [--runs 7] [--step 1e-3] [--json FILE]
 
@@ -30,8 +30,13 @@ sys.path.insert(0, str(ROOT / "tests" / "verification"))
 from references import four_bar, slider_crank  # noqa: E402
 
 DURATIONS = {"slider-crank": 8.0, "four-bar": 4.0}
-FORMULATIONS = ("newton-euler", "lagrange")
-STABILISATIONS = ("none", "baumgarte", "direct")
+# coordinates, formulation, stabilisations
+METHODS = (
+    ("relative", "newton-euler", ("none", "direct")),
+    ("absolute", "newton-euler", ("none", "baumgarte", "direct")),
+    ("absolute", "lagrange", ("none", "baumgarte", "direct")),
+    ("independent", "newton-euler", ("none",)),
+)
 PEER_SOLVERS = ("generalised-alpha", "trapezoidal")
 
 
@@ -55,13 +60,14 @@ class Row:
 class OwnRun:
     """A combination of nivel's options on one machine."""
 
-    def __init__(self, name: str, formulation: str, stabilisation: str, step: float) -> None:
-        self.row = Row(name, "nivel", f"rk4 {formulation}", stabilisation)
+    def __init__(self, name: str, coordinates: str, formulation: str, stabilisation: str, step: float) -> None:
+        self.row = Row(name, "nivel", f"{coordinates}, {formulation}", stabilisation)
         self._machine = nivel.load(ROOT / "examples" / f"{name}.yaml")
         self._options = {
             "duration": DURATIONS[name],
             "step": step,
             "integrator": "rk4",
+            "coordinates": coordinates,
             "formulation": formulation,
             "stabilisation": stabilisation,
         }
@@ -113,16 +119,16 @@ def _reference_position(name: str, times: np.ndarray, position: np.ndarray) -> n
 
 def runs(peer: str | None, step: float) -> Iterator[OwnRun | PeerRun]:
     for name in DURATIONS:
-        for formulation in FORMULATIONS:
-            for stabilisation in STABILISATIONS:
-                yield OwnRun(name, formulation, stabilisation, step)
+        for coordinates, formulation, stabilisations in METHODS:
+            for stabilisation in stabilisations:
+                yield OwnRun(name, coordinates, formulation, stabilisation, step)
         for solver in PEER_SOLVERS if peer else ():
             yield PeerRun(peer, name, solver, step)
 
 
 def show(rows: list[Row], step: float, console: Console) -> None:
     """One table; ratios against the faster Exudyn solver and against the more accurate one, of the same machine."""
-    table = Table(title=f"step {step:g} s; ratio > 1: nivel is better", title_justify="left")
+    table = Table(title=f"RK4, step {step:g} s; ratio > 1: nivel is better", title_justify="left")
     for heading in ("machine", "program", "method", "stabilisation"):
         table.add_column(heading)
     for heading in ("µs/step", "range", "energy error / max T", "position error, m", "time ratio", "energy ratio"):

@@ -10,21 +10,20 @@ That all programs integrate the same machine is seen from the last bar's place a
 """
 
 import argparse
-import json
 import math
 import statistics
-import subprocess
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from chain_data import CHECK_STEPS, GRAVITY, INERTIA, LENGTH, MASS, STEP, timed_steps
 from rich.console import Console
 from rich.table import Table
 
 import nivel
+from chain_data import CHECK_STEPS, GRAVITY, INERTIA, LENGTH, MASS, STEP, timed_steps
 from nivel import Body, Joint, MachineRecord
+from step_time import call_peer
 
 PEERS = Path(__file__).resolve().parent / "peers"
 PEER_PROGRAMS, LONGEST_OF_PEERS = ("mujoco", "pinocchio", "exudyn"), 256
@@ -91,17 +90,11 @@ class PeerChain(Chain):
     def prepare(self, python: str) -> None:
         script = PEERS / f"{self.program}_chain.py"
         self._command = [python, str(script), "--links", str(self.links), "--runs", "1"]
-        found = self._call()
+        found = call_peer(self._command)
         self.energy_error, self.last_position = found["energy_error"], tuple(found["last_position"])
 
     def measure(self) -> None:
-        self.take(self._call("--no-check")["times"])
-
-    def _call(self, *more: str) -> dict:
-        done = subprocess.run([*self._command, *more], capture_output=True, text=True, check=False)
-        if done.returncode:
-            raise SystemExit(f"{' '.join(self._command)} failed:\n{done.stderr[-2000:]}")
-        return json.loads(done.stdout)
+        self.take(call_peer([*self._command, "--no-check"])["times"])
 
 
 def chains(options: argparse.Namespace) -> Iterator[OwnChain | PeerChain]:
@@ -142,7 +135,7 @@ def show(found: list[Chain], title: str) -> None:
                 f"{each.energy_error:.1e}",
                 f"{math.dist(each.last_position, own.last_position):.0e}",
             )
-    Console(width=150).print(table)
+    Console(width=170).print(table)
 
 
 def main() -> None:

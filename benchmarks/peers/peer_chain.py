@@ -32,7 +32,10 @@ def process_microseconds(work: Callable[[], object], times: int) -> float:
 
 
 def main(
-    program: str, version: str, measure: Callable[[int, int, int], dict[str, list[float]]], check: Callable[[int], Check]
+    program: str,
+    version: str,
+    measure: Callable[[int, int, int], dict[str, list[float]]],
+    check: Callable[[int], Check],
 ) -> None:
     """Print one JSON line. measure: links, steps, runs → times. check: links → Check."""
     parser = argparse.ArgumentParser(description=f"open chain of bars in {program}: one JSON line")

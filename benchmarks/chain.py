@@ -51,7 +51,10 @@ def main() -> None:
     parser.add_argument("--step", type=float, default=1e-3, help="step [s]")
     parser.add_argument("--runs", type=int, default=5, help="timed runs (median)")
     options = parser.parse_args()
-    table = Table(title=f"{options.coordinates}, {options.formulation}, stabilisation {options.stabilisation}", title_justify="left")
+    table = Table(
+        title=f"{options.coordinates}, {options.formulation}, stabilisation {options.stabilisation}",
+        title_justify="left",
+    )
     for heading in ("links", "µs/step", "µs/link and step", "energy error / max T"):
         table.add_column(heading, justify="right")
     for links in options.links:

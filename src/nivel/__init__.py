@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from nivel.machine import Table as Table
     from nivel.machine import Torque as Torque
     from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
+    from nivel.results.comparison import Comparison as Comparison
     from nivel.results.result import Result as Result
 
 _HOME = {
@@ -86,6 +87,7 @@ _HOME = {
     "Table": "nivel.machine",
     "Torque": "nivel.machine",
     "TorsionalSpringDamper": "nivel.machine",
+    "Comparison": "nivel.results.comparison",
     "Result": "nivel.results.result",
 }
 
@@ -95,6 +97,7 @@ __all__ = [
     "Belt",
     "Body",
     "Bushing",
+    "Comparison",
     "Contact",
     "Driver",
     "Expression",

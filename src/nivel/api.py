@@ -10,8 +10,11 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from nivel.analysis.changes import changed
 from nivel.analysis.choice import choose_coordinates
+from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import compile_path
+from nivel.analysis.idle import refuse_idle
 from nivel.analysis.listener import Listener
 from nivel.errors import ModelError
 from nivel.files.reader import locate, parse_machine, read_text
@@ -31,6 +34,7 @@ from nivel.machine import (
 
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
+    from nivel.results.comparison import Comparison
     from nivel.results.result import Result
 
 
@@ -78,14 +82,18 @@ class Machine:
         )
         self.source = ""
         self.file = ""
+        self.asked: frozenset[str] = frozenset()
 
     @classmethod
-    def from_record(cls, record: MachineRecord, source: str = "", file: str = "") -> Machine:
-        """Wrap a record; `source` is the text of the `file` it came from."""
+    def from_record(
+        cls, record: MachineRecord, source: str = "", file: str = "", asked: frozenset[str] = frozenset()
+    ) -> Machine:
+        """Wrap a record; `source` is the text of the `file` it came from, `asked` the simulation settings set from outside of it."""
         machine = cls.__new__(cls)
         machine.record = record
         machine.source = source
         machine.file = file
+        machine.asked = asked
         return machine
 
     @property
@@ -112,7 +120,14 @@ class Machine:
         integrator: str | None = None,
         formulation: str | None = None,
         coordinates: str | None = None,
+        rotations: str | None = None,
         stabilisation: str | None = None,
+        tolerance: float | str | None = None,
+        largest_step: float | str | None = None,
+        cut: Sequence[str] | None = None,
+        corrector: Mapping[str, Any] | None = None,
+        penalty: Mapping[str, Any] | None = None,
+        baumgarte: Mapping[str, Any] | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         verify: bool = False,
@@ -120,8 +135,11 @@ class Machine:
     ) -> Result:
         """Motion in time. Options given here go before those of the machine's `simulation`.
 
-        duration, step, output_interval : [s], or texts with units. out : result file (NetCDF); in memory if None. force : replace an
-        existing file. verify : estimate the accuracy with a second run at half the step.
+        duration, step, output_interval, largest_step : [s], or texts with units. tolerance : of integrators that choose their steps.
+        cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte : mappings as in a machine file.
+        out : result file (NetCDF); in memory if None. force : replace an existing file. verify : estimate the accuracy with a second
+        run, at half the step or a tenth of the tolerance. A setting given here that has no effect with the methods of the run is
+        refused; in a file it rests.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
         given = {
@@ -131,10 +149,19 @@ class Machine:
             "integrator": integrator,
             "formulation": formulation,
             "coordinates": coordinates,
+            "rotations": rotations,
             "stabilisation": stabilisation,
+            "tolerance": tolerance,
+            "largest_step": largest_step,
+            "cut": cut,
+            "corrector": corrector,
+            "penalty": penalty,
+            "baumgarte": baumgarte,
         }
-        chosen = self.with_settings({key: value for key, value in given.items() if value is not None})
+        given = {key: value for key, value in given.items() if value is not None}
+        chosen = self.with_settings(given)
         settings = chosen.record.simulation
+        refuse_idle({*given, *self.asked}, settings, choose_coordinates(chosen.record))
         compile_seconds = compile_path(
             chosen.record,
             (choose_coordinates(chosen.record), settings.formulation, settings.rotations),
@@ -159,6 +186,53 @@ class Machine:
                 compile_seconds=compile_seconds,
             )
 
+    def compare(
+        self,
+        *,
+        integrators: Sequence[str] | str = (),
+        formulations: Sequence[str] | str = (),
+        coordinates: Sequence[str] | str = (),
+        rotations: Sequence[str] | str = (),
+        stabilisations: Sequence[str] | str = (),
+        steps: Sequence[float | str] | float | str = (),
+        tolerances: Sequence[float | str] | float | str = (),
+        duration: float | str | None = None,
+        output_interval: float | str | None = None,
+        largest_step: float | str | None = None,
+        cut: Sequence[str] | None = None,
+        repeat: int = 3,
+        listener: Listener | None = None,
+    ) -> Comparison:
+        """Run all combinations of the given words; an axis that is not given has the machine's own setting.
+
+        steps [s] : of integrators with a fixed one; tolerances : of the others. duration, output_interval, largest_step [s], cut : of
+        all runs. repeat : every cell runs so often, its time is the least. Times are numbers in seconds, or texts with units.
+        A cell that fails or has no meaning is told in its row. Interrupted, it returns what was computed.
+        Raises ModelError where words are not known, or the machine cannot be run at all.
+        """
+        if repeat < 1:
+            raise ModelError(f"`repeat` is at least 1, got {repeat}")
+        words: dict[str, Any] = {
+            "integrators": integrators,
+            "formulations": formulations,
+            "coordinates": coordinates,
+            "rotations": rotations,
+            "stabilisations": stabilisations,
+            "steps": steps,
+            "tolerances": tolerances,
+        }
+        axes = Axes(**words)
+        common = {"duration": duration, "output_interval": output_interval, "largest_step": largest_step, "cut": cut}
+        given = {name: value for name, value in common.items() if value is not None}
+        chosen = self.with_settings(given)
+        grid = lay_out(chosen.record, axes, given)
+        compile_grid(chosen.record, grid, listener or Listener())
+        # after the kernels: what follows imports them
+        from nivel.analysis.compare import compare
+
+        with self._faults_in_file():
+            return compare(chosen.record, grid, repeat=repeat, listener=listener)
+
     @contextmanager
     def _faults_in_file(self) -> Iterator[None]:
         """Faults that the assembly finds get the line of the element in the machine's file."""
@@ -178,12 +252,8 @@ class Machine:
         """The same machine with some simulation settings replaced."""
         if not settings:
             return self
-        old = self.record.simulation
-        changes = dict(settings)
-        # own Baumgarte coefficients belong to the stabilisation they were given with
-        if changes.get("stabilisation", "baumgarte") != "baumgarte" and old.baumgarte is not None:
-            changes["baumgarte"] = None
-        return Machine.from_record(self.record.replace(simulation=old.replace(**changes)), self.source, self.file)
+        record = self.record.replace(simulation=changed(self.record.simulation, settings))
+        return Machine.from_record(record, self.source, self.file, self.asked)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the machine as a YAML file."""
@@ -224,7 +294,9 @@ def load(path: str | PathLike[str], overrides: Mapping[str, str] | None = None, 
     """
     text, file = read_text(fspath(path)), fspath(path)
     record = parse_machine(text, file, overrides=dict(overrides or {}), allow_code=allow_code)
-    return Machine.from_record(record, text, file)
+    steps = [[step.strip() for step in path.split(".")] for path in overrides or ()]
+    asked = frozenset(path[1] for path in steps if path[0] == "simulation" and len(path) > 1)
+    return Machine.from_record(record, text, file, asked)
 
 
 def _place(source: str, path: str) -> dict[str, int]:

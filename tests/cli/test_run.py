@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -12,6 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from nivel.cli import main
+from nivel.machine.settings import known_words
 from nivel.results import Result
 
 PENDULUM = """\
@@ -140,7 +142,17 @@ def test_forces_beyond_all_bounds_give_no_warnings(folder):
         (["--step", "3 kg"], ["step", "time"]),
         (["--step", "-1"], ["step"]),
         (["--integrator", "rk5"], ["rk5", "rk4"]),
+        (["--integrator", "nonsense"], ["rk4", "dopri5", "gear"]),
         (["--formulation", "lagrang"], ["lagrang", "lagrange"]),
+        (["--rotations", "euler"], ["euler-angles", "rotation-vector"]),
+        (["--rotations", "euler-angles"], ["rotations", "formulation: lagrange"]),
+        (["--tolerance", "small"], ["tolerance", "a number was expected, got `small`"]),
+        (["--tolerance", "2"], ["tolerance", "less than 1 was expected, got `2`"]),
+        (["--tolerance", "1e-8"], ["`tolerance` has no effect", "`integrator: rk4` is fixed"]),
+        (["--largest-step", "1 ms"], ["`largest_step` has no effect", "`integrator: rk4` is fixed"]),
+        (["--cut", "hinge"], ["`cut` has no effect", "coordinates: relative"]),
+        (["--set", "simulation.penalty.omega=10"], ["`penalty` has no effect", "augmented-lagrangian"]),
+        (["--set", "simulation.corrector.iteration=newton"], ["`corrector` has no effect", "rk4"]),
         (["--output-interval", "1.5 ms"], ["output_interval", "multiple of the step"]),
         (["--set", "bodies.bra.mass=2"], ["bra", "bar"]),
         (["--set", "nonsense"], ["PATH=VALUE"]),
@@ -155,6 +167,30 @@ def test_wrong_options_end_with_code_two_and_say_what_would_be_right(folder, arg
     for word in words:
         assert word in done.stderr
     assert not (folder / "pendulum.nc").exists()
+
+
+def test_settings_of_other_methods_may_rest_in_the_file(folder):
+    text = PENDULUM.replace(
+        "step: 1 ms", "step: 1 ms, tolerance: 1e-9, largest_step: 1 ms, penalty: {omega: 10}, cut: [hinge]"
+    )
+    (folder / "pendulum.yaml").write_text(text)
+    done = nivel(folder, "run", "pendulum.yaml", "--no-report", "--coordinates", "absolute")
+    assert done.returncode == 0, done.stderr
+    assert "tolerance" not in Result.open(folder / "pendulum.nc").settings
+
+
+def test_another_formulation_leaves_the_rotation_coordinates_of_lagrange_behind(folder):
+    text = PENDULUM.replace("step: 1 ms", "step: 1 ms, formulation: lagrange, rotations: euler-angles")
+    (folder / "pendulum.yaml").write_text(text)
+    done = nivel(folder, "run", "pendulum.yaml", "--no-report", "--formulation", "newton-euler")
+    assert done.returncode == 0, done.stderr
+
+
+def test_help_lists_every_word_of_every_method(folder):
+    shown = " ".join(nivel(folder, "run", "--help").stdout.split())
+    for setting in ("integrator", "formulation", "coordinates", "rotations", "stabilisation"):
+        for word in known_words(setting):
+            assert re.search(rf"[ :]{word}[,.]", shown), word
 
 
 def test_faults_of_the_assembly_have_their_line(folder):

@@ -5,13 +5,13 @@ import pytest
 
 import machines
 from nivel.analysis.dynamics import prepare
-from nivel.errors import ModelError, SolveError
+from nivel.errors import ModelError
 from nivel.machine import MachineRecord
 from nivel.machine.settings import Baumgarte
 from references import slider_crank as slider_crank_reference
 from running import run
+from simulating import hinge, simulate, slopes, solid, wheel
 from simulating import machine as machine_of
-from simulating import simulate, slopes, solid
 
 KINDS = ["euler-angles", "rotation-vector"]
 EACH_KIND = pytest.mark.parametrize("rotations", KINDS)
@@ -25,8 +25,6 @@ MACHINES = {
     **{kind: (lambda rng, kind=kind: machines.pair(kind, rng)) for kind in machines.KINDS},
 }
 EACH_MACHINE = pytest.mark.parametrize("name", MACHINES)
-# a rotation coordinate near the singular position: `SINGULAR` of nivel.motion.lagrange_three
-NEAREST = 0.05
 
 
 def prepared_for(machine, rotations):
@@ -197,65 +195,6 @@ def test_rk4_is_of_order_four(rotations, stabilisation):
     assert errors[-1] < 1e-8
 
 
-def test_angles_turn_for_ever_where_the_axis_of_the_turn_stays():
-    """The crank makes more than ten turns in 8 s; the hinge's axis is its third, so it stays as far from the singular position."""
-    result = run(
-        machines.slider_crank(), step=1e-3, output_interval=0.05, formulation="lagrange", rotations="euler-angles"
-    )
-    assert result.finished.outcome == "done"
-    assert np.abs(result.joint_coordinate[-1, 0]) > 20 * np.pi
-    expected = slider_crank_reference.solve(result.time)
-    assert np.abs(result.position - expected.position).max() < 1e-6
-    assert np.abs(result.energy_error).max() < 1e-6 * result.kinetic_energy.max()
-    regularity = result.prepared.motion.system.record.rotations.regularity
-    assert abs(regularity[0] - 1.0) < 1e-10
-
-
-def test_a_rotation_vector_stops_the_crank_before_a_full_turn():
-    """sin(ψ/2)/(ψ/2) = 0.05 at ψ = 5.982 rad; the frames up to there are those of Euler parameters."""
-    settings = {"step": 1e-3, "output_interval": 0.01, "formulation": "lagrange"}
-    result = run(machines.slider_crank(), rotations="rotation-vector", **settings)
-    assert result.finished.outcome == "failed"
-    message, advice, time = result.finished.failure
-    assert "rotation coordinates of crank" in message
-    assert "euler-parameters" in advice
-    expected = run(machines.slider_crank(), **settings)
-    np.testing.assert_allclose(result.position, expected.position[: len(result.time)], atol=1e-7)
-    angle = np.abs(np.interp(time, expected.time, expected.joint_coordinate[:, 0]) - expected.joint_coordinate[0, 0])
-    half = angle / 2
-    assert np.sin(half) / half == pytest.approx(NEAREST, abs=0.01)
-
-
-@pytest.mark.parametrize(
-    ("rotations", "angle"),
-    [
-        # from φ₂ = π/2 to sin φ₂ = 0.05
-        ("euler-angles", np.pi / 2 - np.arcsin(NEAREST)),
-        # sin(ψ/2) = 0.05 ψ/2
-        ("rotation-vector", 5.981960),
-    ],
-)
-def test_a_tumbling_body_stops_before_the_singular_position_and_keeps_its_result(rotations, angle):
-    """At rest and free, turned about x by a constant torque T: t = √(2 J angle/T). The third axis is z, the first y."""
-    J, T = 0.5, 2.0
-    sections = {
-        "gravity": [0, 0, 0],
-        "bodies": {"rock": solid(inertia=(J, 0.7, 0.9)), "still": solid(position=[1, 0, 0])},
-        "forces": {"twist": {"type": "torque", "body": "rock", "vector": [T, 0, 0]}},
-    }
-    with pytest.raises(SolveError, match="rotation coordinates of rock come to a singular position") as caught:
-        simulate(sections, duration=4.0, step=1e-3, output_interval=0.01, formulation="lagrange", rotations=rotations)
-    failure = caught.value
-    stopped = np.sqrt(2 * J * angle / T)
-    assert stopped - 1.1e-3 <= failure.time <= stopped
-    assert "--rotations euler-parameters" in failure.advice
-    result = failure.result
-    assert result.outcome == "failed"
-    t = result.time
-    assert t[-1] == pytest.approx(failure.time, abs=0.01)
-    np.testing.assert_allclose(result.array("angular_velocity")[:, 0, 0], T * t / J, atol=1e-9)
-
-
 @EACH_KIND
 def test_orientation_is_given_by_continuous_euler_parameters(rotations, rng):
     """Between frames θ changes by half the angle turned, never by a sign."""
@@ -292,6 +231,24 @@ def test_energy_error_is_of_order_four(rotations, rng):
     assert np.all(slopes(steps, errors) > 3.6), errors
 
 
+@EACH_KIND
+@pytest.mark.parametrize("integrator", ["rkn4", "abm4", "am4", "gear4"])
+def test_every_family_of_integrators_takes_them(rotations, integrator):
+    """The slider-crank at 1 ms; Gear's constant of order four is the largest."""
+    result = run(
+        machines.slider_crank(),
+        duration=1.2,
+        step=1e-3,
+        output_interval=0.05,
+        integrator=integrator,
+        formulation="lagrange",
+        rotations=rotations,
+    )
+    assert result.finished.outcome == "done"
+    expected = slider_crank_reference.solve(result.time)
+    assert np.abs(result.position - expected.position).max() < (1e-6 if integrator == "gear4" else 1e-7)
+
+
 def test_rotations_belong_to_the_lagrange_equations_in_absolute_coordinates():
     for formulation in ("newton-euler", "penalty"):
         sections = {
@@ -300,3 +257,42 @@ def test_rotations_belong_to_the_lagrange_equations_in_absolute_coordinates():
         }
         with pytest.raises(ModelError, match="rotation coordinates of `formulation: lagrange`"):
             machine_of(sections).simulate()
+
+
+@EACH_KIND
+def test_forces_that_depend_on_reactions_act_alike(rotations):
+    """A double pendulum with friction in its hinge and a spring at its tip: as with Euler parameters."""
+    sections = {
+        "bodies": {
+            "bob": wheel(0.1, position=[0.6, 0, 0]),
+            "tip": solid(position=[1.0, 0, 0]),
+        },
+        "joints": {
+            "base": hinge("ground", "bob"),
+            "elbow": {"type": "spherical", "bodies": ["bob", "tip"], "point": [0.8, 0, 0]},
+        },
+        "gravity": [0, -9.81, 0],
+        "forces": {
+            "rub": {
+                "type": "friction",
+                "model": "coulomb",
+                "transition_speed": 0.1,
+                "coordinate": "base.angle",
+                "coefficient": 0.1,
+                "radius": 0.05,
+            },
+            "coil": {
+                "type": "spring-damper",
+                "points": [[0, 0.5, 0], [1.0, 0, 0]],
+                "bodies": ["ground", "tip"],
+                "stiffness": 50,
+                "damping": 1,
+                "free_length": 0.5,
+            },
+        },
+    }
+    settings = {"duration": 0.4, "step": 1e-3, "output_interval": 0.02, "formulation": "lagrange"}
+    expected, found = simulate(sections, **settings), simulate(sections, rotations=rotations, **settings)
+    for name in ("position", "joint_force", "dissipated_energy", "force.rub.magnitude"):
+        a, b = found.array(name), expected.array(name)
+        np.testing.assert_allclose(a, b, atol=1e-7 * (1 + np.abs(b).max()), err_msg=name)

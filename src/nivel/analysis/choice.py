@@ -1,11 +1,87 @@
-"""What `coordinates: auto` means for a machine."""
+"""What `coordinates: auto` means for a machine: the ones in which an evaluation of its equations costs least.
+
+Counted are, in relative coordinates, the bodies of the tree and the rows that are left with the joint velocities on their way to the
+ground; in absolute ones the rows with the bodies that they touch; and in both the entries of S. Weights are nanoseconds, fitted to
+measured evaluations of the slider-crank, chains and pairs of bodies (`benchmarks/profile_step.py`).
+"""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
+
+from nivel.machine.coordinate_reference import resolve
 from nivel.machine.machine_record import MachineRecord
+
+# relative: a body, a row, a row and a joint velocity, an entry of S; absolute: a body, a row and a body, an entry of S
+TREE_BODY, TREE_ROW, TREE_BLOCK, TREE_ENTRY = 110.0, 40.0, 12.0, 2.0
+BODY, BLOCK, ENTRY = 60.0, 15.0, 4.0
 
 
 def choose_coordinates(machine: MachineRecord) -> str:
-    """The coordinates of a run of `machine`: its own, or for `auto` the fastest that fit its formulation."""
-    asked = machine.simulation.coordinates
-    return "absolute" if asked == "auto" else asked
+    """The coordinates of a run of `machine`: its own, or for `auto` the ones that cost least with its formulation."""
+    settings = machine.simulation
+    if settings.coordinates != "auto":
+        return settings.coordinates
+    if settings.formulation == "lagrange" or not machine.joints:
+        return "absolute"
+    return "relative" if _relative_cost(machine) < _absolute_cost(machine) else "absolute"
+
+
+def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:
+    """Owner, number of rows and bodies of every joint, coupling and driver."""
+    from nivel.system.joints import JOINTS
+    from nivel.system.states.relative import bodies_of
+
+    bodies = {joint.name: set(bodies_of(machine, joint)) for joint in machine.joints}
+    rows = [(joint.name, len(JOINTS[joint.type].rows), bodies[joint.name]) for joint in machine.joints]
+    for coupling in machine.couplings:
+        named = [resolve(reference, machine.joints)[0] for reference, _ in coupling.terms]
+        rows.append((coupling.name, 1, set().union(*(bodies[name] for name in named))))
+    for driver in machine.drivers:
+        touched: set[str] = set()
+        if driver.coordinate is not None:
+            touched = bodies[resolve(driver.coordinate, machine.joints)[0]]
+        rows.append((driver.name, 1, touched))
+    return [(owner, count, touched - {"ground"}) for owner, count, touched in rows]
+
+
+def _entries(places: Iterable[tuple[int, Iterable[object]]]) -> int:
+    """Entries of S: pairs of rows that share a place."""
+    shared: Counter[object] = Counter()
+    for count, where in places:
+        for place in where:
+            shared[place] += count
+    return sum(count * (count + 1) // 2 for count in shared.values())
+
+
+def _absolute_cost(machine: MachineRecord) -> float:
+    rows = _rows(machine)
+    blocks = sum(count * len(touched) for _, count, touched in rows)
+    entries = _entries((count, touched) for _, count, touched in rows)
+    return BODY * len(machine.bodies) + BLOCK * blocks + ENTRY * entries
+
+
+def _relative_cost(machine: MachineRecord) -> float:
+    from nivel.system.states.relative import KINDS, tree_of
+    from nivel.system.topology import FREE
+
+    tree = tree_of(machine, machine.simulation)
+    number = {body.name: k for k, body in enumerate(machine.bodies)}
+    branch_of = {branch.child: branch for branch in tree.branches}
+    carried = {machine.joints[branch.joint].name for branch in tree.branches if branch.joint != FREE}
+    cost, left = TREE_BODY * len(machine.bodies), []
+    for owner, count, touched in _rows(machine):
+        if owner in carried:
+            continue
+        columns: set[tuple[int, int]] = set()
+        for name in touched:
+            at = number[name]
+            while at in branch_of and (at, 0) not in columns:
+                branch = branch_of[at]
+                kind = "free" if branch.joint == FREE else machine.joints[branch.joint].type
+                columns |= {(at, k) for k in range(KINDS[kind][2])}
+                at = branch.parent
+        cost += count * (TREE_ROW + TREE_BLOCK * len(columns))
+        left.append((count, columns))
+    return cost + TREE_ENTRY * _entries(left)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nivel.errors import Fault
 from nivel.machine.settings import SimulationSettings
+from nivel.march.catalogue import INTEGRATORS
 from nivel.motion.catalogue import FORMULATIONS, PATHS, path_of
 
 
@@ -29,7 +30,7 @@ def refuse_combinations(settings: SimulationSettings, coordinates: str) -> list[
         faults.append(_fault("stabilisation", message))
     if coordinates == "independent":
         faults += _refuse_feedback(formulation, stabilisation)
-    return faults
+    return faults + _refuse_chosen_steps(settings)
 
 
 def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
@@ -42,6 +43,29 @@ def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
     if FORMULATIONS[formulation].factor > 0.0:
         message = f"'{formulation}' does not go with independent coordinates: {left}; take newton-euler"
         faults.append(_fault("formulation", message))
+    return faults
+
+
+def _refuse_chosen_steps(settings: SimulationSettings) -> list[Fault]:
+    """What needs a step of fixed size and gets an integrator that chooses its steps."""
+    faults = []
+    facts = INTEGRATORS.get(settings.integrator)
+    if facts is None or not facts.chooses_steps:
+        return faults
+    chooses = f"which depend on the step, and {settings.integrator} chooses its steps"
+    if settings.stabilisation == "baumgarte" and settings.baumgarte is None:
+        message = (
+            f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, {chooses}: take direct, or own coefficients "
+            f"`baumgarte: {{alpha: 20 1/s, beta: 20 1/s}}`"
+        )
+        faults.append(_fault("stabilisation", message))
+    penalised = FORMULATIONS[settings.formulation].factor > 0.0
+    if penalised and settings.stabilisation == "none" and settings.penalty.omega is None:
+        message = (
+            f"{settings.formulation} without `omega` takes Ω = 0.1/step, {chooses}: set `penalty: {{omega: 10 1/s}}`, or take "
+            f"`stabilisation: direct`, which needs no Ω"
+        )
+        faults.append(_fault("penalty", message))
     return faults
 
 

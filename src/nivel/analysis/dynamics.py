@@ -18,7 +18,12 @@ from nivel.analysis.listener import Progress
 from nivel.analysis.outcome import failure
 from nivel.analysis.penalties import feedback, penalise
 from nivel.analysis.redundancy import Redundancy, analyse
-from nivel.analysis.refusals import refuse_deep_starts, refuse_rough_motions, refuse_uncertain_loads
+from nivel.analysis.refusals import (
+    refuse_conserved_drivers,
+    refuse_deep_starts,
+    refuse_rough_motions,
+    refuse_uncertain_loads,
+)
 from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
@@ -100,6 +105,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby; start it a little aside"
         raise ModelError(Fault("", 0, 0, "machine", message))
     refuse_uncertain_loads(machine, redundancy)
+    refuse_conserved_drivers(machine)
     refuse_rough_motions(machine)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
     absolute = MotionEquations(motion.system.known_rank(rank), motion.kernels)
@@ -169,7 +175,9 @@ def march(
     if status not in (BUDGET_SPENT, BUFFER_FULL, DONE):
         finished.outcome = "failed"
         step_size = float(run.clock[STEP])
-        message, advice = failure(prepared.motion, status, float(run.clock[TIME]), step_size, run.previous)
+        message, advice = failure(
+            prepared.motion, status, float(run.clock[TIME]), step_size, run.previous, chosen=facts.chooses_steps
+        )
         finished.failure = (message, advice, float(run.clock[TIME]))
     finished.timing = {
         "steps": int(run.counter[DONE_STEPS]),
@@ -213,7 +221,9 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
     record.friction.force[:] = 0.0
-    record.control.stick[0] = STICK_STEPS * settings.step
+    # Where steps are chosen, the first one is still what the user calls a short time: stiction stops within two of them, and the error
+    # control makes steps as short as that takes. Bristles need no limit there.
+    record.control.stick[:] = STICK_STEPS * settings.step, 0.0 if facts.chooses_steps else STICK_STEPS * settings.step
     system.record.control.energy[:] = 0.0
     prepared.motion.evaluate(0.0, y)
     observe: Any = import_module("nivel.kernels.observe").observe
@@ -243,12 +253,18 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
 
 
 def _scales(system: System, y: Array, duration: float) -> Array:
-    """What errors of the entries of y are measured by, at least: the machine's length, a radian, these once in the run, its energy; the
-    deflections of bristles by that in which they slide.
+    """What errors of the entries of y are measured by, at least: the machine's length, a radian, these once in the run, its energy at
+    such a speed; the deflections of bristles by that in which they slide.
 
     The largest value that an entry has taken so far counts where it is larger.
     """
-    energy = max(abs(float(system.record.control.energy[0])), _weight_energy(system), 1e-300)
+    mass = float(system.record.bodies.mass.sum())
+    energies = (
+        float(system.record.control.energy[0]),
+        _weight_energy(system),
+        0.5 * mass * (system.size / duration) ** 2,
+    )
+    energy = max(*energies, 1e-300)
     floors = {"m": system.size, "1": 1.0, "m/s": system.size / duration, "1/s": 1.0 / duration}
     scale = np.array([floors.get(unit, 0.0) for unit in system.map.units])
     states = len(system.record.elements.state)

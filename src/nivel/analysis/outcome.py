@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.analysis.equations import MotionEquations
 from nivel.kernels.status import (
@@ -13,6 +14,7 @@ from nivel.kernels.status import (
     CONTRADICTION,
     FRICTION_DIVERGES,
     NOT_CONVERGED,
+    NOT_FINITE,
     ROTATION_SINGULAR,
     SINGULAR,
 )
@@ -24,8 +26,13 @@ NEAR_SINGULAR = 1e-6
 DRIFTED = 1e-2
 
 
-def failure(motion: MotionEquations, status: int, time: float, step: float, y: Array) -> tuple[str, str]:
-    """(message, advice) for a run that failed in the step from `time` [s], whose last accepted state is y."""
+def failure(
+    motion: MotionEquations, status: int, time: float, step: float, y: Array, *, chosen: bool = False
+) -> tuple[str, str]:
+    """(message, advice) for a run that failed in the step from `time` [s], whose last accepted state is y.
+
+    chosen : the integrator chose the step, and tried ever smaller ones.
+    """
     number = int(motion.system.record.control.failure[0])
     if status == CONTRADICTION:
         told = _contradiction(motion, number)
@@ -38,11 +45,34 @@ def failure(motion: MotionEquations, status: int, time: float, step: float, y: A
     else:
         # what is not a number spoils pivots as well, so look for it first
         told = _broken_function(motion, time, step, y)
-        if told is None and status == SINGULAR:
+        if told is None and chosen:
+            told = _no_step(motion, status, time, step, y)
+        elif told is None and status == SINGULAR:
             told = _singular(motion, number, time, step, y)
         elif told is None:
             told = (_not_converged if status == NOT_CONVERGED else _not_a_number)(motion, time, step, y)
     return f"stopped at t = {time:.6g} s: {told[0]}", told[1]
+
+
+def _no_step(motion: MotionEquations, status: int, time: float, step: float, y: Array) -> tuple[str, str]:
+    """Where an integrator that chooses its steps finds none that is small enough."""
+    motion.evaluate(time, y)
+    singular = status == SINGULAR or not _far_from_singular(motion)
+    reason = {
+        SINGULAR: "leads out of a singular position",
+        NOT_FINITE: "leads to a state of numbers",
+        NOT_CONVERGED: "lets the corrector converge",
+    }.get(status, "meets the tolerance")
+    message = f"no step from here, down to {step:.2g} s, {reason}; {_worst(motion)}"
+    if singular:
+        return message, (
+            "The machine is in or near a singular position, where constraints depend on each other: two links in line, or a loop folded "
+            "flat? Start the run elsewhere, or move a joint by a small amount so that the machine does not pass through it exactly."
+        )
+    return message, (
+        "Does a force or a law jump here, or grow without bounds? Give it a smooth passage of finite length. A very stiff force asks for "
+        "`integrator: gear` with `corrector: {iteration: newton}`. A larger `tolerance` may also help, or an integrator of fixed step."
+    )
 
 
 def _singular(motion: MotionEquations, number: int, time: float, step: float, y: Array) -> tuple[str, str]:
@@ -69,11 +99,11 @@ def _singular(motion: MotionEquations, number: int, time: float, step: float, y:
 
 def _contradiction(motion: MotionEquations, number: int) -> tuple[str, str]:
     system, constraints = motion.system, motion.system.record.constraints
-    J = motion.jacobian()
-    others = np.delete(np.arange(len(J)), number)
+    rows, J = _rows_in_use(motion)
+    its, others = J[rows == number][0], rows != number
     # the rows that row `number` is a combination of
-    share = np.linalg.lstsq(J[others].T, J[number], rcond=1e-10)[0] * np.linalg.norm(J[others], axis=1)
-    repeated = others[np.abs(share) > 1e-6 * np.linalg.norm(J[number])]
+    share = np.linalg.lstsq(J[others].T, its, rcond=1e-10)[0] * np.linalg.norm(J[others], axis=1)
+    repeated = rows[others][np.abs(share) > 1e-6 * np.linalg.norm(its)]
     owners = dict.fromkeys(system.row_owner[row] for row in repeated[::-1])  # drivers stand last
     message = (
         f"the constraint {system.rows[number]}, which repeated others at the start, contradicts them now "
@@ -84,6 +114,19 @@ def _contradiction(motion: MotionEquations, number: int) -> tuple[str, str]:
         "them. Without them it is drift: take --stabilisation direct."
     )
     return message, advice
+
+
+def _rows_in_use(motion: MotionEquations) -> tuple[NDArray[np.int64], Array]:
+    """Numbers (n,) of the constraint rows that the equations hold, and these rows of C_q in coordinates that do not change which of
+    them depend on each other."""
+    record, system = motion.system.record, motion.system
+    saddle, width = record.saddle, record.saddle.W.shape[1]
+    if not len(record.tree.node):
+        return np.arange(system.machine_rows), motion.jacobian()
+    block = saddle.block[: int(saddle.blocks[0])].astype(np.int64)
+    W = np.zeros((len(saddle.row), len(saddle.z), width))
+    np.add.at(W, (block[:, 0], block[:, 3]), saddle.W[: len(block)])
+    return saddle.row.astype(np.int64), W.reshape(len(W), -1)
 
 
 def _jammed(name: str) -> tuple[str, str]:
@@ -117,9 +160,7 @@ def _fast_bristles(motion: MotionEquations, number: int, step: float) -> tuple[s
 
 
 def _singular_rotation(body: str) -> tuple[str, str]:
-    message = (
-        f"the rotation coordinates of {body} come to a singular position, where they no longer tell its orientation"
-    )
+    message = f"the rotation coordinates of {body} come to a singular position, where they cannot follow its motion"
     advice = (
         "Three rotation coordinates are singular somewhere: Euler angles where the axes of the first and the third angle are parallel, "
         "a rotation vector at a full turn from the start. The motion goes on: take --rotations euler-parameters, which never are."

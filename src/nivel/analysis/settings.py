@@ -16,6 +16,8 @@ from nivel.motion.catalogue import FORMULATIONS
 FRAMES = 1000
 # More steps than this are a slip of the pen: at a microsecond each they take more than ten days.
 MOST_STEPS = 1e12
+# The round-off of some thousand steps; a verification runs with a tenth of the tolerance.
+LEAST_TOLERANCE = 1e-12
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,7 @@ class RunSettings:
         if self.formulation == "lagrange":
             out["rotations"] = self.rotations
         if self.tolerance is not None:
-            out["tolerance"] = self.tolerance
+            out["tolerance"], out["largest_step"] = self.tolerance, self.largest_step
         for name in ("corrector", "penalty"):
             if (given := getattr(self, name)) is not None:
                 out[name] = given.model_dump(exclude_none=True)
@@ -72,15 +74,20 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         word = getattr(settings, field)
         if word not in known:
             faults.append(_fault(field, f"'{word}' is not known; known are {', '.join(known)}"))
-    if not settings.duration <= MOST_STEPS * settings.step:
+    facts = INTEGRATORS.get(settings.integrator)
+    chooses = facts is not None and facts.chooses_steps
+    if not chooses and not settings.duration <= MOST_STEPS * settings.step:
         wanted = f"a duration of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
         faults.append(_fault("step", f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step"))
         raise ModelError(faults)
-    facts = INTEGRATORS.get(settings.integrator)
-    chooses = facts is not None and facts.chooses_steps
     steps, every = 0, 0
     if chooses:
         interval = settings.output_interval or settings.duration / FRAMES
+        if settings.duration > MOST_STEPS * interval:
+            faults.append(_fault("output_interval", f"{interval:.6g} s would give more than {MOST_STEPS:.0e} frames"))
+        if settings.tolerance < LEAST_TOLERANCE:
+            message = f"{settings.tolerance:.3g} is below {LEAST_TOLERANCE:.0e}, where round-off rules; ask for no less"
+            faults.append(_fault("tolerance", message))
     else:
         steps = max(1, ceil(settings.duration / settings.step * (1.0 - 1e-12)))
         every = _every(settings, steps, faults)

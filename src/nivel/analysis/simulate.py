@@ -7,7 +7,7 @@ import time
 from dataclasses import replace
 from os import PathLike
 
-import nivel
+from nivel.analysis.attributes import run_attributes
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.dynamics import Finished, Prepared, march, prepare
 from nivel.analysis.listener import Listener
@@ -16,12 +16,11 @@ from nivel.errors import SolveError
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.sink import Header
-from nivel.results.accuracy import step_halving
+from nivel.results.accuracy import error_from_finer
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
 from nivel.results.trust import Facts, Peak, assess
-from nivel.system.scene import scene
 
 
 def simulate(
@@ -37,7 +36,7 @@ def simulate(
     """Run `machine` with its own simulation settings; the result is in memory, or streamed to the file `out`.
 
     compile_seconds : what was spent on compiling before, for the result's timing.
-    verify : run again with half the step and estimate the accuracy from the difference.
+    verify : run again with half the step, or a tenth of the tolerance, and estimate the accuracy from the difference.
     Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails.
     """
     listener = listener or Listener()
@@ -46,21 +45,25 @@ def simulate(
     begin = time.perf_counter()
     listener.say("preparing")
     prepared = prepare(machine, settings.formulation, settings.coordinates)
-    sink.begin(Header(prepared.motion.system.layout, _attributes(machine, source, prepared, settings)))
+    sink.begin(Header(prepared.motion.system.layout, run_attributes(machine, source, prepared, settings)))
     prepare_seconds = time.perf_counter() - begin
     listener.say("running", settings.duration)
     finished = march(prepared, settings, [sink], progress=listener.progress)
     accuracy = None
     if verify and finished.outcome == "done":
-        listener.say("verifying with half the step", settings.duration)
-        accuracy = _half_the_step(machine, sink.result(), settings, listener)
-    return _close(
-        sink, prepared, finished, accuracy, {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
-    )
+        listener.say(f"verifying with {_finer(settings)[1]}", settings.duration)
+        accuracy = _estimate(machine, sink.result(), settings, listener)
+    seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
+    return _close(sink, prepared, finished, accuracy, _finer(settings)[1], seconds)
 
 
 def _close(
-    sink: Memory | Store, prepared: Prepared, finished: Finished, accuracy: Peak | None, timing: dict[str, float]
+    sink: Memory | Store,
+    prepared: Prepared,
+    finished: Finished,
+    accuracy: Peak | None,
+    refinement: str,
+    timing: dict[str, float],
 ) -> Result:
     redundancy = prepared.redundancy
     message, advice, at = finished.failure or ("", "", 0.0)
@@ -71,6 +74,7 @@ def _close(
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
         accuracy=accuracy,
+        refinement=refinement,
         failure=message,
     )
     attributes: dict[str, str | float | int] = {
@@ -86,37 +90,22 @@ def _close(
     return result
 
 
-def _attributes(
-    machine: MachineRecord, source: str, prepared: Prepared, settings: RunSettings
-) -> dict[str, str | float | int]:
-    system, assembly = prepared.motion.system, prepared.assembly
-    coordinates = system.layout.coordinates["joint_coordinate"]
-    return {
-        "machine": machine.name,
-        "machine_record": machine.model_dump_json(by_alias=True, exclude_none=True),
-        "machine_source": source,
-        "scene": json.dumps(scene(machine, system)),
-        "settings": json.dumps(settings.as_dict()),
-        "nivel_version": nivel.__version__,
-        "outcome": "running",
-        "coordinate_units": json.dumps(dict(zip(coordinates, system.coordinate_units, strict=True))),
-        "constraint_units": json.dumps(dict(zip(system.rows, system.row_units, strict=True))),
-        "assembly": json.dumps(
-            {
-                "gap": assembly.gap,
-                "gap_row": assembly.gap_row,
-                "moved": assembly.moved,
-                "velocity_change": assembly.velocity_change,
-            }
-        ),
-    }
+def _finer(settings: RunSettings) -> tuple[RunSettings, str, float]:
+    """A finer run with frames at the same times, what is finer in words, and the share of the error that is left in it.
 
-
-def _half_the_step(machine: MachineRecord, coarse: Result, settings: RunSettings, listener: Listener) -> Peak:
-    """Largest difference of `coarse` from a run with half the step and frames at the same times."""
+    Where steps are chosen, half the first one would change nothing: errors follow the tolerance.
+    """
+    if settings.tolerance is not None:
+        return replace(settings, tolerance=0.1 * settings.tolerance), "a tenth of the tolerance", 0.1
     halved = replace(settings, step=settings.step / 2, every=2 * settings.every, steps=2 * settings.steps)
+    return halved, "half the step", 0.5 ** INTEGRATORS[settings.integrator].order
+
+
+def _estimate(machine: MachineRecord, coarse: Result, settings: RunSettings, listener: Listener) -> Peak:
+    """Estimated error of `coarse`, from its largest difference from a finer run."""
+    finer, _, left = _finer(settings)
     sink = Memory()
     prepared = prepare(machine, settings.formulation, settings.coordinates)
     sink.begin(Header(prepared.motion.system.layout, {}))
-    march(prepared, halved, [sink], progress=listener.progress)
-    return step_halving(coarse, sink.result(), INTEGRATORS[settings.integrator].order)
+    march(prepared, finer, [sink], progress=listener.progress)
+    return error_from_finer(coarse, sink.result(), left)

@@ -23,6 +23,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "new": CommandPlace("nivel.cli.new", "Write a commented machine file that runs, to start from."),
     "check": CommandPlace("nivel.cli.check", "Check and assemble a machine; say what it is."),
     "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
+    "compare": CommandPlace("nivel.cli.compare", "Run many methods and say how fast and how exact each is."),
     "explain": CommandPlace("nivel.cli.explain", "Say how far a result can be trusted, and why."),
     "export": CommandPlace("nivel.cli.export", "Write a result in another format."),
     "warmup": CommandPlace("nivel.cli.warmup", "Compile all kernels ahead of the first run."),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, Final
 
 import click
 
@@ -38,3 +40,84 @@ allow_code_option = click.option(
 )
 
 quiet_option = click.option("--quiet", is_flag=True, help="Say nothing on standard error but errors.")
+
+
+def separated(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...]:
+    """The words of an option that takes several, separated by commas, or that is repeated."""
+    return tuple(word.strip() for text in values for word in text.split(",") if word.strip())
+
+
+class MethodOption(click.Option):
+    """An option whose help ends with the words that the simulation setting `setting` knows, looked up when help is shown."""
+
+    def __init__(self, *declarations: Any, setting: str, **attributes: Any) -> None:
+        super().__init__(*declarations, **attributes)
+        self.setting = setting
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        from nivel.machine.settings import known_words
+
+        record = super().get_help_record(ctx)
+        return record and (record[0], f"{record[1]} {', '.join(known_words(self.setting))}.")
+
+
+# Settings that are words, and what their help says before the words.
+METHODS: Final[dict[str, str]] = {
+    "integrator": "How the run steps through time:",
+    "formulation": "Equations of motion:",
+    "coordinates": "What the equations are written in:",
+    "rotations": "Rotation coordinates of lagrange in absolute coordinates:",
+    "stabilisation": "What keeps the joints closed:",
+}
+
+
+def method_option(setting: str, *, plural: bool = False) -> Any:
+    """`--integrator NAME`, or `--integrators NAMES` that takes several."""
+    common: dict[str, Any] = {"cls": MethodOption, "setting": setting, "help": METHODS[setting]}
+    if not plural:
+        return click.option(f"--{setting}", metavar="NAME", **common)
+    name = f"--{setting}" if setting.endswith("s") else f"--{setting}s"
+    return click.option(name, metavar="NAMES", multiple=True, callback=separated, **common)
+
+
+duration_option = click.option("--duration", metavar="TIME", help="Simulated time, e.g. 8 or '8 s'.")
+output_interval_option = click.option(
+    "--output-interval",
+    metavar="TIME",
+    help="Time between frames of the result; a multiple of the step where the integrator has a fixed one.",
+)
+largest_step_option = click.option(
+    "--largest-step", metavar="TIME", help="Of integrators that choose their steps; default: the duration."
+)
+cut_option = click.option(
+    "--cut",
+    metavar="JOINT",
+    multiple=True,
+    help="A joint that stays a constraint in relative coordinates. May be repeated; default: chosen.",
+)
+
+_SIMULATION: Final[dict[str, Any]] = {
+    "duration": duration_option,
+    "step": click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'; the first where it is chosen."),
+    "output_interval": output_interval_option,
+    **{setting: method_option(setting) for setting in METHODS},
+    "tolerance": click.option(
+        "--tolerance", metavar="NUMBER", help="Of the motion, relative: for integrators that choose their steps."
+    ),
+    "largest_step": largest_step_option,
+    "cut": cut_option,
+}
+
+
+def simulation_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Options for every simulation setting; those that were given come as the mapping `settings`."""
+
+    @wraps(command)
+    def gathered(**values: Any) -> Any:
+        settings = {name: values.pop(name) for name in _SIMULATION}
+        return command(**values, settings={name: each for name, each in settings.items() if each not in (None, ())})
+
+    out: Callable[..., Any] = gathered
+    for option in reversed(_SIMULATION.values()):
+        out = option(out)
+    return out

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from nivel.cli.failures import say_faults
-from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
+from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option, simulation_options
+from nivel.cli.progress import progress_listener
 
 if TYPE_CHECKING:
-    from nivel.analysis.listener import Listener
     from nivel.results import Result
 
 COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
@@ -22,30 +21,21 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 
 @click.command(short_help="Simulate a machine: result file, report, summary.")
 @file_argument("machine")
-@click.option("--duration", metavar="TIME", help="Simulated time, e.g. 8 or '8 s'.")
-@click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'.")
-@click.option("--output-interval", metavar="TIME", help="Time between frames of the result; a multiple of the step.")
-@click.option("--integrator", metavar="NAME", help="rk4.")
-@click.option("--formulation", metavar="NAME", help="newton-euler or lagrange.")
-@click.option("--coordinates", metavar="NAME", help="auto or absolute.")
-@click.option("--stabilisation", metavar="NAME", help="none, baumgarte or direct.")
+@simulation_options
 @override_option
 @allow_code_option
 @click.option("--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here.")
 @click.option("--force", is_flag=True, help="Replace an existing result.")
-@click.option("--verify", is_flag=True, help="Run again with half the step and estimate the accuracy.")
+@click.option(
+    "--verify",
+    is_flag=True,
+    help="Run again with half the step, or a tenth of the tolerance, and estimate the accuracy.",
+)
 @click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
 @quiet_option
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")
 def command(
     machine: str,
-    duration: str | None,
-    step: str | None,
-    output_interval: str | None,
-    integrator: str | None,
-    formulation: str | None,
-    coordinates: str | None,
-    stabilisation: str | None,
     overrides: dict[str, str],
     allow_code: bool,
     out: str | None,
@@ -54,11 +44,13 @@ def command(
     no_report: bool,
     quiet: bool,
     as_json: bool,
+    settings: dict[str, Any],
 ) -> None:
     """Simulate MACHINE and write its result (NetCDF) and report (HTML).
 
-    Options go before what the machine file says under `simulation:`. Exit code 0 done, 2 the input is at fault, 3 the computation
-    failed, 130 interrupted; what was computed is kept in every case.
+    Options go before what the machine file says under `simulation:`. The file may hold settings of several methods; an option that has
+    no effect with the methods of this run is refused. Exit code 0 done, 2 the input is at fault, 3 the computation failed, 130
+    interrupted; what was computed is kept in every case.
     """
     from nivel.api import load
     from nivel.errors import ModelError, SolveError
@@ -69,16 +61,10 @@ def command(
     _refuse_to_replace(report, target, force, Path(machine))
     failure: SolveError | None = None
     unwritten: ModelError | None = None
-    with _listener(quiet) as listener:
+    with progress_listener(quiet) as listener:
         try:
             result = loaded.simulate(
-                duration=duration,
-                step=step,
-                output_interval=output_interval,
-                integrator=integrator,
-                formulation=formulation,
-                coordinates=coordinates,
-                stabilisation=stabilisation,
+                **settings,
                 out=target,
                 force=force,
                 verify=verify,
@@ -128,33 +114,6 @@ def _refuse_to_replace(report: Path | None, target: Path, force: bool, machine: 
     check_target(target, "result file", force=force, sources=[machine])
     if report is not None:
         check_target(report, "report", force=force, sources=[machine])
-
-
-@contextmanager
-def _listener(quiet: bool) -> Iterator[Listener]:
-    """What the run tells on standard error: nothing, or stages and a progress bar."""
-    from nivel.analysis.listener import Listener
-
-    if quiet:
-        yield Listener()
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[reached]}"), TimeElapsedColumn())
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task("starting", total=None, reached="")
-
-        def stage(text: str, total: float | None = None) -> None:
-            if text.startswith("compiling"):
-                console.print(text)  # stays, also where no bar can be shown
-            bar.update(task, description=text, total=total, completed=0, reached="")
-
-        def progress(time: float) -> None:
-            bar.update(task, completed=time, reached=f"t = {time:.3f} s")
-
-        yield Listener(stage, progress)
 
 
 def _say(result: Result, target: Path, report: Path | None) -> None:

@@ -33,7 +33,7 @@ TOLERANCE, ENOUGH = 1e-12, 1e-7
 # Two frictions that hold one motion may have no common solution by a hair, or many: they then stay near their last efforts, and the
 # acceleration that is left is this share of what the change of effort would do.
 ANCHOR = 1e-3
-# Rate of relaxation of the bristles times the time of stiction (two steps): beyond it RK4 is unstable (2.78 a step).
+# Rate of relaxation of the bristles times two steps: beyond it RK4 is unstable (2.78 a step).
 FASTEST = 5.5
 
 
@@ -281,7 +281,7 @@ def rub(machine, number, t):
     """Efforts of all frictions, consistent with the reactions that they cause; multipliers and accelerations are left with them.
 
     FRICTION_DIVERGES names the worst (control.failure) where no consistent effort is found: more friction than any load can carry;
-    BRISTLE_TOO_FAST where the bristles of LuGre relax faster than a Runge–Kutta step can follow.
+    BRISTLE_TOO_FAST where the bristles of LuGre relax faster than a Runge–Kutta step of fixed size can follow.
     """
     record = record_at(machine)
     friction, coordinates, saddle, control = record.friction, record.coordinates, record.saddle, record.control
@@ -312,7 +312,7 @@ def rub(machine, number, t):
         record.outputs.value[out + 2] = normal_load(machine, k)
         if friction.columns[k, MODEL] == LUGRE:
             record.outputs.value[out + 3] = record.elements.state[friction.columns[k, STATE]]
-            if relaxation(machine, k) * control.stick[0] > FASTEST:
+            if relaxation(machine, k) * control.stick[1] > FASTEST:
                 control.failure[0] = k
                 return BRISTLE_TOO_FAST
         for body in range(saddle.z.shape[0]):

@@ -313,7 +313,8 @@ class Control(NamedTuple):
     energy: F1  # (3,) kinetic and potential energy of the last observation, their sum at the start
     power: F1  # (2,) work of external forces and dissipation per second
     stored: F1  # (1,) [J] elastic energy of the forces
-    stick: F1  # (1,) [s] time within which stiction stops a joint
+    # (2,) [s] time within which stiction stops a joint; two steps, which bristles have to be slower than, or 0 where steps are chosen
+    stick: F1
     failure: U1  # (1,) row that could not be eliminated, friction that did not converge, body of singular rotations
 
 

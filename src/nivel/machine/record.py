@@ -104,6 +104,12 @@ _SENTENCES = {
     "model_attributes_type": "a mapping was expected, got {input}",
     "dict_type": "a mapping was expected, got {input}",
     "string_type": "a text was expected, got {input}",
+    **dict.fromkeys(("float_type", "float_parsing"), "a number was expected, got {input}"),
+    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "a whole number was expected, got {input}"),
+    "greater_than": "a number greater than {gt:g} was expected, got {input}",
+    "greater_than_equal": "a number of at least {ge:g} was expected, got {input}",
+    "less_than": "a number less than {lt:g} was expected, got {input}",
+    "less_than_equal": "a number of at most {le:g} was expected, got {input}",
 }
 
 
@@ -132,7 +138,7 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
                 return "`type` is missing"
             return f"a mapping was expected, got {shown(line['input'])}"
         case kind if kind in _SENTENCES:
-            return _SENTENCES[kind].format(input=shown(line["input"]))
+            return _SENTENCES[kind].format(**context | {"input": shown(line["input"])})
     return line["msg"]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from pydantic import Field, model_validator
 
@@ -17,6 +17,8 @@ Integrator = Literal[
     "gear1", "gear2", "gear3", "gear4",
     "dopri5", "dop853", "adams", "gear",
 ]  # fmt: skip
+# those of them that choose their steps
+CHOOSING = ("dopri5", "dop853", "adams", "gear")
 Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangian"]
 Coordinates = Literal["auto", "absolute", "relative", "independent"]
 Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]
@@ -46,7 +48,10 @@ class Penalty(Record):
 
 
 class Corrector(Record):
-    """How the equations of implicit multistep methods are solved: iteration, its tolerance (relative to each coordinate) and limit."""
+    """How the equations of implicit multistep methods are solved: iteration, its tolerance (relative to each coordinate) and limit.
+
+    Methods that choose their steps iterate as exactly as the `tolerance` of the run asks for, four times at most.
+    """
 
     iteration: Literal["functional", "newton"] = "functional"
     tolerance: Tolerance = 1e-10
@@ -54,7 +59,11 @@ class Corrector(Record):
 
 
 class SimulationSettings(Record):
-    """Time span, step and methods. Without `baumgarte`, the coefficients of that stabilisation follow from the step."""
+    """Time span, step and methods. Without `baumgarte`, the coefficients of that stabilisation follow from the step.
+
+    Integrators that choose their steps try `step` first, and keep the motion within ten times the `tolerance` (relative to the largest
+    value of each coordinate so far, or the size of the machine).
+    """
 
     duration: Duration = 1.0
     step: Duration = 1e-3
@@ -77,12 +86,18 @@ class SimulationSettings(Record):
 
     @model_validator(mode="after")
     def _makes_sense(self) -> SimulationSettings:
-        if self.step > self.duration:
+        fixed = self.integrator not in CHOOSING
+        if fixed and self.step > self.duration:
             raise fault(f"`step` {self.step:g} s is longer than `duration` {self.duration:g} s")
-        if self.output_interval is not None and self.output_interval < self.step * (1 - 1e-9):
+        if fixed and self.output_interval is not None and self.output_interval < self.step * (1 - 1e-9):
             raise fault(f"`output_interval` {self.output_interval:g} s is shorter than `step` {self.step:g} s")
         if self.baumgarte is not None and self.stabilisation != "baumgarte":
             raise fault(f"`baumgarte` needs `stabilisation: baumgarte`; it is `{self.stabilisation}`")
         if self.penalty.factor is not None and self.penalty.alpha is not None:
             raise fault("`penalty` takes `factor` or `alpha`, not both")
         return self
+
+
+def known_words(setting: str) -> tuple[str, ...]:
+    """The words that a setting may be, e.g. of `integrator`."""
+    return get_args(SimulationSettings.model_fields[setting].annotation)

@@ -37,4 +37,8 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     **{f"am{k}": IntegratorFacts(_MOULTON, "moulton", _ROWS, k, _NUMBERS, implicit=True) for k in range(1, 6)},
     **{f"abm{k}": IntegratorFacts(_ADAMS, "predict_correct", _ROWS, k, _NUMBERS) for k in range(1, 6)},
     **{f"gear{k}": IntegratorFacts(_GEAR, "gear", _ROWS, k, _NUMBERS, implicit=True) for k in range(1, 5)},
+    "dopri5": IntegratorFacts("nivel.march.dormand_prince", "dopri5", 7, 5, numbers=2, chooses_steps=True),
+    "dop853": IntegratorFacts("nivel.march.dop853", "dop853", 16, 8, numbers=2, chooses_steps=True),
+    "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 31, 12, 66, chooses_steps=True, implicit=True),
+    "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 31, 5, 66, chooses_steps=True, implicit=True),
 }

@@ -22,10 +22,10 @@ DIFFERENCE = 1.5e-8
 
 
 @leaf
-def renew(evaluate, machine, history, t, share):
-    """matrix := factors of 1 - share ∂f/∂y at y, where stages[RATE] = f(t, y). Returns a status."""
+def renew(evaluate, machine, history, t, share, y, rate):
+    """matrix := factors of 1 - share ∂f/∂y at y, where rate = f(t, y); `scratch` is work. Returns a status."""
     run = run_at(history)
-    y, rate, matrix = run.y, run.stages[RATE], run.matrix
+    matrix = run.matrix
     n = y.shape[0]
     matrix[:, :] = 0.0
     # nothing depends on the two energies at the end of y
@@ -42,7 +42,6 @@ def renew(evaluate, machine, history, t, share):
             matrix[i, j] = share * (rate[i] - run.scratch[i]) / width
     for i in range(n):
         matrix[i, i] += 1.0
-    run.numbers[SHARE] = share
     return OK if factorise_lu(matrix, run.pivot) else NOT_CONVERGED
 
 
@@ -60,7 +59,8 @@ def newton(evaluate, machine, history, t, share):
         run.counter[EVALUATIONS] += 1
         run.counter[ITERATIONS] += 1
         if status == OK and stale:
-            status = renew(evaluate, machine, history, t, share)
+            status = renew(evaluate, machine, history, t, share, y, rate)
+            run.numbers[SHARE] = share
             stale, own, last = False, True, np.inf
         if status != OK:
             run.numbers[SHARE] = 0.0

@@ -74,7 +74,7 @@ def _rate_item(trust: Trust) -> Item:
 
 def _accuracy_item(trust: Trust, estimate: float) -> Item:
     fraction = estimate / trust.size
-    moved = f"half the step moves nothing by more than {_number(estimate)} m"
+    moved = f"{trust.accuracy_refinement} moves nothing by more than {_number(estimate)} m"
     said = f"Accuracy: {moved}, {_number(fraction)} of the {_size(trust)}"
     where = f", largest at {trust.accuracy_body}" if trust.accuracy_body else ""
     when = f" at t = {trust.accuracy_time:.6g} s" if trust.accuracy_time is not None else ""

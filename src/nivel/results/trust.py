@@ -32,7 +32,7 @@ class Facts:
     outcome : done, interrupted, failed or running.
     degrees_of_freedom : None where unknown. drivers : motions that are prescribed.
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
-    accuracy : largest change of a position [m] when the step is halved, from `nivel.results.accuracy.step_halving`.
+    accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
     failure : what stopped the run, in a sentence.
     """
 
@@ -41,6 +41,7 @@ class Facts:
     redundant_rows: tuple[str, ...] = ()
     non_unique_joints: tuple[str, ...] = ()
     accuracy: Peak | None = None
+    refinement: str = "half the step"
     failure: str = ""
     drivers: int = 0
 
@@ -80,6 +81,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         accuracy_estimate=facts.accuracy.value if facts.accuracy else None,
         accuracy_body=facts.accuracy.row if facts.accuracy else "",
         accuracy_time=facts.accuracy.time if facts.accuracy else None,
+        accuracy_refinement=facts.refinement,
         size_kind=size_kind,
         at_rest=at_rest,
     )

@@ -50,8 +50,8 @@ THRESHOLDS = {
     "accuracy": Threshold(
         1e-4,
         1e-2,
-        "Halving the step moves no point by more than 1e-4 of the machine, a tenth of a millimetre in a metre: finer "
-        "than manufacturing tolerances. Above 1e-2 the curves of the two steps are seen apart.",
+        "Half the step (or a tenth of the tolerance) moves no point by more than 1e-4 of the machine, a tenth of a millimetre in a "
+        "metre: finer than manufacturing tolerances. Above 1e-2 the curves of the two runs are seen apart.",
     ),
 }
 
@@ -102,7 +102,8 @@ class Trust:
     cosine).
     size_kind : what `size` is, to be said after "the". at_rest : `speed` is not that of the machine, which is at rest,
     but the least speed that counts.
-    degrees_of_freedom : None where the run did not live to tell. drivers : motions that are prescribed.
+    accuracy_refinement : what the run was done again with to find `accuracy_estimate`. degrees_of_freedom : None where the run did not
+    live to tell. drivers : motions that are prescribed.
     """
 
     verdict: Verdict
@@ -128,6 +129,7 @@ class Trust:
     accuracy_estimate: float | None = None
     accuracy_body: str = ""
     accuracy_time: float | None = None
+    accuracy_refinement: str = "half the step"
     size_kind: str = "machine's size"
     at_rest: bool = False
     items: tuple[Item, ...] = ()

@@ -24,7 +24,6 @@ from nivel.kernels.record import (
     Markers,
     Outputs,
     Record,
-    Rotations,
     Saddle,
     Sensors,
 )
@@ -39,6 +38,7 @@ from nivel.system.layout import frame_layout
 from nivel.system.partition import no_partition
 from nivel.system.rows import RowTable, add_couplings, add_drivers, add_joint, coordinate_units
 from nivel.system.sensors import sensor_columns
+from nivel.system.states.three_coordinates import no_rotations
 from nivel.system.system import Equations, System
 from nivel.system.tables import Array, index_array, padded
 from nivel.system.tree_tables import empty_tree
@@ -78,7 +78,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
     system = System(
         record=Record(
             bodies=bodies,
-            rotations=_no_rotations(),
+            rotations=no_rotations(),
             markers=markers,
             coordinates=draft.coordinates.arrays(),
             constraints=constraints,
@@ -219,12 +219,6 @@ def _groups(rows: RowTable, row_count: int) -> list[list[int]]:
     return groups + [[row] for row in range(last, row_count)]
 
 
-def _no_rotations() -> Rotations:
-    """Of states with Euler parameters."""
-    four, nine, none = np.zeros((0, 4)), np.zeros((0, 3, 3)), np.zeros(0, dtype=np.uint32)
-    return Rotations(none, four, four, nine, theta=four, G=nine, bias=np.zeros((0, 3)), regularity=np.zeros(0))
-
-
 def _control(rows: int) -> Control:
     return Control(
         rank=np.array([rows], dtype=np.uint32),
@@ -233,7 +227,7 @@ def _control(rows: int) -> Control:
         energy=np.zeros(3),
         power=np.zeros(2),
         stored=np.zeros(1),
-        stick=np.full(1, STICK),
+        stick=np.array([STICK, 0.0]),
         failure=np.zeros(1, dtype=np.uint32),
     )
 

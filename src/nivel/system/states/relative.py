@@ -49,7 +49,7 @@ def tree_of(machine: MachineRecord, settings: SimulationSettings) -> SpanningTre
     number = {body.name: k for k, body in enumerate(machine.bodies)} | {"ground": len(machine.bodies)}
     edges = [
         Edge(joint.name, joint.type, number[first], number[second])
-        for joint, (first, second) in ((joint, _bodies_of(machine, joint)) for joint in machine.joints)
+        for joint, (first, second) in ((joint, bodies_of(machine, joint)) for joint in machine.joints)
     ]
     loading = {
         resolve(force.coordinate, machine.joints)[0]
@@ -111,13 +111,12 @@ def arrange(
     return system.known_rank(independent), np.concatenate([start.q, start.v, x])
 
 
-def _bodies_of(machine: MachineRecord, joint: Joint) -> tuple[str, str]:
+def bodies_of(machine: MachineRecord, joint: Joint) -> tuple[str, str]:
     """Names of the first and the second body of a joint."""
     if joint.markers is None:
         assert joint.bodies is not None  # the record was checked
         return joint.bodies
-    named = {marker.name: marker for marker in machine.markers}
-    first, second = (named[m].body if isinstance(m, str) else m.body for m in joint.markers)
+    first, second = (machine.marker_named[m].body if isinstance(m, str) else m.body for m in joint.markers)
     return first, second
 
 

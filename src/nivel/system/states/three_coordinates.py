@@ -47,6 +47,12 @@ def arranged(
     return system, np.concatenate(state)
 
 
+def no_rotations() -> Rotations:
+    """Those of states with Euler parameters: none."""
+    four, nine, none = np.zeros((0, 4)), np.zeros((0, 3, 3)), np.zeros(0, dtype=np.uint32)
+    return Rotations(none, four, four, nine, theta=four, G=nine, bias=np.zeros((0, 3)), regularity=np.zeros(0))
+
+
 def product(first: Array, second: Array) -> Array:
     """Euler parameters (n, 4) of A(first) A(second)."""
     a0, a, b0, b = first[:, :1], first[:, 1:], second[:, :1], second[:, 1:]

@@ -1,0 +1,38 @@
+"""What is known about a run before its first frame."""
+
+from __future__ import annotations
+
+import json
+
+import nivel
+from nivel.analysis.dynamics import Prepared
+from nivel.analysis.settings import RunSettings
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.scene import scene
+
+
+def run_attributes(
+    machine: MachineRecord, source: str, prepared: Prepared, settings: RunSettings
+) -> dict[str, str | float | int]:
+    """The attributes of a result, see `nivel.march.sink.Header`; `source` is the text of the machine's file."""
+    system, assembly = prepared.motion.system, prepared.assembly
+    coordinates = system.layout.coordinates["joint_coordinate"]
+    return {
+        "machine": machine.name,
+        "machine_record": machine.model_dump_json(by_alias=True, exclude_none=True),
+        "machine_source": source,
+        "scene": json.dumps(scene(machine, system)),
+        "settings": json.dumps(settings.as_dict()),
+        "nivel_version": nivel.__version__,
+        "outcome": "running",
+        "coordinate_units": json.dumps(dict(zip(coordinates, system.coordinate_units, strict=True))),
+        "constraint_units": json.dumps(dict(zip(system.rows, system.row_units, strict=True))),
+        "assembly": json.dumps(
+            {
+                "gap": assembly.gap,
+                "gap_row": assembly.gap_row,
+                "moved": assembly.moved,
+                "velocity_change": assembly.velocity_change,
+            }
+        ),
+    }

@@ -1,0 +1,23 @@
+"""Simulation settings of a machine with some of them replaced for one run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from nivel.machine.settings import SimulationSettings
+
+
+def changed(settings: SimulationSettings, changes: Mapping[str, Any]) -> SimulationSettings:
+    """`settings` with `changes`; what belongs to a method that is replaced is left behind.
+
+    Raises ModelError where the words are not known or the numbers do not fit together.
+    """
+    changes = dict(changes)
+    # own Baumgarte coefficients belong to the stabilisation they were given with
+    if changes.get("stabilisation", "baumgarte") != "baumgarte" and settings.baumgarte is not None:
+        changes["baumgarte"] = None
+    # rotation coordinates belong to lagrange in absolute coordinates
+    if (changes.get("formulation", "lagrange"), changes.get("coordinates", "absolute")) != ("lagrange", "absolute"):
+        changes.setdefault("rotations", "euler-parameters")
+    return settings.replace(**changes)

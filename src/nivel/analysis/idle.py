@@ -1,0 +1,48 @@
+"""Settings that were asked for and would have no effect, each with the reason.
+
+A machine file may hold settings of several methods: those of its other methods rest. What is given for one run is meant for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from nivel.errors import Fault, ModelError
+from nivel.machine.settings import SimulationSettings
+from nivel.march.catalogue import INTEGRATORS
+from nivel.motion.catalogue import FORMULATIONS
+
+
+def refuse_idle(given: Collection[str], settings: SimulationSettings, coordinates: str) -> None:
+    """Raise ModelError for those of the settings `given` that the methods of `settings` have no use for.
+
+    coordinates : of the run, `auto` resolved. Methods that are not known are left to others.
+    """
+    faults = [
+        Fault("", 0, 0, f"simulation.{name}", f"`{name}` has no effect here: {reason}")
+        for name in given
+        if (reason := _idle(name, settings, coordinates))
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def _idle(name: str, settings: SimulationSettings, coordinates: str) -> str:
+    """Why the setting `name` has no effect; empty where it has one."""
+    integrator, formulation = INTEGRATORS.get(settings.integrator), FORMULATIONS.get(settings.formulation)
+    if name in ("tolerance", "largest_step") and integrator and not integrator.chooses_steps:
+        fitting = [each for each, facts in INTEGRATORS.items() if facts.chooses_steps]
+        return f"the step of `integrator: {settings.integrator}` is fixed; {_choice('it', fitting)}"
+    if name == "corrector" and integrator and not integrator.implicit:
+        fitting = [each for each, facts in INTEGRATORS.items() if facts.implicit]
+        return f"`integrator: {settings.integrator}` solves no equations; {_choice('it', fitting)}"
+    if name == "penalty" and formulation and formulation.factor == 0.0:
+        fitting = [each for each, facts in FORMULATIONS.items() if facts.factor > 0.0]
+        return f"`formulation: {settings.formulation}` has multipliers of its own; {_choice('it', fitting)}"
+    if name == "cut" and settings.cut and coordinates != "relative":
+        return f"all joints stay constraints in {coordinates} coordinates; it is for `coordinates: relative`"
+    return ""
+
+
+def _choice(what: str, fitting: list[str]) -> str:
+    return f"{what} is for {', '.join(fitting)}" if fitting else f"nothing uses {what}"

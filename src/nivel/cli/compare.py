@@ -1,0 +1,192 @@
+"""`nivel compare MACHINE`: run all combinations of methods, hold them against a reference, say what each is worth."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import click
+
+from nivel.cli.failures import COMPUTATION_FAILED, INPUT_AT_FAULT
+from nivel.cli.options import (
+    allow_code_option,
+    cut_option,
+    duration_option,
+    file_argument,
+    largest_step_option,
+    method_option,
+    output_interval_option,
+    override_option,
+    quiet_option,
+    separated,
+)
+from nivel.cli.progress import progress_listener
+
+if TYPE_CHECKING:
+    from nivel.errors import ModelError
+    from nivel.results.comparison import Comparison
+
+FORMATS: Final = (".csv", ".json")
+WIDEST: Final = 1000  # a line of the table is a line also in a narrow terminal or a pipe
+STYLES: Final = {"failed": "red", "refused": "yellow"}
+
+
+@click.command(short_help="Run many methods and say how fast and how exact each is.")
+@file_argument("machine")
+@method_option("integrator", plural=True)
+@method_option("formulation", plural=True)
+@method_option("coordinates", plural=True)
+@method_option("rotations", plural=True)
+@method_option("stabilisation", plural=True)
+@click.option(
+    "--steps",
+    metavar="TIMES",
+    multiple=True,
+    callback=separated,
+    help="Of integrators with a fixed step, e.g. 1ms,2ms.",
+)
+@click.option(
+    "--tolerances", metavar="NUMBERS", multiple=True, callback=separated, help="Of integrators that choose their steps."
+)
+@click.option(
+    "--repeat",
+    type=click.IntRange(1),
+    default=3,
+    show_default=True,
+    help="Run every cell so often; its time is the least.",
+)
+@duration_option
+@output_interval_option
+@largest_step_option
+@cut_option
+@override_option
+@allow_code_option
+@click.option(
+    "--out",
+    multiple=True,
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Table, .csv or .json; may be repeated; default: both, MACHINE-compare.csv and .json, here.",
+)
+@click.option(
+    "--report", type=click.Path(dir_okay=False, path_type=Path), help="HTML page; default: beside the table with .html."
+)
+@click.option("--no-report", is_flag=True, help="Write no HTML page.")
+@click.option("--force", is_flag=True, help="Replace existing files.")
+@quiet_option
+@click.option("--json", "as_json", is_flag=True, help="Print the comparison as JSON on standard output.")
+def command(
+    machine: str,
+    integrators: tuple[str, ...],
+    formulations: tuple[str, ...],
+    coordinates: tuple[str, ...],
+    rotations: tuple[str, ...],
+    stabilisations: tuple[str, ...],
+    steps: tuple[str, ...],
+    tolerances: tuple[str, ...],
+    repeat: int,
+    duration: str | None,
+    output_interval: str | None,
+    largest_step: str | None,
+    cut: tuple[str, ...],
+    overrides: dict[str, str],
+    allow_code: bool,
+    out: tuple[Path, ...],
+    report: Path | None,
+    no_report: bool,
+    force: bool,
+    quiet: bool,
+    as_json: bool,
+) -> None:
+    """Run MACHINE with all combinations of the given words, and say for each how fast and how exact it is.
+
+    Words are separated by commas; what is not given is as in the machine file. Every run is held against a reference solution of
+    another method, whose own error is estimated. A cell that fails or has no meaning is told and does not end the comparison. Exit
+    code 0 the grid was run, 2 the input is at fault, 3 every cell failed, 130 interrupted; what was computed is written.
+    """
+    from nivel.api import load
+
+    loaded = load(machine, overrides, allow_code=allow_code)
+    tables = out or tuple(Path(f"{loaded.name}-compare{suffix}") for suffix in FORMATS)
+    page = None if no_report else report or tables[0].with_suffix(".html")
+    _refuse_to_replace(tables, page, force, Path(machine))
+    with progress_listener(quiet) as listener:
+        comparison = loaded.compare(
+            integrators=integrators,
+            formulations=formulations,
+            coordinates=coordinates,
+            rotations=rotations,
+            stabilisations=stabilisations,
+            steps=steps,
+            tolerances=tolerances,
+            duration=duration,
+            output_interval=output_interval,
+            largest_step=largest_step,
+            cut=cut or None,
+            repeat=repeat,
+            listener=listener,
+        )
+    unwritten = _written(comparison, tables, page, quiet)
+    if as_json:
+        click.echo(comparison.to_json(), nl=False)
+    else:
+        _print(comparison)
+    if unwritten is not None:
+        raise unwritten
+    if comparison.outcome == "interrupted":
+        raise KeyboardInterrupt
+    if not comparison.completed:
+        failed = any(row.outcome == "failed" for row in comparison.rows)
+        raise SystemExit(COMPUTATION_FAILED if failed else INPUT_AT_FAULT)
+
+
+def _refuse_to_replace(tables: tuple[Path, ...], page: Path | None, force: bool, machine: Path) -> None:
+    """Refuse files that exist, unless they may be replaced, and tables that are neither CSV nor JSON."""
+    from nivel.errors import ModelError
+    from nivel.results.target import check_target
+
+    for path in tables:
+        if path.suffix not in FORMATS:
+            raise ModelError(f"{path}: a table ends with .csv or .json; the page is named with --report")
+        check_target(path, "table", force=force, sources=[machine])
+    if page is not None:
+        if page in tables:
+            raise ModelError(f"{page}: the page would be written over the table; use a name ending in .html")
+        check_target(page, "report", force=force, sources=[machine])
+
+
+def _written(comparison: Comparison, tables: tuple[Path, ...], page: Path | None, quiet: bool) -> ModelError | None:
+    """Write all files and name them; what cannot be written comes back: the comparison is printed first."""
+    from nivel.errors import ModelError
+
+    try:
+        for path in tables:
+            comparison.to_csv(path) if path.suffix == ".csv" else comparison.to_json(path)
+        if page is not None:
+            comparison.report(page)
+    except ModelError as error:
+        return error
+    if not quiet:
+        click.echo("written: " + ", ".join(str(path) for path in (*tables, page) if path is not None), err=True)
+    return None
+
+
+def _print(comparison: Comparison) -> None:
+    """The table on standard output, as wide as it is where that is no terminal."""
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    from nivel.results.comparison_table import columns, lines
+
+    shown = columns(comparison)
+    table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    words = len(comparison.varying or ("integrator",))
+    for k, column in enumerate(shown):
+        table.add_column(column.title, justify="left" if k < words else "right", no_wrap=True)
+    for row in comparison.rows:
+        table.add_row(*(Text(column.cell(row)) for column in shown), style=STYLES.get(row.outcome))
+    console = Console(highlight=False, width=WIDEST)
+    console.print(table)
+    for line in lines(comparison):
+        console.print(Text(line), soft_wrap=True)

@@ -1,0 +1,37 @@
+"""What long computations tell on standard error while they go on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from nivel.analysis.listener import Listener
+
+
+@contextmanager
+def progress_listener(quiet: bool) -> Iterator[Listener]:
+    """Hears what is being done: says nothing where `quiet`, else stages and a progress bar."""
+    from nivel.analysis.listener import Listener
+
+    if quiet:
+        yield Listener()
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[reached]}"), TimeElapsedColumn())
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("starting", total=None, reached="")
+
+        def stage(text: str, total: float | None = None) -> None:
+            if text.startswith("compiling"):
+                console.print(text)  # stays, also where no bar can be shown
+            bar.update(task, description=text, total=total, completed=0, reached="")
+
+        def progress(time: float) -> None:
+            bar.update(task, completed=time, reached=f"t = {time:.3f} s")
+
+        yield Listener(stage, progress)

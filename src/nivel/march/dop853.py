@@ -1,0 +1,74 @@
+"""The method of order 8 of Dormand & Prince with error estimates of orders 5 and 3 and a dense output of order 7.
+
+Hairer, Nørsett, Wanner 1993, §II.5, §II.6. Twelve evaluations a step, and four more where a frame or an event is looked for inside it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import entry, leaf
+from nivel.kernels.status import OK
+from nivel.march.dense import wanted
+from nivel.march.dop853_coefficients import ALL_STAGES, E3, E5, STAGES, A, C, D
+from nivel.march.embedded import add_stages, begin, evaluate_stages, is_accepted, sum_stages
+from nivel.march.run import DENSE, POWERS, run_at, step_signature
+from nivel.march.step_control import allowed, reach, size, too_small
+
+ORDER = 8.0  # of the error of one step with its estimate
+SHARE = 0.3
+NEW = STAGES - 1  # the stage at the new state
+
+
+@leaf
+def _attempt(evaluate, machine, history, h):
+    run = run_at(history)
+    status = evaluate_stages(evaluate, machine, history, h, A, C, 1, NEW)
+    if status != OK:
+        return status, 0.0
+    sum_stages(run, h, E3, NEW, run.scratch)
+    third = size(run, run.scratch)
+    sum_stages(run, h, E5, NEW, run.scratch)
+    fifth = size(run, run.scratch)
+    for i in range(run.y.shape[0]):
+        run.trial[i] = run.previous[i]
+    add_stages(run, h, A[NEW], NEW, run.trial)
+    # the two estimates, h⁶ and h⁴, together behave as h⁸ (§II.10, eq. 10.17)
+    return OK, 0.0 if fifth == 0.0 else fifth * fifth / np.sqrt(fifth * fifth + 0.01 * third * third)
+
+
+@leaf
+def _fill_dense(evaluate, machine, history, h):
+    run = run_at(history)
+    status = evaluate_stages(evaluate, machine, history, h, A, C, NEW, ALL_STAGES)
+    if status != OK:
+        return status
+    dense = run.dense
+    for i in range(run.y.shape[0]):
+        change = run.y[i] - run.previous[i]
+        dense[0, i] = change
+        dense[1, i] = h * run.stages[0, i] - change
+        dense[2, i] = change - h * run.stages[NEW, i] - dense[1, i]
+    for k in range(D.shape[0]):
+        sum_stages(run, h, D[k], ALL_STAGES, dense[3 + k])
+    run.counter[DENSE], run.counter[POWERS] = 3 + D.shape[0], 0
+    return OK
+
+
+@entry(step_signature)
+def dop853(evaluate, machine, history):
+    """One accepted step."""
+    run = run_at(history)
+    tolerance = allowed(run, SHARE)
+    begin(evaluate, machine, history, ORDER, tolerance)
+    status, error = OK, 0.0
+    while True:
+        h = reach(run)
+        if h == 0.0:
+            return too_small(run, status, error)
+        status, error = _attempt(evaluate, machine, history, h)
+        if is_accepted(machine, history, h, ORDER, status, error / tolerance):
+            break
+    if wanted(run):
+        status = _fill_dense(evaluate, machine, history, h)
+    return status

@@ -1,0 +1,18 @@
+"""Adams–Moulton of orders 1 to 12, of variable step."""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import entry
+from nivel.march.multistep_polynomials import ADAMS
+from nivel.march.run import run_at, step_signature
+from nivel.march.step_control import allowed
+from nivel.march.variable_order import variable_step
+
+MOST_ORDER = 11
+SHARE = 0.03
+
+
+@entry(step_signature)
+def adams(evaluate, machine, history):
+    """One accepted step."""
+    return variable_step(evaluate, machine, history, ADAMS, MOST_ORDER, allowed(run_at(history), SHARE))

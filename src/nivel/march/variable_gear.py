@@ -1,0 +1,18 @@
+"""BDF (Gear's methods) of orders 1 to 5, of variable step."""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import entry
+from nivel.march.multistep_polynomials import BDF
+from nivel.march.run import run_at, step_signature
+from nivel.march.step_control import allowed
+from nivel.march.variable_order import variable_step
+
+MOST_ORDER = 5
+SHARE = 0.001
+
+
+@entry(step_signature)
+def gear(evaluate, machine, history):
+    """One accepted step."""
+    return variable_step(evaluate, machine, history, BDF, MOST_ORDER, allowed(run_at(history), SHARE))

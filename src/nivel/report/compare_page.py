@@ -1,0 +1,190 @@
+"""The page of a comparison: which method is worth what, in one HTML file with everything in it."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from nivel.report.work_precision import NARROW, WIDE, curves, diagram, legend_mark
+from nivel.results.comparison import CONVERGED, Comparison, Row
+from nivel.results.comparison_files import write_text
+from nivel.results.comparison_table import fineness, motion, not_converged, number, order, seconds
+from nivel.results.motion import DEFINITION
+
+HERE = Path(__file__).parent
+WANTED = (1e-3, 1e-6, 1e-9)  # errors to which the cheapest cell is told
+
+MEANINGS = (
+    (
+        "Loop time",
+        "process time inside the compiled time loop, frames included, the least of all repeats; assembling is not in it",
+    ),
+    ("Steps, rejected", "accepted steps, and those that an integrator tried again because their error was too large"),
+    (
+        "Evaluations, iterations",
+        "evaluations of the equations of motion, and iterations of correctors, penalties and friction",
+    ),
+    (
+        "Constraints",
+        "how far joints, couplings and drivers are open: the largest magnitude over all frames and rows, and the mean below it. Lengths "
+        "are shares of the size of the machine; rows that only normalise rotation coordinates are left out",
+    ),
+    ("Rates", "the same for the first derivatives, per second"),
+    ("Energy", "the largest error of the energy balance as a share of the largest kinetic energy, and in joules"),
+    (
+        "Motion",
+        f"how far the motion is from the reference: {DEFINITION}. Below it the body and the time where it is largest",
+    ),
+    (
+        "Reference",
+        "a solution of another integrator at a much finer step or tolerance; its own error is estimated by computing it twice. An error "
+        "below three times that of the reference is only known to be about so small",
+    ),
+    (
+        "Order",
+        "slope of the error of the motion from the next larger step to this one: 4 means that half the step leaves a sixteenth",
+    ),
+    (
+        "Spread",
+        "the distance between those two methods that are furthest apart, each at its finest step or tolerance. A method whose own two "
+        f"finest runs are more than {CONVERGED:g} apart is left out. Methods that share no equations and still agree are right about this "
+        "machine, or wrong for the same reason",
+    ),
+)
+
+
+class Heading(NamedTuple):
+    """A column of the table, and what stands small below its numbers."""
+
+    title: str
+    below: str = ""
+
+
+class Shown(NamedTuple):
+    """A cell: what it is sorted by, its text, and the small one below."""
+
+    value: float | None
+    text: str
+    below: str = ""
+
+
+@dataclass(frozen=True)
+class Stat:
+    """A card on top: a figure, and what it says."""
+
+    title: str
+    figure: str = ""
+    texts: tuple[str, ...] = ()
+    items: tuple[tuple[str, str], ...] = ()
+
+
+COLUMNS = (
+    Heading("method"),
+    Heading("fineness"),
+    Heading("loop time", "per step"),
+    Heading("steps", "rejected"),
+    Heading("evaluations", "iterations"),
+    Heading("constraints", "mean"),
+    Heading("rates [1/s]", "mean"),
+    Heading("energy", "absolute"),
+    Heading("motion", "where"),
+    Heading("order"),
+)
+
+
+def write_comparison(comparison: Comparison, path: str | os.PathLike[str]) -> Path:
+    """Write the page of `comparison` to `path`; an existing file is replaced. The file needs no network and nothing beside it."""
+    write_text(comparison_html(comparison), path, "report")
+    return Path(path)
+
+
+def comparison_html(comparison: Comparison) -> str:
+    """The page as text."""
+    from jinja2 import Environment, FileSystemLoader
+
+    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    return environment.get_template("compare.html.j2").render(
+        comparison=comparison,
+        title=_title(comparison),
+        facts=_facts(comparison),
+        stats=_stats(comparison),
+        curves=curves(comparison),
+        wide=diagram(comparison, WIDE, "wide"),
+        narrow=diagram(comparison, NARROW, "narrow"),
+        mark=legend_mark,
+        columns=COLUMNS,
+        cells=lambda row: _cells(comparison, row),
+        label=comparison.label,
+        fineness=fineness,
+        meanings=MEANINGS,
+        page_style=(HERE / "page.css").read_text(encoding="utf-8"),
+        compare_style=(HERE / "compare.css").read_text(encoding="utf-8"),
+        compare_script=(HERE / "compare.js").read_text(encoding="utf-8"),
+    )
+
+
+def _title(comparison: Comparison) -> str:
+    rows, completed = len(comparison.rows), len(comparison.completed)
+    ran = "All of them ran to the end." if rows == completed else f"{completed} of them ran to the end."
+    cells = "1 run" if rows == 1 else f"{rows} runs"
+    return f"Methods compared in {cells}. {ran}" + (
+        " Interrupted: cells are missing." if comparison.outcome != "done" else ""
+    )
+
+
+def _facts(comparison: Comparison) -> list[str]:
+    """What all cells share."""
+    return [
+        f"{seconds(comparison.duration)} simulated",
+        f"a frame every {seconds(comparison.output_interval)}",
+        f"times are the least of {comparison.repeat}",
+        *comparison.common,
+    ]
+
+
+def _stats(comparison: Comparison) -> list[Stat]:
+    out = []
+    spread = comparison.spread
+    if spread is not None:
+        pair = f"{spread.first} and {spread.second}{not_converged(spread, '. ')}."
+        text = f"Furthest apart of {spread.methods} methods, each at its finest: {pair}"
+        out.append(Stat("How far the methods agree", number(spread.distance, 2), (text,)))
+    for reference in comparison.references[:1]:
+        others = [f"Checked by {each.name}, error {number(each.error, 2)}." for each in comparison.references[1:]]
+        text = f"{reference.name}: {reference.how}."
+        out.append(Stat("Error of the reference", number(reference.error, 2), (text, *others)))
+    if comparison.note:
+        out.append(Stat("Reference", "none", (comparison.note,)))
+    cheapest = [(f"error ≤ {number(wanted, 1)}", _cheapest(comparison, wanted)) for wanted in WANTED]
+    if comparison.references:
+        out.append(Stat("The fastest way to a motion", items=tuple(cheapest)))
+    return out
+
+
+def _cheapest(comparison: Comparison, wanted: float) -> str:
+    """The completed row with the least time among those whose error is below `wanted`."""
+    fit = [row for row in comparison.completed if row.motion_error is not None and row.motion_error <= wanted]
+    if not fit:
+        return "none"
+    best = min(fit, key=lambda row: row.loop_seconds or 0.0)
+    size, time = (text.replace(" ", "\u00a0") for text in (fineness(best), seconds(best.loop_seconds)))
+    return f"{comparison.label(best)}, {size}: {time}"
+
+
+def _cells(comparison: Comparison, row: Row) -> list[Shown]:
+    """The numbers of a completed row, below the columns from the third on."""
+    where = f"{row.motion_error_body}, {seconds(row.motion_error_time)}" if row.motion_error_body else ""
+    return [
+        Shown(row.loop_seconds, seconds(row.loop_seconds), seconds(row.seconds_per_step)),
+        Shown(row.steps, str(row.steps), str(row.rejected)),
+        Shown(row.evaluations, str(row.evaluations), str(row.iterations)),
+        Shown(row.constraint_error, number(row.constraint_error, 2), number(row.constraint_error_mean, 2)),
+        Shown(
+            row.constraint_rate_error, number(row.constraint_rate_error, 2), number(row.constraint_rate_error_mean, 2)
+        ),
+        Shown(row.energy_error_relative, number(row.energy_error_relative, 2), f"{number(row.energy_error, 2)} J"),
+        Shown(row.motion_error, motion(comparison, row), where),
+        Shown(row.order, order(row)),
+    ]

@@ -4,11 +4,13 @@ It is kept as the report describes it, weaknesses and all, so that its tables ca
 Bodies 0, 1, … move, the last one is the ground. q = (R, θ) of all moving bodies, 7 each; y = (q, q̇). Units: SI.
 
 What differs from the library:
-- A(θ) is homogeneous of degree two, A = E Ēᵀ (report: eq. 5), so it stretches bodies where |θ| ≠ 1; C_θ = C_π 2Ē (eqs. 27, 28);
+- A(θ) is homogeneous of degree two, A = E Ēᵀ (report: eq. 5), so it stretches bodies where |θ| ≠ 1; C_θ = C_π 2Ē (eqs. 27, 28).
+  Without `homogeneous` A is that of θ/|θ|, and C_θ and Q_d are its exact derivatives also where |θ| ≠ 1;
 - M of eq. 75 stays singular along θ; the system of eq. 77 is solved as it stands, normalisation rows included;
 - the velocity term Q_v of eq. 63 can be left out (`gyroscopic`): the report's numbers for the slider-crank are those without it;
-- direct correction is one pass over positions and one over velocities with unit weights (eqs. 127, 137);
-- external work is Σ Q_eᵀ Δq, by rectangles, with Q_e at the start of each step.
+- direct correction is one pass over positions and one over velocities (eqs. 127, 137) with unit weights, or with those of the
+  mass metric (`mass_weights`), which the library takes;
+- external work is Σ Q_eᵀ Δq, by rectangles, with Q_e at the start of each step; with `angles` it is torque times angle turned.
 """
 
 from __future__ import annotations
@@ -17,9 +19,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from report_44_rows import Array, Rows, tilde
 
-Array = NDArray[np.float64]
 GRAVITY = np.array([0.0, -9.81, 0.0])
 # Gear's method of order 4 (Table 4) and the Adams–Bashforth predictor of order 3 (Table 2), newest first
 BACKWARD, RATE = np.array([48.0, -36.0, 16.0, -3.0]) / 25.0, 12.0 / 25.0
@@ -61,6 +62,8 @@ class Settings:
     beta: float = 5.0
     gyroscopic: bool = True
     homogeneous: bool = True
+    mass_weights: bool = False
+    angles: bool = False
     tolerance: float = 1e-5
 
 
@@ -74,83 +77,6 @@ class Run:
     iterations: Array
 
 
-class Rows:
-    """The basic constraints s, d1 and d2 (eqs. 7, 10, 11) of all joints: s rows first (x, y, z of each), then d1, then d2.
-
-    All vectors fixed in bodies are in one table, `vector` (m, 3) in the axes of bodies `body` (m,). With u = A ū they have
-    C_θ = -A ũ Ḡ (Table 1, eq. 27) and at θ̈ = 0 the acceleration A ω̃ ω̃ ū; Table 1 and eqs. 31–33 are sums of products of these.
-    """
-
-    def __init__(self, rows: tuple[tuple[Any, ...], ...], ground: int) -> None:
-        vectors: list[tuple[int, Array]] = []
-        self.points, self.axes, self.distances = (
-            np.array([_attached(row[1:], ground, vectors) for row in rows if row[0] == kind], dtype=int).reshape(-1, width)
-            for kind, width in (("s", 2), ("d1", 2), ("d2", 3))
-        )
-        self.body = np.array([body for body, _ in vectors])
-        self.vector = np.array([vector for _, vector in vectors])
-        self.tilde = tilde(self.vector)
-        self.count = 3 * len(self.points) + len(self.axes) + len(self.distances)
-
-    def fill(self, R: Array, A: Array, G: Array, rates: Array, C: Array, Cq: Array, Qd: Array) -> None:
-        """C (rows,), C_q (rows, n+1, 7) and Q_d (rows,) at R, A, 2Ē of all bodies and `rates` (n+1, 7) of (R, θ)."""
-        body, at = self.body, A[self.body]
-        spin = tilde(np.einsum("bij,bj->bi", G, rates[:, 3:]))[body]
-        u = np.einsum("mij,mj->mi", at, self.vector)
-        change = -(at @ self.tilde) @ G[body]
-        udot = np.einsum("mij,mj->mi", change, rates[body, 3:])
-        bend = np.einsum("mij,mj->mi", at @ spin @ spin, self.vector)
-
-        i, j = self.points.T
-        s = 3 * len(i)
-        C[:s] = (R[body[j]] + u[j] - R[body[i]] - u[i]).ravel()
-        Qd[:s] = (bend[i] - bend[j]).ravel()
-        for k in range(3):
-            row = np.arange(k, s, 3)
-            Cq[row, body[i], k], Cq[row, body[j], k] = -1.0, 1.0
-            Cq[row, body[i], 3:], Cq[row, body[j], 3:] = -change[i, k], change[j, k]
-
-        i, j = self.axes.T
-        row = np.arange(s, s + len(i))
-        C[row] = np.sum(u[i] * u[j], axis=1)
-        Qd[row] = -np.sum(u[j] * bend[i] + u[i] * bend[j] + 2.0 * udot[i] * udot[j], axis=1)
-        Cq[row, body[i], 3:] = np.einsum("mi,mij->mj", u[j], change[i])
-        Cq[row, body[j], 3:] = np.einsum("mi,mij->mj", u[i], change[j])
-
-        a, i, j = self.distances.T
-        row = np.arange(s + len(self.axes), self.count)
-        between = R[body[j]] + u[j] - R[body[i]]
-        along = rates[body[j], :3] + udot[j] - rates[body[i], :3]
-        # aᵀ u_i of the two vectors of one body is the constant āᵀ ū_i (eq. 10), the rest is the product of a with `between`
-        C[row] = np.sum(u[a] * between, axis=1) - np.sum(self.vector[a] * self.vector[i], axis=1)
-        distance = between - u[i]
-        fixed = np.einsum("mi,mij->mj", self.vector[a], self.tilde[i])
-        Qd[row] = -np.sum(u[a] * bend[j] + distance * bend[a] + 2.0 * udot[a] * along, axis=1)
-        Qd[row] -= np.einsum("mi,mi->m", self.vector[i], np.einsum("mij,mj->mi", spin[i] @ spin[i], self.vector[a]))
-        Cq[row, body[a], :3], Cq[row, body[j], :3] = -u[a], u[a]
-        Cq[row, body[a], 3:] = np.einsum("mi,mij->mj", distance, change[a]) + np.einsum("mi,mij->mj", fixed, G[body[a]])
-        Cq[row, body[j], 3:] = np.einsum("mi,mij->mj", u[a], change[j])
-
-
-def _attached(row: tuple[Any, ...], ground: int, vectors: list[tuple[int, Array]]) -> list[int]:
-    """Put the vectors of a row, written (body, vectors …, body, vector), into the table. Returns their places."""
-    places, body = [], ground
-    for item in row:
-        if isinstance(item, int):
-            body = item
-        else:
-            places.append(len(vectors))
-            vectors.append((ground if body < 0 else body, np.array(item, dtype=float)))
-    return places
-
-
-def tilde(a: Array) -> Array:
-    """(m, 3, 3) of (m, 3): ã b = a × b (eq. 26)."""
-    x, y, z = a.T
-    zero = np.zeros_like(x)
-    return np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
-
-
 class Equations:
     """The equations of motion of a machine: accelerations, constraints and energy of a state."""
 
@@ -161,15 +87,25 @@ class Equations:
         self.rows = Rows(machine.rows, self.bodies)
 
     def place(self, q: Array) -> tuple[Array, Array, Array]:
-        """R (n+1, 3), A (n+1, 3, 3) and 2Ē (n+1, 3, 4); the ground is the last body."""
+        """R (n+1, 3), A (n+1, 3, 3) and Ḡ = 2Ē (n+1, 3, 4); the ground is the last body."""
         x = np.append(q, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]).reshape(-1, 7)
         e0, e1, e2, e3 = x[:, 3:].T
         local = np.array([[-e1, e0, e3, -e2], [-e2, -e3, e0, e1], [-e3, e2, -e1, e0]]).transpose(2, 0, 1)
         space = np.array([[-e1, e0, -e3, e2], [-e2, e3, e0, -e1], [-e3, -e2, e1, e0]]).transpose(2, 0, 1)
         A = space @ local.transpose(0, 2, 1)
         if not self.settings.homogeneous:
-            A /= np.sum(x[:, 3:] ** 2, axis=1)[:, None, None]
+            square = np.sum(x[:, 3:] ** 2, axis=1)[:, None, None]
+            A, local = A / square, local / square
         return x[:, :3], A, 2.0 * local
+
+    def stretching(self, y: Array) -> Array:
+        """(n,) κ = -2 θᵀθ̇/|θ|² of ᾱ = Ḡ θ̈ + κ ω̄ with Ḡ = 2Ē/|θ|²; zero for Ḡ = 2Ē, where Ḡ̇ θ̇ = 0."""
+        theta, thetadot = (part.reshape(-1, 7)[:, 3:] for part in np.split(y, 2))
+        return (
+            np.zeros(self.bodies)
+            if self.settings.homogeneous
+            else -2.0 * np.sum(theta * thetadot, 1) / np.sum(theta**2, 1)
+        )
 
     def constraints(self, y: Array) -> tuple[Array, Array, Array]:
         """C (rows,), C_q (rows, 7 n) and Q_d (rows,) of the joints, then of θᵀθ = 1 of every body."""
@@ -178,6 +114,7 @@ class Equations:
         rates = np.append(y[self.size :], np.zeros(7)).reshape(-1, 7)
         C, Qd, Cq = np.empty(count + n), np.empty(count + n), np.zeros((count + n, n + 1, 7))
         self.rows.fill(R, A, G, rates, C, Cq, Qd)
+        Qd[:count] -= np.einsum("rbj,bj,b->r", Cq[:count, :-1, 3:], rates[:-1, 3:], self.stretching(y))
         theta, thetadot = y[: self.size].reshape(-1, 7)[:, 3:], rates[:-1, 3:]
         C[count:] = np.sum(theta**2, axis=1) - 1.0
         Qd[count:] = -2.0 * np.sum(thetadot**2, axis=1)
@@ -191,6 +128,19 @@ class Equations:
         turning = np.einsum("bij,bki,bk->bj", G[:-1], A[:-1], self.machine.torque)
         return np.hstack([weight, turning]).ravel()
 
+    def mass(self, G: Array, along: float = 0.0) -> Array:
+        """(7 n, 7 n) M of eq. 75 at G = Ḡ (n, 3, 4), with `along` [kg m²] added where it is singular, in the direction of θ."""
+        blocks = G.transpose(0, 2, 1) @ (self.machine.inertia[:, :, None] * G)
+        # ḠᵀḠ is a multiple of 1 - θ θᵀ/|θ|², whose trace is 3
+        square = G.transpose(0, 2, 1) @ G
+        blocks += along * (np.eye(4) - 3.0 * square / np.trace(square, axis1=1, axis2=2)[:, None, None])
+        M = np.zeros((self.size, self.size))
+        for b in range(self.bodies):
+            R, theta = slice(7 * b, 7 * b + 3), slice(7 * b + 3, 7 * b + 7)
+            M[R, R] = self.machine.mass[b] * np.eye(3)
+            M[theta, theta] = blocks[b]
+        return M
+
     def accelerations(self, y: Array) -> Array:
         """(7 n,) q̈ of eq. 77, with eq. 110 in place of Q_d where Baumgarte's stabilisation is on."""
         settings, n, inertia = self.settings, self.size, self.machine.inertia
@@ -198,15 +148,12 @@ class Equations:
         if settings.stabilisation == "baumgarte":
             Qd = Qd - 2.0 * settings.alpha * (Cq @ y[n:]) - settings.beta**2 * C
         G, Q = self.place(y[:n])[2][:-1], self.forces(y).reshape(-1, 7)
+        omega = np.einsum("bij,bj->bi", G, y[n:].reshape(-1, 7)[:, 3:])
+        Q[:, 3:] -= np.einsum("bij,bi,b->bj", G, inertia * omega, self.stretching(y))
         if settings.gyroscopic:
-            omega = np.einsum("bij,bj->bi", G, y[n:].reshape(-1, 7)[:, 3:])
             Q[:, 3:] -= np.einsum("bij,bik,bk->bj", G, tilde(omega), inertia * omega)
         saddle = np.zeros((n + len(C), n + len(C)))
-        turning = G.transpose(0, 2, 1) @ (inertia[:, :, None] * G)
-        for b in range(self.bodies):
-            R, theta = slice(7 * b, 7 * b + 3), slice(7 * b + 3, 7 * b + 7)
-            saddle[R, R] = self.machine.mass[b] * np.eye(3)
-            saddle[theta, theta] = turning[b]
+        saddle[:n, :n] = self.mass(G)
         saddle[n:, :n], saddle[:n, n:] = Cq, Cq.T
         return np.linalg.solve(saddle, np.concatenate([Q.ravel(), Qd]))[:n]
 
@@ -218,17 +165,38 @@ class Equations:
         """y after one pass of eq. 127 and one of eq. 137, each with the Jacobian at the position it finds."""
         y = y.copy()
         C, Cq, _ = self.constraints(y)
-        y[: self.size] -= Cq.T @ np.linalg.solve(Cq @ Cq.T, C)
+        y[: self.size] -= self.shortest(y, Cq, C)
         _, Cq, _ = self.constraints(y)
-        y[self.size :] -= Cq.T @ np.linalg.solve(Cq @ Cq.T, Cq @ y[self.size :])
+        y[self.size :] -= self.shortest(y, Cq, Cq @ y[self.size :])
         return y
+
+    def shortest(self, y: Array, Cq: Array, C: Array) -> Array:
+        """(7 n,) the least Δq with C_q Δq = C: in its own length, or in that of the mass metric."""
+        weighted = Cq.T
+        if self.settings.mass_weights:
+            weighted = np.linalg.solve(self.mass(self.place(y[: self.size])[2][:-1], along=1.0), Cq.T)
+        return weighted @ np.linalg.solve(Cq @ weighted, C)
+
+    def work(self, y: Array, new: Array) -> float:
+        """[J] done by the torques from y to the next state."""
+        begin, end = (state[: self.size].reshape(-1, 7)[:, 3:] for state in (y, new))
+        if not self.settings.angles:
+            return float(np.sum(self.forces(y).reshape(-1, 7)[:, 3:] * (end - begin)))
+        _, A, G = self.place(y[: self.size])
+        axis = np.einsum("bki,bij,bj->bk", A[:-1], G[:-1], end)
+        length = np.sqrt(np.sum(axis**2, axis=1))
+        cosine = np.sum(begin * end, axis=1) / np.sqrt(np.sum(begin**2, axis=1) * np.sum(end**2, axis=1))
+        angle = 2.0 * np.arccos(np.clip(cosine, -1.0, 1.0))
+        return float(np.sum(np.sum(self.machine.torque * axis, axis=1) * angle / np.where(length > 0.0, length, 1.0)))
 
     def energy(self, y: Array) -> float:
         """T + V [J]."""
         _, _, G = self.place(y[: self.size])
         rates = y[self.size :].reshape(-1, 7)
         omega = np.einsum("bij,bj->bi", G[:-1], rates[:, 3:])
-        kinetic = 0.5 * (self.machine.mass @ np.sum(rates[:, :3] ** 2, axis=1) + np.sum(self.machine.inertia * omega**2))
+        kinetic = 0.5 * (
+            self.machine.mass @ np.sum(rates[:, :3] ** 2, axis=1) + np.sum(self.machine.inertia * omega**2)
+        )
         return kinetic - self.machine.mass @ (y[: self.size].reshape(-1, 7)[:, :3] @ GRAVITY)
 
 
@@ -287,8 +255,7 @@ def simulate(machine: Machine, settings: Settings) -> Run:
             iterations.append(count)
         if settings.stabilisation == "direct":
             new = equations.correct(new)
-        turned = (new - y)[: equations.size].reshape(-1, 7)[:, 3:]
-        work.append(work[-1] + np.sum(equations.forces(y).reshape(-1, 7)[:, 3:] * turned))
+        work.append(work[-1] + equations.work(y, new))
         y = new
         if settings.integrator == "gear":
             states, rates = [y, *states[:3]], [equations.rates(y), *rates[:3]]

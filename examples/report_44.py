@@ -224,12 +224,12 @@ def print_tables() -> None:
 def print_habits() -> None:
     """Ratios to Table 11 without each habit of the report's program."""
     print("Largest error of the energy balance over that of Table 11")
-    print(f"{'':28}{''.join(f'{word:>14}' for word in ('as it was', *HABITS, 'all four'))}")
+    print(f"{'':28}{''.join(f'{word:>16}' for word in ('as it was', *HABITS, 'all four'))}")
     choices = ({}, *HABITS.values(), WITHOUT)
     for name in MACHINES:
         for case, number in zip(CASES, LARGEST_ENERGY_ERROR[name], strict=True):
             ratios = [of_report(name, *case, **habits).energy / number for habits in choices]
-            line = f"{name:13}{case[0]:10}{case[1]:5}{''.join(f'{ratio:14.3f}' for ratio in ratios)}"
+            line = f"{name:13}{case[0]:10}{case[1]:5}{''.join(f'{ratio:16.3f}' for ratio in ratios)}"
             print(line.replace("     inf", "diverges"))
 
 

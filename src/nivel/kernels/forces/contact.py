@@ -10,10 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import stage
-from nivel.kernels.forces.impact import impact
+from nivel.kernels.forces.impact import impact, note_side
 from nivel.kernels.forces.push import push_point
 from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
+from nivel.kernels.record import FOLLOWED, record_at
 from nivel.kernels.status import OK
 
 # columns of `columns`; MARKER: centre and axes of the shape (a cylinder's is z); OTHER: the plane (z outwards), or the other sphere
@@ -73,7 +73,13 @@ def touch(machine, k, n, depth):
     v0, v1, v2 = v0 - u0, v1 - u1, v2 - u2
     out = v0 * normal[0] + v1 * normal[1] + v2 * normal[2]
     force, stored, loss, elements.proposal[k, n] = impact(
-        depth, -out, numbers[STIFFNESS], numbers[EXPONENT], numbers[LOSS], elements.memory[k, n]
+        depth,
+        -out,
+        numbers[STIFFNESS],
+        numbers[EXPONENT],
+        numbers[LOSS],
+        elements.memory[k, n],
+        record.watched.follow[FOLLOWED],
     )
     control.stored[0] += stored
     control.power[1] += loss
@@ -139,7 +145,7 @@ def find_point(machine, k, n):
 def apply(machine, number, t):
     """All contacts."""
     record = record_at(machine)
-    elements = record.elements
+    elements, followed = record.elements, record.watched.follow[FOLLOWED]
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         kind = elements.columns[k, KIND]
         count = POINTS if kind in (BOX, CYLINDER) else 1
@@ -147,7 +153,9 @@ def apply(machine, number, t):
         for n in range(count):
             depth = find_point(machine, k, n)
             deepest = max(deepest, depth)
-            if depth > 0.0:
+            elements.depth[k, n] = depth
+            note_side(record.watched, depth, elements.memory[k, n])
+            if depth > 0.0 or (followed == 1 and elements.memory[k, n] > 0.0):
                 force, friction, gained = touch(machine, k, n, depth)
                 normal_force += force
                 friction_force += friction

@@ -1,0 +1,45 @@
+"""An event in words: an expression that passes zero."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.checked import Checked, Problem
+from nivel.machine.coefficient import Truth
+from nivel.machine.quantity import fault, shown
+from nivel.machine.record import Name
+from nivel.machine.time_function import Measured
+
+_COMPARISONS = ("<", ">", "=")
+
+
+def _passes_zero(value: Any) -> Any:
+    """Refuse comparisons, which people try first."""
+    if isinstance(value, str) and any(sign in value for sign in _COMPARISONS):
+        raise fault(
+            f"an event is where an expression passes zero, not a comparison as in {shown(value)}: "
+            "for `hinge.angle > 2` write `hinge.angle - 2` and `direction: rising`"
+        )
+    return value
+
+
+class Event(Checked):
+    """A moment that a run finds and keeps: where the value of an expression changes its sign."""
+
+    collection: ClassVar[str] = "events"
+
+    name: Name
+    when: Annotated[Measured, BeforeValidator(_passes_zero)] = Field(
+        description="expression of `time` and symbols; the event is where it passes zero"
+    )
+    direction: Literal["rising", "falling", "both"] = Field(
+        default="both", description="of the value where it passes zero"
+    )
+    stop: Truth = Field(default=False, description="whether the run ends at the event")
+
+    def problems(self) -> Iterator[Problem]:
+        if isinstance(self.when, float | int):
+            yield Problem(("when",), f"{self.when:.6g} does not vary, so it never passes zero; use `time` or symbols")

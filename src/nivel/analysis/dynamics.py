@@ -6,7 +6,7 @@ import time as clock_of_python
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -60,6 +60,7 @@ from nivel.march.run import (
 from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS, path_of
+from nivel.results.occurrence import Occurrence
 from nivel.system.partition import forget
 from nivel.system.system import Array, System
 
@@ -82,14 +83,6 @@ class Prepared:
     assembly: Assembly
     redundancy: Redundancy
     drivers: int
-
-
-class Occurrence(NamedTuple):
-    """An event that came: its name, its time [s], and whether its value was rising or falling."""
-
-    name: str
-    time: float
-    direction: str
 
 
 @dataclass

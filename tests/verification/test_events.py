@@ -248,7 +248,7 @@ def test_results_files_reports_and_texts_have_all_events(tmp_path):
     np.testing.assert_allclose(ticks, np.arange(1, 2001) / 2000, atol=1e-14)
     assert r.stopped_by == "end"
     text = r.report(tmp_path / "fall.html").read_text()
-    assert "tick 2000 times, first at t = 0.0005 s, last at t = 1 s" in text
+    assert "tick 2000 times, first at t = 0.0005 s, last at 1 s" in text
     assert "end at t = 1.00025 s, which ended the run" in text
     assert "end at t = 1.00025 s, which ended the run" in repr(r)
     assert "end at t = 1.00025 s, which ended the run" in r._repr_html_()

@@ -22,7 +22,7 @@ from nivel.analysis.refusals import refuse_deep_starts, refuse_rough_motions, re
 from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
-from nivel.kernels.record import FOLLOWED, WATCH
+from nivel.kernels.record import WATCH
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS, IntegratorFacts
@@ -228,7 +228,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     record.control.iterations[1] = 0
     forget(record.partition)
     record.coordinates.reference[:] = prepared.assembly.reference
-    record.watched.follow[:] = 0
+    record.watched.followed[:] = 0
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
     record.friction.force[:] = 0.0
@@ -242,7 +242,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     energy = system.record.control.energy
     energy[2] = energy[0] + energy[1]
     values = _watch(system, facts)
-    count[SWITCHED] = record.watched.follow[FOLLOWED]
+    count[SWITCHED] = record.watched.followed[0]
     return Run(
         clock=clock,
         counter=count,
@@ -260,7 +260,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
         turns=system.map.turns,
         dense=np.zeros((DENSE_ROWS, len(y))),
         frames=np.zeros((rows, width)),
-        event_values=np.zeros((4, values)),
+        event_values=np.zeros((6, values)),
         events=np.zeros((EVENT_ROWS if len(record.watched.event) else 0, 3)),
     )
 
@@ -269,8 +269,8 @@ def _watch(system: System, facts: IntegratorFacts) -> int:
     """Number of values whose zeros are looked for: events, and where steps are chosen, contacts and stops."""
     watched = system.record.watched
     if facts.chooses_steps:
-        watched.follow[FOLLOWED] = int(len(watched.surface) > 0)
-    count = len(watched.event) + (len(watched.surface) if watched.follow[FOLLOWED] else 0)
+        watched.followed[0] = int(len(watched.surface) > 0)
+    count = len(watched.event) + (len(watched.surface) if watched.followed[0] else 0)
     if count:
         system.record.hooks.address[WATCH] = import_module("nivel.kernels.watch").watch.address
     return count

@@ -139,6 +139,7 @@ class Elements(NamedTuple):
     memory: F2  # (E, ·) what an element keeps from accepted state to accepted state
     proposal: F2  # (E, ·) the memory that the state last evaluated would leave
     depth: F2  # (E, ·) overlap at each surface of contacts and stops, negative while apart; one to each place of `memory`
+    depth_rate: F2  # (E, ·) its rate, where contacts and stops are followed
     state: F1  # (nx,) first-order states, copied from y
     state_rate: F1  # (nx,)
 
@@ -183,7 +184,8 @@ class Watched(NamedTuple):
     event: U2  # (events, 3) FUNCTION, DIRECTION, STOP: whether it ends the run
     surface: U2  # (surfaces, 2) element, place in its `depth`
     value: F1  # (events + surfaces,) in the state last evaluated
-    follow: U1  # (2,) FOLLOWED: contacts and stops keep the side of the accepted state; SEEN: one was seen on its other side
+    rate: F1  # (events + surfaces,) of the surfaces, zero for events
+    followed: U1  # (1,) whether contacts and stops keep the side of the accepted state, see `nivel.kernels.forces.impact`
 
 
 class Hooks(NamedTuple):
@@ -367,4 +369,3 @@ EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
 MEASURE, FRICTION, SENSE, COMPLETE, WATCH = 0, 1, 2, 3, 4  # entries of Hooks.address
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions
-FOLLOWED, SEEN = 0, 1  # entries of Watched.follow

@@ -10,12 +10,14 @@ from nivel.kernels.status import OK
 
 @family
 def watch(machine, job, t):
-    """Fill `watched.value` in the state last evaluated."""
+    """Fill `watched.value` and `watched.rate` in the state last evaluated."""
     record = record_at(machine)
-    watched, depth = record.watched, record.elements.depth
+    watched, elements = record.watched, record.elements
     events = watched.event.shape[0]
     for k in range(events):
         watched.value[k] = evaluate_function(machine, watched.event[k, FUNCTION], t)
     for k in range(watched.surface.shape[0]):
-        watched.value[events + k] = depth[watched.surface[k, 0], watched.surface[k, 1]]
+        element, place = watched.surface[k, 0], watched.surface[k, 1]
+        watched.value[events + k] = elements.depth[element, place]
+        watched.rate[events + k] = elements.depth_rate[element, place]
     return OK

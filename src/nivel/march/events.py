@@ -14,7 +14,7 @@ import numpy as np
 
 from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_hook
-from nivel.kernels.record import BOTH, DIRECTION, RISING, SEEN, STOP, WATCH, record_at
+from nivel.kernels.record import BOTH, DIRECTION, RISING, STOP, WATCH, record_at
 from nivel.kernels.status import BUFFER_FULL, EVENT_NOT_FINITE, OK
 from nivel.march.dense import cubic, inside
 from nivel.march.run import (
@@ -25,6 +25,8 @@ from nivel.march.run import (
     EVENTS,
     KNOWN,
     LENGTH,
+    RATE_AFTER,
+    RATE_BEFORE,
     REACHED,
     RESTART,
     SIDE,
@@ -40,15 +42,15 @@ SHARE, ROUND_OFF = 1e-12, 2.220446049250313e-16
 NEVER = 2.0
 # The value at an end of a bracket of which the side alone is known.
 UNKNOWN = 1e-300
-# Where a surface was seen on its other side within a step that ends as it began, the step is looked through at so many states.
-LOOKS = 8
+# At most so many states are looked at within a step that may touch a surface and leave it; none nearer to others than this share.
+LOOKS, MARGIN = 30, 0.01
 # A bracket that so many regula falsi steps do not halve is bisected.
 PATIENCE = 4
 
 
 @leaf
 def read_values(machine, history, row, t):
-    """Row of event_values := the values watched in the state last evaluated. Returns a status."""
+    """Row BEFORE or AFTER := the values watched in the state last evaluated, and their rates. Returns a status."""
     run, watched = run_at(history), record_at(machine).watched
     call_hook(machine, WATCH, 0, t)
     for k in range(run.event_values.shape[1]):
@@ -57,6 +59,7 @@ def read_values(machine, history, row, t):
             record_at(machine).control.failure[0] = k
             return EVENT_NOT_FINITE
         run.event_values[row, k] = value
+        run.event_values[RATE_BEFORE if row == BEFORE else RATE_AFTER, k] = watched.rate[k]
     return OK
 
 
@@ -107,8 +110,8 @@ def value_at(evaluate, correct, machine, history, k, theta):
 
 
 @leaf
-def locate(evaluate, correct, machine, history, k, low, high, above):
-    """(status, θ) where value k, which is on its side at θ = low and has the value `above` at high, changes to the other side.
+def locate(evaluate, correct, machine, history, k, high, above):
+    """(status, θ) where value k, which has the value `above` on its other side at θ = high, changes to it.
 
     Regula falsi in the Illinois form (Dowell & Jarratt 1971), bisection where that is slow. No state is looked at nearer to an end of
     the bracket than half the tolerance, so the bracket closes when the estimate no longer moves. θ is its upper end: on the other side.
@@ -116,12 +119,12 @@ def locate(evaluate, correct, machine, history, k, low, high, above):
     run = run_at(history)
     events, clock = record_at(machine).watched.event.shape[0], run.clock
     side, below = run.event_values[SIDE, k], run.event_values[BEFORE, k]
-    if low == 0.0 and below == 0.0 and k < events:
+    if below == 0.0 and k < events:
         return OK, 0.0
-    if low > 0.0 or below * side <= 0.0:
+    if below * side <= 0.0:
         below = side * UNKNOWN
     tolerance = max(SHARE, ROUND_OFF * np.abs(clock[REACHED]) / clock[LENGTH])
-    last, width, slow = side, high - low, 0
+    low, last, width, slow = 0.0, side, high, 0
     while high - low > tolerance:
         theta = 0.5 * (low + high)
         if slow < PATIENCE:
@@ -148,7 +151,7 @@ def is_wanted(direction, now):
 
 
 @leaf
-def find_crossings(evaluate, correct, machine, history, first, last, low, high):
+def find_crossings(evaluate, correct, machine, history, first, last, high):
     """WHEN := where each of the values `first` … `last` - 1 changes its side, whose side at θ = high, in row AFTER, is another one.
 
     Returns a status.
@@ -159,7 +162,7 @@ def find_crossings(evaluate, correct, machine, history, first, last, low, high):
         side, now = values[SIDE, k], side_of(values[AFTER, k], k, events)
         if side * now >= 0.0 or (k < events and not is_wanted(watched.event[k, DIRECTION], now)):
             continue
-        status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, low, high, values[AFTER, k])
+        status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, high, values[AFTER, k])
         if status != OK:
             return status
     return OK
@@ -179,20 +182,33 @@ def first_of(when, first):
 
 
 @leaf
-def look_through(evaluate, correct, machine, history, events):
-    """Find surfaces that were on their other side within the step, although not at its end. Row AFTER is lost. Returns a status."""
-    run = run_at(history)
-    values, clock = run.event_values, run.clock
-    for n in range(1, LOOKS):
-        low, high = (n - 1) / LOOKS, n / LOOKS
-        status = probe(evaluate, correct, machine, history, high)
-        if status == OK:
-            status = read_values(machine, history, AFTER, clock[TIME] + high * clock[LENGTH])
-        if status == OK:
-            status = find_crossings(evaluate, correct, machine, history, events, values.shape[1], low, high)
-        if status != OK or first_of(values[WHEN], events) < NEVER:
-            return status
-    return OK
+def look_into(evaluate, correct, machine, history, k):
+    """(status, θ, value) of a state within the step in which surface k is on its other side, although at its end it is not; θ is NEVER
+    where there is none.
+
+    Such a step comes nearer to the change of sides at its begin and goes away from it at its end. States are looked at where the
+    tangents of the distance meet (Kelley 1960), until one is on the other side, or the tangents meet before it.
+    """
+    run, watched = run_at(history), record_at(machine).watched
+    values, side, h = run.event_values, run.event_values[SIDE, k], run.clock[LENGTH]
+    low, distance_low, rate_low = 0.0, side * values[BEFORE, k], side * h * values[RATE_BEFORE, k]
+    high, distance_high, rate_high = 1.0, side * values[AFTER, k], side * h * values[RATE_AFTER, k]
+    for _ in range(LOOKS):
+        if rate_low >= 0.0 or rate_high <= 0.0:
+            break
+        theta = (distance_high - distance_low + rate_low * low - rate_high * high) / (rate_low - rate_high)
+        if distance_low + rate_low * (theta - low) >= 0.0:
+            break
+        theta = min(max(theta, low + MARGIN * (high - low)), high - MARGIN * (high - low))
+        status, value = value_at(evaluate, correct, machine, history, k, theta)
+        if status != OK or value * side <= 0.0:
+            return status, theta, value
+        rate = side * h * watched.rate[k]
+        if rate < 0.0:
+            low, distance_low, rate_low = theta, side * value, rate
+        else:
+            high, distance_high, rate_high = theta, side * value, rate
+    return OK, NEVER, 0.0
 
 
 @leaf
@@ -216,18 +232,18 @@ def find_contacts(evaluate, correct, machine, history, events):
     values = run.event_values
     if values.shape[1] == events:
         return OK, 1.0
-    status = find_crossings(evaluate, correct, machine, history, events, values.shape[1], 0.0, 1.0)
+    status = find_crossings(evaluate, correct, machine, history, events, values.shape[1], 1.0)
+    for k in range(events, values.shape[1]):
+        if status == OK and values[WHEN, k] == NEVER:
+            status, theta, value = look_into(evaluate, correct, machine, history, k)
+            if status == OK and theta < NEVER and side_of(value, k, events) != values[SIDE, k]:
+                status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
     end = first_of(values[WHEN], events)
-    if status == OK and end == NEVER and watched.follow[SEEN] == 1:
-        status = look_through(evaluate, correct, machine, history, events)
-        end = min(first_of(values[WHEN], events), 1.0)
-    elif end == NEVER:
-        return status, 1.0
-    if status == OK:
-        status = end_at(evaluate, correct, machine, history, end)
-        if end < 1.0:
-            run.counter[RESTART], run.counter[SWITCHED] = 1, 1
-    return status, end
+    if end < NEVER:
+        run.counter[RESTART], run.counter[SWITCHED] = 1, 1
+        if status == OK:
+            status = end_at(evaluate, correct, machine, history, end)
+    return status, min(end, 1.0)
 
 
 @leaf
@@ -261,7 +277,7 @@ def find_events(evaluate, correct, machine, history):
     values[WHEN, :] = NEVER
     status, end = find_contacts(evaluate, correct, machine, history, events)
     if status == OK:
-        status = find_crossings(evaluate, correct, machine, history, 0, events, 0.0, end)
+        status = find_crossings(evaluate, correct, machine, history, 0, events, end)
     stop = first_stop(watched, values[WHEN])
     if status == OK and stop >= 0:
         end = values[WHEN, stop]
@@ -276,7 +292,7 @@ def find_events(evaluate, correct, machine, history):
         else:
             values[WHEN, k] = NEVER
             values[SIDE, k] = now if now != 0.0 else values[SIDE, k]
-        values[BEFORE, k] = values[AFTER, k]
+        values[BEFORE, k], values[RATE_BEFORE, k] = values[AFTER, k], values[RATE_AFTER, k]
     return status
 
 

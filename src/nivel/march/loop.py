@@ -5,7 +5,7 @@ from __future__ import annotations
 from nivel.kernels.compile import entry, leaf
 from nivel.kernels.handle import address_type
 from nivel.kernels.observe import accept, observe
-from nivel.kernels.record import SEEN, record_at
+from nivel.kernels.record import record_at
 from nivel.kernels.saddle import contradicts
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK
 from nivel.march.dense import cubic, frame_time, inside
@@ -207,13 +207,13 @@ def correct_reached(correct, machine, history):
 def take_step(evaluate, correct, step, machine, history):
     """One step from the accepted state to clock[REACHED], with the correction; then its events. Returns a status."""
     run = run_at(history)
-    clock, counter, watched = run.clock, run.counter, record_at(machine).watched
+    clock, counter = run.clock, run.counter
     n, h = counter[DONE_STEPS], clock[STEP]
     fixed = counter[ALL_STEPS] > 0
     if fixed:
         clock[REACHED] = time_of(run, n + 1)
         clock[STEP] = clock[REACHED] - clock[TIME] if n + 1 == counter[ALL_STEPS] else h
-    counter[DENSE], watched.follow[SEEN] = 0, 0
+    counter[DENSE] = 0
     status = step(evaluate, machine, history)
     if fixed:
         clock[STEP] = h

@@ -22,7 +22,7 @@ ITERATIONS, REJECTED, RESTART, DENSE, INSIDE, STOPPED, EVENTS, ORDER, MOST_ITERA
 POWERS, UNCONSERVED, CONSERVE, KNOWN, SWITCHED = 18, 19, 20, 21, 22
 COUNTS = 23
 # rows of Run.event_values
-BEFORE, AFTER, SIDE, WHEN = 0, 1, 2, 3
+BEFORE, AFTER, SIDE, WHEN, RATE_BEFORE, RATE_AFTER = 0, 1, 2, 3, 4, 5
 # most rows of Run.dense
 DENSE_ROWS = 13
 
@@ -58,7 +58,7 @@ class Run(NamedTuple):
     turns: U2  # (·, 2)
     dense: F2  # (DENSE_ROWS, ny) the state inside the last step, see `nivel.march.dense`
     frames: F2  # (capacity, width) output
-    event_values: F2  # (4, values watched) BEFORE and AFTER the last step, SIDE, and share of the step WHEN it changed; `nivel.march.events`
+    event_values: F2  # (6, values watched) BEFORE and AFTER the last step, SIDE, share of the step WHEN it changed; see `nivel.march.events`
     events: F2  # (capacity, 3) time [s], number of the event, direction 1 or -1
 
 

@@ -147,7 +147,8 @@ def _watched(draft: Draft) -> Watched:
         event=index_array(events, 3),
         surface=index_array(surfaces, 2),
         value=np.zeros(len(events) + len(surfaces)),
-        follow=np.zeros(2, dtype=np.uint32),
+        rate=np.zeros(len(events) + len(surfaces)),
+        followed=np.zeros(1, dtype=np.uint32),
     )
 
 

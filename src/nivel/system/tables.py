@@ -130,6 +130,7 @@ class ElementTable:
             memory=np.zeros(kept),
             proposal=np.zeros(kept),
             depth=np.zeros(kept),
+            depth_rate=np.zeros(kept),
             state=np.zeros(self.states),
             state_rate=np.zeros(self.states),
         )

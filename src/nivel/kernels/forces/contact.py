@@ -10,10 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import stage
-from nivel.kernels.forces.impact import impact, note_side
+from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.push import push_point
 from nivel.kernels.hook import family
-from nivel.kernels.record import FOLLOWED, record_at
+from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 
 # columns of `columns`; MARKER: centre and axes of the shape (a cylinder's is z); OTHER: the plane (z outwards), or the other sphere
@@ -79,7 +79,7 @@ def touch(machine, k, n, depth):
         numbers[EXPONENT],
         numbers[LOSS],
         elements.memory[k, n],
-        record.watched.follow[FOLLOWED],
+        record.watched.followed[0],
     )
     control.stored[0] += stored
     control.power[1] += loss
@@ -104,6 +104,17 @@ def velocity_at(bodies, b, p):
     R, V, w = bodies.R[b], bodies.Rdot[b], bodies.omega[b]
     u0, u1, u2 = p[0] - R[0], p[1] - R[1], p[2] - R[2]
     return V[0] + w[1] * u2 - w[2] * u1, V[1] + w[2] * u0 - w[0] * u2, V[2] + w[0] * u1 - w[1] * u0
+
+
+@stage
+def approach(machine, k):
+    """Rate of the overlap at the point of number[POINT:]."""
+    record = record_at(machine)
+    bodies, body, elements = record.bodies, record.markers.body, record.elements
+    p, normal = elements.number[k, POINT:NORMAL], elements.number[k, NORMAL:NUMBERS]
+    v0, v1, v2 = velocity_at(bodies, body[elements.columns[k, MARKER]], p)
+    u0, u1, u2 = velocity_at(bodies, body[elements.columns[k, OTHER]], p)
+    return (u0 - v0) * normal[0] + (u1 - v1) * normal[1] + (u2 - v2) * normal[2]
 
 
 @stage
@@ -145,7 +156,7 @@ def find_point(machine, k, n):
 def apply(machine, number, t):
     """All contacts."""
     record = record_at(machine)
-    elements, followed = record.elements, record.watched.follow[FOLLOWED]
+    elements, followed = record.elements, record.watched.followed[0]
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         kind = elements.columns[k, KIND]
         count = POINTS if kind in (BOX, CYLINDER) else 1
@@ -154,7 +165,8 @@ def apply(machine, number, t):
             depth = find_point(machine, k, n)
             deepest = max(deepest, depth)
             elements.depth[k, n] = depth
-            note_side(record.watched, depth, elements.memory[k, n])
+            if followed == 1:
+                elements.depth_rate[k, n] = approach(machine, k)
             if depth > 0.0 or (followed == 1 and elements.memory[k, n] > 0.0):
                 force, friction, gained = touch(machine, k, n, depth)
                 normal_force += force

@@ -10,7 +10,6 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf
-from nivel.kernels.record import FOLLOWED, SEEN
 
 # approach speeds below this [m/s or rad/s] count as this one: a slower touch would be damped without bounds
 SLOWEST = 1e-2
@@ -34,10 +33,3 @@ def impact(depth, rate, stiffness, exponent, x, remembered, followed):
     if depth > 0.0:
         force = max(force, 0.0)
     return force, elastic * depth / (exponent + 1.0), (force - elastic) * rate, kept
-
-
-@leaf
-def note_side(watched, depth, remembered):
-    """Remember that surfaces which are followed were seen on the other side than that of the last accepted state."""
-    if (depth > 0.0) != (remembered > 0.0):
-        watched.follow[SEEN] = watched.follow[FOLLOWED]

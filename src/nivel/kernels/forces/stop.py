@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from nivel.kernels.forces.impact import impact, note_side
+from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.push import push_coordinate
 from nivel.kernels.hook import family
-from nivel.kernels.record import FOLLOWED, record_at
+from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 
 # columns of `columns`; outputs: effort on the coordinate, power, overlap
@@ -19,14 +19,14 @@ def apply(machine, number, t):
     """Compliant surfaces at LOWER and UPPER, see `nivel.kernels.forces.impact`."""
     record = record_at(machine)
     elements, coordinates, control = record.elements, record.coordinates, record.control
-    followed = record.watched.follow[FOLLOWED]
+    followed = record.watched.followed[0]
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         n, memory, proposal, depth = elements.number[k], elements.memory[k], elements.proposal[k], elements.depth[k]
         q, out = elements.columns[k, COORDINATE], elements.columns[k, OUTPUT]
         c, rate = coordinates.value[q], coordinates.rate[q]
         depth[0], depth[1] = n[LOWER] - c, c - n[UPPER]
-        for side in range(2):
-            note_side(record.watched, depth[side], memory[side])
+        if followed == 1:
+            elements.depth_rate[k, 0], elements.depth_rate[k, 1] = -rate, rate
         up, stored, loss, proposal[0] = impact(
             depth[0], -rate, n[STIFFNESS], n[EXPONENT], n[LOSS], memory[0], followed
         )

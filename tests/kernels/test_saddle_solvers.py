@@ -42,6 +42,9 @@ def saddle_of(C, blocks, groups, redundant=0):
         P_start=elimination.P_start,
         P_column=elimination.P_column,
         P_entry=elimination.P_entry,
+        row=np.arange(K, dtype=np.uint32),
+        shift=np.zeros(K),
+        target=np.zeros(K),
         W=np.array([C[r, 6 * b : 6 * b + 6] for r, b in blocks]),
         G=np.zeros((0, 0, 0)),
         z=empty,
@@ -97,7 +100,7 @@ def test_pivoted_factor_gives_the_shortest_solution_in_scaled_unknowns(seed):
     S = C @ C.T
     right = S @ rng.standard_normal(len(C))
     saddle.b[:] = right
-    gather(saddle)
+    gather(saddle, np.ones(len(C)))
     assert factorise_pivoted(saddle, rank) == -1
     solve_pivoted(saddle, rank)
     scale = 1 / np.sqrt(np.diag(S))

@@ -125,6 +125,10 @@ def test_the_machine_of_these_tests_is_right():
             "drivers.d.marker: there is no marker `tap`; did you mean `tip`?",
         ),
         (
+            {"simulation": {"cut": ["hinge", "slid"]}},
+            "simulation.cut.1: there is no joint `slid`; did you mean `slide`?",
+        ),
+        (
             {"drivers": ({"name": "d", "marker": "tip", "about": "z", "relative_to": "eey", "value": 1},)},
             "drivers.d.relative_to: there is no marker `eey`; did you mean `eye`?",
         ),

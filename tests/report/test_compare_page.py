@@ -93,7 +93,7 @@ def test_every_row_and_every_number_is_there():
         assert part in text
     assert "failed : stopped at t = 0.2 s" in text
     assert "≲ 1.0e-12" in text  # not to be told from the error of the reference
-    assert "error ≤ 1e-6 newton-euler · none, 1 ms: 10 ms" in text
+    assert "error ≤ 1e-6 newton-euler · none, 1 ms: 10 ms" in text  # no-break spaces are spaces to `words`
     assert "Furthest apart of 2 methods, each at its finest: none and direct." in text
 
 
@@ -150,8 +150,8 @@ const column = (k) => [...document.querySelectorAll(".cells tbody tr")].map((row
 const button = document.querySelectorAll(".cells thead button")[8];
 button.click(); const rising = column(8); button.click(); const falling = column(8);
 const entry = document.querySelectorAll(".legend button")[1];
-entry.focus(); const chosen = document.querySelectorAll(".precision.one .chosen").length;
-entry.blur();
+entry.dispatchEvent(new Event("focus")); const chosen = document.querySelectorAll(".precision.one .chosen").length;
+entry.dispatchEvent(new Event("blur"));
 const shown = [...document.querySelectorAll(".precision")].map((svg) => svg.getBoundingClientRect().width > 0);
 document.title = JSON.stringify({ rising, falling, chosen, shown, left: document.querySelectorAll(".precision.one").length,
   wide: document.documentElement.scrollWidth - document.documentElement.clientWidth });

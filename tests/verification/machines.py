@@ -169,3 +169,46 @@ def heavy_top(**settings):
         joints=(Joint(name="tip", type="spherical", bodies=("ground", "top"), point=(0, 0, 0)),),
         simulation=SimulationSettings(**({"duration": 2.0} | settings)),
     )
+
+
+def bennett():
+    """Bennett's spatial linkage (1903): four skew hinges that turn although Grübler counts -2 freedoms.
+
+    Links a, b, a, b with twists α, β, α, β and a/sin α = b/sin β; at every position
+    tan(θ1/2) tan(θ2/2) = sin((β + α)/2)/sin((β - α)/2), opposite angles add up to a full turn.
+    """
+    a, twist_a, twist_b, first = 1.0, 0.7, 1.3, 1.1
+    b = a * np.sin(twist_b) / np.sin(twist_a)
+    ratio = np.sin((twist_b + twist_a) / 2) / np.sin((twist_b - twist_a) / 2)
+    second = 2 * np.arctan(ratio / np.tan(first / 2))
+    frame = np.eye(4)
+    hinges = []
+    for length, twist, angle in (
+        (a, twist_a, first),
+        (b, twist_b, second),
+        (a, twist_a, -first),
+        (b, twist_b, -second),
+    ):
+        hinges.append(frame.copy())
+        turn, slide = np.eye(4), np.eye(4)
+        turn[:3, :3] = Rotation.from_rotvec([0, 0, angle]).as_matrix()
+        slide[:3, :3] = Rotation.from_rotvec([twist, 0, 0]).as_matrix()
+        slide[0, 3] = length
+        frame = frame @ turn @ slide
+    np.testing.assert_allclose(frame, np.eye(4), atol=1e-12)
+    names = ("ground", "one", "two", "three")
+    centres = [(hinges[k][:3, 3] + hinges[(k + 1) % 4][:3, 3]) / 2 for k in range(4)]
+    bodies = tuple(
+        Body(name=names[k], mass=2, inertia=(0.1, 0.15, 0.2), position=tuple(centres[k - 1])) for k in range(1, 4)
+    )
+    joints = tuple(
+        Joint(
+            name=f"h{k}",
+            type="revolute",
+            bodies=(names[k], names[(k + 1) % 4]),
+            point=tuple(hinges[k][:3, 3]),
+            axis=tuple(hinges[k][:3, 2]),
+        )
+        for k in range(4)
+    )
+    return MachineRecord(name="bennett", gravity=(0, 0, -9.81), bodies=bodies, joints=joints)

@@ -10,7 +10,7 @@ import pytest
 
 import machines
 import nivel
-from nivel.analysis.closing import close_positions
+from assembled import TIME, mass_matrix, random_states
 from nivel.analysis.dynamics import march, prepare
 from nivel.analysis.equations import change_between, moved
 from nivel.analysis.settings import complete
@@ -33,23 +33,6 @@ MACHINES = {
     **{path.name: (lambda path=path: nivel.load(path, allow_code=True).record) for path in EXAMPLES.glob("*.yaml")},
 }
 EACH = pytest.mark.parametrize("name", MACHINES)
-TIME = 0.02
-
-
-def random_states(prepared, rng, count=3):
-    """Assembled states near the start: a random change of all bodies, closed again; random velocities that the rows allow."""
-    motion, system = prepared.absolute, prepared.absolute.system
-    for _ in range(count):
-        y = prepared.start.copy()
-        change = rng.uniform(-0.1, 0.1, (system.body_count, 6))
-        change[:, :3] *= system.size
-        y[: system.positions] = moved(y[: system.positions], change.ravel())
-        assert close_positions(motion, TIME, y)
-        v = slice(system.positions, system.positions + 6 * system.body_count)
-        y[v] = rng.uniform(-2, 2, 6 * system.body_count)
-        motion.evaluate(TIME, y)
-        y[v] -= np.linalg.lstsq(motion.jacobian(), system.record.constraints.Cdot, rcond=1e-10)[0]
-        yield y
 
 
 def solved(motion, y):
@@ -57,19 +40,6 @@ def solved(motion, y):
     status, rate = motion.evaluate(TIME, y)
     assert status == OK
     return rate, motion.system.record.constraints.lam.copy()
-
-
-def mass_matrix(system):
-    """M (6 B, 6 B) of (Ṙ, ω̄) as the second derivative of T = Σ ½ m |Ṙ + A ω̄ × c|² + ½ ω̄ᵀ J̄ ω̄."""
-    bodies, count = system.record.bodies, system.body_count
-    M = np.zeros((6 * count, 6 * count))
-    for b in range(count):
-        # velocity of the centre of mass = [1, -A c̃] (Ṙ, ω̄)
-        V = np.hstack([np.eye(3), -bodies.A[b] @ np.cross(np.eye(3), bodies.centre_b[b])])
-        at = slice(6 * b, 6 * b + 6)
-        M[at, at] = bodies.mass[b] * V.T @ V
-        M[6 * b + 3 : 6 * b + 6, 6 * b + 3 : 6 * b + 6] += bodies.inertia_b[b]
-    return M
 
 
 @EACH

@@ -13,6 +13,7 @@ from nivel.analysis.elements import coupling_in_words, driver_in_words, event_in
 from nivel.analysis.settings import RunSettings, complete
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import JOINTS
+from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System
 
 
@@ -68,6 +69,7 @@ class Check:
     gap_row: str
     moved: tuple[tuple[str, float, float], ...]
     velocity_change: tuple[tuple[str, float, float], ...]
+    cut: tuple[str, ...]  # joints that stay constraints in relative coordinates
     settings: RunSettings
 
     def __repr__(self) -> str:
@@ -110,6 +112,11 @@ def _lines(facts: Check) -> Iterator[str]:
         yield from (f"  {words}" for words in elements)
     yield from _assembly_lines(facts)
     yield from _redundancy_lines(facts)
+    if facts.settings.coordinates == "relative":
+        cut = f"loops are closed at {', '.join(facts.cut)}" if facts.cut else "a tree, no joint is a constraint"
+        yield f"coordinates: relative, {cut}"
+    else:
+        yield f"coordinates: {facts.settings.coordinates}"
 
 
 def _assembly_lines(facts: Check) -> Iterator[str]:
@@ -141,13 +148,13 @@ def check(machine: MachineRecord) -> Check:
     """Check and assemble `machine`. Raises ModelError with what is wrong."""
     settings = complete(machine.simulation, choose_coordinates(machine))
     prepared = prepare(machine, settings.formulation, settings.coordinates)
-    system = prepared.motion.system
+    system = prepared.absolute.system
     record, redundancy, assembly = system.record, prepared.redundancy, prepared.assembly
     from nivel.kernels.observe import observe
 
-    prepared.motion.evaluate(0.0, assembly.y)
+    prepared.absolute.evaluate(0.0, assembly.y)
     frame = np.zeros(system.layout.width)
-    observe(prepared.motion.handle.address, 0.0, assembly.y, frame)
+    observe(prepared.absolute.handle.address, 0.0, assembly.y, frame)
     columns = next(v.columns for v in system.layout.variables if v.name == "joint_coordinate")
     labels = system.layout.coordinates["joint_coordinate"]
     values = dict(zip(labels, zip(frame[columns].tolist(), system.coordinate_units, strict=True), strict=True))
@@ -178,8 +185,14 @@ def check(machine: MachineRecord) -> Check:
         gap_row=assembly.gap_row,
         moved=assembly.moved,
         velocity_change=assembly.velocity_change,
+        cut=_cut(machine) if settings.coordinates == "relative" else (),
         settings=settings,
     )
+
+
+def _cut(machine: MachineRecord) -> tuple[str, ...]:
+    """Joints that stay constraints in relative coordinates."""
+    return tuple(machine.joints[k].name for k in tree_of(machine, machine.simulation).cut)
 
 
 def _turn(theta: Array) -> tuple[tuple[float, ...], float]:

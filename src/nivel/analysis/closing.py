@@ -12,6 +12,8 @@ from nivel.analysis.equations import MotionEquations, moved
 from nivel.errors import Fault, ModelError
 from nivel.system.system import Array
 
+Index = NDArray[np.int64]
+
 ITERATIONS, MOST_STEPS = 100, 20_000
 # Constraints hold to this share of the scale of their row: the machine's length, or 1 for cosines.
 CLOSED = 1e-12
@@ -101,24 +103,29 @@ def least_change(
     system = motion.system
     if not np.any(target):
         return np.zeros(6 * system.body_count)
-    J = np.vstack([motion.jacobian(), motion.coordinate_jacobian(coordinates)]).reshape(len(target), -1, 6)
+    row, body, block = motion.jacobian_blocks(coordinates)
     willing = np.ones(system.body_count)
     if wishes is not None:
         willing = np.where(wishes.hold & hold, 0.0, 1.0 / wishes.weight)
-    J *= willing[:, None]
-    J[:, :, :3] *= system.size
-    J = J.reshape(len(target), -1) / scale[:, None]
-    return np.repeat(willing, 6) * _least_solution(J, target / scale)
+    block = block * (willing[body] / scale[row])[:, None]
+    block[:, :3] *= system.size
+    return np.repeat(willing, 6) * _least_solution(row, body, block, system.body_count, target / scale)
 
 
-def _least_solution(J: Array, target: Array) -> Array:
-    if J.size <= DENSE_ENTRIES:
+def _least_solution(row: Index, body: Index, block: Array, bodies: int, target: Array) -> Array:
+    """Least x (6 B,) for rows made of blocks (n, 6), each of one row and body, to be added up."""
+    shape = (len(target), 6 * bodies)
+    if shape[0] * shape[1] <= DENSE_ENTRIES:
+        J = np.zeros((len(target), bodies, 6))
+        np.add.at(J, (row, body), block)
         try:
-            return np.asarray(np.linalg.lstsq(J, target, rcond=1e-10)[0], dtype=np.float64)
+            return np.asarray(np.linalg.lstsq(J.reshape(shape), target, rcond=1e-10)[0], dtype=np.float64)
         except np.linalg.LinAlgError:
             message = "the positions and lengths of the machine are too far apart in size to compute with"
             raise ModelError(Fault("", 0, 0, "machine", message)) from None
-    from scipy.sparse import csr_matrix
+    from scipy.sparse import csr_array
     from scipy.sparse.linalg import lsmr
 
-    return lsmr(csr_matrix(J), target, atol=1e-15, btol=1e-15, conlim=1e15, maxiter=20 * len(target))[0]
+    column = 6 * body[:, None] + np.arange(6)
+    J = csr_array((block.ravel(), (np.repeat(row, 6), column.ravel())), shape=shape)
+    return lsmr(J, target, atol=1e-15, btol=1e-15, conlim=1e15, maxiter=20 * len(target))[0]

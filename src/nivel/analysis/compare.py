@@ -16,7 +16,7 @@ from nivel.analysis.listener import Listener
 from nivel.analysis.reference import Solution, solve
 from nivel.errors import ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.comparison import Comparison, Method, Row, Spread
+from nivel.results.comparison import CONVERGED, Comparison, Method, Row, Spread
 from nivel.results.comparison_table import number, seconds
 from nivel.results.measures import constraint_measures, energy_measures
 from nivel.results.motion import Motion, distance
@@ -58,13 +58,13 @@ def compare(machine: MachineRecord, grid: Grid, *, repeat: int = 3, listener: Li
 
 
 class _Bench:
-    """What the cells of one comparison share: references, scales, and the finest motion of every method."""
+    """What the cells of one comparison share: references, scales, and the two finest motions of every method."""
 
     def __init__(self, repeat: int, listener: Listener) -> None:
         self.repeat, self.listener = repeat, listener
         self.references: list[Solution] = []
         self.rows: list[Row] = []
-        self.finest: dict[Method, tuple[Row, Motion]] = {}
+        self.finest: dict[Method, list[tuple[Row, Motion]]] = {}
         self.size, self.kinetic_energy = 0.0, 0.0
 
     def refer(self, references: list[Solution]) -> None:
@@ -102,9 +102,8 @@ class _Bench:
             self.size = machine_size(result)[0]
             self.kinetic_energy = float(np.max(np.abs(result.array("kinetic_energy")), initial=0.0))
         motion = Motion.of(result)
-        held = self.finest.get(row.method)
-        if held is None or row.fineness <= held[0].fineness:
-            self.finest[row.method] = (row, motion)
+        kept = [*self.finest.get(row.method, []), (row, motion)]
+        self.finest[row.method] = sorted(kept, key=lambda each: each[0].fineness)[:2]
         open_, open_mean = constraint_measures(result, "constraint_violation", self.size)
         rate, rate_mean = constraint_measures(result, "constraint_rate_violation", self.size)
         energy, relative = energy_measures(result, self.kinetic_energy)
@@ -164,14 +163,18 @@ def _orders(comparison: Comparison) -> Comparison:
     return replace(comparison, rows=tuple(replace(row, order=orders.get(row)) for row in comparison.rows))
 
 
-def _spread(comparison: Comparison, finest: dict[Method, tuple[Row, Motion]]) -> Comparison:
-    """`comparison` with the distance of the two completed methods that are furthest apart, each at its finest."""
-    pairs = [
-        (distance(a, b, comparison.size).value, first, second)
-        for (first, a), (second, b) in combinations(finest.values(), 2)
-    ]
+def _spread(comparison: Comparison, finest: dict[Method, list[tuple[Row, Motion]]]) -> Comparison:
+    """`comparison` with the distance of the two methods that are furthest apart, each at its finest.
+
+    A method whose two finest runs (of `finest`, the finest first) are more than CONVERGED apart does not claim to have converged.
+    """
+
+    def apart(a: tuple[Row, Motion], b: tuple[Row, Motion]) -> float:
+        return distance(a[1], b[1], comparison.size).value
+
+    claiming = [runs[0] for runs in finest.values() if len(runs) == 1 or apart(runs[0], runs[1]) <= CONVERGED]
+    pairs = [(apart(a, b), comparison.label(a[0]), comparison.label(b[0])) for a, b in combinations(claiming, 2)]
     if not pairs:
         return comparison
-    apart, first, second = max(pairs, key=lambda pair: math.inf if math.isnan(pair[0]) else pair[0])
-    labels = (comparison.label(first), comparison.label(second))
-    return replace(comparison, spread=Spread(apart, *labels, len(finest)))
+    widest = max(pairs, key=lambda pair: math.inf if math.isnan(pair[0]) else pair[0])
+    return replace(comparison, spread=Spread(*widest, len(claiming), len(finest) - len(claiming)))

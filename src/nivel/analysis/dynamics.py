@@ -18,7 +18,12 @@ from nivel.analysis.listener import Progress
 from nivel.analysis.outcome import failure
 from nivel.analysis.penalties import feedback, penalise
 from nivel.analysis.redundancy import Redundancy, analyse
-from nivel.analysis.refusals import refuse_deep_starts, refuse_rough_motions, refuse_uncertain_loads
+from nivel.analysis.refusals import (
+    refuse_conserved_drivers,
+    refuse_deep_starts,
+    refuse_rough_motions,
+    refuse_uncertain_loads,
+)
 from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
@@ -112,6 +117,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby; start it a little aside"
         raise ModelError(Fault("", 0, 0, "machine", message))
     refuse_uncertain_loads(machine, redundancy)
+    refuse_conserved_drivers(machine)
     refuse_rough_motions(machine)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
     absolute = MotionEquations(motion.system.known_rank(rank), motion.kernels)

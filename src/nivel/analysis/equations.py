@@ -42,22 +42,26 @@ class MotionEquations:
 
     def jacobian(self) -> NDArray[np.float64]:
         """C_q (R, 6 B) of joints, couplings and drivers in the state last evaluated, for (Ṙ, ω̄) of each body [-, m]."""
-        record, system = self.system.record, self.system
-        block = record.saddle.block[: int(record.saddle.blocks[0])]
-        row, part, marker, body = block[block[:, 1] != NONE].astype(int).T
+        system = self.system
+        row, body, block = self.jacobian_blocks()
         out = np.zeros((system.machine_rows, system.body_count, 6))
-        np.add.at(out, (row, body), self._on_bodies(record.constraints.J[part], marker, body))
+        np.add.at(out, (row, body), block)
         return out.reshape(system.machine_rows, 6 * system.body_count)
 
-    def coordinate_jacobian(self, coordinates: Sequence[int]) -> Array:
-        """Derivatives (n, 6 B) of coordinates that are measured in every evaluation, as `jacobian`."""
-        record, count = self.system.record, self.system.body_count
-        out = np.zeros((len(coordinates), count + 1, 6))
-        for n, q in enumerate(coordinates):
-            marker = record.coordinates.what[q, 1:3].astype(int)
-            body = record.markers.body[marker].astype(int)
-            np.add.at(out[n], body, self._on_bodies(record.coordinates.J[2 * q : 2 * q + 2], marker, body))
-        return out[:, :count].reshape(len(coordinates), 6 * count)
+    def jacobian_blocks(self, coordinates: Sequence[int] = ()) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
+        """Row (n,), body (n,) and entries (n, 6) of the blocks of `jacobian`, to be added up; as further rows the derivatives of
+        `coordinates`, which are measured in every evaluation."""
+        record, system = self.system.record, self.system
+        own = record.saddle.block[: int(record.saddle.blocks[0])]
+        row, part, marker, body = own[own[:, 1] != NONE].astype(np.int64).T
+        q = np.array(coordinates, dtype=np.int64)
+        ends = record.coordinates.what[q, 1:3].astype(np.int64).ravel()
+        of_ends = record.markers.body[ends].astype(np.int64)
+        moving = of_ends < system.body_count
+        further = np.repeat(system.machine_rows + np.arange(len(q)), 2)
+        parts = np.vstack([record.constraints.J[part], record.coordinates.J[(2 * q[:, None] + [0, 1]).ravel()][moving]])
+        body = np.append(body, of_ends[moving])
+        return np.append(row, further[moving]), body, self._on_bodies(parts, np.append(marker, ends[moving]), body)
 
     def _on_bodies(self, parts: Array, marker: Any, body: Any) -> Array:
         """Parts (n, 6) of rows with respect to (ṙ, ω) of markers as parts with respect to (Ṙ, ω̄) of their bodies."""

@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.analysis.equations import MotionEquations
 from nivel.kernels.status import (
@@ -101,11 +102,11 @@ def _singular(motion: MotionEquations, number: int, time: float, step: float, y:
 
 def _contradiction(motion: MotionEquations, number: int) -> tuple[str, str]:
     system, constraints = motion.system, motion.system.record.constraints
-    J = motion.jacobian()
-    others = np.delete(np.arange(len(J)), number)
+    rows, J = _rows_in_use(motion)
+    its, others = J[rows == number][0], rows != number
     # the rows that row `number` is a combination of
-    share = np.linalg.lstsq(J[others].T, J[number], rcond=1e-10)[0] * np.linalg.norm(J[others], axis=1)
-    repeated = others[np.abs(share) > 1e-6 * np.linalg.norm(J[number])]
+    share = np.linalg.lstsq(J[others].T, its, rcond=1e-10)[0] * np.linalg.norm(J[others], axis=1)
+    repeated = rows[others][np.abs(share) > 1e-6 * np.linalg.norm(its)]
     owners = dict.fromkeys(system.row_owner[row] for row in repeated[::-1])  # drivers stand last
     message = (
         f"the constraint {system.rows[number]}, which repeated others at the start, contradicts them now "
@@ -116,6 +117,19 @@ def _contradiction(motion: MotionEquations, number: int) -> tuple[str, str]:
         "them. Without them it is drift: take --stabilisation direct."
     )
     return message, advice
+
+
+def _rows_in_use(motion: MotionEquations) -> tuple[NDArray[np.int64], Array]:
+    """Numbers (n,) of the constraint rows that the equations hold, and these rows of C_q in coordinates that do not change which of
+    them depend on each other."""
+    record, system = motion.system.record, motion.system
+    saddle, width = record.saddle, record.saddle.W.shape[1]
+    if not len(record.tree.node):
+        return np.arange(system.machine_rows), motion.jacobian()
+    block = saddle.block[: int(saddle.blocks[0])].astype(np.int64)
+    W = np.zeros((len(saddle.row), len(saddle.z), width))
+    np.add.at(W, (block[:, 0], block[:, 3]), saddle.W[: len(block)])
+    return saddle.row.astype(np.int64), W.reshape(len(W), -1)
 
 
 def _jammed(name: str) -> tuple[str, str]:
@@ -156,9 +170,7 @@ def _broken_event(name: str) -> tuple[str, str]:
 
 
 def _singular_rotation(body: str) -> tuple[str, str]:
-    message = (
-        f"the rotation coordinates of {body} come to a singular position, where they cannot follow its motion"
-    )
+    message = f"the rotation coordinates of {body} come to a singular position, where they cannot follow its motion"
     advice = (
         "Three rotation coordinates are singular somewhere: Euler angles where the axes of the first and the third angle are parallel, "
         "a rotation vector at a full turn from the start. The motion goes on: take --rotations euler-parameters, which never are."

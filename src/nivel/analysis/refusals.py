@@ -38,6 +38,17 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
         raise ModelError(faults)
 
 
+def refuse_conserved_drivers(machine: MachineRecord) -> None:
+    """Drivers prescribe speeds, which the energy constraint would have to scale."""
+    if machine.simulation.stabilisation == "geometric" and machine.drivers:
+        names = ", ".join(driver.name for driver in machine.drivers)
+        message = (
+            f"'geometric' scales velocities to the energy they should have, and {names} prescribe{'s' * (len(machine.drivers) == 1)} "
+            f"velocities: take direct"
+        )
+        raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
+
+
 def refuse_rough_motions(machine: MachineRecord) -> None:
     """Tables of drivers that end on the way, or begin later than the run: the speed would jump there. Laws whose derivatives are not
     those of what they return."""

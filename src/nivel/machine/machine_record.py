@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from functools import cached_property
 from typing import Annotated, Any, Final, Self
 
 from pydantic import (
@@ -68,6 +69,16 @@ class MachineRecord(Checked):
     events: tuple[Event, ...] = ()
     assembly: AssemblySettings = AssemblySettings()
     simulation: SimulationSettings = SimulationSettings()
+
+    @cached_property
+    def body_named(self) -> Mapping[str, Body]:
+        """The bodies by name."""
+        return {body.name: body for body in self.bodies}
+
+    @cached_property
+    def marker_named(self) -> Mapping[str, Marker]:
+        """The markers that have a place of their own, by name."""
+        return {marker.name: marker for marker in self.markers if marker.name is not None}
 
     @model_validator(mode="wrap")
     @classmethod

@@ -45,6 +45,8 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
     for section in ("forces", "sensors", "events"):
         for at, element in enumerate(elements(machine, section)):
             yield from symbol_faults(element, (section, at), index, parameters or {})
+    for at, name in enumerate(as_list(entry(entry(machine, "simulation"), "cut"))):
+        yield from _unknown(name, tuple(index.joints), "joint", ("simulation", "cut", at))
     yield from coordinate_faults(machine, index)
     yield from point_mass_faults(machine, index)
 

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from nivel.report.work_precision import NARROW, WIDE, curves, diagram, legend_mark
-from nivel.results.comparison import Comparison, Row
+from nivel.results.comparison import CONVERGED, Comparison, Row
 from nivel.results.comparison_files import write_text
-from nivel.results.comparison_table import fineness, motion, number, seconds
+from nivel.results.comparison_table import fineness, motion, not_converged, number, order, seconds
 from nivel.results.motion import DEFINITION
 
 HERE = Path(__file__).parent
@@ -48,8 +48,9 @@ MEANINGS = (
     ),
     (
         "Spread",
-        "the distance between those two completed methods that are furthest apart, each at its finest step or tolerance. Methods that "
-        "share no equations and still agree are right about this machine, or wrong for the same reason",
+        "the distance between those two methods that are furthest apart, each at its finest step or tolerance. A method whose own two "
+        f"finest runs are more than {CONVERGED:g} apart is left out. Methods that share no equations and still agree are right about this "
+        "machine, or wrong for the same reason",
     ),
 )
 
@@ -147,7 +148,8 @@ def _stats(comparison: Comparison) -> list[Stat]:
     out = []
     spread = comparison.spread
     if spread is not None:
-        text = f"Furthest apart of {spread.methods} methods, each at its finest: {spread.first} and {spread.second}."
+        pair = f"{spread.first} and {spread.second}{not_converged(spread, '. ')}."
+        text = f"Furthest apart of {spread.methods} methods, each at its finest: {pair}"
         out.append(Stat("How far the methods agree", number(spread.distance, 2), (text,)))
     for reference in comparison.references[:1]:
         others = [f"Checked by {each.name}, error {number(each.error, 2)}." for each in comparison.references[1:]]
@@ -167,7 +169,8 @@ def _cheapest(comparison: Comparison, wanted: float) -> str:
     if not fit:
         return "none"
     best = min(fit, key=lambda row: row.loop_seconds or 0.0)
-    return f"{comparison.label(best)}, {fineness(best)}: {seconds(best.loop_seconds)}"
+    size, time = (text.replace(" ", "\u00a0") for text in (fineness(best), seconds(best.loop_seconds)))
+    return f"{comparison.label(best)}, {size}: {time}"
 
 
 def _cells(comparison: Comparison, row: Row) -> list[Shown]:
@@ -183,5 +186,5 @@ def _cells(comparison: Comparison, row: Row) -> list[Shown]:
         ),
         Shown(row.energy_error_relative, number(row.energy_error_relative, 2), f"{number(row.energy_error, 2)} J"),
         Shown(row.motion_error, motion(comparison, row), where),
-        Shown(row.order, f"{row.order:.1f}" if row.order is not None else ""),
+        Shown(row.order, order(row)),
     ]

@@ -8,7 +8,7 @@ from html import escape
 from typing import Final, NamedTuple
 
 from nivel.report.log_axis import LogAxis, power_of_ten
-from nivel.results.comparison import Comparison, Row, method_label
+from nivel.results.comparison import Comparison, Method, Row, method_label
 from nivel.results.comparison_table import fineness, number, seconds
 
 TONES: Final = 8  # colours of the page
@@ -42,32 +42,54 @@ NARROW: Final = Size(400, 430, 50, 10, 12, 44)
 
 @dataclass(frozen=True)
 class Curve:
-    """A method: its label, its look, and its points from coarse to fine."""
+    """A method: its label, its look, and its points from coarse to fine. number : of the curve; tone, kind : of colour and marker."""
 
     label: str
     number: int
+    tone: int
+    kind: int
     rows: tuple[Row, ...]
 
     @property
     def style(self) -> str:
         """Colour and dashes, in CSS."""
-        dash = DASHES[self.number // TONES % len(DASHES)]
-        return f"--tone:var(--tone-{self.number % TONES})" + (f";stroke-dasharray:{dash}" if dash else "")
+        dash = DASHES[self.kind // len(MARKERS) % len(DASHES)]
+        return f"--tone:var(--tone-{self.tone})" + (f";stroke-dasharray:{dash}" if dash else "")
 
     @property
     def marker(self) -> str:
         """Path of its marker around the origin."""
-        return MARKERS[(self.number + self.number // TONES) % len(MARKERS)]
+        return MARKERS[self.kind % len(MARKERS)]
 
 
 def curves(comparison: Comparison) -> list[Curve]:
-    """The curves of the diagram, none without a reference."""
-    found = (
-        (method, tuple(row for row in rows if row.motion_error is not None and (row.loop_seconds or 0.0) > 0.0))
+    """The curves of the diagram, none without a reference.
+
+    Where several axes vary, the colour tells the word on one of them, that with most words among those with enough colours, and the
+    marker the others.
+    """
+    found = {
+        method: tuple(row for row in rows if row.motion_error is not None and (row.loop_seconds or 0.0) > 0.0)
         for method, rows in comparison.curves().items()
-    )
-    shown = [(method_label(method, comparison.varying), rows) for method, rows in found if rows]
-    return [Curve(label, k, rows) for k, (label, rows) in enumerate(shown)]
+    }
+    methods = [method for method, rows in found.items() if rows]
+    words = {name: list(dict.fromkeys(getattr(method, name) for method in methods)) for name in Method._fields}
+    fitting = [name for name in Method._fields if len(words[name]) <= TONES]
+    axis = max(fitting, key=lambda name: len(words[name]), default="")
+    others = list(dict.fromkeys(_without(method, axis) for method in methods))
+    out = []
+    for k, method in enumerate(methods):
+        tone = words[axis].index(getattr(method, axis)) if axis else k % TONES
+        kind = others.index(_without(method, axis)) if axis else k // TONES
+        if len(others) == 1:
+            kind = k  # no other word is left for the marker to tell
+        label = method_label(method, comparison.varying)
+        out.append(Curve(label, k, tone, kind % (len(MARKERS) * len(DASHES)), found[method]))
+    return out
+
+
+def _without(method: Method, axis: str) -> tuple[str, ...]:
+    return tuple(word for name, word in method._asdict().items() if name != axis)
 
 
 def diagram(comparison: Comparison, size: Size, kind: str) -> str:

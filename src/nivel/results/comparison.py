@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 CellOutcome = Literal["done", "failed", "refused"]
 RESOLVED: Final = 3.0  # a motion error below this many times that of its reference says nothing more
 
+CONVERGED: Final = 1e-3  # a method whose two finest runs are further apart does not claim to have converged
+
 
 class Method(NamedTuple):
     """The words of one combination, all but the step."""
@@ -86,15 +88,17 @@ class Reference:
 
 @dataclass(frozen=True)
 class Spread:
-    """The two completed methods that are furthest apart, each at its finest step: labels, and their distance.
+    """The two methods that are furthest apart, each at its finest step: labels, and their distance.
 
-    methods : how many were looked at.
+    methods : how many were looked at. left_out : completed methods that were not, because their own two finest runs are more than
+    CONVERGED apart.
     """
 
     distance: float
     first: str
     second: str
     methods: int
+    left_out: int = 0
 
 
 @dataclass(frozen=True)

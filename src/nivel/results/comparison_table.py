@@ -6,7 +6,7 @@ from collections.abc import Callable
 from html import escape
 from typing import Final, NamedTuple
 
-from nivel.results.comparison import Comparison, Row
+from nivel.results.comparison import CONVERGED, Comparison, Row, Spread
 
 MEANING: Final = (
     "constraints and their rates: the largest, lengths as shares of the machine's size; energy: the largest error as a share of the "
@@ -41,7 +41,7 @@ def columns(comparison: Comparison) -> list[Column]:
     if comparison.references:
         out.append(Column("motion", lambda row: motion(comparison, row)))
     if any(row.order is not None for row in rows):
-        out.append(Column("order", lambda row: f"{row.order:.1f}" if row.order is not None else ""))
+        out.append(Column("order", order))
     return out
 
 
@@ -71,8 +71,16 @@ def spread_line(comparison: Comparison) -> str:
         return ""
     return (
         f"spread: the {spread.methods} methods, each at its finest, agree to {number(spread.distance, 2)}; "
-        f"furthest apart are {spread.first} and {spread.second}"
+        f"furthest apart are {spread.first} and {spread.second}{not_converged(spread, '; ')}"
     )
+
+
+def not_converged(spread: Spread, before: str) -> str:
+    """How many methods the spread leaves out, after `before`; nothing where there are none."""
+    if spread.left_out == 0:
+        return ""
+    methods = "1 method is" if spread.left_out == 1 else f"{spread.left_out} methods are"
+    return f"{before}{methods} left out: their two finest runs are more than {CONVERGED:g} apart"
 
 
 def as_text(comparison: Comparison) -> str:
@@ -119,12 +127,17 @@ def motion(comparison: Comparison, row: Row) -> str:
     )
 
 
+def order(row: Row) -> str:
+    """The observed order of a row."""
+    return "" if row.order is None else f"{round(row.order, 1) + 0.0:.1f}"
+
+
 def number(value: float | None, digits: int = 3) -> str:
     """A number in few digits, nothing for None."""
     if value is None:
         return ""
     if value == 0.0 or 1e-2 <= abs(value) < 1e4:
-        return f"{value:.{digits}g}"
+        return f"{value:.{digits}g}" if abs(value) < 10.0**digits - 0.5 else f"{value:.0f}"
     mantissa, _, exponent = f"{value:.{digits - 1}e}".partition("e")
     return f"{mantissa}e{int(exponent)}" if exponent else mantissa
 

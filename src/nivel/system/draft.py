@@ -70,7 +70,7 @@ class Draft:
     def marker(self, name: str) -> int:
         """Index of the marker called `name`."""
         if name not in self._named:
-            record = next(marker for marker in self.machine.markers if marker.name == name)
+            record = self.machine.marker_named[name]
             self._named[name] = self.place((record.body, *marker_frame(record)))
         return self._named[name]
 

@@ -17,8 +17,7 @@ Placed = tuple[str, Array, Array]
 def joint_frames(machine: MachineRecord, joint: Joint) -> tuple[Placed, Placed]:
     """(body, point (3,), axes (3, 3)) of the first and of the second marker, point and axes in the body's frame."""
     if joint.markers is not None:
-        named = {marker.name: marker for marker in machine.markers}
-        first, second = (named[m] if isinstance(m, str) else m for m in joint.markers)
+        first, second = (machine.marker_named[m] if isinstance(m, str) else m for m in joint.markers)
         return _of_marker(first), _of_marker(second)
     assert joint.bodies is not None  # the record was checked
     points = joint.points or (joint.point, joint.point)
@@ -67,8 +66,7 @@ def seen_from(machine: MachineRecord, name: str, point: Array, axes: Array) -> P
     """A global point (3,) and axes (3, 3) in the frame of the body `name` as it is placed in the file."""
     if name == "ground":
         return name, point, axes
-    body = next(body for body in machine.bodies if body.name == name)
-    position, theta = placement(body)
+    position, theta = placement(machine.body_named[name])
     A = matrix_from_euler_parameters(theta)
     return name, A.T @ (point - position), A.T @ axes
 
@@ -79,6 +77,6 @@ def cosine_as_placed(machine: MachineRecord, first: Placed, second: Placed) -> f
     for body, _, frame in (first, second):
         A = np.eye(3)
         if body != "ground":
-            A = matrix_from_euler_parameters(placement(next(each for each in machine.bodies if each.name == body))[1])
+            A = matrix_from_euler_parameters(placement(machine.body_named[body])[1])
         axes.append(A @ frame[:, 2])
     return float(axes[0] @ axes[1])

@@ -109,7 +109,7 @@ def _ends(draft: Draft, force: Force) -> tuple[int, int] | None:
 
 def _centre(draft: Draft, name: str) -> int:
     """Marker at the centre of a body's shape."""
-    body = next(body for body in draft.machine.bodies if body.name == name)
+    body = draft.machine.body_named[name]
     centre = body.shape.centre if body.shape is not None else None
     return draft.place((name, np.array(centre or (0.0, 0.0, 0.0)), np.eye(3)))
 

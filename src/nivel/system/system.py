@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.record import Record
+from nivel.kernels.record import Control, Record
 from nivel.system.layout import FrameLayout
 from nivel.system.tables import Array, index_array
 
@@ -112,8 +112,11 @@ class System:
         return np.concatenate([q, v.ravel(), np.zeros(len(self.record.elements.state) + 2)])
 
     def known_rank(self, rank: int) -> System:
-        """The same system prepared for `rank` independent rows: with redundant ones, for the rank-revealing path."""
-        record = self.record
+        """The same system prepared for `rank` independent rows: with redundant ones, for the rank-revealing path.
+
+        Its control is its own: machines in several coordinates share what the kernels leave, not what steers them.
+        """
+        record = self.record._replace(control=Control(*(numbers.copy() for numbers in self.record.control)))
         rows = len(record.saddle.row)
         if rank < rows:
             saddle = record.saddle._replace(

@@ -1,14 +1,14 @@
 """The graph of a machine: bodies joined by joints, a spanning tree of it, and the joints that are cut to open its loops.
 
 Only joints whose relative motion can be written with joint coordinates carry a body in the tree; all others, and those that close a loop,
-stay constraints. The tree keeps as many constraint rows as it can, so the fewest are left (a maximum spanning tree, Prim 1957), and
-is as flat as it can be among such trees: the rows that are left act through short paths.
+stay constraints. The tree keeps as many constraint rows as it can, so the fewest are left (a maximum spanning tree, Prim 1957). Of joints
+with equally many rows it takes the one nearest to the ground first: the rows that are left act through short paths.
 """
 
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -100,17 +100,3 @@ def _grow(
         if not reached[child]:
             branches.append(Branch(child, parent, k, turned))
             offer(child, at + 1)
-
-
-def paths_to_ground(bodies: int, tree: SpanningTree) -> Callable[[int], list[int]]:
-    """A function: the branches from a body to the ground, outermost first."""
-    branch_of = {branch.child: k for k, branch in enumerate(tree.branches)}
-
-    def path(body: int) -> list[int]:
-        out = []
-        while body != bodies:
-            out.append(branch_of[body])
-            body = tree.branches[out[-1]].parent
-        return out
-
-    return path

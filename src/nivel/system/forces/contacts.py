@@ -44,7 +44,7 @@ def add_contact(draft: Draft, force: Contact) -> None:
         ("normal_force", "N", "normal force"),
     )
     if force.bodies is not None:
-        bodies = [_body(draft, name) for name in force.bodies]
+        bodies = [draft.machine.body_named[name] for name in force.bodies]
         kind = contact.SPHERES
         markers = [_shape_marker(draft, body) for body in bodies]
         size = [_radius(body) for body in bodies]
@@ -52,7 +52,7 @@ def add_contact(draft: Draft, force: Contact) -> None:
     else:
         assert force.body is not None  # the record was checked
         assert force.plane is not None
-        body = _body(draft, force.body)
+        body = draft.machine.body_named[force.body]
         markers = [_shape_marker(draft, body), draft.end(force.plane)]
         kind, size = _shape(contact, body)
         curvature = 1.0 / size[0]
@@ -67,10 +67,6 @@ def add_contact(draft: Draft, force: Contact) -> None:
     numbers += [0.0] * (contact.NUMBERS - len(numbers))
     points = contact.POINTS if kind in (contact.BOX, contact.CYLINDER) else 1
     draft.elements.add("contact", [first, kind, *markers], numbers, contact.POINTS, tuple(range(points)))
-
-
-def _body(draft: Draft, name: str) -> Body:
-    return next(body for body in draft.machine.bodies if body.name == name)
 
 
 def _radius(body: Body) -> float:

@@ -24,7 +24,7 @@ def add_load(draft: Draft, force: PointForce | Torque) -> None:
     if isinstance(force, PointForce):
         point = np.array(force.position or (0.0, 0.0, 0.0), dtype=float)
         if force.marker is not None:
-            record = next(marker for marker in draft.machine.markers if marker.name == force.marker)
+            record = draft.machine.marker_named[force.marker]
             body, point = record.body, np.array(record.position, dtype=float)
     assert body is not None  # the record was checked
     marker = draft.place((body, point, np.eye(3)))

@@ -191,8 +191,15 @@ def joint_turn(kind: str, q: list[float], number: Array) -> Array:
 
 def product(a: Array, b: Array) -> Array:
     """a ∘ b of Euler parameters."""
-    vector = a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:])
-    return np.array([a[0] * b[0] - a[1:] @ b[1:], *vector])
+    (a0, a1, a2, a3), (b0, b1, b2, b3) = a.tolist(), b.tolist()
+    return np.array(
+        [
+            a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3,
+            a0 * b1 + a1 * b0 + a2 * b3 - a3 * b2,
+            a0 * b2 - a1 * b3 + a2 * b0 + a3 * b1,
+            a0 * b3 + a1 * b2 - a2 * b1 + a3 * b0,
+        ]
+    )
 
 
 def _conjugate(a: Array) -> Array:

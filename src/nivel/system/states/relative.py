@@ -116,8 +116,7 @@ def bodies_of(machine: MachineRecord, joint: Joint) -> tuple[str, str]:
     if joint.markers is None:
         assert joint.bodies is not None  # the record was checked
         return joint.bodies
-    named = {marker.name: marker for marker in machine.markers}
-    first, second = (named[m].body if isinstance(m, str) else m.body for m in joint.markers)
+    first, second = (machine.marker_named[m].body if isinstance(m, str) else m.body for m in joint.markers)
     return first, second
 
 

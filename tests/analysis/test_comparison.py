@@ -59,7 +59,8 @@ def test_every_combination_is_a_row(compared):
     assert len(compared.rows) == 8
     assert len({(row.method, row.step) for row in compared.rows}) == 8
     assert {row.outcome for row in compared.rows} == {"done"}
-    assert compared.varying == ("formulation", "stabilisation")
+    # `auto` means relative coordinates for newton-euler and absolute ones for lagrange
+    assert compared.varying == ("formulation", "coordinates", "stabilisation")
 
 
 @pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
@@ -124,6 +125,14 @@ def test_the_spread_is_the_largest_distance_between_the_finest(compared):
     largest = sorted(finest.values())[-2:]
     # by the triangle inequality, the reference between them
     assert max(finest.values()) - min(finest.values()) <= compared.spread.distance <= sum(largest) + 1e-12
+
+
+def test_methods_that_have_not_converged_are_left_out_of_the_spread():
+    """Errors of cos(2π t) after 1 s, in a machine of 1 m: 2π² h for euler, (2π)³ h²/6 for heun."""
+    comparison = oscillator().compare(integrators=["euler", "heun", "rk4"], steps=[0.004, 0.002], repeat=1)
+    assert (comparison.spread.methods, comparison.spread.left_out) == (2, 1)
+    assert {comparison.spread.first, comparison.spread.second} == {"heun", "rk4"}
+    assert "1 method is left out" in str(comparison)
 
 
 def test_a_cell_that_fails_does_not_stop_the_others():

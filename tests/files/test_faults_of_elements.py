@@ -236,9 +236,21 @@ FAULTS = {
         "events.far.when",
         "an event is where an expression passes zero, not a comparison as in `rail.displacement > 5 cm`",
     ),
-    "event that never comes": ("when: rail.displacement - 5 cm", "when: 5 cm", 0, "events.far.when", "never passes zero"),
+    "event that never comes": (
+        "when: rail.displacement - 5 cm",
+        "when: 5 cm",
+        0,
+        "events.far.when",
+        "never passes zero",
+    ),
     "event of nothing": ("{when: 2*time - 1 + left_foot.z}", "{stop: true}", 0, "events.late", "`when` is missing"),
-    "event of an unknown joint": ("rail.displacement - 5", "rial.displacement - 5", 0, "events.far.when", "`rail.displ"),
+    "event of an unknown joint": (
+        "rail.displacement - 5",
+        "rial.displacement - 5",
+        0,
+        "events.far.when",
+        "`rail.displ",
+    ),
     "event of unlike quantities": (
         "rail.displacement - 5 cm",
         "rail.displacement - 5 kg + 1 m",

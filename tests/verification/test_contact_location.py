@@ -19,7 +19,9 @@ def bouncing(stiffness, exponent, restitution=1.0):
     hit = {"stiffness": stiffness, "exponent": exponent, "restitution": restitution}
     return {
         "gravity": [0, 0, -G],
-        "bodies": {"ball": {"shape": {"type": "sphere", "radius": RADIUS}, "mass": MASS, "position": [0, 0, RADIUS + HEIGHT]}},
+        "bodies": {
+            "ball": {"shape": {"type": "sphere", "radius": RADIUS}, "mass": MASS, "position": [0, 0, RADIUS + HEIGHT]}
+        },
         "markers": {"floor": {"body": "ground", "axis": [0, 0, 1]}},
         "forces": {"hit": {"type": "contact", "body": "ball", "plane": "floor", **hit}},
         "events": {"touch": {"when": f"ball.z - {RADIUS}", "direction": "falling"}},
@@ -33,7 +35,12 @@ def elastic_duration(stiffness, exponent, speed):
         return speed**2 + 2 * G * depth - 2 * stiffness * depth ** (exponent + 1) / (MASS * (exponent + 1))
 
     deepest = brentq(square, 1e-9, 0.1, xtol=1e-17)
-    return 2 * quad(lambda s: 2 * s * deepest / np.sqrt(square(deepest * (1 - s * s))), 1e-9, 1, epsabs=1e-13, epsrel=1e-12)[0]
+    return (
+        2
+        * quad(lambda s: 2 * s * deepest / np.sqrt(square(deepest * (1 - s * s))), 1e-9, 1, epsabs=1e-13, epsrel=1e-12)[
+            0
+        ]
+    )
 
 
 @ADAPTIVE
@@ -160,7 +167,9 @@ def test_dropped_box_comes_to_rest_on_its_corners(integrator):
     """Four corners touch at once; the centre ends at the static depth (m g/(4 K))^(1/n) below the half height."""
     K = 1e6
     sections = bouncing(K, 1.5, 0.1)
-    sections["bodies"] = {"ball": {"shape": {"type": "box", "size": [0.2, 0.3, 0.1]}, "mass": 3.0, "position": [0, 0, 0.051]}}
+    sections["bodies"] = {
+        "ball": {"shape": {"type": "box", "size": [0.2, 0.3, 0.1]}, "mass": 3.0, "position": [0, 0, 0.051]}
+    }
     r = simulate(sections, duration=0.5, step=1e-3, integrator=integrator, tolerance=1e-7)
     depth = (3.0 * G / (4 * K)) ** (1 / 1.5)
     assert r.array("ball.position.z")[-1] == pytest.approx(0.05 - depth, abs=0.02 * depth)

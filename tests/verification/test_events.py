@@ -33,7 +33,9 @@ def passing(angle, turns=3):
     """Times at which the pendulum passes `angle`: sin(φ/2) = k cd(ω₀ t), with sn(u) = cd(K - u)."""
     quarter = ellipk(MODULUS)
     there = quarter - ellipkinc(np.arcsin(np.sin(angle / 2) / np.sqrt(MODULUS)), MODULUS)
-    return np.sort(np.concatenate([4 * n * quarter + np.array([there, 4 * quarter - there]) for n in range(turns)])) / RATE
+    return (
+        np.sort(np.concatenate([4 * n * quarter + np.array([there, 4 * quarter - there]) for n in range(turns)])) / RATE
+    )
 
 
 def times(result, name=None):
@@ -50,7 +52,9 @@ def test_closed_form_of_the_pendulum_is_the_motion():
     np.testing.assert_allclose(2 * np.arcsin(np.sqrt(MODULUS) * sn), 0.5, atol=1e-12)
 
 
-@pytest.mark.parametrize("settings", [{}, {"coordinates": "relative"}, {"coordinates": "independent"}, {"formulation": "lagrange"}])
+@pytest.mark.parametrize(
+    "settings", [{}, {"coordinates": "relative"}, {"coordinates": "independent"}, {"formulation": "lagrange"}]
+)
 def test_event_times_have_the_order_of_the_method(settings):
     """rk4: errors fall with h⁴, as those of the state and of the cubic through a step do."""
     steps, errors = [0.02, 0.01, 0.005], []
@@ -207,7 +211,11 @@ def test_value_that_is_no_number_is_an_error_with_the_name_of_the_event(when):
 
 def test_events_of_tables_and_python_functions():
     ramp = {"times": [0, 1, 2], "values": [-1, 1, 1]}
-    law = {"source": "def f(t, z):\n    return z - 9.0 if t > 0.1 else 1.0\n", "function": "f", "arguments": ["time", "ball.z"]}
+    law = {
+        "source": "def f(t, z):\n    return z - 9.0 if t > 0.1 else 1.0\n",
+        "function": "f",
+        "arguments": ["time", "ball.z"],
+    }
     r = simulate(falling(ramp={"when": ramp}, law={"when": law}), duration=1.0, step=0.04)
     assert times(r, "ramp") == pytest.approx([0.5], abs=1e-13)
     assert times(r, "law") == pytest.approx([np.sqrt(2 / G)], abs=1e-13)
@@ -234,7 +242,9 @@ def test_event_of_an_assembly_comes_when_it_would_in_the_part(tmp_path):
 
 
 def test_events_are_told_by_check_in_words():
-    said = str(machine(falling(a={"when": "ball.z", "stop": True}, b={"when": "ball.z-1", "direction": "rising"})).check())
+    said = str(
+        machine(falling(a={"when": "ball.z", "stop": True}, b={"when": "ball.z-1", "direction": "rising"})).check()
+    )
     assert "  a: ball.z passes zero; the run ends there" in said
     assert "b: ball.z - 1.0 passes zero, rising" in said
 

@@ -75,7 +75,9 @@ def _rare_parts(machine: MachineRecord, chooses: bool) -> list[tuple[str, str]]:
     types = {force.type for force in machine.forces}
     families = dict.fromkeys(family for force in types for family in FORCES[force].families)
     needed = {
-        "nivel.kernels.measure": bool(machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}),
+        "nivel.kernels.measure": bool(
+            machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}
+        ),
         "nivel.kernels.friction": "friction" in types,
         "nivel.kernels.sensor": bool(machine.sensors),
         "nivel.kernels.watch": bool(machine.events) or (chooses and bool(types & {*FOLLOWED})),

@@ -92,4 +92,6 @@ def sensor_in_words(sensor: Sensor) -> str:
 def event_in_words(event: Event) -> str:
     """When an event is, and whether it ends the run."""
     way = "" if event.direction == "both" else f", {event.direction}"
-    return f"{event.name}: {function_in_words(event.when)} passes zero{way}{'; the run ends there' if event.stop else ''}"
+    return (
+        f"{event.name}: {function_in_words(event.when)} passes zero{way}{'; the run ends there' if event.stop else ''}"
+    )

@@ -138,7 +138,9 @@ class Elements(NamedTuple):
     number: F2  # (E, ·)
     memory: F2  # (E, ·) what an element keeps from accepted state to accepted state
     proposal: F2  # (E, ·) the memory that the state last evaluated would leave
-    depth: F2  # (E, ·) overlap at each surface of contacts and stops, negative while apart; one to each place of `memory`
+    depth: (
+        F2  # (E, ·) overlap at each surface of contacts and stops, negative while apart; one to each place of `memory`
+    )
     depth_rate: F2  # (E, ·) its rate, where contacts and stops are followed
     state: F1  # (nx,) first-order states, copied from y
     state_rate: F1  # (nx,)
@@ -185,7 +187,9 @@ class Watched(NamedTuple):
     surface: U2  # (surfaces, 2) element, place in its `depth`
     value: F1  # (events + surfaces,) in the state last evaluated
     rate: F1  # (events + surfaces,) of the surfaces, zero for events
-    followed: U1  # (1,) whether contacts and stops keep the side of the accepted state, see `nivel.kernels.forces.impact`
+    followed: (
+        U1  # (1,) whether contacts and stops keep the side of the accepted state, see `nivel.kernels.forces.impact`
+    )
 
 
 class Hooks(NamedTuple):

@@ -228,7 +228,7 @@ def end_at(evaluate, correct, machine, history, theta):
 @leaf
 def find_contacts(evaluate, correct, machine, history, events):
     """(status, θ) where the step has to end because a contact or stop begins or ends; 1 where none does."""
-    run, watched = run_at(history), record_at(machine).watched
+    run = run_at(history)
     values = run.event_values
     if values.shape[1] == events:
         return OK, 1.0

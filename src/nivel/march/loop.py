@@ -232,8 +232,8 @@ def take_step(evaluate, correct, step, machine, history):
 def advance(evaluate, correct, step, machine, history):
     """March until something has to be done outside; returns a status of `nivel.kernels.status`.
 
-    Each step: evaluate at the accepted state, accept it, write a frame if one is due, step, correct, find the events of the step, hand them out with
-    the frames inside the step.
+    Each step: evaluate at the accepted state, accept it, write a frame if one is due, step, correct, find the events of the step, hand
+    them out with the frames inside the step.
     Where a step fails, `run.y` is not that of an accepted state; `run.previous` and `run.clock` are.
     """
     run = run_at(history)

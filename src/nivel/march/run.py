@@ -35,8 +35,9 @@ class Run(NamedTuple):
     clock[STEP].
     """
 
-    clock: F1  # [s] TIME of the accepted state, STEP, START, END, REACHED by the last step, INTERVAL of frames; TOLERANCE, LARGEST step, ...; LENGTH of the step
-    # that `dense` describes, longer than the one done where that ends at an event; SHOWN, time of the last frame
+    # TIME of the accepted state, STEP, START, END, REACHED by the last step, INTERVAL of frames [s]; TOLERANCE, LARGEST step, ...;
+    # LENGTH of the step that `dense` describes, longer than the one done where that ends at an event; SHOWN, time of the last frame
+    clock: F1
     # steps done, steps in all (0: not known), steps between frames, frames in the buffer, number of the last frame, budget, evaluations,
     # whether `rate` is that of y; corrector iterations, steps rejected, whether the history must be forgotten, rows of `dense` in use,
     # whether frames and events inside the last step have to be handed out, number of the event that ended the run (from 1), events in
@@ -58,7 +59,8 @@ class Run(NamedTuple):
     turns: U2  # (·, 2)
     dense: F2  # (DENSE_ROWS, ny) the state inside the last step, see `nivel.march.dense`
     frames: F2  # (capacity, width) output
-    event_values: F2  # (6, values watched) BEFORE and AFTER the last step, SIDE, share of the step WHEN it changed; see `nivel.march.events`
+    # BEFORE and AFTER the last step, SIDE, share of the step WHEN it changed, the rates before and after; see `nivel.march.events`
+    event_values: F2  # (6, values watched)
     events: F2  # (capacity, 3) time [s], number of the event, direction 1 or -1
 
 

@@ -30,7 +30,9 @@ def in_words(occurrences: Sequence[Occurrence], stopped_by: str) -> list[str]:
     times: dict[str, list[float]] = {}
     for name, time, _ in occurrences:
         times.setdefault(name, []).append(time)
-    return [f"{name} {_when(its)}{', which ended the run' if name == stopped_by else ''}" for name, its in times.items()]
+    return [
+        f"{name} {_when(its)}{', which ended the run' if name == stopped_by else ''}" for name, its in times.items()
+    ]
 
 
 def _when(times: Sequence[float]) -> str:

@@ -27,9 +27,7 @@ def apply(machine, number, t):
         depth[0], depth[1] = n[LOWER] - c, c - n[UPPER]
         if followed == 1:
             elements.depth_rate[k, 0], elements.depth_rate[k, 1] = -rate, rate
-        up, stored, loss, proposal[0] = impact(
-            depth[0], -rate, n[STIFFNESS], n[EXPONENT], n[LOSS], memory[0], followed
-        )
+        up, stored, loss, proposal[0] = impact(depth[0], -rate, n[STIFFNESS], n[EXPONENT], n[LOSS], memory[0], followed)
         control.stored[0] += stored
         control.power[1] += loss
         down, stored, loss, proposal[1] = impact(

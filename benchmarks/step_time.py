@@ -1,4 +1,4 @@
-"""Time of one step and energy error of the two report machines, for each formulation and stabilisation, beside Exudyn.
+"""Time of one step and energy error of the two report machines, for coordinates, formulations and stabilisations, beside Exudyn.
 
     python benchmarks/step_time.py [--peer PYTHON] [--runs 7] [--step 1e-3] [--json FILE]
 
@@ -30,8 +30,13 @@ sys.path.insert(0, str(ROOT / "tests" / "verification"))
 from references import four_bar, slider_crank  # noqa: E402
 
 DURATIONS = {"slider-crank": 8.0, "four-bar": 4.0}
-FORMULATIONS = ("newton-euler", "lagrange")
-STABILISATIONS = ("none", "baumgarte", "direct")
+# coordinates, formulation, stabilisations
+METHODS = (
+    ("relative", "newton-euler", ("none", "direct")),
+    ("absolute", "newton-euler", ("none", "baumgarte", "direct")),
+    ("absolute", "lagrange", ("none", "baumgarte", "direct")),
+    ("independent", "newton-euler", ("none",)),
+)
 PEER_SOLVERS = ("generalised-alpha", "trapezoidal")
 
 
@@ -55,13 +60,14 @@ class Row:
 class OwnRun:
     """A combination of nivel's options on one machine."""
 
-    def __init__(self, name: str, formulation: str, stabilisation: str, step: float) -> None:
-        self.row = Row(name, "nivel", f"rk4 {formulation}", stabilisation)
+    def __init__(self, name: str, coordinates: str, formulation: str, stabilisation: str, step: float) -> None:
+        self.row = Row(name, "nivel", f"{coordinates}, {formulation}", stabilisation)
         self._machine = nivel.load(ROOT / "examples" / f"{name}.yaml")
         self._options = {
             "duration": DURATIONS[name],
             "step": step,
             "integrator": "rk4",
+            "coordinates": coordinates,
             "formulation": formulation,
             "stabilisation": stabilisation,
         }
@@ -76,7 +82,7 @@ class OwnRun:
         kinetic = np.max(result["kinetic_energy"].values)
         self.row.energy_error = float(np.max(np.abs(result["energy_error"].values)) / kinetic)
         position = result["position"].values
-        apart = np.linalg.norm(position - _reference_position(self.row.machine, result.time, position), axis=2)
+        apart = np.linalg.norm(position - reference_position(self.row.machine, result.time, position), axis=2)
         self.row.position_error = float(np.max(apart))
 
 
@@ -85,25 +91,32 @@ class PeerRun:
 
     def __init__(self, python: str, name: str, solver: str, step: float) -> None:
         self.row = Row(name, "exudyn", solver, "-")
-        script = ROOT / "benchmarks" / "peers" / f"exudyn_{name.replace('-', '_')}.py"
-        self._command = [python, str(script), "--solver", solver, "--step", repr(step), "--runs", "1"]
+        self._command = peer_command(python, name, solver, step)
 
     def measure(self, *, counted: bool = True) -> None:
         if counted:
-            self.row.times.append(self._call("--no-errors")["process_microseconds_per_step"])
+            self.row.times.append(call_peer([*self._command, "--no-errors"])["process_microseconds_per_step"])
 
     def find_errors(self) -> None:
-        found = self._call()
+        found = call_peer(self._command)
         self.row.energy_error, self.row.position_error = found["energy_error"], found["position_error"]
 
-    def _call(self, *more: str) -> dict:
-        done = subprocess.run([*self._command, *more], capture_output=True, text=True, check=False)
-        if done.returncode:
-            raise SystemExit(f"{' '.join(self._command)} failed:\n{done.stderr[-2000:]}")
-        return json.loads(done.stdout)
+
+def peer_command(python: str, name: str, solver: str, step: float) -> list[str]:
+    """Run the Exudyn model of machine `name` once, with the interpreter `python`."""
+    script = ROOT / "benchmarks" / "peers" / f"exudyn_{name.replace('-', '_')}.py"
+    return [python, str(script), "--solver", solver, "--step", repr(step), "--runs", "1"]
 
 
-def _reference_position(name: str, times: np.ndarray, position: np.ndarray) -> np.ndarray:
+def call_peer(command: list[str]) -> dict:
+    """What a peer prints."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise SystemExit(f"{' '.join(command)} failed:\n{done.stderr[-2000:]}")
+    return json.loads(done.stdout)
+
+
+def reference_position(name: str, times: np.ndarray, position: np.ndarray) -> np.ndarray:
     """The reference from where the run starts: assembly moves the four-bar's crank by some 1e-5 rad."""
     if name == "slider-crank":
         return slider_crank.solve(times).position
@@ -113,16 +126,16 @@ def _reference_position(name: str, times: np.ndarray, position: np.ndarray) -> n
 
 def runs(peer: str | None, step: float) -> Iterator[OwnRun | PeerRun]:
     for name in DURATIONS:
-        for formulation in FORMULATIONS:
-            for stabilisation in STABILISATIONS:
-                yield OwnRun(name, formulation, stabilisation, step)
+        for coordinates, formulation, stabilisations in METHODS:
+            for stabilisation in stabilisations:
+                yield OwnRun(name, coordinates, formulation, stabilisation, step)
         for solver in PEER_SOLVERS if peer else ():
             yield PeerRun(peer, name, solver, step)
 
 
 def show(rows: list[Row], step: float, console: Console) -> None:
     """One table; ratios against the faster Exudyn solver and against the more accurate one, of the same machine."""
-    table = Table(title=f"step {step:g} s; ratio > 1: nivel is better", title_justify="left")
+    table = Table(title=f"RK4, step {step:g} s; ratio > 1: nivel is better", title_justify="left")
     for heading in ("machine", "program", "method", "stabilisation"):
         table.add_column(heading)
     for heading in ("µs/step", "range", "energy error / max T", "position error, m", "time ratio", "energy ratio"):
@@ -157,7 +170,7 @@ def main() -> None:
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the rows there as well")
     options = parser.parse_args()
     # a pipe has no width of its own
-    console = Console() if sys.stdout.isatty() else Console(width=150)
+    console = Console() if sys.stdout.isatty() else Console(width=170)
     cases = list(runs(options.peer, options.step))
     with console.status("compiling"):
         for case in cases:

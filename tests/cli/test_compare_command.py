@@ -121,11 +121,14 @@ def test_code_two_where_every_cell_is_refused(folder):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
 def test_an_interrupt_ends_with_code_130_and_writes_what_there_is(folder):
-    command = [sys.executable, "-m", "nivel", "compare", "pendulum.yaml", "--steps", "5ms,10ms", "--repeat", "1000000"]
-    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    time.sleep(20)  # compiled and in the repeats of the first cell
-    process.send_signal(signal.SIGINT)
-    out, errors = process.communicate(timeout=120)
+    command = [sys.executable, "-m", "nivel", "compare", "pendulum.yaml", "--steps", "5ms,10ms", "--repeat"]
+    subprocess.run([*command, "1"], cwd=folder, check=True, capture_output=True)  # compiles
+    with subprocess.Popen(
+        [*command, "1000000"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        time.sleep(20)  # in the repeats of the first cell
+        process.send_signal(signal.SIGINT)
+        out, errors = process.communicate(timeout=120)
     assert process.returncode == 130, errors
     assert "cells are missing" in out
     assert Comparison.from_json((folder / "pendulum-compare.json").read_text(encoding="utf-8")).outcome == "interrupted"

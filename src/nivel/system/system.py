@@ -116,7 +116,10 @@ class System:
 
         Its control is its own: machines in several coordinates share what the kernels leave, not what steers them.
         """
-        record = self.record._replace(control=Control(*(numbers.copy() for numbers in self.record.control)))
+        control = self.record.control
+        record = self.record._replace(
+            control=Control(**{name: getattr(control, name).copy() for name in Control._fields})
+        )
         rows = len(record.saddle.row)
         if rank < rows:
             saddle = record.saddle._replace(

@@ -1,0 +1,31 @@
+"""How the parts of an evaluation are compiled and timed."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from numba import njit, types
+
+from nivel.kernels.handle import address_type
+from nivel.kernels.record import state_type
+
+REPEATS, ROUNDS = 20_000, 7
+# address of the machine, state, its rates, repeats; compiled like the kernels themselves
+part = njit(
+    types.void(address_type, state_type, state_type, types.int64),
+    error_model="numpy",
+    fastmath={"contract"},
+    _nrt=False,
+)
+
+
+def measure(function, *arguments, repeats: int = REPEATS) -> float:
+    """Nanoseconds of process time of one repeat, the least of several rounds."""
+    function(*arguments, 10)
+    best = np.inf
+    for _ in range(ROUNDS):
+        begin = time.process_time()
+        function(*arguments, repeats)
+        best = min(best, time.process_time() - begin)
+    return 1e9 * best / repeats

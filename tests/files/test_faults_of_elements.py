@@ -243,6 +243,13 @@ FAULTS = {
         "events.far.when",
         "never passes zero",
     ),
+    "event of a table that never comes": (
+        "when: rail.displacement - 5 cm",
+        "when: {times: [0, 1 s, 2 s], values: [1, 3, 1]}",
+        0,
+        "events.far.when",
+        "the values of the table go from 1 to 3, so they never pass zero",
+    ),
     "event of nothing": ("{when: 2*time - 1 + left_foot.z}", "{stop: true}", 0, "events.late", "`when` is missing"),
     "event of an unknown joint": (
         "rail.displacement - 5",

@@ -84,18 +84,23 @@ def test_location_needs_far_fewer_evaluations_for_the_same_error(integrator, mon
 
 
 @EXPLICIT
-def test_rebound_is_the_restitution_to_the_tolerance(integrator):
-    """No gravity: e v after a contact, exactly (`references.impact`), and the duration of the contact."""
-    K, e, speed, gap = 1e6, 0.6, 1.2, 0.01
-    sections = bouncing(K, 1.5, e)
+@pytest.mark.parametrize(("exponent", "stiffness", "bound"), [(1.0, 1e5, 1e-8), (1.5, 1e6, 1e-6), (2.0, 1e8, 1e-6)])
+def test_rebound_is_the_restitution_to_the_tolerance(exponent, stiffness, bound, integrator):
+    """No gravity: e v after a contact, exactly (`references.impact`), and the duration of the contact.
+
+    Only the linear law has a smooth continuation beyond the surface; the last step of a contact sees a second derivative of δⁿ that jumps
+    (n = 2) or is infinite (n = 1.5), which costs a hundred times the tolerance.
+    """
+    e, speed, gap = 0.6, 1.2, 0.01
+    sections = bouncing(stiffness, exponent, e)
     sections["gravity"] = [0, 0, 0]
     sections["bodies"]["ball"] |= {"position": [0, 0, RADIUS + gap], "velocity": [0, 0, -speed]}
     sections["events"] = {"surface": {"when": f"ball.z - {RADIUS}"}}
     r = simulate(sections, duration=0.1, step=1e-3, integrator=integrator, tolerance=1e-9)
-    assert r.array("ball.velocity.z")[-1] == pytest.approx(e * speed, rel=1e-7)
+    assert r.array("ball.velocity.z")[-1] == pytest.approx(e * speed, rel=bound)
     touch, leave = (event.time for event in r.events)
     assert touch == pytest.approx(gap / speed, abs=1e-12)
-    assert leave - touch == pytest.approx(impact.damped_duration(MASS, K, 1.5, speed, e), rel=1e-6)
+    assert leave - touch == pytest.approx(impact.damped_duration(MASS, stiffness, exponent, speed, e), rel=bound)
 
 
 @EXPLICIT

@@ -11,6 +11,7 @@ from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Truth
 from nivel.machine.quantity import fault, shown
 from nivel.machine.record import Name
+from nivel.machine.table import Table
 from nivel.machine.time_function import Measured
 
 _COMPARISONS = ("<", ">", "=")
@@ -41,5 +42,11 @@ class Event(Checked):
     stop: Truth = Field(default=False, description="whether the run ends at the event")
 
     def problems(self) -> Iterator[Problem]:
-        if isinstance(self.when, float | int):
-            yield Problem(("when",), f"{self.when:.6g} does not vary, so it never passes zero; use `time` or symbols")
+        when = self.when
+        if isinstance(when, float | int):
+            yield Problem(("when",), f"{when:.6g} does not vary, so it never passes zero; use `time` or symbols")
+        elif isinstance(when, Table) and when.interpolation == "linear" and min(when.values) * max(when.values) >= 0:
+            yield Problem(
+                ("when",),
+                f"the values of the table go from {min(when.values):.6g} to {max(when.values):.6g}, so they never pass zero",
+            )

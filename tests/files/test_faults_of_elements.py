@@ -263,7 +263,7 @@ FAULTS = {
         "rail.displacement - 5 kg + 1 m",
         0,
         "events.far.when",
-        "",
+        "a mass (kg) and a length (m) cannot be added",
     ),
     "unknown direction": ("direction: rising", "direction: risng", 0, "events.far.direction", "did you mean `rising`"),
     "stop is no truth": ("stop: true", "stop: 1", 0, "events.far.stop", "true"),

@@ -104,7 +104,7 @@ def test_rebound_is_the_restitution_to_the_tolerance(exponent, stiffness, bound,
 
 
 @EXPLICIT
-@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
 def test_block_between_two_stops_keeps_the_restitution(coordinates, integrator):
     """e v, then e² v, then e³ v, each exactly; nothing else acts."""
     e = 0.7

@@ -121,7 +121,7 @@ def test_code_two_where_every_cell_is_refused(folder):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
 def test_an_interrupt_ends_with_code_130_and_writes_what_there_is(folder):
-    command = [sys.executable, "-m", "nivel", "compare", "pendulum.yaml", "--steps", "5ms,10ms", "--repeat"]
+    command = [sys.executable, "-m", "nivel", "compare", "pendulum.yaml", "--steps", "5ms,10ms", "--force", "--repeat"]
     subprocess.run([*command, "1"], cwd=folder, check=True, capture_output=True)  # compiles
     with subprocess.Popen(
         [*command, "1000000"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True

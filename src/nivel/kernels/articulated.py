@@ -55,13 +55,13 @@ def own_inertia(bodies, tree, b):
 def eliminate(P, s, U):
     """U = P s, 1/(sᵀ U) returned, P := P - U Uᵀ/(sᵀ U)."""
     w0, w1, w2, v0, v1, v2 = s[0], s[1], s[2], s[3], s[4], s[5]
-    U0 = P[0] * w0 + P[1] * w1 + P[2] * w2 + P[6] * v0 + P[7] * v1 + P[8] * v2
-    U1 = P[1] * w0 + P[3] * w1 + P[4] * w2 + P[9] * v0 + P[10] * v1 + P[11] * v2
-    U2 = P[2] * w0 + P[4] * w1 + P[5] * w2 + P[12] * v0 + P[13] * v1 + P[14] * v2
-    U3 = P[6] * w0 + P[9] * w1 + P[12] * w2 + P[15] * v0 + P[16] * v1 + P[17] * v2
-    U4 = P[7] * w0 + P[10] * w1 + P[13] * w2 + P[16] * v0 + P[18] * v1 + P[19] * v2
-    U5 = P[8] * w0 + P[11] * w1 + P[14] * w2 + P[17] * v0 + P[19] * v1 + P[20] * v2
-    Dinv = 1.0 / (U0 * w0 + U1 * w1 + U2 * w2 + U3 * v0 + U4 * v1 + U5 * v2)
+    U0 = (P[0] * w0 + P[1] * w1 + P[2] * w2) + (P[6] * v0 + P[7] * v1 + P[8] * v2)
+    U1 = (P[1] * w0 + P[3] * w1 + P[4] * w2) + (P[9] * v0 + P[10] * v1 + P[11] * v2)
+    U2 = (P[2] * w0 + P[4] * w1 + P[5] * w2) + (P[12] * v0 + P[13] * v1 + P[14] * v2)
+    U3 = (P[6] * w0 + P[9] * w1 + P[12] * w2) + (P[15] * v0 + P[16] * v1 + P[17] * v2)
+    U4 = (P[7] * w0 + P[10] * w1 + P[13] * w2) + (P[16] * v0 + P[18] * v1 + P[19] * v2)
+    U5 = (P[8] * w0 + P[11] * w1 + P[14] * w2) + (P[17] * v0 + P[19] * v1 + P[20] * v2)
+    Dinv = 1.0 / ((U0 * w0 + U1 * w1 + U2 * w2) + (U3 * v0 + U4 * v1 + U5 * v2))
     U[0], U[1], U[2], U[3], U[4], U[5] = U0, U1, U2, U3, U4, U5
     d0, d1, d2, d3, d4, d5 = Dinv * U0, Dinv * U1, Dinv * U2, Dinv * U3, Dinv * U4, Dinv * U5
     P[0] -= d0 * U0
@@ -151,8 +151,8 @@ def factorise_tree(bodies, tree):
 def transmit(tree, k, wrench):
     """Generalised force of a wrench on column k over √D, then the wrench less what the column takes of it."""
     s, U = tree.column[k], tree.U[k]
-    effort = s[0] * wrench[0] + s[1] * wrench[1] + s[2] * wrench[2]
-    effort += s[3] * wrench[3] + s[4] * wrench[4] + s[5] * wrench[5]
+    turning = s[0] * wrench[0] + s[1] * wrench[1] + s[2] * wrench[2]
+    effort = turning + (s[3] * wrench[3] + s[4] * wrench[4] + s[5] * wrench[5])
     share = effort * tree.Dinv[k]
     for i in range(6):
         wrench[i] -= share * U[i]
@@ -249,7 +249,7 @@ def whiten_bundle(machine, first, last):
             U0, U1, U2, U3, U4, U5 = U[0], U[1], U[2], U[3], U[4], U[5]
             for i in range(count):
                 x = tree.load[i, child]
-                effort = s0 * x[0] + s1 * x[1] + s2 * x[2] + s3 * x[3] + s4 * x[4] + s5 * x[5]
+                effort = (s0 * x[0] + s1 * x[1] + s2 * x[2]) + (s3 * x[3] + s4 * x[4] + s5 * x[5])
                 W[block + i * length + c, 0] = effort * root
                 share = effort * Dinv
                 x[0] -= share * U0
@@ -297,7 +297,7 @@ def accelerate(machine, change):
         a[5] = ap[5] + ap[0] * r[1] - ap[1] * r[0]
         for k in range(np.int64(node[4]), np.int64(node[5])):
             s, U = tree.column[k], tree.U[k]
-            felt = U[0] * a[0] + U[1] * a[1] + U[2] * a[2] + U[3] * a[3] + U[4] * a[4] + U[5] * a[5]
+            felt = (U[0] * a[0] + U[1] * a[1] + U[2] * a[2]) + (U[3] * a[3] + U[4] * a[4] + U[5] * a[5])
             x = z[k, 0] * tree.root[k] - tree.Dinv[k] * felt
             change[k] = x
             for i in range(6):

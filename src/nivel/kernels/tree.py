@@ -26,6 +26,7 @@ from nivel.kernels.record import (
     UNIVERSAL,
 )
 from nivel.kernels.spatial import cross, dot, multiply
+from nivel.kernels.trigonometry import cosine_and_sine
 
 
 @leaf
@@ -36,6 +37,13 @@ def product(A, B, out):
         out[i, 0] = a * B[0, 0] + b * B[1, 0] + c * B[2, 0]
         out[i, 1] = a * B[0, 1] + b * B[1, 1] + c * B[2, 1]
         out[i, 2] = a * B[0, 2] + b * B[1, 2] + c * B[2, 2]
+
+
+@stage
+def turn_by_angle(A, angle, out):
+    """out = A Rz(angle)."""
+    c, s = cosine_and_sine(angle)
+    turn_about_z(A, c, s, out)
 
 
 @leaf
@@ -49,7 +57,8 @@ def turn_about_z(A, c, s, out):
 @leaf
 def turn_by_cross(A, q, out):
     """out = A Rz(a₁) X Rz(a₂): X lays the second z axis along the first x axis, the second x axis along the first z axis."""
-    c, s, e, f = np.cos(q[0]), np.sin(q[0]), np.cos(q[1]), np.sin(q[1])
+    c, s = cosine_and_sine(q[0])
+    e, f = cosine_and_sine(q[1])
     for i in range(3):
         x, y, z = A[i, 0], A[i, 1], A[i, 2]
         side = s * x - c * y
@@ -101,7 +110,7 @@ def move_joint(kind, number, q, A, out, column, k):
     zero = (0.0, 0.0, 0.0)
     z = axis_of(A, 2)
     if kind == REVOLUTE:
-        turn_about_z(A, np.cos(q[0]), np.sin(q[0]), out)
+        turn_by_angle(A, q[0], out)
         set_column(column[k], z, zero)
         return zero
     if kind == TRANSLATIONAL:
@@ -119,17 +128,17 @@ def move_joint(kind, number, q, A, out, column, k):
             set_column(column[k + i], axis_of(out, i), zero)
         return zero
     if kind == CYLINDRICAL:
-        turn_about_z(A, np.cos(q[0]), np.sin(q[0]), out)
+        turn_by_angle(A, q[0], out)
         set_column(column[k], z, zero)
         set_column(column[k + 1], zero, z)
         return times(q[1], z)
     if kind == SCREW:
-        turn_about_z(A, np.cos(q[0]), np.sin(q[0]), out)
+        turn_by_angle(A, q[0], out)
         set_column(column[k], z, times(number[0], z))
         return times(number[0] * q[0] + number[1], z)
     x, y = axis_of(A, 0), axis_of(A, 1)
     if kind == PLANAR:
-        turn_about_z(A, np.cos(q[2]), np.sin(q[2]), out)
+        turn_by_angle(A, q[2], out)
         set_column(column[k], zero, x)
         set_column(column[k + 1], zero, y)
         set_column(column[k + 2], z, zero)

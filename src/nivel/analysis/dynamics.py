@@ -15,6 +15,7 @@ from nivel.analysis.combinations import refuse_combinations
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
+from nivel.analysis.mobility import bound_pivots
 from nivel.analysis.outcome import failure
 from nivel.analysis.penalties import feedback, penalise
 from nivel.analysis.redundancy import Redundancy, analyse
@@ -131,6 +132,8 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     prepared = MotionEquations(system, import_module(facts.module))
     if FORMULATIONS[formulation].factor > 0.0:
         prepared = penalise(prepared, y, machine.simulation, FORMULATIONS[formulation])
+    else:
+        bound_pivots(prepared, y)
     return Prepared(prepared, y, absolute, assembly, redundancy, len(machine.drivers))
 
 

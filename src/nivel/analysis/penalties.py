@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from nivel.analysis.equations import MotionEquations
+from nivel.analysis.mobility import mobility
 from nivel.machine.settings import Penalty, SimulationSettings
 from nivel.motion.catalogue import FormulationFacts
 from nivel.system.system import Array
@@ -32,13 +33,11 @@ def penalise(
     saddle = record.saddle._replace(dense=np.zeros((0, 0)), null=np.zeros((0, 0)), pivot=np.zeros(0, dtype=np.uint32))
     system = replace(motion.system, record=record._replace(saddle=saddle))
     penalised = MotionEquations(system, motion.kernels)
-    penalised.evaluate(0.0, y)
-    mobility = np.zeros(rows)
-    mobility[saddle.order] = saddle.S[saddle.S_start[1:].astype(int) - 1]
+    mobile = mobility(penalised, y)
     units = record.constraints.scale[saddle.row] ** 2
     # what nothing can move still needs a penalty
-    mobility = np.maximum(mobility, IMMOBILE * units * np.max(mobility / units, initial=0.0))
-    saddle.shift[:] = 1.0 / penalty.alpha if penalty.alpha else mobility / (penalty.factor or facts.factor)
+    mobile = np.maximum(mobile, IMMOBILE * units * np.max(mobile / units, initial=0.0))
+    saddle.shift[:] = 1.0 / penalty.alpha if penalty.alpha else mobile / (penalty.factor or facts.factor)
     record.control.rank[0] = rows
     record.control.iterations[0] = penalty.iterations if facts.iterated else 1
     return penalised

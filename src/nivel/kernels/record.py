@@ -218,6 +218,7 @@ class Saddle(NamedTuple):
     P_column: U1
     P_entry: U1  # ... and where each entry stands in column order
     shift: F1  # (K,) added to the diagonal of S: 1/α of penalty methods, else 0
+    least: F1  # (K,) pivot below which a row moves nothing, in elimination order
     # work
     W: F2  # (N, width)
     G: F3  # (B, width, width) what the formulation needs of each body's mass matrix

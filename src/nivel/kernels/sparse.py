@@ -33,7 +33,7 @@ def factorise(saddle):
             entry = yj * Dinv[j]
             pivot -= entry * yj
             L[last] = entry
-        if not real(pivot) > DEPENDENT * real(diagonal):
+        if not (real(pivot) > DEPENDENT * real(diagonal) and real(pivot) > saddle.least[k]):
             return k
         Dinv[k] = 1.0 / pivot
     return -1

@@ -221,6 +221,7 @@ def _saddle(
         blocks=np.array([count], dtype=np.uint32),
         **vars(elimination),
         shift=np.zeros(row_count),
+        least=np.zeros(row_count),
         W=np.zeros((len(block), width)),
         G=np.zeros((bodies, width, width)),
         z=np.zeros((bodies, width)),

@@ -235,6 +235,7 @@ def _saddle(rows: Index, blocks: list[tuple[int, ...]], owners: list[str], colum
         blocks=np.array([len(own)], dtype=np.uint32),
         **vars(elimination),
         shift=np.zeros(count),
+        least=np.zeros(count),
         W=np.zeros((len(blocks), 1)),
         G=np.zeros((0, 0, 0)),
         z=np.zeros((columns, 1)),

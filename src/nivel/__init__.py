@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from nivel.machine import Bushing as Bushing
     from nivel.machine import Contact as Contact
     from nivel.machine import Driver as Driver
+    from nivel.machine import Event as Event
     from nivel.machine import Expression as Expression
     from nivel.machine import Friction as Friction
     from nivel.machine import Gear as Gear
@@ -67,6 +68,7 @@ _HOME = {
     "Bushing": "nivel.machine",
     "Contact": "nivel.machine",
     "Driver": "nivel.machine",
+    "Event": "nivel.machine",
     "Expression": "nivel.machine",
     "Friction": "nivel.machine",
     "Gear": "nivel.machine",
@@ -100,6 +102,7 @@ __all__ = [
     "Comparison",
     "Contact",
     "Driver",
+    "Event",
     "Expression",
     "Friction",
     "Gear",

@@ -24,6 +24,7 @@ from nivel.machine import (
     Body,
     Coupling,
     Driver,
+    Event,
     Force,
     Joint,
     MachineRecord,
@@ -61,6 +62,7 @@ class Machine:
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
         sensors: Sequence[Sensor] = (),
+        events: Sequence[Event] = (),
         gravity: tuple[float, float, float] = (0.0, 0.0, 0.0),
         assembly: AssemblySettings | None = None,
         simulation: SimulationSettings | None = None,
@@ -77,6 +79,7 @@ class Machine:
             drivers=tuple(drivers),
             forces=tuple(forces),
             sensors=tuple(sensors),
+            events=tuple(events),
             assembly=assembly or AssemblySettings(),
             simulation=simulation or SimulationSettings(),
         )

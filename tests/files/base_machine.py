@@ -126,6 +126,9 @@ sensors:
   lean: {angle: [top, rim]}
   pull: {force: spring, quantity: length}
   sum: {value: 2*gap.distance + hinge.angle, units: m}
+events:
+  far: {when: rail.displacement - 5 cm, direction: rising, stop: true}
+  late: {when: 2*time - 1 + left_foot.z}
 assembly: {largest_gap: 1 cm}
 simulation: {duration: 1, step: 1 ms}
 """
@@ -153,6 +156,8 @@ joints:
 forces:
   bend: {type: joint-spring-damper, coordinate: knee.angle, stiffness: 100, free_value: 10 deg}
   push: {type: force, marker: foot, vector: [10 - 5*foot.x, 2*time, 0]}
+events:
+  down: {when: foot.z + length, direction: falling}
 """
 
 DISC = '{"mass": "3 kg", "centre_of_mass": [0, 0, 0.01], "inertia": [0.01, 0.01, 0.02]}\n'

@@ -1,4 +1,4 @@
-"""Faults in joints, couplings, drivers, forces and sensors: each is found at its line, with its element and what would be right."""
+"""Faults in joints, couplings, drivers, forces, sensors and events: each is found at its line, with its element and what would be right."""
 
 import pytest
 from base_machine import faults_of_full
@@ -228,6 +228,46 @@ FAULTS = {
         "sensors.sum.value",
         "is taken of an angle",
     ),
+    # events
+    "comparison": (
+        "rail.displacement - 5 cm",
+        "rail.displacement > 5 cm",
+        0,
+        "events.far.when",
+        "an event is where an expression passes zero, not a comparison as in `rail.displacement > 5 cm`",
+    ),
+    "event that never comes": (
+        "when: rail.displacement - 5 cm",
+        "when: 5 cm",
+        0,
+        "events.far.when",
+        "never passes zero",
+    ),
+    "event of a table that never comes": (
+        "when: rail.displacement - 5 cm",
+        "when: {times: [0, 1 s, 2 s], values: [1, 3, 1]}",
+        0,
+        "events.far.when",
+        "the values of the table go from 1 to 3, so they never pass zero",
+    ),
+    "event of nothing": ("{when: 2*time - 1 + left_foot.z}", "{stop: true}", 0, "events.late", "`when` is missing"),
+    "event of an unknown joint": (
+        "rail.displacement - 5",
+        "rial.displacement - 5",
+        0,
+        "events.far.when",
+        "`rail.displ",
+    ),
+    "event of unlike quantities": (
+        "rail.displacement - 5 cm",
+        "rail.displacement - 5 kg + 1 m",
+        0,
+        "events.far.when",
+        "a mass (kg) and a length (m) cannot be added",
+    ),
+    "unknown direction": ("direction: rising", "direction: risng", 0, "events.far.direction", "did you mean `rising`"),
+    "stop is no truth": ("stop: true", "stop: 1", 0, "events.far.stop", "true"),
+    "unknown key of an event": ("stop: true", "stops: true", 0, "events.far.stops", "did you mean `stop`"),
     # the whole
     "unknown setting of the assembly": (
         "{largest_gap: 1 cm}",

@@ -279,6 +279,8 @@ forces:
       [[2, 1, 1, 0, 0, 0], [1, 2, 1, 0, 0, 0], [1, 1, 2, 0, 0, 0], [0, 0, 0, 2, 1, 1], [0, 0, 0, 1, 2, 1], [0, 0, 0, 1, 1, 2]]
 sensors:
   q: {value: c.displacement*m.x}
+events:
+  o: {when: c.displacement - 2, direction: rising}
 """
 
 
@@ -301,6 +303,8 @@ def test_what_counts_the_other_way_in_the_image():
     assert one["forces"]["t"].effort.times == (-1, 0)
     assert one["forces"]["t"].effort.values == (3, 2)
     assert one["sensors"]["q"].value(0, {"c.displacement": 2, "m.x": 3}) == -6
+    assert one["events"]["o"].when(0, {"c.displacement": -3}) == 1
+    assert one["events"]["o"].direction == "rising"
     assert one["drivers"]["z"].relative_to == "n_mirrored"
     assert np.allclose(marker_frame(one["markers"]["n_mirrored"])[1][:, 2], (0, 0, -1))
     frame = one["markers"][one["drivers"]["x"].relative_to]

@@ -210,6 +210,11 @@ EVERYTHING = {
         {"name": "energy", "value": "0.5*turn.angle_rate^2 + gap.distance*5", "units": "J"},
         {"name": "control", "value": LAW},
     ],
+    "events": [
+        {"name": "half", "when": "hinge.angle - 180 deg", "direction": "rising", "stop": True},
+        {"name": "law", "when": LAW},
+        {"name": "ramp", "when": {"of": "gap.distance", "points": [0, 1], "values": [-1, 1]}, "direction": "falling"},
+    ],
     "assembly": {"largest_gap": "1 cm"},
     "simulation": {"duration": 3, "stabilisation": "baumgarte", "baumgarte": {"alpha": 5, "beta": 5}},
 }

@@ -70,6 +70,11 @@ def test_the_machine_of_these_tests_is_right():
             "drivers.d.name: the name `d` stands twice in drivers",
         ),
         ({"sensors": (SENSORS[0], SENSORS[0])}, "sensors.gap.name: the name `gap` stands twice in sensors"),
+        ({"events": ({"name": "e", "when": "time"},) * 2}, "events.e.name: the name `e` stands twice in events"),
+        (
+            {"events": ({"name": "e", "when": "hing.angle"},)},
+            "events.e.when: there is no joint, sensor, marker or body `hing`; did you mean `hinge.angle`?",
+        ),
         (
             {"couplings": ({"name": "g", "type": "gear", "joints": ("hing", "slide"), "ratio": 1},)},
             "couplings.g.joints.0: there is no joint `hing`; did you mean `hinge`?",

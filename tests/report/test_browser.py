@@ -15,6 +15,13 @@ from nivel.results import Memory
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no chromium on this machine to open the report in")
 
+EVENTS = json.dumps(
+    [{"name": name, "time": time, "direction": "rising"} for name, time in (("bottom", 3.0), ("top", 6.0))]
+)
+# notes down what is written in plots
+WRITTEN = """window.written = [];
+  const write = CanvasRenderingContext2D.prototype.fillText;
+  CanvasRenderingContext2D.prototype.fillText = function (text, ...place) { written.push(text); write.call(this, text, ...place); };"""
 # runs in the page: zooms the first plot with the mouse, looks at all, resets; what it saw goes into the title
 SCRIPT = """
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -26,13 +33,16 @@ const fire = (target, kind, x) => {
 const canvases = [...document.querySelectorAll(".plot .canvas canvas")];
 const painted = canvases.map((c) => c.getContext("2d").getImageData(0, 0, c.width, c.height).data.some((v) => v > 0));
 const ranges = () => [...new Set(seen.map((u) => [u.scales.x.min, u.scales.x.max].join()))].map((r) => r.split(",").map(Number));
+const marks = (name) => written.filter((text) => text === name).length;
 (async () => {
   const over = document.querySelector(".plot .u-over");
   await wait(50);
-  const before = ranges();
+  const before = ranges(), marked = [marks("bottom"), marks("top")];
+  written.length = 0;
   fire(over, "mouseenter", 0.25); fire(over, "mousemove", 0.25); fire(over, "mousedown", 0.25);
   fire(over, "mousemove", 0.4); fire(over, "mousemove", 0.5); fire(over, "mouseup", 0.5);
   await wait(50);
+  marked.push(marks("bottom"), marks("top"));
   const zoomed = ranges(), shown = !document.getElementById("reset").hidden;
   fire(over, "mousemove", 0.5);
   await wait(20);
@@ -43,7 +53,7 @@ const ranges = () => [...new Set(seen.map((u) => [u.scales.x.min, u.scales.x.max
   const choice = document.querySelector(".plot select");
   choice.value = "1"; choice.dispatchEvent(new Event("change"));
   await wait(50);
-  document.title = JSON.stringify({ painted, before, zoomed, shown, legends, reset, hidden,
+  document.title = JSON.stringify({ painted, marked, before, zoomed, shown, legends, reset, hidden,
     unit: choice.closest(".plot").querySelector(".unit").textContent,
     wide: document.documentElement.scrollWidth - document.documentElement.clientWidth });
 })();
@@ -56,10 +66,12 @@ def page(tmp_path_factory):
     memory = Memory()
     memory.begin(pendulum.header())
     memory.take(pendulum.frames(np.linspace(0.0, 8.0, 801)))
-    path = memory.close({"outcome": "done"}).report(folder / "run.html")
+    path = memory.close({"outcome": "done", "events": EVENTS}).report(folder / "run.html")
     html = path.read_text(encoding="utf-8")
     # every plot that is made is noted down, then the script is appended
-    html = html.replace('"use strict";\n  const data', '"use strict";\n  window.seen = [];\n  const data', 1)
+    html = html.replace(
+        '"use strict";\n  const data', f'"use strict";\n  window.seen = [];\n  {WRITTEN}\n  const data', 1
+    )
     html = html.replace("plots.set(card, plot);", "plots.set(card, plot); window.seen.push(plot);", 1)
     (folder / "driven.html").write_text(html.replace("</body>", f"<script>{SCRIPT}</script></body>"), encoding="utf-8")
     return folder
@@ -85,6 +97,11 @@ def test_the_report_works_in_a_browser(page):
     assert len(seen["painted"]) == 7
     assert all(seen["painted"])
     assert seen["before"] == [[0.0, 8.0]]
+    # every plot marks the events between its ends
+    first, other, zoomed, outside = seen["marked"]
+    assert first == other >= 7
+    assert zoomed >= 7
+    assert outside == 0
     ((low, high),) = seen["zoomed"]  # one range for all plots
     assert (low, high) == (pytest.approx(2.0, abs=0.1), pytest.approx(4.0, abs=0.1))
     assert seen["reset"] == [[0.0, 8.0]]

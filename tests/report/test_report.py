@@ -19,14 +19,14 @@ from nivel.results.trust import Facts, assess
 TIME = np.linspace(0.0, 2.0, 201)
 
 
-def run(time=TIME, outcome="done", attributes=None, facts=None, **histories):
+def run(time=TIME, outcome="done", attributes=None, facts=None, ended=None, **histories):
     memory = Memory()
     memory.begin(pendulum.header(**(attributes or {})))
     if len(time):
         memory.take(pendulum.packed(time, {**pendulum.histories(time), **histories}))
     trust = assess(memory.result(), facts or Facts(outcome, 1)).to_json()
     timing = {"steps": 2000, "evaluations": 8001, "loop_seconds": 0.0123}
-    return memory.close({"outcome": outcome, "trust": trust, "timing": json.dumps(timing)})
+    return memory.close({"outcome": outcome, "trust": trust, "timing": json.dumps(timing), **(ended or {})})
 
 
 def data_of(html):
@@ -177,6 +177,25 @@ def test_what_the_assembly_changed_stands_with_the_trust():
 def test_an_assembly_that_changed_nothing_is_not_mentioned(assembly):
     attributes = {} if assembly is None else {"assembly": json.dumps(assembly)}
     assert "Changed at the start" not in words(report_html(run(attributes=attributes)))
+
+
+def test_events_are_listed_and_marked():
+    events = [
+        {"name": name, "time": time, "direction": "rising"}
+        for name, time in (("bottom", 0.5), ("top", 1.0), ("bottom", 2.0))
+    ]
+    html = report_html(run(ended={"events": json.dumps(events), "stopped_by": "bottom"}))
+    text = words(html)
+    assert "bottom at t = 0.5 s and 2 s, which ended the run" in text
+    assert "top at t = 1 s" in text
+    assert "until the event bottom" in text
+    assert data_of(html)["events"] == [{"name": each["name"], "time": each["time"]} for each in events]
+
+
+def test_a_run_without_events_does_not_mention_them():
+    html = report_html(run())
+    assert "Events" not in words(html)
+    assert data_of(html)["events"] == []
 
 
 def test_names_and_texts_are_shown_not_run():

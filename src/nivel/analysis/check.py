@@ -9,7 +9,7 @@ import numpy as np
 
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.dynamics import prepare
-from nivel.analysis.elements import coupling_in_words, driver_in_words, force_in_words, sensor_in_words
+from nivel.analysis.elements import coupling_in_words, driver_in_words, event_in_words, force_in_words, sensor_in_words
 from nivel.analysis.settings import RunSettings, complete
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import JOINTS
@@ -56,10 +56,11 @@ class Check:
     gravity: tuple[float, ...]
     bodies: tuple[BodyFacts, ...]
     joints: tuple[JointFacts, ...]
-    couplings: tuple[str, ...]  # each in words, as drivers, forces and sensors
+    couplings: tuple[str, ...]  # each in words, as drivers, forces, sensors and events
     drivers: tuple[str, ...]
     forces: tuple[str, ...]
     sensors: tuple[str, ...]
+    events: tuple[str, ...]
     degrees_of_freedom: int
     constraint_rows: int
     redundant_rows: tuple[str, ...]
@@ -104,7 +105,7 @@ def _lines(facts: Check) -> Iterator[str]:
             yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}"
     for kind, convention in {joint.type: joint.convention for joint in facts.joints if joint.coordinates}.items():
         yield f"  {kind}: {convention}"
-    for title in ("couplings", "drivers", "forces", "sensors"):
+    for title in ("couplings", "drivers", "forces", "sensors", "events"):
         elements: tuple[str, ...] = getattr(facts, title)
         if elements:
             yield title
@@ -175,6 +176,7 @@ def check(machine: MachineRecord) -> Check:
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
         sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
+        events=tuple(event_in_words(event) for event in machine.events),
         degrees_of_freedom=redundancy.degrees_of_freedom,
         constraint_rows=system.machine_rows,
         redundant_rows=redundancy.redundant_rows,

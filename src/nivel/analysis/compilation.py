@@ -16,11 +16,13 @@ from nivel.system.forces import FORCES
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
+FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
 RARE = {
     "nivel.kernels.measure": "measured coordinates",
     "nivel.kernels.friction": "friction",
     "nivel.kernels.sensor": "sensors",
+    "nivel.kernels.watch": "events",
 }
 
 
@@ -38,7 +40,8 @@ def compile_path(
     Returns the wall time [s].
     """
     begin = perf_counter()
-    parts = [("nivel.kernels.observe", "output"), *_rare_parts(machine)]
+    chooses = integrator in INTEGRATORS and INTEGRATORS[integrator].chooses_steps
+    parts = [("nivel.kernels.observe", "output"), *_rare_parts(machine, chooses)]
     parts.insert(0, (ASSEMBLY, "the equations of motion, newton-euler"))
     if (facts := path_of(*path)) is not None:
         if facts.module != ASSEMBLY:
@@ -64,14 +67,20 @@ def rare_modules() -> list[str]:
     return [*(f"nivel.kernels.forces.{family}" for family in families), *RARE]
 
 
-def _rare_parts(machine: MachineRecord) -> list[tuple[str, str]]:
-    """Modules of what only some machines have: kinds of forces, measured coordinates, friction, sensors."""
+def _rare_parts(machine: MachineRecord, chooses: bool) -> list[tuple[str, str]]:
+    """Modules of what only some machines have: kinds of forces, measured coordinates, friction, sensors, events.
+
+    chooses : the integrator chooses its steps; it follows contacts and stops.
+    """
     types = {force.type for force in machine.forces}
     families = dict.fromkeys(family for force in types for family in FORCES[force].families)
     needed = {
-        "nivel.kernels.measure": bool(machine.joints or machine.drivers or machine.sensors or types - {*LOADS}),
+        "nivel.kernels.measure": bool(
+            machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}
+        ),
         "nivel.kernels.friction": "friction" in types,
         "nivel.kernels.sensor": bool(machine.sensors),
+        "nivel.kernels.watch": bool(machine.events) or (chooses and bool(types & {*FOLLOWED})),
     }
     parts = [(f"nivel.kernels.forces.{family}", f"forces: {family}") for family in families]
     return parts + [(module, what) for module, what in RARE.items() if needed[module]]

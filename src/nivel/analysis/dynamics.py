@@ -28,6 +28,7 @@ from nivel.analysis.refusals import (
 from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
+from nivel.kernels.record import WATCH
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS, IntegratorFacts
@@ -42,6 +43,7 @@ from nivel.march.run import (
     DONE_STEPS,
     END,
     EVALUATIONS,
+    EVENTS,
     EVERY,
     FRAMES,
     INTERVAL,
@@ -52,7 +54,10 @@ from nivel.march.run import (
     NEWTON,
     ORDER,
     REJECTED,
+    SHOWN,
     STEP,
+    STOPPED,
+    SWITCHED,
     TIME,
     TOLERANCE,
     UNCONSERVED,
@@ -61,12 +66,14 @@ from nivel.march.run import (
 from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS, path_of
+from nivel.results.occurrence import Occurrence
 from nivel.system.partition import forget
 from nivel.system.system import Array, System
 
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
 CHUNK = 0.05
 BUFFER_BYTES = 1_000_000
+EVENT_ROWS = 1000
 # Stiction stops a joint within this many steps.
 STICK_STEPS = 2.0
 
@@ -86,9 +93,14 @@ class Prepared:
 
 @dataclass
 class Finished:
-    """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s])."""
+    """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s]).
+
+    events : in the order of time. stopped_by : name of the event that ended the run.
+    """
 
     outcome: str
+    events: list[Occurrence] = field(default_factory=list)
+    stopped_by: str = ""
     timing: dict[str, float] = field(default_factory=dict)
     failure: tuple[str, str, float] | None = None
 
@@ -164,6 +176,7 @@ def march(
             spent = clock_of_python.process_time() - begin
             loop_seconds += spent
             _give(run, sinks)
+            finished.events += _taken_events(run, system.events)
             if progress is not None:
                 progress(float(run.clock[TIME]))
             if chunk_steps is None and status == BUDGET_SPENT:
@@ -175,6 +188,8 @@ def march(
             if status in (BUDGET_SPENT, BUFFER_FULL) and interrupted():
                 finished.outcome = "interrupted"
                 break
+    if run.counter[STOPPED]:
+        finished.stopped_by = system.events[run.counter[STOPPED] - 1]
     if status not in (BUDGET_SPENT, BUFFER_FULL, DONE):
         finished.outcome = "failed"
         step_size = float(run.clock[STEP])
@@ -209,6 +224,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     clock = np.zeros(CLOCKS)
     clock[STEP], clock[END], clock[INTERVAL] = settings.step, settings.duration, settings.output_interval
     clock[TOLERANCE], clock[LARGEST] = settings.tolerance or 0.0, settings.largest_step
+    clock[SHOWN] = -np.inf
     count = np.zeros(COUNTS, dtype=np.int64)
     count[ALL_STEPS], count[EVERY], count[LAST_FRAME] = settings.steps, settings.every, -1
     count[ORDER] = facts.order
@@ -221,6 +237,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     record.control.iterations[1] = 0
     forget(record.partition)
     record.coordinates.reference[:] = prepared.assembly.reference
+    record.watched.followed[:] = 0
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
     record.friction.force[:] = 0.0
@@ -233,6 +250,8 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     observe(prepared.motion.handle.address, 0.0, y, np.zeros(width))
     energy = system.record.control.energy
     energy[2] = energy[0] + energy[1]
+    values = _watch(system, facts)
+    count[SWITCHED] = record.watched.followed[0]
     return Run(
         clock=clock,
         counter=count,
@@ -250,9 +269,20 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
         turns=system.map.turns,
         dense=np.zeros((DENSE_ROWS, len(y))),
         frames=np.zeros((rows, width)),
-        event_values=np.zeros((2, 0)),
-        events=np.zeros((0, 3)),
+        event_values=np.zeros((6, values)),
+        events=np.zeros((EVENT_ROWS if len(record.watched.event) else 0, 3)),
     )
+
+
+def _watch(system: System, facts: IntegratorFacts) -> int:
+    """Number of values whose zeros are looked for: events, and where steps are chosen, contacts and stops."""
+    watched = system.record.watched
+    if facts.chooses_steps:
+        watched.followed[0] = int(len(watched.surface) > 0)
+    count = len(watched.event) + (len(watched.surface) if watched.followed[0] else 0)
+    if count:
+        system.record.hooks.address[WATCH] = import_module("nivel.kernels.watch").watch.address
+    return count
 
 
 def _scales(system: System, y: Array, duration: float) -> Array:
@@ -300,3 +330,13 @@ def _give(run: Run, sinks: Sequence[Sink]) -> None:
         for sink in sinks:
             sink.take(run.frames[:filled])
         run.counter[FRAMES] = 0
+
+
+def _taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
+    """Events of the buffer, which is empty then."""
+    filled = int(run.counter[EVENTS])
+    run.counter[EVENTS] = 0
+    return [
+        Occurrence(names[int(number)], float(time), "rising" if direction > 0.0 else "falling")
+        for time, number, direction in run.events[:filled]
+    ]

@@ -1,10 +1,11 @@
-"""Couplings, drivers, forces and sensors in words: what `nivel check` says of them."""
+"""Couplings, drivers, forces, sensors and events in words: what `nivel check` says of them."""
 
 from __future__ import annotations
 
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
+from nivel.machine.event import Event
 from nivel.machine.forces import Between, BetweenMarkers, Contact, End, ForceElement, PointForce
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
@@ -86,3 +87,11 @@ def sensor_in_words(sensor: Sensor) -> str:
         case form:
             seen = f", seen from {sensor.relative_to}" if sensor.relative_to else ""
             return f"{sensor.name}: {str(sensor.quantity).replace('_', ' ')} of {getattr(sensor, form)}{seen}"
+
+
+def event_in_words(event: Event) -> str:
+    """When an event is, and whether it ends the run."""
+    way = "" if event.direction == "both" else f", {event.direction}"
+    return (
+        f"{event.name}: {function_in_words(event.when)} passes zero{way}{'; the run ends there' if event.stop else ''}"
+    )

@@ -12,6 +12,7 @@ from nivel.analysis.equations import MotionEquations
 from nivel.kernels.status import (
     BRISTLE_TOO_FAST,
     CONTRADICTION,
+    EVENT_NOT_FINITE,
     FRICTION_DIVERGES,
     NOT_CONVERGED,
     NOT_FINITE,
@@ -40,6 +41,8 @@ def failure(
         told = _jammed(motion.system.frictions[number])
     elif status == BRISTLE_TOO_FAST:
         told = _fast_bristles(motion, number, step)
+    elif status == EVENT_NOT_FINITE and number < len(motion.system.events):
+        told = _broken_event(motion.system.events[number])
     elif status == ROTATION_SINGULAR:
         told = _singular_rotation(motion.system.bodies[number])
     else:
@@ -157,6 +160,13 @@ def _fast_bristles(motion: MotionEquations, number: int, step: float) -> tuple[s
         f"come, less; or a smaller bristle_stiffness of {name}; or `model: stiction`."
     )
     return message, advice
+
+
+def _broken_event(name: str) -> tuple[str, str]:
+    return (
+        f"the value of the event {name} is no longer a number",
+        f"Look at `when` of {name}: a division by zero, or a root or logarithm of a negative number?",
+    )
 
 
 def _singular_rotation(body: str) -> tuple[str, str]:

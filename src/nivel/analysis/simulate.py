@@ -18,6 +18,7 @@ from nivel.march.catalogue import INTEGRATORS
 from nivel.march.sink import Header
 from nivel.results.accuracy import error_from_finer
 from nivel.results.memory import Memory
+from nivel.results.occurrence import to_json
 from nivel.results.result import Result
 from nivel.results.store import Store
 from nivel.results.trust import Facts, Peak, assess
@@ -76,11 +77,14 @@ def _close(
         accuracy=accuracy,
         refinement=refinement,
         failure=message,
+        stopped_by=finished.stopped_by,
     )
     attributes: dict[str, str | float | int] = {
         "outcome": finished.outcome,
         "failure": message,
         "advice": advice,
+        "events": to_json(finished.events),
+        "stopped_by": finished.stopped_by,
         "trust": assess(sink.result(), facts).to_json(),
         "timing": json.dumps({**finished.timing, **timing}),
     }

@@ -119,6 +119,8 @@ def _refuse_to_replace(report: Path | None, target: Path, force: bool, machine: 
 def _say(result: Result, target: Path, report: Path | None) -> None:
     from rich.console import Console
 
+    from nivel.results.occurrence import in_words
+
     console = Console(stderr=True, highlight=False)
     trust = result.trust
     timing = result.timing
@@ -130,6 +132,8 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
     console.print(done)
     for line in _assembly_lines(result):
         console.print(line)
+    for line in in_words(result.events, result.stopped_by):
+        console.print(f"event: {line}", markup=False)
     console.print(f"trust: [{colour}]{trust.verdict}[/{colour}]")
     for item in trust.items:
         console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")

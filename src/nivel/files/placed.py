@@ -11,7 +11,7 @@ from nivel.files.placed_forces import placed_force
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement
 from nivel.files.scene import Scene
 from nivel.files.substitution import NotRepresentableError, negative
-from nivel.machine import Driver, LinearCoupling, Rack, Record, Sensor
+from nivel.machine import Driver, Event, LinearCoupling, Rack, Record, Sensor
 from nivel.machine.record import entry
 
 Elements = Mapping[str, Sequence[Record]]
@@ -35,6 +35,7 @@ def placed(elements: Elements, placing: Placement) -> dict[str, tuple[Record, ..
         "drivers": lambda driver: placed_driver(driver, scene),
         "forces": lambda force: placed_force(force, scene),
         "sensors": lambda sensor: placed_sensor(sensor, scene),
+        "events": lambda event: placed_event(event, scene),
     }
     made = {section: tuple(_by(rules[section], record) for record in elements[section]) for section in elements}
     made["markers"] = (*made["markers"], *scene.extra.values())
@@ -82,3 +83,11 @@ def placed_sensor(sensor: Sensor, scene: Scene) -> Sensor:
     Raises NotRepresentableError.
     """
     return sensor if sensor.value is None else sensor.replace(value=scene.varied(sensor.value))
+
+
+def placed_event(event: Event, scene: Scene) -> Event:
+    """`event` in the placed part: it comes when it would in the part.
+
+    Raises NotRepresentableError.
+    """
+    return event.replace(when=scene.varied(event.when))

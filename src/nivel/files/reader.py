@@ -21,7 +21,7 @@ def read_machine(
 ) -> MachineRecord:
     """The machine in the YAML file at `path`. `overrides`: values by path, e.g. ``{"bodies.crank.mass": "22 kg"}``.
 
-    allow_code : laws of forces, drivers and sensors may be Python functions, which run with all your rights.
+    allow_code : laws of forces, drivers, sensors and events may be Python functions, which run with all your rights.
     Raises ModelError with everything that is wrong, each with file, line and column.
     """
     return parse_machine(read_text(path), str(path), overrides=overrides, allow_code=allow_code)

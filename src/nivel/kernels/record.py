@@ -138,6 +138,10 @@ class Elements(NamedTuple):
     number: F2  # (E, ·)
     memory: F2  # (E, ·) what an element keeps from accepted state to accepted state
     proposal: F2  # (E, ·) the memory that the state last evaluated would leave
+    depth: (
+        F2  # (E, ·) overlap at each surface of contacts and stops, negative while apart; one to each place of `memory`
+    )
+    depth_rate: F2  # (E, ·) its rate, where contacts and stops are followed
     state: F1  # (nx,) first-order states, copied from y
     state_rate: F1  # (nx,)
 
@@ -174,6 +178,18 @@ class Sensors(NamedTuple):
     """What is measured for the results; columns named in `nivel.kernels.sensor`."""
 
     columns: U2  # (sensors, ·)
+
+
+class Watched(NamedTuple):
+    """Values whose zeros are looked for: those of events, then overlaps of contacts and stops."""
+
+    event: U2  # (events, 3) FUNCTION, DIRECTION, STOP: whether it ends the run
+    surface: U2  # (surfaces, 2) element, place in its `depth`
+    value: F1  # (events + surfaces,) in the state last evaluated
+    rate: F1  # (events + surfaces,) of the surfaces, zero for events
+    followed: (
+        U1  # (1,) whether contacts and stops keep the side of the accepted state, see `nivel.kernels.forces.impact`
+    )
 
 
 class Hooks(NamedTuple):
@@ -336,6 +352,7 @@ class Record(NamedTuple):
     frames: Frames
     partition: Partition
     sensors: Sensors
+    watched: Watched
     outputs: Outputs
     hooks: Hooks
     control: Control
@@ -355,3 +372,5 @@ family_signature = types.int64(address_type, types.int64, types.float64)
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
 MEASURE, FRICTION, SENSE, COMPLETE, WATCH = 0, 1, 2, 3, 4  # entries of Hooks.address
+FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
+BOTH, RISING, FALLING = 0, 1, 2  # directions

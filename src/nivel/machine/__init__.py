@@ -6,6 +6,7 @@ from nivel.machine.coordinate_reference import resolve
 from nivel.machine.coupling import Belt, Coupling, Gear, LinearCoupling, Rack
 from nivel.machine.dimension import KINDS
 from nivel.machine.driver import Driver
+from nivel.machine.event import Event
 from nivel.machine.forces import (
     Bushing,
     Contact,
@@ -49,6 +50,7 @@ __all__ = [
     "Coupling",
     "Cylinder",
     "Driver",
+    "Event",
     "Expression",
     "Force",
     "Friction",

@@ -9,7 +9,7 @@ from typing import Any, Final
 from nivel.machine.record import GROUND, entry
 
 Place = tuple[str | int, ...]
-SECTIONS: Final = ("bodies", "markers", "joints", "couplings", "drivers", "forces", "sensors")
+SECTIONS: Final = ("bodies", "markers", "joints", "couplings", "drivers", "forces", "sensors", "events")
 
 
 def elements(machine: Any, section: str) -> Sequence[Any]:

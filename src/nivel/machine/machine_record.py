@@ -22,6 +22,7 @@ from nivel.machine.checked import Checked, Problem
 from nivel.machine.coordinate_uses import with_whole_coordinates
 from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
+from nivel.machine.event import Event
 from nivel.machine.forces import Force
 from nivel.machine.joint import Joint
 from nivel.machine.marker import Marker
@@ -65,6 +66,7 @@ class MachineRecord(Checked):
     drivers: tuple[Driver, ...] = ()
     forces: tuple[Force, ...] = ()
     sensors: tuple[Sensor, ...] = ()
+    events: tuple[Event, ...] = ()
     assembly: AssemblySettings = AssemblySettings()
     simulation: SimulationSettings = SimulationSettings()
 

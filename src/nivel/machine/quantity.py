@@ -136,9 +136,11 @@ def constant_tree(text: str, parameters: Parameters) -> Node:
     """
     tree = bound_tree(text, parameters)
     if signals(tree):
-        raise ExpressionError(f"`{signals(tree)[0]}` may only be used where a value may vary: in forces and sensors")
+        raise ExpressionError(
+            f"`{signals(tree)[0]}` may only be used where a value may vary: in forces, sensors and events"
+        )
     if varies(tree):
-        raise ExpressionError("`time` may only be used where a value may vary: in forces, drivers and sensors")
+        raise ExpressionError("`time` may only be used where a value may vary: in forces, drivers, sensors and events")
     return tree
 
 

@@ -42,7 +42,7 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
         yield from _of_force(force, index, ("forces", at))
     for at, sensor in enumerate(elements(machine, "sensors")):
         yield from _of_sensor(sensor, index, ("sensors", at))
-    for section in ("forces", "sensors"):
+    for section in ("forces", "sensors", "events"):
         for at, element in enumerate(elements(machine, section)):
             yield from symbol_faults(element, (section, at), index, parameters or {})
     for at, name in enumerate(as_list(entry(entry(machine, "simulation"), "cut"))):
@@ -52,7 +52,7 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
 
 
 def _twice(machine: Any) -> Faults:
-    for sections in (("bodies",), ("markers",), WITH_ROWS, ("forces",), ("sensors",)):
+    for sections in (("bodies",), ("markers",), WITH_ROWS, ("forces",), ("sensors",), ("events",)):
         seen: dict[str, str] = {}
         for section in sections:
             for at, element in enumerate(elements(machine, section)):

@@ -31,7 +31,7 @@ Section = Literal["joints", "sensors", "markers", "bodies"]
 POINT_QUANTITIES: Final = ("x", "y", "z", "vx", "vy", "vz")
 TURN_QUANTITIES: Final = ("wx", "wy", "wz")
 SENSOR_QUANTITIES: Final = {"distance": ("distance", "rate"), "angle": ("angle", "rate")}
-VARYING_KEYS: Final = ("vector", "law", "magnitude", "effort", "speed", "value")  # keys of what may use symbols
+VARYING_KEYS: Final = ("vector", "law", "magnitude", "effort", "speed", "value", "when")  # keys of what may use symbols
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ def _of_frame(body: str, index: Index) -> tuple[str, ...]:
 
 
 def symbol_faults(element: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
-    """Symbols that a force or sensor uses in vain."""
+    """Symbols that a force, sensor or event uses in vain."""
     for key in VARYING_KEYS:
         value = entry(element, key)
         for where, path in _used(value, (*place, key), index, parameters):

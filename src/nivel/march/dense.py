@@ -8,7 +8,7 @@ rates at both ends is taken, whose error falls with h⁴.
 from __future__ import annotations
 
 from nivel.kernels.compile import leaf
-from nivel.march.run import DENSE, END, INTERVAL, LAST_FRAME, POWERS, REACHED, START, TIME
+from nivel.march.run import DENSE, END, INTERVAL, LAST_FRAME, LENGTH, POWERS, REACHED, START
 
 
 @leaf
@@ -30,7 +30,7 @@ def wanted(run):
 @leaf
 def cubic(run, rate_before, rate_after):
     """Fill the rows of the cubic through `previous` and y with these rates."""
-    h = run.clock[REACHED] - run.clock[TIME]
+    h = run.clock[LENGTH]
     for i in range(run.y.shape[0]):
         change = run.y[i] - run.previous[i]
         run.dense[0, i] = change

@@ -10,6 +10,7 @@ from nivel.kernels.saddle import contradicts
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK
 from nivel.march.dense import cubic, frame_time, inside
 from nivel.march.energy import conserve
+from nivel.march.events import begin_events, find_events, hand_out_events
 from nivel.march.run import (
     ALL_STEPS,
     BUDGET,
@@ -22,11 +23,15 @@ from nivel.march.run import (
     EVERY,
     FRAMES,
     INSIDE,
+    KNOWN,
     LAST_FRAME,
+    LENGTH,
     REACHED,
+    SHOWN,
     START,
     STEP,
     STOPPED,
+    SWITCHED,
     TIME,
     correct_type,
     evaluate_type,
@@ -56,7 +61,7 @@ def finite(y):
 def at_end(run):
     """Whether the accepted state is the last one of the run."""
     counter = run.counter
-    if counter[STOPPED] == 1:
+    if counter[STOPPED] > 0:
         return True
     if counter[ALL_STEPS] > 0:
         return counter[DONE_STEPS] == counter[ALL_STEPS]
@@ -67,12 +72,12 @@ def at_end(run):
 def is_due(run):
     """Whether the accepted state is to be a frame. LAST_FRAME counts steps where they are fixed, frames otherwise."""
     counter = run.counter
+    if counter[STOPPED] > 0:
+        return run.clock[SHOWN] != run.clock[TIME]
     if counter[ALL_STEPS] > 0:
         n = counter[DONE_STEPS]
         return (n % counter[EVERY] == 0 or at_end(run)) and counter[LAST_FRAME] != n
-    if run.clock[TIME] >= frame_time(run, counter[LAST_FRAME] + 1):
-        return True
-    return counter[STOPPED] == 1
+    return run.clock[TIME] >= frame_time(run, counter[LAST_FRAME] + 1)
 
 
 @leaf
@@ -98,6 +103,7 @@ def write_frame(machine, history, t, y):
     counter = run.counter
     frame = run.frames[counter[FRAMES]]
     frame[0] = t
+    run.clock[SHOWN] = t
     observe(machine, t, y, frame)
     counter[FRAMES] += 1
     counter[LAST_FRAME] = counter[DONE_STEPS] if counter[ALL_STEPS] > 0 else counter[LAST_FRAME] + 1
@@ -120,7 +126,8 @@ def write_inside(evaluate, correct, machine, history):
             if status != OK:
                 return status
             cubic(run, run.rate, run.scratch)
-        inside(run, (t - clock[TIME]) / (clock[REACHED] - clock[TIME]), run.trial)
+        counter[KNOWN] = 0
+        inside(run, (t - clock[TIME]) / clock[LENGTH], run.trial)
         status = correct(machine, t, run.trial)
         if status == OK:
             status = evaluate(machine, t, run.trial, run.scratch)
@@ -134,12 +141,24 @@ def write_inside(evaluate, correct, machine, history):
 
 
 @leaf
+def evaluate_accepted(evaluate, machine, history):
+    """rate := that of the state reached, which the search for events may have evaluated already. Returns a status."""
+    run = run_at(history)
+    if run.counter[KNOWN] == 1:
+        run.counter[KNOWN] = 0
+        for i in range(run.y.shape[0]):
+            run.rate[i] = run.scratch[i]
+        return OK
+    run.counter[EVALUATIONS] += 1
+    return evaluate(machine, run.clock[TIME], run.y, run.rate)
+
+
+@leaf
 def accept_state(evaluate, machine, history, due):
     """Evaluate at the state reached, keep what has to be kept, write a frame if one is due. Returns a status."""
     run = run_at(history)
     clock, counter = run.clock, run.counter
-    status = evaluate(machine, clock[TIME], run.y, run.rate)
-    counter[EVALUATIONS] += 1
+    status = evaluate_accepted(evaluate, machine, history)
     if status == OK and counter[CONSERVE] == 1 and counter[DONE_STEPS] > 0:
         status = conserve(evaluate, machine, history)
     for i in range(run.y.shape[0]):
@@ -153,6 +172,14 @@ def accept_state(evaluate, machine, history, due):
         return CONTRADICTION
     counter[EVALUATED] = 1
     accept(machine, clock[TIME])
+    if counter[SWITCHED] == 1:
+        # contacts and stops are on the sides of this state from here on
+        counter[SWITCHED] = 0
+        status = evaluate_accepted(evaluate, machine, history)
+    if status == OK and counter[DONE_STEPS] == 0 and run.event_values.shape[1] > 0:
+        status = begin_events(machine, history)
+    if status != OK:
+        return status
     if due:
         status = unfed_evaluation(evaluate, machine, clock[TIME], run.y, history)
         if status != OK:
@@ -162,8 +189,23 @@ def accept_state(evaluate, machine, history, due):
 
 
 @leaf
+def correct_reached(correct, machine, history):
+    """Correct the state reached; where there are rows of the state inside the step, they end there too. Returns a status."""
+    run = run_at(history)
+    dense = run.counter[DENSE] > 0
+    if dense:
+        for i in range(run.y.shape[0]):
+            run.trial[i] = run.y[i]
+    status = correct(machine, run.clock[REACHED], run.y)
+    if dense:
+        for i in range(run.y.shape[0]):
+            run.dense[0, i] += run.y[i] - run.trial[i]
+    return status
+
+
+@leaf
 def take_step(evaluate, correct, step, machine, history):
-    """One step from the accepted state to clock[REACHED], with the correction. Returns a status."""
+    """One step from the accepted state to clock[REACHED], with the correction; then its events. Returns a status."""
     run = run_at(history)
     clock, counter = run.clock, run.counter
     n, h = counter[DONE_STEPS], clock[STEP]
@@ -176,18 +218,22 @@ def take_step(evaluate, correct, step, machine, history):
     if fixed:
         clock[STEP] = h
     counter[EVALUATED] = 0
+    clock[LENGTH] = clock[REACHED] - clock[TIME]
     if status == OK:
-        status = correct(machine, clock[REACHED], run.y)
-    if status != OK:
-        return status
-    return OK if finite(run.y) else NOT_FINITE
+        status = correct_reached(correct, machine, history)
+    if status == OK and not finite(run.y):
+        status = NOT_FINITE
+    if status == OK and run.event_values.shape[1] > 0:
+        status = find_events(evaluate, correct, machine, history)
+    return status
 
 
 @entry((evaluate_type, correct_type, step_type, address_type, address_type))
 def advance(evaluate, correct, step, machine, history):
     """March until something has to be done outside; returns a status of `nivel.kernels.status`.
 
-    Each step: evaluate at the accepted state, accept it, write a frame if one is due, step, correct, write the frames inside the step.
+    Each step: evaluate at the accepted state, accept it, write a frame if one is due, step, correct, find the events of the step, hand
+    them out with the frames inside the step.
     Where a step fails, `run.y` is not that of an accepted state; `run.previous` and `run.clock` are.
     """
     run = run_at(history)
@@ -195,7 +241,9 @@ def advance(evaluate, correct, step, machine, history):
     budget = counter[BUDGET]
     while True:
         if counter[INSIDE] == 1:
-            status = write_inside(evaluate, correct, machine, history)
+            status = hand_out_events(machine, history)
+            if status == OK:
+                status = write_inside(evaluate, correct, machine, history)
             if status != OK:
                 return status
             counter[INSIDE] = 0

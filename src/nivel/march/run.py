@@ -12,14 +12,17 @@ from nivel.kernels.record import correct_signature, evaluate_signature
 
 # entries of Run.clock
 TIME, STEP, START, END, REACHED, INTERVAL, TOLERANCE, LARGEST, CORRECTOR_TOLERANCE = 0, 1, 2, 3, 4, 5, 6, 7, 8
-CLOCKS = 9
+LENGTH, SHOWN = 9, 10
+CLOCKS = 11
 # entries of Run.counter
 DONE_STEPS, ALL_STEPS, EVERY, FRAMES, LAST_FRAME, BUDGET, EVALUATIONS, EVALUATED = 0, 1, 2, 3, 4, 5, 6, 7
 ITERATIONS, REJECTED, RESTART, DENSE, INSIDE, STOPPED, EVENTS, ORDER, MOST_ITERATIONS, NEWTON = (
     8, 9, 10, 11, 12, 13, 14, 15, 16, 17,
 )  # fmt: skip
-POWERS, UNCONSERVED, CONSERVE = 18, 19, 20
-COUNTS = 21
+POWERS, UNCONSERVED, CONSERVE, KNOWN, SWITCHED = 18, 19, 20, 21, 22
+COUNTS = 23
+# rows of Run.event_values
+BEFORE, AFTER, SIDE, WHEN, RATE_BEFORE, RATE_AFTER = 0, 1, 2, 3, 4, 5
 # most rows of Run.dense
 DENSE_ROWS = 13
 
@@ -32,10 +35,13 @@ class Run(NamedTuple):
     clock[STEP].
     """
 
-    clock: F1  # [s] TIME of the accepted state, STEP, START, END, REACHED by the last step, INTERVAL of frames; TOLERANCE, LARGEST step
+    # TIME of the accepted state, STEP, START, END, REACHED by the last step, INTERVAL of frames [s]; TOLERANCE, LARGEST step, ...;
+    # LENGTH of the step that `dense` describes, longer than the one done where that ends at an event; SHOWN, time of the last frame
+    clock: F1
     # steps done, steps in all (0: not known), steps between frames, frames in the buffer, number of the last frame, budget, evaluations,
     # whether `rate` is that of y; corrector iterations, steps rejected, whether the history must be forgotten, rows of `dense` in use,
-    # whether frames or events inside the last step are looked for, whether an event ended the run, events in the buffer, order in use, ...
+    # whether frames and events inside the last step have to be handed out, number of the event that ended the run (from 1), events in
+    # the buffer, order in use, ..., whether the state reached is evaluated already (its rate is `scratch`), whether contacts change sides
     counter: I1
     y: F1  # (ny,) state
     rate: F1  # (ny,) ẏ at the accepted state
@@ -53,8 +59,9 @@ class Run(NamedTuple):
     turns: U2  # (·, 2)
     dense: F2  # (DENSE_ROWS, ny) the state inside the last step, see `nivel.march.dense`
     frames: F2  # (capacity, width) output
-    event_values: F2  # (2, events) at the accepted state, and at the state reached
-    events: F2  # (capacity, 3) time, number of the event, direction
+    # BEFORE and AFTER the last step, SIDE, share of the step WHEN it changed, the rates before and after; see `nivel.march.events`
+    event_values: F2  # (6, values watched)
+    events: F2  # (capacity, 3) time [s], number of the event, direction 1 or -1
 
 
 run_at = reader(numba_type(Run))

@@ -89,6 +89,33 @@
     };
   }
 
+  // a dotted line at the time of each event, with its name where there is room
+  function eventMarks(u) {
+    const { ctx, bbox } = u;
+    let free = bbox.left;
+    ctx.save();
+    ctx.strokeStyle = ctx.fillStyle = colour("faint");
+    ctx.lineWidth = devicePixelRatio;
+    ctx.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
+    ctx.font = `${11 * devicePixelRatio}px sans-serif`;
+    ctx.textBaseline = "top";
+    for (const event of data.events) {
+      const scale = u.scales.x;
+      if (!(event.time >= scale.min && event.time <= scale.max)) continue;
+      const x = Math.round(u.valToPos(event.time, "x", true));
+      ctx.beginPath();
+      ctx.moveTo(x, bbox.top);
+      ctx.lineTo(x, bbox.top + bbox.height);
+      ctx.stroke();
+      const width = ctx.measureText(event.name).width;
+      const place = x + width + 4 > bbox.left + bbox.width ? x - width - 3 : x + 3;
+      if (place < free) continue;
+      ctx.fillText(event.name, place, bbox.top + 2);
+      free = Math.max(x, place + width) + 4;
+    }
+    ctx.restore();
+  }
+
   const plots = new Map();
 
   function setRange(min, max, from) {
@@ -127,7 +154,7 @@
         })),
       ],
       hooks: {
-        draw: [limitLines(group.limits)],
+        draw: [limitLines(group.limits), eventMarks],
         setScale: [(u, key) => key === "x" && u.ready && setRange(u.scales.x.min, u.scales.x.max, u)],
         ready: [(u) => { u.ready = true; }],
       },

@@ -8,12 +8,13 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from nivel.results.occurrence import in_words
 from nivel.results.verdicts import Item, Trust, Verdict
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
-SHOWN_CHANGES = 20  # bodies that the assembly changed; more are counted
+SHOWN_CHANGES = 20  # bodies that the assembly changed, and events; more are counted
 ROUND_OFF = 1e-14  # m, rad or per second: smaller changes are not told
 DECADES = 16  # of a gauge, down from 1: round-off of double precision
 
@@ -75,6 +76,8 @@ def headline(result: Result) -> Headline:
     reached = f"{_seconds(float(time[-1] - time[0]))} simulated" if len(time) else "nothing was computed"
     seconds = result.timing.get("loop_seconds")
     took = f" in {_seconds(float(seconds))} of computing" if seconds else ""
+    if result.stopped_by:
+        took += f", until the event {result.stopped_by}"
     text = {
         "running": f"{reached}. The run is still going on, or it was killed; everything up to its last block is here.",
         "interrupted": f"{reached}{took}, then it was stopped by hand.",
@@ -145,6 +148,12 @@ def assembly_lines(result: Result) -> list[str]:
         f"The velocity of {name} was changed by {_both(v, 'm/s', w, 'rad/s')} to fit the joints"
         for name, v, w in changed
     ]
+    return lines if len(lines) <= SHOWN_CHANGES else [*lines[:SHOWN_CHANGES], f"and {len(lines) - SHOWN_CHANGES} more"]
+
+
+def event_lines(result: Result) -> list[str]:
+    """The events that came: each name with how often and when."""
+    lines = [line.replace("e-", "e\u2011") for line in in_words(result.events, result.stopped_by)]
     return lines if len(lines) <= SHOWN_CHANGES else [*lines[:SHOWN_CHANGES], f"and {len(lines) - SHOWN_CHANGES} more"]
 
 

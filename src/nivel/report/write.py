@@ -16,7 +16,7 @@ from nivel.report.panel import Group, Panel
 from nivel.report.panels import panels
 from nivel.report.peaks import peak_reactions
 from nivel.report.picture import STYLE, machine_picture
-from nivel.report.story import assembly_lines, facts, headline, settings_table, timing_table, trust_lines
+from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
 from nivel.results.target import keep_sources
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 POINTS = (400, 4000)  # of a curve: a screen is about 1000 wide, and one wants to zoom in
+MARKED_EVENTS = 200  # marks in a plot; more cannot be told apart
 ALL_POINTS = 600_000  # of all curves together: keeps the file below about 4 MB
 
 
@@ -59,6 +60,7 @@ def report_html(result: Result) -> str:
         trust=result.trust,
         trust_lines=trust_lines(result.trust),
         assembly=assembly_lines(result),
+        events=event_lines(result),
         thresholds=THRESHOLDS,
         rules=RULES,
         picture_style=STYLE,
@@ -102,6 +104,7 @@ def _data(result: Result, shown: list[Panel]) -> str:
     data = {
         "time": _packed(thin.time, "<f8"),
         "thinned": thin.frames,
+        "events": [{"name": event.name, "time": event.time} for event in result.events[:MARKED_EVENTS]],
         "panels": [
             {"title": panel.title, "log": panel.log, "groups": [_group(group, thin) for group in panel.groups]}
             for panel in shown

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from nivel.results.contents import Contents
 from nivel.results.names import Selection, selections, unknown_name
+from nivel.results.occurrence import Occurrence, from_json
 from nivel.results.row_units import own_units
 from nivel.results.stored import StoredContents
 from nivel.results.trust import Facts, assess
@@ -61,6 +62,16 @@ class Result:
     def advice(self) -> str:
         """What to try after a failure."""
         return str(self.attributes.get("advice", ""))
+
+    @cached_property
+    def events(self) -> tuple[Occurrence, ...]:
+        """The events that came, in the order of time, each with `name`, `time` [s] and `direction`. Known when the run is over."""
+        return from_json(str(self.attributes.get("events", "[]")))
+
+    @property
+    def stopped_by(self) -> str:
+        """Name of the event that ended the run; empty where none did."""
+        return str(self.attributes.get("stopped_by", ""))
 
     @property
     def attributes(self) -> Mapping[str, str | float | int]:

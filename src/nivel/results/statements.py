@@ -15,9 +15,11 @@ OUTCOMES: dict[str, tuple[Verdict, str]] = {
 }
 
 
-def statements(trust: Trust, failure: str) -> Iterator[Item]:
-    """The items of the report; `failure` says what stopped the run."""
+def statements(trust: Trust, failure: str, stopped_by: str = "") -> Iterator[Item]:
+    """The items of the report; `failure` says what stopped the run, `stopped_by` which event ended it."""
     verdict, text = OUTCOMES.get(trust.outcome, ("red", f"Outcome: {trust.outcome}"))
+    if stopped_by:
+        text = f"Outcome: the event {stopped_by} ended the run, as it was to do"
     yield Item("outcome", verdict, f"{text}: {failure}" if failure else text)
     yield _energy_item(trust)
     if trust.constraint_violation_row:

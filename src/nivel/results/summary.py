@@ -6,6 +6,8 @@ import json
 from html import escape
 from typing import TYPE_CHECKING, Any
 
+from nivel.results.occurrence import in_words
+
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
@@ -23,6 +25,8 @@ def summary(result: Result) -> dict[str, Any]:
         "file": str(result.path) if result.path else None,
         "frames": len(time),
         "time": [float(time[0]), float(time[-1])] if len(time) else [],
+        "events": [each._asdict() for each in result.events],
+        "stopped_by": result.stopped_by,
         "settings": result.settings,
         "timing": result.timing,
         "trust": json.loads(result.trust.to_json()),
@@ -33,6 +37,7 @@ def summary_text(result: Result) -> str:
     """Name, outcome, extent and trust; then what can be asked for."""
     lines = [f"<Result of {result.name}: {_outcome(result)}>", f"  {_extent(result)}"]
     lines += [f"  {item.verdict:>5}  {item.text}" for item in result.trust.items]
+    lines += [f"  event  {line}" for line in in_words(result.events, result.stopped_by)]
     lines.append(f"  for instance: {', '.join(_examples(result))}")
     return "\n".join(lines)
 
@@ -44,12 +49,14 @@ def summary_html(result: Result) -> str:
         f'● {item.verdict}</td><td style="text-align:left;padding:.15em 0">{escape(item.text)}</td></tr>'
         for item in result.trust.items
     )
+    events = "".join(f"<div>event {escape(line)}</div>" for line in in_words(result.events, result.stopped_by))
     names = " ".join(f"<code>{escape(name)}</code>" for name in _examples(result))
     return (
         '<div style="border:1px solid rgba(128,128,128,.35);border-radius:8px;padding:.8em 1.1em;max-width:56em">'
         f'<div style="font-size:1.15em;font-weight:600">{escape(result.name)}</div>'
         f'<div style="opacity:.75;margin-bottom:.5em">{escape(_outcome(result))} · {escape(_extent(result))}</div>'
         f'<table style="border-collapse:collapse;background:none">{rows}</table>'
+        f"{events}"
         f'<div style="opacity:.75;margin-top:.5em">for instance {names}</div></div>'
     )
 

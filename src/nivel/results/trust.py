@@ -33,7 +33,7 @@ class Facts:
     degrees_of_freedom : None where unknown. drivers : motions that are prescribed.
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
     accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
-    failure : what stopped the run, in a sentence.
+    failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
     """
 
     outcome: str
@@ -44,6 +44,7 @@ class Facts:
     refinement: str = "half the step"
     failure: str = ""
     drivers: int = 0
+    stopped_by: str = ""
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -85,7 +86,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         size_kind=size_kind,
         at_rest=at_rest,
     )
-    items = tuple(statements(trust, facts.failure))
+    items = tuple(statements(trust, facts.failure, facts.stopped_by))
     return replace(trust, items=items, verdict=worst(items))
 
 

@@ -11,9 +11,12 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record import (
+    BOTH,
+    FALLING,
     FRICTION,
     MEASURE,
     NONE,
+    RISING,
     SENSE,
     Bodies,
     Control,
@@ -26,6 +29,7 @@ from nivel.kernels.record import (
     Record,
     Saddle,
     Sensors,
+    Watched,
 )
 from nivel.machine.body import Body
 from nivel.machine.inertia import mass_properties
@@ -45,6 +49,7 @@ from nivel.system.tree_tables import empty_tree
 
 # [m] a tenth of a light year: squares and products of longer machines leave the range of numbers
 LARGEST = 1e15
+DIRECTIONS = {"both": BOTH, "rising": RISING, "falling": FALLING}
 # [s] time within which stiction stops a joint, until a run says better
 STICK = 1e-3
 
@@ -63,6 +68,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
             for name in values.given if values is not None else ():
                 draft.coordinate(f"{joint.name}.{name}")
     sensors = sensor_columns(draft)
+    watched = _watched(draft)
     names = tuple(body.name for body in machine.bodies)
     row_names, units = [*rows.names], [*rows.units]
     if equations.normalisation:
@@ -96,6 +102,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
             frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
             partition=no_partition(),
             sensors=Sensors(index_array(sensors, 4)),
+            watched=watched,
             outputs=Outputs(np.zeros(len(draft.outputs.entries)), index_array(rows.reports, 2)),
             hooks=_hooks(draft, bool(sensors)),
             control=_control(len(row_names)),
@@ -110,6 +117,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
         ),
         bodies=names,
         joints=tuple(joint.name for joint in machine.joints),
+        events=tuple(event.name for event in machine.events),
         frictions=tuple(force.name for force in machine.forces if force.type == "friction"),
         rows=tuple(row_names),
         row_owner=tuple(rows.owner),
@@ -126,6 +134,22 @@ def build(machine: MachineRecord, equations: Equations) -> System:
 def _add_force(draft: Draft, force: Any) -> None:
     with located(f"forces.{force.name}"):
         FORCES[force.type].add(draft, force)
+
+
+def _watched(draft: Draft) -> Watched:
+    """Events, and the surfaces of contacts and stops."""
+    events = []
+    for event in draft.machine.events:
+        with located(f"events.{event.name}.when"):
+            events.append((draft.function(event.when), DIRECTIONS[event.direction], int(event.stop)))
+    surfaces = draft.elements.surfaces()
+    return Watched(
+        event=index_array(events, 3),
+        surface=index_array(surfaces, 2),
+        value=np.zeros(len(events) + len(surfaces)),
+        rate=np.zeros(len(events) + len(surfaces)),
+        followed=np.zeros(1, dtype=np.uint32),
+    )
 
 
 def _hooks(draft: Draft, sensors: bool) -> Hooks:

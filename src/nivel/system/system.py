@@ -49,6 +49,7 @@ class System:
     bodies: tuple[str, ...]
     joints: tuple[str, ...]
     frictions: tuple[str, ...]
+    events: tuple[str, ...]
     rows: tuple[str, ...]
     row_owner: tuple[str, ...]
     row_units: tuple[str, ...]

@@ -94,12 +94,27 @@ class CoordinateTable:
 class ElementTable:
     """Forces by family, a family being named by its kernel's module."""
 
-    families: dict[str, list[tuple[list[int], list[float], int]]] = field(default_factory=dict)
+    families: dict[str, list[tuple[list[int], list[float], int, tuple[int, ...]]]] = field(default_factory=dict)
     states: int = 0
 
-    def add(self, family: str, index: list[int], number: list[float] | None = None, memory: int = 0) -> None:
-        """A force of `family` with these columns, which keeps `memory` numbers from state to state."""
-        self.families.setdefault(family, []).append((index, number or [], memory))
+    def add(
+        self,
+        family: str,
+        index: list[int],
+        number: list[float] | None = None,
+        memory: int = 0,
+        surfaces: tuple[int, ...] = (),
+    ) -> None:
+        """A force of `family` with these columns, which keeps `memory` numbers from state to state.
+
+        surfaces : those of the numbers that are about a surface, which touches or not.
+        """
+        self.families.setdefault(family, []).append((index, number or [], memory, surfaces))
+
+    def surfaces(self) -> list[tuple[int, int]]:
+        """(element, place in its memory) of all surfaces."""
+        elements = [element for family in self.families.values() for element in family]
+        return [(k, place) for k, element in enumerate(elements) for place in element[3]]
 
     def arrays(self, addresses: dict[str, int]) -> Elements:
         """`addresses` : of the compiled function of each family."""
@@ -114,6 +129,8 @@ class ElementTable:
             number=padded([element[1] for element in elements], 0.0),
             memory=np.zeros(kept),
             proposal=np.zeros(kept),
+            depth=np.zeros(kept),
+            depth_rate=np.zeros(kept),
             state=np.zeros(self.states),
             state_rate=np.zeros(self.states),
         )

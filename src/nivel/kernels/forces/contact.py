@@ -73,7 +73,13 @@ def touch(machine, k, n, depth):
     v0, v1, v2 = v0 - u0, v1 - u1, v2 - u2
     out = v0 * normal[0] + v1 * normal[1] + v2 * normal[2]
     force, stored, loss, elements.proposal[k, n] = impact(
-        depth, -out, numbers[STIFFNESS], numbers[EXPONENT], numbers[LOSS], elements.memory[k, n]
+        depth,
+        -out,
+        numbers[STIFFNESS],
+        numbers[EXPONENT],
+        numbers[LOSS],
+        elements.memory[k, n],
+        record.watched.followed[0],
     )
     control.stored[0] += stored
     control.power[1] += loss
@@ -98,6 +104,17 @@ def velocity_at(bodies, b, p):
     R, V, w = bodies.R[b], bodies.Rdot[b], bodies.omega[b]
     u0, u1, u2 = p[0] - R[0], p[1] - R[1], p[2] - R[2]
     return V[0] + w[1] * u2 - w[2] * u1, V[1] + w[2] * u0 - w[0] * u2, V[2] + w[0] * u1 - w[1] * u0
+
+
+@stage
+def approach(machine, k):
+    """Rate of the overlap at the point of number[POINT:]."""
+    record = record_at(machine)
+    bodies, body, elements = record.bodies, record.markers.body, record.elements
+    p, normal = elements.number[k, POINT:NORMAL], elements.number[k, NORMAL:NUMBERS]
+    v0, v1, v2 = velocity_at(bodies, body[elements.columns[k, MARKER]], p)
+    u0, u1, u2 = velocity_at(bodies, body[elements.columns[k, OTHER]], p)
+    return (u0 - v0) * normal[0] + (u1 - v1) * normal[1] + (u2 - v2) * normal[2]
 
 
 @stage
@@ -139,7 +156,7 @@ def find_point(machine, k, n):
 def apply(machine, number, t):
     """All contacts."""
     record = record_at(machine)
-    elements = record.elements
+    elements, followed = record.elements, record.watched.followed[0]
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         kind = elements.columns[k, KIND]
         count = POINTS if kind in (BOX, CYLINDER) else 1
@@ -147,7 +164,10 @@ def apply(machine, number, t):
         for n in range(count):
             depth = find_point(machine, k, n)
             deepest = max(deepest, depth)
-            if depth > 0.0:
+            elements.depth[k, n] = depth
+            if followed == 1:
+                elements.depth_rate[k, n] = approach(machine, k)
+            if depth > 0.0 or (followed == 1 and elements.memory[k, n] > 0.0):
                 force, friction, gained = touch(machine, k, n, depth)
                 normal_force += force
                 friction_force += friction

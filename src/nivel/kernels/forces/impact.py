@@ -7,6 +7,8 @@ a number of the element; v is remembered from the first accepted state in contac
 
 from __future__ import annotations
 
+import numpy as np
+
 from nivel.kernels.compile import leaf
 
 # approach speeds below this [m/s or rad/s] count as this one: a slower touch would be damped without bounds
@@ -14,11 +16,20 @@ SLOWEST = 1e-2
 
 
 @leaf
-def impact(depth, rate, stiffness, exponent, x, remembered):
-    """(force, stored energy, dissipated power, approach speed to be remembered) at overlap `depth` and its `rate`."""
-    if depth <= 0.0:
+def impact(depth, rate, stiffness, exponent, x, remembered, followed):
+    """(force, stored energy, dissipated power, approach speed to be remembered) at overlap `depth` and its `rate`.
+
+    followed : the surfaces touch or are apart as in the last accepted state, whatever `depth` is, so that the force is smooth over the
+    whole step; it is continued as an odd function of `depth`. The step is then cut where `depth` changes its sign.
+    """
+    if depth <= 0.0 and not (followed == 1 and remembered > 0.0):
         return 0.0, 0.0, 0.0, 0.0
     speed = remembered if remembered > 0.0 else max(rate, SLOWEST)
-    elastic = stiffness * depth**exponent
-    force = max(elastic * (1.0 + x / speed * rate), 0.0)
-    return force, elastic * depth / (exponent + 1.0), (force - elastic) * rate, speed
+    kept = speed if depth > 0.0 else 0.0
+    if followed == 1 and remembered == 0.0:
+        return 0.0, 0.0, 0.0, kept
+    elastic = np.copysign(stiffness * np.abs(depth) ** exponent, depth)
+    force = elastic * (1.0 + x / speed * rate)
+    if depth > 0.0:
+        force = max(force, 0.0)
+    return force, elastic * depth / (exponent + 1.0), (force - elastic) * rate, kept

@@ -23,7 +23,7 @@ def add_stop(draft: Draft, force: Stop) -> None:
     lower = -math.inf if force.lower is None else force.lower
     upper = math.inf if force.upper is None else force.upper
     numbers = [lower, upper, force.stiffness, force.exponent, damping_of_restitution(force.restitution)]
-    draft.elements.add("stop", [first, coordinate], numbers, memory=2)
+    draft.elements.add("stop", [first, coordinate], numbers, 2, tuple(k for k in range(2) if math.isfinite(numbers[k])))
 
 
 def add_motor(draft: Draft, force: Motor) -> None:

@@ -65,7 +65,8 @@ def add_contact(draft: Draft, force: Contact) -> None:
     numbers = [stiffness, force.exponent, damping_of_restitution(force.restitution), force.friction]
     numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
     numbers += [0.0] * (contact.NUMBERS - len(numbers))
-    draft.elements.add("contact", [first, kind, *markers], numbers, memory=contact.POINTS)
+    points = contact.POINTS if kind in (contact.BOX, contact.CYLINDER) else 1
+    draft.elements.add("contact", [first, kind, *markers], numbers, contact.POINTS, tuple(range(points)))
 
 
 def _radius(body: Body) -> float:

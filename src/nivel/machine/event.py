@@ -1,0 +1,52 @@
+"""An event in words: an expression that passes zero."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.checked import Checked, Problem
+from nivel.machine.coefficient import Truth
+from nivel.machine.quantity import fault, shown
+from nivel.machine.record import Name
+from nivel.machine.table import Table
+from nivel.machine.time_function import Measured
+
+_COMPARISONS = ("<", ">", "=")
+
+
+def _passes_zero(value: Any) -> Any:
+    """Refuse comparisons, which people try first."""
+    if isinstance(value, str) and any(sign in value for sign in _COMPARISONS):
+        raise fault(
+            f"an event is where an expression passes zero, not a comparison as in {shown(value)}: "
+            "for `hinge.angle > 2` write `hinge.angle - 2` and `direction: rising`"
+        )
+    return value
+
+
+class Event(Checked):
+    """A moment that a run finds and keeps: where the value of an expression changes its sign."""
+
+    collection: ClassVar[str] = "events"
+
+    name: Name
+    when: Annotated[Measured, BeforeValidator(_passes_zero)] = Field(
+        description="expression of `time` and symbols; the event is where it passes zero"
+    )
+    direction: Literal["rising", "falling", "both"] = Field(
+        default="both", description="of the value where it passes zero"
+    )
+    stop: Truth = Field(default=False, description="whether the run ends at the event")
+
+    def problems(self) -> Iterator[Problem]:
+        when = self.when
+        if isinstance(when, float | int):
+            yield Problem(("when",), f"{when:.6g} does not vary, so it never passes zero; use `time` or symbols")
+        elif isinstance(when, Table) and when.interpolation == "linear" and min(when.values) * max(when.values) >= 0:
+            yield Problem(
+                ("when",),
+                f"the values of the table go from {min(when.values):.6g} to {max(when.values):.6g}, so they never pass zero",
+            )

@@ -2,6 +2,7 @@
 
 import csv
 import math
+import signal
 
 import numpy as np
 import pytest
@@ -181,6 +182,16 @@ def test_an_interrupt_keeps_what_was_computed():
     assert comparison.outcome == "interrupted"
     assert len(comparison.rows) == 1
     assert "cells are missing" in str(comparison)
+
+
+def test_an_interrupt_within_the_last_steps_of_a_run_is_not_lost():
+    def interrupt(time):
+        if time == 1.0:
+            signal.raise_signal(signal.SIGINT)
+
+    comparison = pendulum().compare(steps=[0.01, 0.005], repeat=1, listener=Listener(progress=interrupt))
+    assert comparison.outcome == "interrupted"
+    assert comparison.rows == ()
 
 
 def test_a_machine_that_cannot_start_is_refused_as_a_whole():

@@ -95,12 +95,14 @@ class Prepared:
 class Finished:
     """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s]).
 
-    events : in the order of time. stopped_by : name of the event that ended the run.
+    events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
+    steps were made, so that the run itself is done.
     """
 
     outcome: str
     events: list[Occurrence] = field(default_factory=list)
     stopped_by: str = ""
+    asked_to_stop: bool = False
     timing: dict[str, float] = field(default_factory=dict)
     failure: tuple[str, str, float] | None = None
 
@@ -188,6 +190,7 @@ def march(
             if status in (BUDGET_SPENT, BUFFER_FULL) and interrupted():
                 finished.outcome = "interrupted"
                 break
+        finished.asked_to_stop = interrupted()
     if run.counter[STOPPED]:
         finished.stopped_by = system.events[run.counter[STOPPED] - 1]
     if status not in (BUDGET_SPENT, BUFFER_FULL, DONE):

@@ -18,12 +18,12 @@ def run_in_memory(
     """Prepare and run `machine`; `settings` are its own, completed.
 
     The result holds the frames and what is known before the first of them, no trust report. Raises ModelError before anything is
-    computed, KeyboardInterrupt where the run was broken off.
+    computed, KeyboardInterrupt where Ctrl-C came.
     """
     sink = Memory()
     prepared = prepare(machine, settings.formulation, settings.coordinates)
     sink.begin(Header(prepared.motion.system.layout, run_attributes(machine, "", prepared, settings)))
     finished = march(prepared, settings, [sink], progress=progress)
-    if finished.outcome == "interrupted":
+    if finished.asked_to_stop:
         raise KeyboardInterrupt
     return sink.result(), finished

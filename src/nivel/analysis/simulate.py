@@ -51,7 +51,7 @@ def simulate(
     listener.say("running", settings.duration)
     finished = march(prepared, settings, [sink], progress=listener.progress)
     accuracy = None
-    if verify and finished.outcome == "done":
+    if verify and finished.outcome == "done" and not finished.asked_to_stop:
         listener.say(f"verifying with {_finer(settings)[1]}", settings.duration)
         accuracy = _estimate(machine, sink.result(), settings, listener)
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
@@ -105,11 +105,12 @@ def _finer(settings: RunSettings) -> tuple[RunSettings, str, float]:
     return halved, "half the step", 0.5 ** INTEGRATORS[settings.integrator].order
 
 
-def _estimate(machine: MachineRecord, coarse: Result, settings: RunSettings, listener: Listener) -> Peak:
-    """Estimated error of `coarse`, from its largest difference from a finer run."""
+def _estimate(machine: MachineRecord, coarse: Result, settings: RunSettings, listener: Listener) -> Peak | None:
+    """Estimated error of `coarse`, from its largest difference from a finer run; None where that was broken off."""
     finer, _, left = _finer(settings)
     sink = Memory()
     prepared = prepare(machine, settings.formulation, settings.coordinates)
     sink.begin(Header(prepared.motion.system.layout, {}))
-    march(prepared, finer, [sink], progress=listener.progress)
+    if march(prepared, finer, [sink], progress=listener.progress).asked_to_stop:
+        return None
     return error_from_finer(coarse, sink.result(), left)

@@ -44,6 +44,7 @@ def saddle_of(C, blocks, groups, redundant=0):
         P_entry=elimination.P_entry,
         row=np.arange(K, dtype=np.uint32),
         shift=np.zeros(K),
+        least=np.zeros(K),
         target=np.zeros(K),
         W=np.array([C[r, 6 * b : 6 * b + 6] for r, b in blocks]),
         G=np.zeros((0, 0, 0)),
@@ -87,6 +88,17 @@ def test_sparse_factor_names_a_dependent_row():
     failed = factorise(saddle)
     assert failed >= 0
     assert saddle.order[failed] in (4, 5)
+
+
+def test_sparse_factor_names_a_row_that_moves_nothing():
+    """Its diagonal is round-off and no scale for its pivot; the bound comes from elsewhere."""
+    rng = np.random.default_rng(3)
+    C, blocks, groups = random_rows(rng, 2, 2, 3)
+    C[4] *= 1e-16
+    saddle = saddle_of(C, blocks, groups)
+    assert factorise(saddle) == -1
+    saddle.least[:] = 1e-22
+    assert saddle.order[factorise(saddle)] == 4
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -128,9 +128,9 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     facts = path_of(coordinates, formulation, machine.simulation.rotations)
     if facts is None:
         raise ModelError(refuse_combinations(machine.simulation.replace(formulation=formulation), coordinates))
+    motion.system.record.coordinates.reference[:] = assembly.reference
     arrange = import_module(facts.arrangement).arrange
     system, y = arrange(machine, motion.system, assembly.y, rank, machine.simulation)
-    system.record.coordinates.reference[:] = assembly.reference
     prepared = MotionEquations(system, import_module(facts.module))
     if FORMULATIONS[formulation].factor > 0.0:
         prepared = penalise(prepared, y, machine.simulation, FORMULATIONS[formulation])

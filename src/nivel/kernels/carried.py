@@ -197,12 +197,20 @@ def reactions(machine):
             hand_wrench(tree.wrench[child], tree.arm[child], tree.wrench[parent])
 
 
+@stage
+def count_turns(coordinates, tree):
+    """References of the angles whose turns the state counts."""
+    for n in range(tree.counted.shape[0]):
+        coordinates.reference[tree.counted[n, 0]] = tree.turn[n, 0] * tree.state[tree.counted[n, 1]] + tree.turn[n, 1]
+
+
 @family
 def complete(machine, number, t):
     """Everything of the state last evaluated that frames show and its equations did not need."""
     record = record_at(machine)
     orient(machine)
     show_frames(machine)
+    count_turns(record.coordinates, record.tree)
     place_markers(record.bodies, record.markers)
     move_markers(record.bodies, record.markers)
     constraint_rows(record.bodies, record.markers, record.tree.rows)

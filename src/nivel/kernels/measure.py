@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.constraint import combine
-from nivel.kernels.coordinate import LAST_ANGLE
 from nivel.kernels.coordinate import measure as measure_one
-from nivel.kernels.hook import ACCEPTED, ACTIVE, family
+from nivel.kernels.hook import ACCEPTED, ACTIVE, SHOWN, family
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 
@@ -16,16 +15,15 @@ from nivel.kernels.status import OK
 def measure(machine, job, t):
     """ACTIVE: coordinates that constraints, forces or laws need, and the rows made of them, see `nivel.kernels.constraint.combine`.
 
-    ACCEPTED: angles are followed from this state on, across ±π (a step turns a joint by less than half a turn). Otherwise (SHOWN)
+    ACCEPTED: angles are followed from this state on, across ±π (a step turns them by less than half a turn). Otherwise (SHOWN)
     value and rate of all joint coordinates.
     """
     record = record_at(machine)
     coordinates = record.coordinates
-    count = coordinates.active.shape[0] if job == ACTIVE else coordinates.reference.shape[0]
+    listed = coordinates.active if job == ACTIVE else coordinates.followed
+    count = coordinates.reference.shape[0] if job == SHOWN else listed.shape[0]
     for n in range(count):
-        k = np.int64(coordinates.active[n]) if job == ACTIVE else n
-        if job == ACCEPTED and coordinates.what[k, 0] > LAST_ANGLE:
-            continue
+        k = n if job == SHOWN else np.int64(listed[n])
         value, rate, bias = measure_one(record.bodies, record.markers, coordinates, k)
         coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
         if job == ACCEPTED:

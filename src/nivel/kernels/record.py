@@ -72,6 +72,7 @@ class Coordinates(NamedTuple):
 
     what: U2  # (Q, 4) kind, first marker, second marker, axis; see `nivel.kernels.coordinate`
     active: U1  # those that constraints, forces or laws need
+    followed: U1  # angles that are measured at every accepted state, to count their turns
     reference: F1  # (Q,) [rad] angle at the last accepted state: angles are followed from there
     # work, of the active ones
     value: F1  # (Q,) [m or rad]
@@ -268,6 +269,8 @@ class Tree(NamedTuple):
     bundle: (
         U1  # rows with one and the same path follow each other: first row of each such bundle, then the number of rows
     )
+    counted: U2  # (·, 2) angle among the coordinates that the state counts, its position in y
+    turn: F2  # (·, 2) the angle is turn[0] y + turn[1]
     theta: F2  # (D, 4) turn from the parent's frame to its marker, as Euler parameters
     own: F2  # (B, 3) [m] the origin of the body's own frame
     own_theta: F2  # (B, 4) its axes, as Euler parameters

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.kernels.coordinate import LAST_ANGLE
 from nivel.kernels.record import NONE, Coordinates, Elements, Markers
 
 Array = NDArray[np.float64]
@@ -82,6 +83,7 @@ class CoordinateTable:
         return Coordinates(
             what=index_array(self.what, 4),
             active=index_array(sorted(self.active), 1),
+            followed=index_array([k for k, entry in enumerate(self.what) if entry[0] <= LAST_ANGLE], 1),
             reference=np.zeros(count),
             value=np.zeros(count),
             rate=np.zeros(count),

@@ -26,6 +26,8 @@ def empty_tree(constraints: Constraints, nodes: int = 0, columns: int = 0, posit
         path_start=empty,
         row_blocks=empty,
         bundle=np.zeros(1, dtype=np.uint32),
+        counted=empty.reshape(0, 2),
+        turn=np.zeros((0, 2)),
         theta=np.zeros((nodes, 4)),
         own=np.zeros((nodes, 3)),
         own_theta=np.zeros((nodes, 4)),

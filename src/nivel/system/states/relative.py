@@ -20,6 +20,7 @@ from nivel.machine.settings import SimulationSettings
 from nivel.system.elimination import plan
 from nivel.system.states.joint_start import Frames as OwnFrames
 from nivel.system.states.joint_start import Node, carried_frames, joint_start
+from nivel.system.states.turns import turns
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array
 from nivel.system.topology import FREE, Edge, SpanningTree, spanning_tree
@@ -75,7 +76,9 @@ def arrange(
     parts = _parts(old, rows)
     paths = _paths(nodes, parts, len(rows) + len(old.friction.columns))
     blocks, path_tables = _blocks(nodes, paths, positions)
+    angles = turns(old.coordinates, nodes, start.q)
     record = old._replace(
+        coordinates=old.coordinates._replace(followed=angles.followed),
         bodies=_bodies_in(frames, old),
         markers=_markers_in(frames, old.markers),
         constraints=constraints,
@@ -94,7 +97,9 @@ def arrange(
             own_theta=start.own_theta,
             size=np.array([absolute.size]),
             rows=_chosen(old, ~left)[0],
-            marker=_markers_in_use(old, nodes),
+            marker=_markers_in_use(old, nodes, angles.followed),
+            counted=angles.counted,
+            turn=angles.number,
             part=index_array(parts, 4),
             part_start=_starts([part[0] for part in parts], len(paths)),
             **path_tables,
@@ -264,10 +269,11 @@ def _starts(rows: list[int], count: int) -> Index:
     return np.searchsorted(rows, np.arange(count + 1)).astype(np.uint32)
 
 
-def _markers_in_use(old: Record, nodes: list[Node]) -> Index:
+def _markers_in_use(old: Record, nodes: list[Node], followed: Index) -> Index:
     """Markers that every evaluation needs: not those of joints that carry bodies, unless a coordinate in use is measured between them."""
     carrying = {marker for node in nodes for marker in (node.near, node.far)}
-    measured = set(old.coordinates.what[old.coordinates.active, 1:3].ravel().tolist())
+    in_use = np.union1d(old.coordinates.active, followed)
+    measured = set(old.coordinates.what[in_use, 1:3].ravel().tolist())
     return index_array([k for k in range(len(old.markers.body)) if k not in carrying or k in measured], 1)
 
 

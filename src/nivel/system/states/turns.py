@@ -1,0 +1,57 @@
+"""Angles of the joints of a tree: their joint coordinates count whole turns, so nobody need follow them from step to step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nivel.kernels.coordinate import CROSS_FIRST, CROSS_SECOND, LAST_ANGLE, ROTATION
+from nivel.kernels.record import U1, U2, Coordinates
+from nivel.system.states.joint_start import Node
+from nivel.system.system import Array
+from nivel.system.tables import index_array
+
+# position of the angle about the common z axis among those of a joint
+ABOUT_Z = {"revolute": 0, "cylindrical": 0, "screw": 0, "planar": 2}
+
+
+@dataclass(frozen=True)
+class Turns:
+    """`counted` angles (coordinate, position in y), each being sign q + offset, as rows of `number`; `followed` are all others."""
+
+    counted: U2
+    number: Array
+    followed: U1
+
+
+def turns(coordinates: Coordinates, nodes: Sequence[Node], q: Array) -> Turns:
+    """How the angles of `coordinates`, whose `reference` is that at the start, follow from joint coordinates, q at the start.
+
+    Angles that every evaluation measures are followed as in all coordinates.
+    """
+    carried = {frozenset((node.near, node.far)): node for node in nodes}
+    counted, numbers, followed = [], [], []
+    active = set(coordinates.active.tolist())
+    for k, (kind, first, second, _) in enumerate(coordinates.what.tolist()):
+        if kind > LAST_ANGLE:
+            continue
+        node = carried.get(frozenset((first, second)))
+        place = None if node is None or k in active else _place(kind, node, first == node.near)
+        if node is None or place is None:
+            followed.append(k)
+            continue
+        sign, position = 1.0 if first == node.near else -1.0, node.position + place
+        counted.append((k, position))
+        numbers.append((sign, coordinates.reference[k] - sign * q[position]))
+    return Turns(index_array(counted, 2), np.array(numbers, dtype=float).reshape(-1, 2), index_array(followed, 1))
+
+
+def _place(kind: int, node: Node, forwards: bool) -> int | None:
+    """Where among the positions of the node's joint an angle of this kind stands; a joint that is `forwards` carries its second body."""
+    if kind == ROTATION:
+        return ABOUT_Z.get(node.kind)
+    if node.kind == "universal" and kind in (CROSS_FIRST, CROSS_SECOND):
+        return int((kind == CROSS_SECOND) == forwards)
+    return None

@@ -11,7 +11,7 @@ from nivel.kernels.handle import address_type
 from nivel.kernels.record import state_type
 
 REPEATS, ROUNDS = 20_000, 7
-# address of the machine, state, its rates, repeats; compiled like the kernels themselves
+# address of the machine, state, its rates, repeats; compiled like the kernels, but LLVM may unroll loops here and nothing is cached
 part = njit(
     types.void(address_type, state_type, state_type, types.int64),
     error_model="numpy",

@@ -30,7 +30,6 @@ from step_time import DURATIONS, PEER_SOLVERS, ROOT, call_peer, peer_command, re
 METHODS = tuple(
     (integrator, coordinates, stabilisation)
     for integrator in ("rk4", "dopri5", "dop853")
-    if integrator in INTEGRATORS
     for coordinates, stabilisation in (("relative", "none"), ("relative", "direct"), ("absolute", "direct"))
 )
 COARSEST_STEP, COARSEST_TOLERANCE = 0.04, 1e-2  # s, -

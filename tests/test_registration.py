@@ -5,6 +5,7 @@ from typing import get_args
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings import SimulationSettings
+from nivel.march import variable_workspace, workspace
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
@@ -26,6 +27,14 @@ def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():
     assert words("integrator") == set(INTEGRATORS)
     assert words("formulation") == set(FORMULATIONS)
     assert words("stabilisation") == set(STABILISATIONS)
+
+
+def test_multistep_methods_get_the_rows_and_numbers_that_they_use():
+    for name, facts in INTEGRATORS.items():
+        if name in ("adams", "gear"):
+            assert (facts.stages, facts.numbers) == (variable_workspace.ROWS, variable_workspace.NUMBERS)
+        elif name.startswith(("ab", "am", "gear")):
+            assert (facts.stages, facts.numbers) == (workspace.ROWS, workspace.NUMBERS)
 
 
 def test_forces_have_the_types_that_the_builder_knows():

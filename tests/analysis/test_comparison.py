@@ -56,6 +56,13 @@ def compared():
     )
 
 
+def test_auto_and_the_coordinates_that_it_stands_for_are_one_row():
+    rows = pendulum().compare(coordinates=["auto", "relative", "absolute"], steps=[0.01, 0.005], repeat=1).rows
+    assert [(row.coordinates, row.step) for row in rows] == [
+        (coordinates, step) for coordinates in ("relative", "absolute") for step in (0.01, 0.005)
+    ]
+
+
 def test_every_combination_is_a_row(compared):
     assert len(compared.rows) == 8
     assert len({(row.method, row.step) for row in compared.rows}) == 8

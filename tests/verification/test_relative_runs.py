@@ -10,7 +10,7 @@ import linked
 import machines
 from nivel.system.states.relative import tree_of
 from running import run
-from simulating import G, simulate, wheel
+from simulating import G, hinge, simulate, wheel
 
 MOTION = ("position", "orientation", "velocity", "angular_velocity", "acceleration", "angular_acceleration")
 
@@ -194,3 +194,13 @@ def test_a_pendulum_of_200_links_is_the_one_of_absolute_coordinates():
     machine = linked.record({"gravity": [0, -G, 0], "bodies": bodies, "joints": joints})
     a, b = (run(machine, coordinates=c, duration=0.01, step=5e-4) for c in ("absolute", "relative"))
     same_motion(a, b, 1e-7)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_the_energy_constraint_leaves_a_machine_at_rest_alone(coordinates):
+    """No energy is missing, and no factor of the velocities is known: not 0/0."""
+    still = {"bodies": {"arm": wheel(0.2, position=[1, 0, 0])}, "joints": {"pin": hinge("ground", "arm")}}
+    settings = {"coordinates": coordinates, "stabilisation": "geometric", "duration": 0.01, "step": 1e-3}
+    r = simulate({"name": "still", "gravity": [0, 0, 0], **still}, **settings)
+    assert np.all(r.array("position") == [1.0, 0.0, 0.0])
+    assert r.timing["unconserved"] == 0

@@ -95,11 +95,13 @@ def lay_out(machine: MachineRecord, axes: Axes, given: Collection[str] = ()) -> 
     asked = machine.simulation.output_interval if "output_interval" in given else None
     interval = asked or _common_interval(steps, machine.simulation)
     bare = machine.replace(simulation=own)
-    cells = tuple(
+    found = [
         _cell(bare, method, step, tolerance, interval)
         for method in _methods(axes, own)
         for step, tolerance in _sizes(axes, own, method.integrator)
-    )
+    ]
+    # `auto` and the coordinates that it stands for are one cell
+    cells = tuple({(cell.method, cell.step, cell.tolerance): cell for cell in found}.values())
     _refuse_idle(axes, own, list(integrators), given, cells)
     return Grid(cells, interval, max(steps, default=min(own.step, interval)))
 

@@ -19,7 +19,6 @@ from nivel.analysis.in_memory import run_in_memory
 from nivel.analysis.listener import Listener
 from nivel.analysis.settings import complete
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import INTEGRATORS
 from nivel.results.comparison import Reference
 from nivel.results.comparison_table import seconds
 from nivel.results.motion import Motion, common_frames, distance
@@ -55,8 +54,7 @@ def solve(machine: MachineRecord, grid: Grid, listener: Listener) -> list[Soluti
     only where a joint is open by more than round-off are not.
     Raises ModelError where the machine cannot be assembled or started.
     """
-    found = [_tight(machine, grid, listener)] if TIGHT in INTEGRATORS else []
-    found.append(_extrapolated(machine, grid, listener))
+    found = [_tight(machine, grid, listener), _extrapolated(machine, grid, listener)]
     solutions = [each for each in found if each is not None]
     if len(solutions) == 2:
         solutions = _checked(*solutions)

@@ -155,3 +155,15 @@ def euler_parameters_from_matrix(matrix: Array) -> Array:
     four[0, 1:] = four[1:, 0] = skew
     four[1:, 1:] = A + A.T + (1 - trace) * np.eye(3)
     return _normalised(four[np.argmax(np.diag(four))])
+
+
+def product(first: Array, second: Array) -> Array:
+    """Euler parameters (…, 4) of A(first) A(second)."""
+    a0, a, b0, b = first[..., :1], first[..., 1:], second[..., :1], second[..., 1:]
+    scalar = a0 * b0 - np.sum(a * b, axis=-1, keepdims=True)
+    return np.concatenate([scalar, a0 * b + b0 * a + np.cross(a, b)], axis=-1)
+
+
+def conjugate(theta: Array) -> Array:
+    """Euler parameters (…, 4) of Aᵀ."""
+    return theta * np.array([1.0, -1.0, -1.0, -1.0])

@@ -20,7 +20,10 @@ class PathFacts:
 
 @dataclass(frozen=True)
 class FormulationFacts:
-    """How constraints enter. penalty : λ = α (C̈ + 2 Ω μ Ċ + Ω² C) with this share of the mass behind each row, once or iterated."""
+    """How constraints enter: by multipliers where factor is 0, otherwise λ = α (C̈ + 2 Ω μ Ċ + Ω² C).
+
+    factor : α as a multiple of the mass behind each row. iterated : until λ is that of the multipliers.
+    """
 
     factor: float = 0.0
     iterated: bool = False

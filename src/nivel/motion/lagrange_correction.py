@@ -17,7 +17,7 @@ NEAR = 1e7
 def correct(machine, t, y):
     """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137).
 
-    The change is least in the mass metric M + μ θ θᵀ instead of the report's unit weights; see `newton_euler.correct`.
+    The change is least in the mass metric M + μ θ θᵀ instead of the report's unit weights; see `newton_euler_correction.correct`.
     A level within its tolerance (control.stabilise[2:4], as a share of the row's scale) is left alone.
     """
     record = record_at(machine)

@@ -8,7 +8,12 @@ import numpy as np
 
 from nivel.kernels.record import NONE, Markers
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.orientation import matrix_from_euler_parameters
+from nivel.machine.orientation import (
+    conjugate,
+    euler_parameters_from_matrix,
+    matrix_from_euler_parameters,
+    product,
+)
 from nivel.system.system import Array, System
 
 
@@ -98,10 +103,10 @@ def joint_start(absolute: System, y: Array, frames: Frames, nodes: list[Node], m
         positions, velocities, number[n, :4] = _coordinates(node.kind, seen, pitch / (2.0 * np.pi))
         q += positions
         v += velocities
-        theta[n] = parameters_of(first[n])
+        theta[n] = euler_parameters_from_matrix(first[n])
         joint = joint_turn(node.kind, positions, number[n])
         turned[node.child] = product(product(turned[node.parent], theta[n]), joint)
-    own_theta = np.array([product(_conjugate(e), f) for e, f in zip(turned[:-1], bodies.theta, strict=True)])
+    own_theta = np.array([product(conjugate(e), f) for e, f in zip(turned[:-1], bodies.theta, strict=True)])
     return JointStart(np.array(q), np.array(v), number, first, theta, own_theta.reshape(count, 4))
 
 
@@ -156,21 +161,10 @@ def _coordinates(kind: str, seen: _Relative, lead: float) -> tuple[list[float], 
             return [first, second], [w[2], float(arm @ w)], numbers
         case "planar":
             return [d[0], d[1], angle], [v[0], v[1], w[2]], numbers
-    theta = parameters_of(Q)
+    theta = euler_parameters_from_matrix(Q)
     if kind == "spherical":
         return [*theta], [*(Q.T @ w)], numbers
     return [*d, *theta], [*v, *(Q.T @ w)], numbers
-
-
-def parameters_of(Q: Array) -> Array:
-    """Euler parameters (4,) of a rotation matrix; the largest one is taken positive root (Shepperd 1978)."""
-    trace = np.trace(Q)
-    squares = np.array([1.0 + trace, *(1.0 + 2.0 * np.diag(Q) - trace)])
-    k = int(np.argmax(squares))
-    a, b, c = Q[2, 1] - Q[1, 2], Q[0, 2] - Q[2, 0], Q[1, 0] - Q[0, 1]
-    d, e, f = Q[0, 1] + Q[1, 0], Q[0, 2] + Q[2, 0], Q[1, 2] + Q[2, 1]
-    table = np.array([[squares[0], a, b, c], [a, squares[1], d, e], [b, d, squares[2], f], [c, e, f, squares[3]]])
-    return table[k] / (2.0 * np.sqrt(squares[k]))
 
 
 def joint_turn(kind: str, q: list[float], number: Array) -> Array:
@@ -187,20 +181,3 @@ def joint_turn(kind: str, q: list[float], number: Array) -> Array:
         return about
     crossed = product(about, np.array([0.0, np.sqrt(0.5), 0.0, np.sqrt(0.5)]))
     return product(crossed, np.array([np.cos(0.5 * q[1]), 0.0, 0.0, np.sin(0.5 * q[1])]))
-
-
-def product(a: Array, b: Array) -> Array:
-    """a ∘ b of Euler parameters."""
-    (a0, a1, a2, a3), (b0, b1, b2, b3) = a.tolist(), b.tolist()
-    return np.array(
-        [
-            a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3,
-            a0 * b1 + a1 * b0 + a2 * b3 - a3 * b2,
-            a0 * b2 - a1 * b3 + a2 * b0 + a3 * b1,
-            a0 * b3 + a1 * b2 - a2 * b1 + a3 * b0,
-        ]
-    )
-
-
-def _conjugate(a: Array) -> Array:
-    return a * np.array([1.0, -1.0, -1.0, -1.0])

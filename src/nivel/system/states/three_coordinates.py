@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from nivel.kernels.record import Rotations
-from nivel.machine.orientation import matrix_from_euler_parameters
+from nivel.machine.orientation import conjugate, matrix_from_euler_parameters, product
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array
 
@@ -51,15 +51,3 @@ def no_rotations() -> Rotations:
     """Those of states with Euler parameters: none."""
     four, nine, none = np.zeros((0, 4)), np.zeros((0, 3, 3)), np.zeros(0, dtype=np.uint32)
     return Rotations(none, four, four, nine, theta=four, G=nine, bias=np.zeros((0, 3)), regularity=np.zeros(0))
-
-
-def product(first: Array, second: Array) -> Array:
-    """Euler parameters (n, 4) of A(first) A(second)."""
-    a0, a, b0, b = first[:, :1], first[:, 1:], second[:, :1], second[:, 1:]
-    scalar = a0 * b0 - np.sum(a * b, axis=1, keepdims=True)
-    return np.hstack([scalar, a0 * b + b0 * a + np.cross(a, b)])
-
-
-def conjugate(theta: Array) -> Array:
-    """Euler parameters (n, 4) of Aᵀ."""
-    return theta * (1.0, -1.0, -1.0, -1.0)

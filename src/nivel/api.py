@@ -192,13 +192,13 @@ class Machine:
     def compare(
         self,
         *,
-        integrators: Sequence[str] | str = (),
-        formulations: Sequence[str] | str = (),
-        coordinates: Sequence[str] | str = (),
-        rotations: Sequence[str] | str = (),
-        stabilisations: Sequence[str] | str = (),
-        steps: Sequence[float | str] | float | str = (),
-        tolerances: Sequence[float | str] | float | str = (),
+        integrators: Sequence[str] | str | None = None,
+        formulations: Sequence[str] | str | None = None,
+        coordinates: Sequence[str] | str | None = None,
+        rotations: Sequence[str] | str | None = None,
+        stabilisations: Sequence[str] | str | None = None,
+        steps: Sequence[float | str] | float | str | None = None,
+        tolerances: Sequence[float | str] | float | str | None = None,
         duration: float | str | None = None,
         output_interval: float | str | None = None,
         largest_step: float | str | None = None,
@@ -206,7 +206,7 @@ class Machine:
         repeat: int = 3,
         listener: Listener | None = None,
     ) -> Comparison:
-        """Run all combinations of the given words; an axis that is not given has the machine's own setting.
+        """Run all combinations of the given words; an axis that is None has the machine's own setting.
 
         steps [s] : of integrators with a fixed one; tolerances : of the others. duration, output_interval, largest_step [s], cut : of
         all runs. repeat : every cell runs so often, its time is the least. Times are numbers in seconds, or texts with units.

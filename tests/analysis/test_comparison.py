@@ -234,6 +234,13 @@ def test_what_would_have_no_effect_is_refused(asked, part):
         pendulum().compare(**asked)
 
 
+@pytest.mark.parametrize("axis", ["integrators", "formulations", "coordinates", "rotations", "stabilisations", "steps"])
+@pytest.mark.parametrize("values", [[], (), "", ["", "10 ms"]])
+def test_an_axis_that_is_given_and_empty_is_refused(axis, values):
+    with pytest.raises(ModelError, match=f"{axis}: nothing stands here"):
+        pendulum().compare(**{axis: values})
+
+
 @pytest.mark.parametrize(
     ("steps", "interval"),
     [([0.001, 0.002], 0.002), ([0.002, 0.003], 0.006), ([1 / 300, 1 / 200], 0.01), ([0.001], 0.001), ([1e-4], 1e-3)],

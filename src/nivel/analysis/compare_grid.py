@@ -18,7 +18,7 @@ from nivel.analysis.listener import Listener
 from nivel.analysis.settings import FRAMES, RunSettings, complete
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.quantity import Duration
+from nivel.machine.quantity import Duration, fault
 from nivel.machine.record import Record
 from nivel.machine.settings import (
     Coordinates,
@@ -38,23 +38,37 @@ FINEST: Final = 10**12  # largest denominator of a step in seconds that is looke
 
 
 def _listed(value: Any) -> Any:
-    return (value,) if isinstance(value, str | float | int) else value
+    """A single value as a list of one; a list of none, and one with an empty text, is refused."""
+    if value is None:
+        return None
+    if isinstance(value, str | float | int):
+        value = (value,)
+    if isinstance(value, Collection):
+        if len(value) == 0:
+            raise fault("nothing stands here; leave it out for the machine's own setting, or give one value at least")
+        empty = [str(k + 1) for k, each in enumerate(value) if isinstance(each, str) and not each.strip()]
+        if empty and len(value) == 1:
+            raise fault("nothing stands here; leave it out for the machine's own setting, or give a value")
+        if empty:
+            places = f"at place {empty[0]}" if len(empty) == 1 else f"at the places {', '.join(empty)}"
+            raise fault(f"nothing stands here {places} of {len(value)}; give a value, or take a comma away")
+    return value
 
 
 Word = TypeVar("Word")
-Several = Annotated[tuple[Word, ...], BeforeValidator(_listed)]
+Several = Annotated[tuple[Word, ...] | None, BeforeValidator(_listed)]
 
 
 class Axes(Record):
-    """The words, steps [s] and tolerances of a grid. Where an axis is empty, the machine's own setting is taken."""
+    """The words, steps [s] and tolerances of a grid. Where an axis is None, the machine's own setting is taken."""
 
-    integrators: Several[Integrator] = ()
-    formulations: Several[Formulation] = ()
-    coordinates: Several[Coordinates] = ()
-    rotations: Several[Rotations] = ()
-    stabilisations: Several[Stabilisation] = ()
-    steps: Several[Duration] = ()
-    tolerances: Several[Tolerance] = ()
+    integrators: Several[Integrator] = None
+    formulations: Several[Formulation] = None
+    coordinates: Several[Coordinates] = None
+    rotations: Several[Rotations] = None
+    stabilisations: Several[Stabilisation] = None
+    steps: Several[Duration] = None
+    tolerances: Several[Tolerance] = None
 
 
 @dataclass(frozen=True)

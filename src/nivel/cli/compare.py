@@ -140,18 +140,18 @@ def command(
 
 
 def _refuse_to_replace(tables: tuple[Path, ...], page: Path | None, force: bool, machine: Path) -> None:
-    """Refuse files that exist, unless they may be replaced, and tables that are neither CSV nor JSON."""
+    """Refuse, before anything is run, files that cannot be written or exist and may not be replaced, and tables of other kinds."""
     from nivel.errors import ModelError
-    from nivel.results.target import check_target
+    from nivel.results.target import check_text_target
 
     for path in tables:
         if path.suffix not in FORMATS:
             raise ModelError(f"{path}: a table ends with .csv or .json; the page is named with --report")
-        check_target(path, "table", force=force, sources=[machine])
+        check_text_target(path, "table", force=force, sources=[machine])
     if page is not None:
         if page in tables:
             raise ModelError(f"{page}: the page would be written over the table; use a name ending in .html")
-        check_target(page, "report", force=force, sources=[machine])
+        check_text_target(page, "report", force=force, sources=[machine])
 
 
 def _written(comparison: Comparison, tables: tuple[Path, ...], page: Path | None, quiet: bool) -> ModelError | None:

@@ -106,8 +106,9 @@ class Machine:
 
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
-        settings = self.record.simulation
-        path = (choose_coordinates(self.record), settings.formulation, settings.rotations)
+        settings, coordinates = self.record.simulation, choose_coordinates(self.record)
+        refuse_idle(self.asked, settings, coordinates)
+        path = (coordinates, settings.formulation, settings.rotations)
         compile_path(self.record, path, listener or Listener())
         from nivel.analysis.check import check
 

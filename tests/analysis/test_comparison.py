@@ -163,6 +163,25 @@ def test_a_combination_without_meaning_is_refused_with_its_reason():
     assert "does not go with `formulation: penalty`" in refused.reason
 
 
+def test_runs_that_an_event_ended_are_told():
+    """x = cos(2π t) passes 0 at t = 1/4; the frequency of euler is lower by the share (2π h)²/3."""
+    spring = oscillator()
+    spring.record = spring.record.replace(events=[{"name": "centre", "when": "block.x", "stop": True}])
+    comparison = spring.compare(integrators=["rk4", "euler"], steps=[0.01, 0.005], stabilisations="none", repeat=1)
+    assert [row.stopped_by for row in comparison.rows] == ["centre"] * 4
+    times = [row.end_time for row in comparison.rows]
+    assert times[:2] == pytest.approx([0.25, 0.25], abs=1e-7)
+    assert times[2:] == pytest.approx([0.25 * (1 + (2 * math.pi * h) ** 2 / 3) for h in (0.01, 0.005)], abs=1e-5)
+    text = str(comparison)
+    assert f"4 of 4 runs were ended by the event centre, at {min(times):.6g} to {max(times):.6g} s" in text
+    assert ", up to 1 s simulated;" in text
+    assert "ended at" in text
+    assert all(row.motion_error_time <= 0.25 + 1e-7 for row in comparison.rows)
+    assert Comparison.from_json(comparison.to_json()) == comparison
+    alone = spring.compare(repeat=1)
+    assert "the run was ended by the event centre, at 0.25 s" in str(alone)
+
+
 def test_without_a_reference_the_other_numbers_stay():
     """A force that stops being a number ends every run."""
     burst = machine(

@@ -31,6 +31,7 @@ class Row:
     """One cell of the grid. What a cell has not, because it was refused or stopped, is None.
 
     step [s] : of integrators with a fixed one; tolerance : of the others. reason : why it was refused, or what stopped it.
+    end_time [s] : of its last frame; stopped_by : the event that ended the run there, before its duration was over, "" where none did.
     loop_seconds, seconds_per_step : process time in the compiled loop, the least of the repeats, frames included.
     constraint_error, _mean : largest and mean magnitude over frames and rows, lengths divided by the machine's size.
     constraint_rate_error, _mean [1/s] : the same of their rates. energy_error [J] : largest; energy_error_relative : divided by the
@@ -47,6 +48,8 @@ class Row:
     tolerance: float | None = None
     outcome: CellOutcome = "done"
     reason: str = ""
+    end_time: float | None = None
+    stopped_by: str = ""
     loop_seconds: float | None = None
     seconds_per_step: float | None = None
     steps: int | None = None
@@ -125,8 +128,13 @@ class Comparison:
 
     @property
     def completed(self) -> tuple[Row, ...]:
-        """The rows that ran to their end."""
+        """The rows that ran to their end, or to an event that ended them."""
         return tuple(row for row in self.rows if row.outcome == "done")
+
+    @property
+    def stopped(self) -> tuple[Row, ...]:
+        """The completed rows that an event ended."""
+        return tuple(row for row in self.completed if row.stopped_by)
 
     @property
     def varying(self) -> tuple[str, ...]:

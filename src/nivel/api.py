@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from html import escape
+from numbers import Integral
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -128,7 +129,7 @@ class Machine:
         stabilisation: str | None = None,
         tolerance: float | str | None = None,
         largest_step: float | str | None = None,
-        cut: Sequence[str] | None = None,
+        cut: Sequence[str] | str | None = None,
         corrector: Mapping[str, Any] | None = None,
         penalty: Mapping[str, Any] | None = None,
         baumgarte: Mapping[str, Any] | None = None,
@@ -203,7 +204,7 @@ class Machine:
         duration: float | str | None = None,
         output_interval: float | str | None = None,
         largest_step: float | str | None = None,
-        cut: Sequence[str] | None = None,
+        cut: Sequence[str] | str | None = None,
         repeat: int = 3,
         listener: Listener | None = None,
     ) -> Comparison:
@@ -214,8 +215,8 @@ class Machine:
         A cell that fails or has no meaning is told in its row. Interrupted, it returns what was computed.
         Raises ModelError where words are not known, or the machine cannot be run at all.
         """
-        if repeat < 1:
-            raise ModelError(f"`repeat` is at least 1, got {repeat}")
+        if not isinstance(repeat, Integral) or isinstance(repeat, bool) or repeat < 1:
+            raise ModelError(f"`repeat` is a whole number of at least 1, got {repeat!r}")
         words: dict[str, Any] = {
             "integrators": integrators,
             "formulations": formulations,
@@ -235,7 +236,7 @@ class Machine:
         from nivel.analysis.compare import compare
 
         with self._faults_in_file():
-            return compare(chosen.record, grid, repeat=repeat, listener=listener)
+            return compare(chosen.record, grid, repeat=int(repeat), listener=listener)
 
     @contextmanager
     def _faults_in_file(self) -> Iterator[None]:

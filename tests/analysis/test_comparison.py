@@ -245,7 +245,11 @@ def test_words_that_are_not_known_are_refused_all_at_once():
         ({"largest_step": 0.01}, "the steps of rk4 are fixed"),
         ({"cut": ["pin"], "coordinates": ["absolute"]}, "no cell is in relative coordinates"),
         ({"steps": [0.01, 0.01 * math.sqrt(2)]}, "no common multiple"),
+        ({"steps": [1e-3, 1.000000001e-3]}, "the steps 0.001 s, 0.001000000001 s have no common multiple"),
         ({"repeat": 0}, "at least 1"),
+        ({"repeat": 1.5}, "`repeat` is a whole number of at least 1, got 1.5"),
+        ({"repeat": "3"}, "`repeat` is a whole number of at least 1, got '3'"),
+        ({"cut": "nail"}, "there is no joint `nail`"),
     ],
 )
 def test_what_would_have_no_effect_is_refused(asked, part):
@@ -309,6 +313,22 @@ def test_tables_are_read_back_as_they_were(compared, tmp_path):
         assert float(line["motion_error"]) == row.motion_error
         assert line["stabilisation"] == row.stabilisation
         assert line["tolerance"] == ""
+
+
+@pytest.mark.parametrize("write", ["to_csv", "to_json", "report"])
+def test_an_existing_file_is_replaced_with_force_only(compared, tmp_path, write):
+    mine = tmp_path / "mine"
+    mine.write_text("mine")
+    with pytest.raises(ModelError, match="force=True"):
+        getattr(compared, write)(mine)
+    assert mine.read_text() == "mine"
+    getattr(compared, write)(mine, force=True)
+    assert mine.read_text(encoding="utf-8") != "mine"
+
+
+def test_a_single_joint_may_be_cut_by_its_name():
+    grid = pendulum().compare(cut="pin", coordinates="relative", repeat=1)
+    assert grid.rows[0].outcome == "done"
 
 
 def test_the_text_has_a_line_for_every_row(compared):

@@ -100,6 +100,7 @@ def test_names_of_files_and_json_on_standard_output(folder):
         (["--steps", ","], ["steps", "nothing stands here at the places 1, 2 of 2"]),
         (["--steps", "1ms,"], ["steps", "nothing stands here at place 2 of 2", "take a comma away"]),
         (["--integrators", "rk4,,heun", "--tolerances", " "], ["integrators", "place 2 of 3", "tolerances", "2 faults"]),
+        (["--no-report", "--report", "z.html"], ["--no-report and --report z.html contradict each other"]),
         (["--repeat", "0"], ["--repeat"]),
         (["--out", "table.txt"], [".csv or .json"]),
         (["--out", "a.csv", "--report", "a.csv"], ["written over the table"]),

@@ -189,15 +189,21 @@ def _common_interval(steps: list[float], own: SimulationSettings) -> float:
     denominator = lcm(*(each.denominator for each in fractions))
     multiple = Fraction(lcm(*(int(each * denominator) for each in fractions)), denominator)
     if len(steps) > 1 and not 0 < multiple <= Fraction(own.duration) / FEWEST_FRAMES:
-        shown = ", ".join(f"{step:g} s" for step in steps)
+        shown = ", ".join(f"{text} s" for text in _told_apart(steps))
         message = (
             f"the steps {shown} have no common multiple below a tenth of the duration {own.duration:g} s, so their runs cannot be "
-            f"compared at common times; take steps like {steps[0]:g} s, {steps[0] / 2:g} s, {steps[0] / 4:g} s, or give an "
+            f"compared at common times; take steps like {', '.join(f'{steps[0] / k:g} s' for k in (1, 2, 4))}, or give an "
             f"output interval: cells whose step does not divide it are refused"
         )
         raise ModelError(Fault("", 0, 0, "steps", message))
     base = float(multiple) if len(steps) > 1 else steps[0]
     return base * max(1, ceil(own.duration / FRAMES / base * (1.0 - 1e-12)))
+
+
+def _told_apart(steps: list[float]) -> list[str]:
+    """Different steps in the fewest digits, six at least, in which no two are alike."""
+    texts = ([f"{step:.{digits}g}" for step in steps] for digits in range(6, 18))
+    return next(each for each in texts if len(set(each)) == len(steps))
 
 
 def _divides(step: float, interval: float) -> bool:

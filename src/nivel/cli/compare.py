@@ -104,7 +104,10 @@ def command(
     code 0 the grid was run, 2 the input is at fault, 3 every cell failed, 130 interrupted; what was computed is written.
     """
     from nivel.api import load
+    from nivel.errors import ModelError
 
+    if no_report and report is not None:
+        raise ModelError(f"--no-report and --report {report} contradict each other: take one of them away")
     loaded = load(machine, overrides, allow_code=allow_code)
     tables = out or tuple(Path(f"{loaded.name}-compare{suffix}") for suffix in FORMATS)
     page = None if no_report else report or tables[0].with_suffix(".html")
@@ -160,9 +163,10 @@ def _written(comparison: Comparison, tables: tuple[Path, ...], page: Path | None
 
     try:
         for path in tables:
-            comparison.to_csv(path) if path.suffix == ".csv" else comparison.to_json(path)
+            write = comparison.to_csv if path.suffix == ".csv" else comparison.to_json
+            write(path, force=True)  # whether it may be replaced was asked before the grid was run
         if page is not None:
-            comparison.report(page)
+            comparison.report(page, force=True)
     except ModelError as error:
         return error
     if not quiet:

@@ -173,17 +173,17 @@ class Comparison:
             out.setdefault(row.method, []).append(row)
         return {method: sorted(rows, key=lambda row: -row.fineness) for method, rows in out.items()}
 
-    def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
-        """A table with a line for every row; written to `path` where one is given. An existing file is replaced."""
+    def to_csv(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
+        """A table with a line for every row; written to `path` where one is given. force : replace an existing file."""
         from nivel.results.comparison_files import csv_text, write_text
 
-        return write_text(csv_text(self), path, "table")
+        return write_text(csv_text(self), path, "table", force=force)
 
-    def to_json(self, path: str | os.PathLike[str] | None = None) -> str:
-        """Everything as JSON; written to `path` where one is given. An existing file is replaced."""
+    def to_json(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
+        """Everything as JSON; written to `path` where one is given. force : replace an existing file."""
         from nivel.results.comparison_files import json_text, write_text
 
-        return write_text(json_text(self), path, "comparison")
+        return write_text(json_text(self), path, "comparison", force=force)
 
     @classmethod
     def from_json(cls, text: str) -> Comparison:
@@ -192,11 +192,14 @@ class Comparison:
 
         return read_json(text)
 
-    def report(self, path: str | os.PathLike[str]) -> Path:
-        """Write a page with the table and a work–precision diagram, one HTML file that needs no network; replaces an existing one."""
+    def report(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Write a page with the table and a work–precision diagram, one HTML file that needs no network.
+
+        force : replace an existing file.
+        """
         from nivel.report.compare_page import write_comparison
 
-        return write_comparison(self, path)
+        return write_comparison(self, path, force=force)
 
     def __str__(self) -> str:
         from nivel.results.comparison_table import as_text

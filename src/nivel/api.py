@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from html import escape
@@ -15,7 +15,7 @@ from nivel.analysis.changes import changed
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import compile_path
-from nivel.analysis.idle import refuse_idle
+from nivel.analysis.idle import idle_settings
 from nivel.analysis.listener import Listener
 from nivel.errors import ModelError
 from nivel.files.reader import locate, parse_machine, read_text
@@ -108,7 +108,7 @@ class Machine:
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         settings, coordinates = self.record.simulation, choose_coordinates(self.record)
-        refuse_idle(self.asked, settings, coordinates)
+        self._refuse_settings(self.asked)
         path = (coordinates, settings.formulation, settings.rotations)
         compile_path(self.record, path, listener or Listener())
         from nivel.analysis.check import check
@@ -166,7 +166,7 @@ class Machine:
         given = {key: value for key, value in given.items() if value is not None}
         chosen = self.with_settings(given)
         settings = chosen.record.simulation
-        refuse_idle({*given, *self.asked}, settings, choose_coordinates(chosen.record))
+        chosen._refuse_settings({*given, *self.asked})
         compile_seconds = compile_path(
             chosen.record,
             (choose_coordinates(chosen.record), settings.formulation, settings.rotations),
@@ -238,6 +238,21 @@ class Machine:
         with self._faults_in_file():
             return compare(chosen.record, grid, repeat=int(repeat), listener=listener)
 
+    def _refuse_settings(self, given: Collection[str]) -> None:
+        """Raise ModelError where the settings do not go together, or those `given` would have no effect."""
+        from nivel.analysis.agreement import disagreements  # imports what builds machines
+
+        coordinates = choose_coordinates(self.record)
+        faults = idle_settings(given, self.record.simulation, coordinates)
+        try:
+            with self._faults_in_file():
+                if wrong := disagreements(self.record):
+                    raise ModelError(wrong)
+        except ModelError as error:
+            faults += error.faults
+        if faults:
+            raise ModelError(faults)
+
     @contextmanager
     def _faults_in_file(self) -> Iterator[None]:
         """Faults that the assembly finds get the line of the element in the machine's file."""
@@ -257,7 +272,9 @@ class Machine:
         """The same machine with some simulation settings replaced."""
         if not settings:
             return self
-        record = self.record.replace(simulation=changed(self.record.simulation, settings))
+        # what was set from outside of the file is asked for as well, and never left behind
+        asked = {name: getattr(self.record.simulation, name) for name in self.asked if name in ("rotations", "baumgarte")}
+        record = self.record.replace(simulation=changed(self.record.simulation, {**asked, **settings}))
         return Machine.from_record(record, self.source, self.file, self.asked)
 
     def save(self, path: str | PathLike[str]) -> None:

@@ -273,7 +273,9 @@ class Machine:
         if not settings:
             return self
         # what was set from outside of the file is asked for as well, and never left behind
-        asked = {name: getattr(self.record.simulation, name) for name in self.asked if name in ("rotations", "baumgarte")}
+        asked = {
+            name: getattr(self.record.simulation, name) for name in self.asked if name in ("rotations", "baumgarte")
+        }
         record = self.record.replace(simulation=changed(self.record.simulation, {**asked, **settings}))
         return Machine.from_record(record, self.source, self.file, self.asked)
 

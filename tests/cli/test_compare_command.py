@@ -99,7 +99,10 @@ def test_names_of_files_and_json_on_standard_output(folder):
         (["--steps", ""], ["steps", "nothing stands here", "leave it out"]),
         (["--steps", ","], ["steps", "nothing stands here at the places 1, 2 of 2"]),
         (["--steps", "1ms,"], ["steps", "nothing stands here at place 2 of 2", "take a comma away"]),
-        (["--integrators", "rk4,,heun", "--tolerances", " "], ["integrators", "place 2 of 3", "tolerances", "2 faults"]),
+        (
+            ["--integrators", "rk4,,heun", "--tolerances", " "],
+            ["integrators", "place 2 of 3", "tolerances", "2 faults"],
+        ),
         (["--no-report", "--report", "z.html"], ["--no-report and --report z.html contradict each other"]),
         (["--steps", "1ms,nan,inf"], ["steps.1  a finite number is needed, got `nan`", "steps.2", "got `inf`"]),
         (["--integrators", "dop853", "--tolerances", "nan"], ["tolerances.0  a finite number is needed, got `nan`"]),

@@ -40,7 +40,9 @@ Name = Annotated[str, BeforeValidator(_named), WithJsonSchema({"type": "string",
 class Record(BaseModel):
     """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as a ModelError."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True, hide_input_in_errors=True, allow_inf_nan=False)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", populate_by_name=True, hide_input_in_errors=True, allow_inf_nan=False
+    )
     collection: ClassVar[str] = ""  # the section of the machine that holds such records
     # Fields that are one of several records, and where in the place of a fault pydantic puts the type that it chose.
     tagged: ClassVar[Mapping[str, int]] = {}

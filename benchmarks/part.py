@@ -7,17 +7,19 @@ import time
 import numpy as np
 from numba import njit, types
 
+from nivel.kernels.compile import OPTIONS, loops_as_written
 from nivel.kernels.handle import address_type
 from nivel.kernels.record import state_type
 
 REPEATS, ROUNDS = 20_000, 7
-# address of the machine, state, its rates, repeats; compiled like the kernels, but LLVM may unroll loops here and nothing is cached
-part = njit(
-    types.void(address_type, state_type, state_type, types.int64),
-    error_model="numpy",
-    fastmath={"contract"},
-    _nrt=False,
-)
+# address of the machine, state, its rates, repeats
+SIGNATURE = types.void(address_type, state_type, state_type, types.int64)
+
+
+def part(function):
+    """Decorator: compiled like the kernels, but not cached."""
+    with loops_as_written():
+        return njit(SIGNATURE, **OPTIONS)(function)
 
 
 def measure(function, *arguments, repeats: int = REPEATS) -> float:

@@ -46,6 +46,7 @@ def saddle_of(C, blocks, groups, redundant=0):
         shift=np.zeros(K),
         least=np.zeros(K),
         target=np.zeros(K),
+        before=np.zeros(K),
         W=np.array([C[r, 6 * b : 6 * b + 6] for r, b in blocks]),
         G=np.zeros((0, 0, 0)),
         z=empty,

@@ -14,6 +14,7 @@ from nivel.kernels.status import (
     CONTRADICTION,
     EVENT_NOT_FINITE,
     FRICTION_DIVERGES,
+    MULTIPLIERS_NOT_FOUND,
     NOT_CONVERGED,
     NOT_FINITE,
     ROTATION_SINGULAR,
@@ -41,6 +42,8 @@ def failure(
         told = _jammed(motion.system.frictions[number])
     elif status == BRISTLE_TOO_FAST:
         told = _fast_bristles(motion, number, step)
+    elif status == MULTIPLIERS_NOT_FOUND:
+        told = _slow_multipliers(motion)
     elif status == EVENT_NOT_FINITE and number < len(motion.system.events):
         told = _broken_event(motion.system.events[number])
     elif status == ROTATION_SINGULAR:
@@ -140,6 +143,21 @@ def _jammed(name: str) -> tuple[str, str]:
     advice = (
         f"Look at {name}: a smaller coefficient, a longer bearing_length or a smaller radius; or give its normal_load. "
         f"With Coulomb friction and rigid bodies some positions have no solution (Painlevé)."
+    )
+    return message, advice
+
+
+def _slow_multipliers(motion: MotionEquations) -> tuple[str, str]:
+    saddle = motion.system.record.saddle
+    diagonal = saddle.S[saddle.S_start[1:].astype(int) - 1]
+    slow, fast = (motion.system.rows[saddle.row[saddle.order[int(pick(diagonal))]]] for pick in (np.argmin, np.argmax))
+    message = (
+        f"the augmented Lagrangian finds no multipliers within {int(motion.system.record.control.iterations[0])} iterations: what {slow} "
+        f"and {fast} move, or what they depend on, differs too much in mass"
+    )
+    advice = (
+        "Try a greater `penalty: {factor: 1e8}` or more `iterations`; `formulation: newton-euler` needs neither. Constraints that "
+        "contradict each other look the same."
     )
     return message, advice
 

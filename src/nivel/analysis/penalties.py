@@ -13,6 +13,7 @@ import numpy as np
 
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.mobility import mobility
+from nivel.errors import Fault, ModelError
 from nivel.machine.settings import Penalty, SimulationSettings
 from nivel.motion.catalogue import FormulationFacts
 from nivel.system.system import Array
@@ -34,13 +35,28 @@ def penalise(
     system = replace(motion.system, record=record._replace(saddle=saddle))
     penalised = MotionEquations(system, motion.kernels)
     mobile = mobility(penalised, y)
+    size = motion.system.size
     units = record.constraints.scale[saddle.row] ** 2
-    # what nothing can move still needs a penalty
-    mobile = np.maximum(mobile, IMMOBILE * units * np.max(mobile / units, initial=0.0))
+    # what nothing can move still needs a penalty; where this is all rows, they move nothing less than the whole machine
+    largest = np.max(mobile / units, initial=0.0) or 1.0 / (record.bodies.mass.sum() * size**2)
+    least = IMMOBILE * units * largest
+    if penalty.alpha and np.any(penalty.alpha * mobile[mobile > least] < 1.0):
+        raise ModelError(_too_soft(motion, penalty.alpha, np.where(mobile > least, mobile, np.inf)))
+    mobile = np.maximum(mobile, least)
     saddle.shift[:] = 1.0 / penalty.alpha if penalty.alpha else mobile / (penalty.factor or facts.factor)
     record.control.rank[0] = rows
     record.control.iterations[0] = penalty.iterations if facts.iterated else 1
     return penalised
+
+
+def _too_soft(motion: MotionEquations, alpha: float, mobile: Array) -> Fault:
+    k = int(np.argmin(mobile))
+    row = motion.system.rows[motion.system.record.saddle.row[k]]
+    message = (
+        f"α = {alpha:.3g} does not hold {row}, which moves a mass of {1.0 / mobile[k]:.3g}: α has to be many times that, 1e4 or more; "
+        f"`factor` in place of `alpha` takes that share for every row"
+    )
+    return Fault("", 0, 0, "simulation.penalty.alpha", message)
 
 
 def feedback(penalty: Penalty, step: float, corrected: bool) -> tuple[float, float]:

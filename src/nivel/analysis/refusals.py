@@ -10,6 +10,7 @@ from nivel.machine.forces import Contact, Friction, Stop
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.table import Table
+from nivel.march.catalogue import INTEGRATORS
 from nivel.system.laws import false_derivative
 from nivel.system.system import Array
 
@@ -39,8 +40,19 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
 
 
 def refuse_conserved_drivers(machine: MachineRecord) -> None:
-    """Drivers prescribe speeds, which the energy constraint would have to scale."""
-    if machine.simulation.stabilisation == "geometric" and machine.drivers:
+    """Drivers prescribe speeds, which the energy constraint would have to scale. What a fixed step misses of a contact that begins in
+    it is no drift either: to scale all velocities for it would take momentum where no force does."""
+    if machine.simulation.stabilisation != "geometric":
+        return
+    sudden = [force.name for force in machine.forces if isinstance(force, Contact | Stop)]
+    if sudden and not INTEGRATORS[machine.simulation.integrator].chooses_steps:
+        message = (
+            f"'geometric' scales all velocities to the energy they should have, also for what a step of fixed size misses when "
+            f"{', '.join(sudden)} begin{'s' * (len(sudden) == 1)} to touch within it: take direct, or `integrator: dopri5`, whose steps "
+            f"end there"
+        )
+        raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
+    if machine.drivers:
         names = ", ".join(driver.name for driver in machine.drivers)
         message = (
             f"'geometric' scales velocities to the energy they should have, and {names} prescribe{'s' * (len(machine.drivers) == 1)} "

@@ -1,8 +1,9 @@
-"""The three ways a function of nivel is compiled.
+"""The four ways a function of nivel is compiled.
 
 leaf     small arithmetic; LLVM decides about inlining.
 stage    a part of one evaluation; always inlined, because a call would copy the descriptors of every array of the record.
 entry    what Python or another entry calls: an explicit signature, cached on disk, without the interpreter lock.
+family   what is called by its address: forces, and hooks that only some machines have.
 
 All are compiled without Numba's runtime for reference counts (`_nrt=False`): taking a row of an array then costs nothing (with it,
 two atomic operations; the step of the slider-crank took five times as long), and an allocation is an error of compilation.
@@ -20,27 +21,37 @@ from contextlib import contextmanager
 from typing import Any
 
 from llvmlite import binding
-from numba import njit, types
+from numba import cfunc, njit, types
 
 _compile: Any = njit  # its stubs do not know all options
+_compile_address: Any = cfunc
+# A product and a sum may be one instruction with one rounding; nothing else is taken as exact, and NaN stays NaN.
+OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "_nrt": False}
 
-leaf: Callable[..., Any] = _compile(error_model="numpy", fastmath={"contract"}, _nrt=False)
-stage: Callable[..., Any] = _compile(error_model="numpy", fastmath={"contract"}, forceinline=True, _nrt=False)
+leaf: Callable[..., Any] = _compile(**OPTIONS)
+stage: Callable[..., Any] = _compile(forceinline=True, **OPTIONS)
 
 
 def entry(signature: types.abstract.Type | Any) -> Callable[..., Any]:
     """Decorator: compile now for `signature`, keep the machine code in the cache."""
-    compiler = _compile(signature, error_model="numpy", fastmath={"contract"}, nogil=True, cache=True, _nrt=False)
+    return _now(_compile(signature, nogil=True, cache=True, **OPTIONS))
 
+
+def address(signature: types.abstract.Type | Any) -> Callable[..., Any]:
+    """Decorator: as `entry`, but to something with an `address` that other kernels call."""
+    return _now(_compile_address(signature, cache=True, **OPTIONS))
+
+
+def _now(compiler: Callable[..., Any]) -> Callable[..., Any]:
     def compiled(function: Callable[..., Any]) -> Any:
-        with _loops_as_written():
+        with loops_as_written():
             return compiler(function)
 
     return compiled
 
 
 @contextmanager
-def _loops_as_written() -> Iterator[None]:
+def loops_as_written() -> Iterator[None]:
     """No unrolling of loops whose count is not known; the option is the process's, so it is put back for everybody else's code."""
     binding.set_option("nivel", "-unroll-runtime=false")
     try:

@@ -57,7 +57,7 @@ def respond(machine):
             row, body = saddle.block[n, 0], saddle.block[n, 3]
             for i in range(width):
                 saddle.b[row] += saddle.W[n, i] * change[body, i]
-        solve_rows(machine)
+        solve_rows(machine, 0.0)
         for row in range(rows):
             response[saddle.row[row]] = saddle.b[row]
         for n in range(saddle.blocks[0]):

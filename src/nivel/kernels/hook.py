@@ -10,19 +10,17 @@ from collections.abc import Callable
 from typing import Any
 
 from llvmlite import ir
-from numba import cfunc, types
+from numba import types
 from numba.extending import intrinsic
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import address, stage
 from nivel.kernels.record import FRICTION, MEASURE, family_signature, record_at
 from nivel.kernels.status import OK
-
-_compile: Any = cfunc
 
 
 def family(function: Callable[..., Any]) -> Any:
     """Decorator: `function(machine, family, t) -> status` compiled, now and cached, to something with an `address`."""
-    return _compile(family_signature, error_model="numpy", cache=True, _nrt=False)(function)
+    return address(family_signature)(function)
 
 
 @intrinsic

@@ -232,7 +232,8 @@ class Saddle(NamedTuple):
     dense: F2  # (K, K) redundant machines: pivoted factor; (0, 0) otherwise
     null: F2  # (K, redundant) null space of S and its normal equations
     pivot: U1  # (K,)
-    target: F1  # (K,) right-hand side while the augmented Lagrangian iterates
+    target: F1  # (K,) right-hand side, then multipliers, while the augmented Lagrangian iterates
+    before: F1  # (K,) its last change
 
 
 class Frames(NamedTuple):

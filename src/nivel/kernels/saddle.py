@@ -13,11 +13,15 @@ from nivel.kernels.compile import leaf, stage
 from nivel.kernels.dense import factorise_pivoted, gather, solve_pivoted
 from nivel.kernels.record import record_at
 from nivel.kernels.sparse import factorise, solve
-from nivel.kernels.status import OK, SINGULAR
+from nivel.kernels.status import MULTIPLIERS_NOT_FOUND, OK, SINGULAR
 
 CONTRADICTORY = 1e-3
-# The augmented Lagrangian has converged where the square of its last change is below this share of the multipliers'.
+# The augmented Lagrangian has converged where what its last change does, squared, is below this share of what all forces do.
 SETTLED = 1e-24
+# Its last iterate is good enough where the iterations to come, as a geometric series, would do less than this share, squared.
+GOOD_ENOUGH = 1e-12
+# That series is not taken for slower than this: then round-off would count.
+SLOWEST = 1.0 - 1e-4
 
 
 @stage
@@ -48,44 +52,58 @@ def factorise_rows(machine, width):
 
 
 @stage
-def solve_rows(machine):
-    """Overwrite b with the solution of S x = b, or of (S + 1/α) x = b for penalty methods.
+def solve_rows(machine, forces):
+    """Overwrite b with the solution of S x = b, or of (S + 1/α) x = b for penalty methods. Returns a status.
 
-    The augmented Lagrangian repeats (S + 1/α) xₖ₊₁ = b + xₖ/α, which is eq. 120 after elimination of the accelerations, until x is that
-    of S x = b. It holds for dependent rows too.
+    forces : zᵀ z of what b comes from, 0 where it comes from nothing else; round-off is judged by it.
     """
     record = record_at(machine)
-    saddle, most = record.saddle, record.control.iterations
+    saddle = record.saddle
     if saddle.dense.shape[0] > 0:
         solve_pivoted(saddle, np.int64(record.control.rank[0]))
-        return
-    if most[0] <= 1:
+        return OK
+    if record.control.iterations[0] <= 1:
         solve(saddle)
-        return
-    # b becomes the change d of x from one iteration to the next: (S + 1/α) dₖ₊₁ = dₖ/α
-    b, x = saddle.b, saddle.target
-    solve(saddle)
+        return OK
+    return iterate_rows(saddle, record.control.iterations, forces)
+
+
+@stage
+def iterate_rows(saddle, most, forces):
+    """Augmented Lagrangian: (S + 1/α) xₖ₊₁ = b + xₖ/α, eq. 120 after elimination of the accelerations, until x is that of S x = b.
+
+    In changes d of x: (S + 1/α) dₖ₊₁ = dₖ/α. What d does is the acceleration energy dᵀ S d = Σ (dₖ - dₖ₊₁) dₖ₊₁/α, which multipliers
+    of dependent rows, never settled, have no part in. Returns a status.
+    """
+    b, x, before = saddle.b, saddle.target, saddle.before
     for k in range(b.shape[0]):
         x[k] = b[k]
+    solve(saddle)
+    for k in range(b.shape[0]):
+        forces += real(b[k] * (x[k] - saddle.shift[k] * b[k]))
+        x[k] = b[k]
+    last, done = 0.0, 0.0
     for _ in range(1, most[0]):
         for k in range(b.shape[0]):
+            before[k] = b[k]
             b[k] *= saddle.shift[k]
         solve(saddle)
         most[1] += 1
-        change, size = 0.0, 0.0
+        last, done = done, 0.0
         for k in range(b.shape[0]):
             x[k] += b[k]
-            change += saddle.shift[k] * real(b[k] * b[k])
-            size += saddle.shift[k] * real(x[k] * x[k])
-        if change <= SETTLED * size:
+            done += saddle.shift[k] * real((before[k] - b[k]) * b[k])
+        if done <= SETTLED * forces:
             break
     for k in range(b.shape[0]):
         b[k] = x[k]
+    left = 1.0 - min((done / last) ** 0.5, SLOWEST) if last > done > 0.0 else 1.0 - SLOWEST
+    return OK if done <= max(SETTLED, GOOD_ENOUGH * left * left) * forces else MULTIPLIERS_NOT_FOUND
 
 
 @stage
 def multipliers(machine, width):
-    """λ from W, z, γ (with Baumgarte's terms, eq. 110), after `factorise_rows`; z becomes z - Wᵀ λ."""
+    """λ from W, z, γ (with Baumgarte's terms, eq. 110), after `factorise_rows`; z becomes z - Wᵀ λ. Returns a status."""
     record = record_at(machine)
     saddle, constraints = record.saddle, record.constraints
     twice_alpha, beta_squared = record.control.stabilise[0], record.control.stabilise[1]
@@ -99,10 +117,16 @@ def multipliers(machine, width):
         for i in range(width):
             total += saddle.W[k, i] * saddle.z[body, i]
         b[row] = total
-    solve_rows(machine)
+    forces = 0.0
+    if record.control.iterations[0] > 1:
+        for body in range(saddle.z.shape[0]):
+            for i in range(width):
+                forces += real(saddle.z[body, i] * saddle.z[body, i])
+    status = solve_rows(machine, forces)
     for k in range(b.shape[0]):
         constraints.lam[saddle.row[k]] = b[k]
     subtract_rows(saddle, width)
+    return status
 
 
 @stage
@@ -121,7 +145,7 @@ def correction(machine, violation, width):
     saddle = record.saddle
     for k in range(saddle.b.shape[0]):
         saddle.b[k] = violation[saddle.row[k]]
-    solve_rows(machine)
+    solve_rows(machine, 0.0)
     for body in range(saddle.z.shape[0]):
         for i in range(width):
             saddle.z[body, i] = 0.0

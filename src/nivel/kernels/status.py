@@ -10,6 +10,7 @@ BRISTLE_TOO_FAST = 7  # LuGre friction relaxes faster than the step can follow: 
 CONTRADICTION = 8  # a redundant row no longer follows from the others: control.failure names it
 FRICTION_DIVERGES = 6  # no friction is consistent with the reactions it causes: control.failure is its number
 ROTATION_SINGULAR = 9  # rotation coordinates come to a singular position: control.failure is the body
+MULTIPLIERS_NOT_FOUND = 13  # the augmented Lagrangian does not converge
 EVENT_NOT_FINITE = 12  # the value of an event is no longer a number: control.failure is its number
 NOT_CONVERGED = 10  # an implicit step has no solution that its iteration finds
 STEP_TOO_SMALL = 11  # the error of even the smallest step is above the tolerance

@@ -41,7 +41,7 @@ class Penalty(Record):
     Ω = 0.1/step, or 0 where the stabilisation corrects states anyway.
     """
 
-    factor: Annotated[float, Field(gt=0.0)] | None = None
+    factor: Annotated[float, Field(ge=1.0, le=1e14)] | None = None
     alpha: Annotated[float, Field(gt=0.0)] | None = None
     omega: Rate | None = None
     mu: Annotated[float, Field(ge=0.0)] = 1.0
@@ -57,6 +57,9 @@ class Corrector(Record):
     iteration: Literal["functional", "newton"] = "functional"
     tolerance: Tolerance = 1e-10
     most_iterations: Annotated[int, Field(ge=1, le=1000)] = 50
+
+
+SHORTEST = 1e-12  # s; squares of speeds of a machine's length in such a time are still numbers
 
 
 class SimulationSettings(Record):
@@ -96,6 +99,8 @@ class SimulationSettings(Record):
     @model_validator(mode="after")
     def _makes_sense(self) -> SimulationSettings:
         fixed = self.integrator not in CHOOSING
+        if self.duration < SHORTEST:
+            raise fault(f"`duration` {self.duration:g} s is shorter than {SHORTEST:g} s, the shortest run there is")
         if fixed and self.step > self.duration:
             raise fault(f"`step` {self.step:g} s is longer than `duration` {self.duration:g} s")
         if fixed and self.output_interval is not None and self.output_interval < self.step * (1 - 1e-9):

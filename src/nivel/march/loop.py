@@ -176,6 +176,8 @@ def accept_state(evaluate, machine, history, due):
         # contacts and stops are on the sides of this state from here on
         counter[SWITCHED] = 0
         status = evaluate_accepted(evaluate, machine, history)
+        if status == OK and not finite(run.rate):
+            status = NOT_FINITE
     if status == OK and counter[DONE_STEPS] == 0 and run.event_values.shape[1] > 0:
         status = begin_events(machine, history)
     if status != OK:

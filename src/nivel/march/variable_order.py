@@ -192,13 +192,12 @@ def variable_step(evaluate, machine, history, family, most, tolerance):
         status = correct(evaluate, machine, history, h, tolerance)
         if status != OK:
             reject(run, h, AFTER_FAILURE)
-            rejections += 1
-            continue
-        error = factors[2] / factors[0] * size(run, run.stages[CORRECTION]) / tolerance
-        shorter = turned_too_far(machine, h)
-        if error <= 1.0 and shorter == 1.0:
-            break
-        reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
+        else:
+            error = factors[2] / factors[0] * size(run, run.stages[CORRECTION]) / tolerance
+            shorter = turned_too_far(machine, h)
+            if error <= 1.0 and shorter == 1.0:
+                break
+            reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
         rejections += 1
         if rejections % PATIENCE == 0:
             start(run)

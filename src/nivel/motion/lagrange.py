@@ -247,7 +247,9 @@ def evaluate(machine, t, y, ydot):
     if status != OK:
         return status
     whiten_forces(machine, y)
-    multipliers(machine, WIDTH)
+    status = multipliers(machine, WIDTH)
+    if status != OK:
+        return status
     status = finish_forces(machine, t, ydot)
     write_rates(machine, y, ydot)
     return status

@@ -162,7 +162,9 @@ def accelerate(machine, t, y, ydot):
     if status != OK:
         return status
     whiten_forces(machine)
-    multipliers(machine, WIDTH)
+    status = multipliers(machine, WIDTH)
+    if status != OK:
+        return status
     return finish_forces(machine, t, ydot)
 
 

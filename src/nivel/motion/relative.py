@@ -96,7 +96,9 @@ def evaluate(machine, t, y, ydot):
         if status != OK:
             return status
     whiten_efforts(machine)
-    multipliers(machine, WIDTH)
+    status = multipliers(machine, WIDTH)
+    if status != OK:
+        return status
     status = finish_forces(machine, t, ydot)
     positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
     for k in range(positions):

@@ -234,6 +234,7 @@ def _saddle(
         null=np.zeros((0, 0)),
         pivot=np.zeros(0, dtype=np.uint32),
         target=np.zeros(row_count),
+        before=np.zeros(row_count),
     )
 
 

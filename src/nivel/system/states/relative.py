@@ -253,6 +253,7 @@ def _saddle(rows: Index, blocks: list[tuple[int, ...]], owners: list[str], colum
         null=np.zeros((0, 0)),
         pivot=np.zeros(0, dtype=np.uint32),
         target=np.zeros(count),
+        before=np.zeros(count),
     )
 
 

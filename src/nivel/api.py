@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from html import escape
+from numbers import Integral
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +15,7 @@ from nivel.analysis.changes import changed
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import compile_path
-from nivel.analysis.idle import refuse_idle
+from nivel.analysis.idle import idle_settings
 from nivel.analysis.listener import Listener
 from nivel.errors import ModelError
 from nivel.files.reader import locate, parse_machine, read_text
@@ -106,8 +107,9 @@ class Machine:
 
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
-        settings = self.record.simulation
-        path = (choose_coordinates(self.record), settings.formulation, settings.rotations)
+        settings, coordinates = self.record.simulation, choose_coordinates(self.record)
+        self._refuse_settings(self.asked)
+        path = (coordinates, settings.formulation, settings.rotations)
         compile_path(self.record, path, listener or Listener())
         from nivel.analysis.check import check
 
@@ -127,7 +129,7 @@ class Machine:
         stabilisation: str | None = None,
         tolerance: float | str | None = None,
         largest_step: float | str | None = None,
-        cut: Sequence[str] | None = None,
+        cut: Sequence[str] | str | None = None,
         corrector: Mapping[str, Any] | None = None,
         penalty: Mapping[str, Any] | None = None,
         baumgarte: Mapping[str, Any] | None = None,
@@ -164,7 +166,7 @@ class Machine:
         given = {key: value for key, value in given.items() if value is not None}
         chosen = self.with_settings(given)
         settings = chosen.record.simulation
-        refuse_idle({*given, *self.asked}, settings, choose_coordinates(chosen.record))
+        chosen._refuse_settings({*given, *self.asked})
         compile_seconds = compile_path(
             chosen.record,
             (choose_coordinates(chosen.record), settings.formulation, settings.rotations),
@@ -192,29 +194,29 @@ class Machine:
     def compare(
         self,
         *,
-        integrators: Sequence[str] | str = (),
-        formulations: Sequence[str] | str = (),
-        coordinates: Sequence[str] | str = (),
-        rotations: Sequence[str] | str = (),
-        stabilisations: Sequence[str] | str = (),
-        steps: Sequence[float | str] | float | str = (),
-        tolerances: Sequence[float | str] | float | str = (),
+        integrators: Sequence[str] | str | None = None,
+        formulations: Sequence[str] | str | None = None,
+        coordinates: Sequence[str] | str | None = None,
+        rotations: Sequence[str] | str | None = None,
+        stabilisations: Sequence[str] | str | None = None,
+        steps: Sequence[float | str] | float | str | None = None,
+        tolerances: Sequence[float | str] | float | str | None = None,
         duration: float | str | None = None,
         output_interval: float | str | None = None,
         largest_step: float | str | None = None,
-        cut: Sequence[str] | None = None,
+        cut: Sequence[str] | str | None = None,
         repeat: int = 3,
         listener: Listener | None = None,
     ) -> Comparison:
-        """Run all combinations of the given words; an axis that is not given has the machine's own setting.
+        """Run all combinations of the given words; an axis that is None has the machine's own setting.
 
         steps [s] : of integrators with a fixed one; tolerances : of the others. duration, output_interval, largest_step [s], cut : of
         all runs. repeat : every cell runs so often, its time is the least. Times are numbers in seconds, or texts with units.
         A cell that fails or has no meaning is told in its row. Interrupted, it returns what was computed.
         Raises ModelError where words are not known, or the machine cannot be run at all.
         """
-        if repeat < 1:
-            raise ModelError(f"`repeat` is at least 1, got {repeat}")
+        if not isinstance(repeat, Integral) or isinstance(repeat, bool) or repeat < 1:
+            raise ModelError(f"`repeat` is a whole number of at least 1, got {repeat!r}")
         words: dict[str, Any] = {
             "integrators": integrators,
             "formulations": formulations,
@@ -234,7 +236,22 @@ class Machine:
         from nivel.analysis.compare import compare
 
         with self._faults_in_file():
-            return compare(chosen.record, grid, repeat=repeat, listener=listener)
+            return compare(chosen.record, grid, repeat=int(repeat), listener=listener)
+
+    def _refuse_settings(self, given: Collection[str]) -> None:
+        """Raise ModelError where the settings do not go together, or those `given` would have no effect."""
+        from nivel.analysis.agreement import disagreements  # imports what builds machines
+
+        coordinates = choose_coordinates(self.record)
+        faults = idle_settings(given, self.record.simulation, coordinates)
+        try:
+            with self._faults_in_file():
+                if wrong := disagreements(self.record):
+                    raise ModelError(wrong)
+        except ModelError as error:
+            faults += error.faults
+        if faults:
+            raise ModelError(faults)
 
     @contextmanager
     def _faults_in_file(self) -> Iterator[None]:
@@ -255,7 +272,11 @@ class Machine:
         """The same machine with some simulation settings replaced."""
         if not settings:
             return self
-        record = self.record.replace(simulation=changed(self.record.simulation, settings))
+        # what was set from outside of the file is asked for as well, and never left behind
+        asked = {
+            name: getattr(self.record.simulation, name) for name in self.asked if name in ("rotations", "baumgarte")
+        }
+        record = self.record.replace(simulation=changed(self.record.simulation, {**asked, **settings}))
         return Machine.from_record(record, self.source, self.file, self.asked)
 
     def save(self, path: str | PathLike[str]) -> None:

@@ -5,6 +5,7 @@ import pytest
 
 import machines
 from nivel.analysis.check import check
+from nivel.analysis.choice import _absolute_cost, _relative_cost, choose_coordinates
 from nivel.analysis.settings import complete
 from nivel.errors import ModelError
 from nivel.files import parse_machine
@@ -115,3 +116,24 @@ sensors: {speed: {marker: tip, quantity: velocity}}
     assert "coil: joint-spring-damper on right.angle" in said
     assert "speed: velocity of tip" in said
     assert "0 degrees of freedom" in said
+
+
+def with_cut(machine, *names, **settings):
+    return machine.replace(simulation=machine.simulation.replace(cut=names, **settings))
+
+
+def test_joints_that_are_to_be_cut_make_the_coordinates_relative():
+    """Also where absolute ones then cost less, as for the four-bar cut at its first joint."""
+    machine = machines.four_bar()
+    name = machine.joints[0].name
+    assert _absolute_cost(with_cut(machine, name)) < _relative_cost(with_cut(machine, name))
+    facts = check(with_cut(machine, name))
+    assert (facts.settings.coordinates, facts.cut) == ("relative", (name,))
+    assert choose_coordinates(with_cut(machine, name, formulation="lagrange")) == "absolute"
+    assert choose_coordinates(with_cut(machine, name, coordinates="absolute")) == "absolute"
+
+
+def test_a_joint_is_cut_once():
+    with pytest.raises(ModelError, match="`pin`, `rod` stands here more than once") as caught:
+        SimulationSettings(cut=("pin", "rod", "hinge", "rod", "pin"))
+    assert caught.value.faults[0].path == "cut"

@@ -163,6 +163,25 @@ def test_a_combination_without_meaning_is_refused_with_its_reason():
     assert "does not go with `formulation: penalty`" in refused.reason
 
 
+def test_runs_that_an_event_ended_are_told():
+    """x = cos(2π t) passes 0 at t = 1/4; the frequency of euler is lower by the share (2π h)²/3."""
+    spring = oscillator()
+    spring.record = spring.record.replace(events=[{"name": "centre", "when": "block.x", "stop": True}])
+    comparison = spring.compare(integrators=["rk4", "euler"], steps=[0.01, 0.005], stabilisations="none", repeat=1)
+    assert [row.stopped_by for row in comparison.rows] == ["centre"] * 4
+    times = [row.end_time for row in comparison.rows]
+    assert times[:2] == pytest.approx([0.25, 0.25], abs=1e-7)
+    assert times[2:] == pytest.approx([0.25 * (1 + (2 * math.pi * h) ** 2 / 3) for h in (0.01, 0.005)], abs=1e-5)
+    text = str(comparison)
+    assert f"4 of 4 runs were ended by the event centre, at {min(times):.6g} to {max(times):.6g} s" in text
+    assert ", up to 1 s simulated;" in text
+    assert "ended at" in text
+    assert all(row.motion_error_time <= 0.25 + 1e-7 for row in comparison.rows)
+    assert Comparison.from_json(comparison.to_json()) == comparison
+    alone = spring.compare(repeat=1)
+    assert "the run was ended by the event centre, at 0.25 s" in str(alone)
+
+
 def test_without_a_reference_the_other_numbers_stay():
     """A force that stops being a number ends every run."""
     burst = machine(
@@ -226,12 +245,23 @@ def test_words_that_are_not_known_are_refused_all_at_once():
         ({"largest_step": 0.01}, "the steps of rk4 are fixed"),
         ({"cut": ["pin"], "coordinates": ["absolute"]}, "no cell is in relative coordinates"),
         ({"steps": [0.01, 0.01 * math.sqrt(2)]}, "no common multiple"),
+        ({"steps": [1e-3, 1.000000001e-3]}, "the steps 0.001 s, 0.001000000001 s have no common multiple"),
         ({"repeat": 0}, "at least 1"),
+        ({"repeat": 1.5}, "`repeat` is a whole number of at least 1, got 1.5"),
+        ({"repeat": "3"}, "`repeat` is a whole number of at least 1, got '3'"),
+        ({"cut": "nail"}, "there is no joint `nail`"),
     ],
 )
 def test_what_would_have_no_effect_is_refused(asked, part):
     with pytest.raises(ModelError, match=part):
         pendulum().compare(**asked)
+
+
+@pytest.mark.parametrize("axis", ["integrators", "formulations", "coordinates", "rotations", "stabilisations", "steps"])
+@pytest.mark.parametrize("values", [[], (), "", ["", "10 ms"]])
+def test_an_axis_that_is_given_and_empty_is_refused(axis, values):
+    with pytest.raises(ModelError, match=f"{axis}: nothing stands here"):
+        pendulum().compare(**{axis: values})
 
 
 @pytest.mark.parametrize(
@@ -283,6 +313,22 @@ def test_tables_are_read_back_as_they_were(compared, tmp_path):
         assert float(line["motion_error"]) == row.motion_error
         assert line["stabilisation"] == row.stabilisation
         assert line["tolerance"] == ""
+
+
+@pytest.mark.parametrize("write", ["to_csv", "to_json", "report"])
+def test_an_existing_file_is_replaced_with_force_only(compared, tmp_path, write):
+    mine = tmp_path / "mine"
+    mine.write_text("mine")
+    with pytest.raises(ModelError, match="force=True"):
+        getattr(compared, write)(mine)
+    assert mine.read_text() == "mine"
+    getattr(compared, write)(mine, force=True)
+    assert mine.read_text(encoding="utf-8") != "mine"
+
+
+def test_a_single_joint_may_be_cut_by_its_name():
+    grid = pendulum().compare(cut="pin", coordinates="relative", repeat=1)
+    assert grid.rows[0].outcome == "done"
 
 
 def test_the_text_has_a_line_for_every_row(compared):

@@ -69,6 +69,17 @@ def test_existing_files_need_force_and_the_machine_is_never_written_over(folder)
     assert (folder / "pendulum.yaml").read_text() == PENDULUM
 
 
+def test_that_a_file_cannot_be_written_is_known_before_anything_is_run(folder, monkeypatch):
+    monkeypatch.setattr("nivel.api.Machine.compare", lambda *_, **__: pytest.fail("the grid was run"))
+    for arguments in (["--out", "missing/a.csv"], ["--report", "missing/a.html"], ["--out", "pendulum.yaml/a.json"]):
+        assert nivel(*arguments).exit_code == 2
+    (folder / "pendulum-compare.csv").write_text("mine")
+    monkeypatch.setattr("os.access", lambda path, _mode: folder / path != folder / "pendulum-compare.csv")
+    refused = nivel("--force")
+    assert refused.exit_code == 2
+    assert "pendulum-compare.csv cannot be written: permission denied" in refused.stderr
+
+
 def test_names_of_files_and_json_on_standard_output(folder):
     done = nivel("--repeat", 1, "--out", "table.csv", "--report", "page.html", "--json", "--quiet")
     assert done.exit_code == 0
@@ -85,10 +96,22 @@ def test_names_of_files_and_json_on_standard_output(folder):
         (["--steps", "1ms,3 kg"], ["3 kg", "a time"]),
         (["--tolerances", "1e-6"], ["`tolerances` would have no effect", "rk4"]),
         (["--cut", "hinge", "--coordinates", "absolute"], ["`cut` would have no effect"]),
+        (["--steps", ""], ["steps", "nothing stands here", "leave it out"]),
+        (["--steps", ","], ["steps", "nothing stands here at the places 1, 2 of 2"]),
+        (["--steps", "1ms,"], ["steps", "nothing stands here at place 2 of 2", "take a comma away"]),
+        (
+            ["--integrators", "rk4,,heun", "--tolerances", " "],
+            ["integrators", "place 2 of 3", "tolerances", "2 faults"],
+        ),
+        (["--no-report", "--report", "z.html"], ["--no-report and --report z.html contradict each other"]),
+        (["--steps", "1ms,nan,inf"], ["steps.1  a finite number is needed, got `nan`", "steps.2", "got `inf`"]),
+        (["--integrators", "dop853", "--tolerances", "nan"], ["tolerances.0  a finite number is needed, got `nan`"]),
         (["--repeat", "0"], ["--repeat"]),
         (["--out", "table.txt"], [".csv or .json"]),
         (["--out", "a.csv", "--report", "a.csv"], ["written over the table"]),
-        (["--out", "missing/folder/a.csv", "--repeat", "1"], ["cannot be written"]),
+        (["--out", "missing/folder/a.csv"], ["there is no folder missing/folder for the table a.csv"]),
+        (["--report", "missing/a.html"], ["there is no folder missing for the report a.html"]),
+        (["--out", "pendulum.yaml/a.csv"], ["pendulum.yaml is not a folder"]),
     ],
 )
 def test_wrong_words_end_with_code_two_and_say_what_would_be_right(folder, arguments, words):

@@ -141,6 +141,9 @@ def test_forces_beyond_all_bounds_give_no_warnings(folder):
     [
         (["--step", "3 kg"], ["step", "time"]),
         (["--step", "-1"], ["step"]),
+        (["--step", "nan", "--duration", "-inf"], ["step  a finite", "is needed, got `nan`", "duration", "got `inf`"]),
+        (["--integrator", "dop853", "--tolerance", "nan"], ["tolerance  a finite number is needed, got `nan`"]),
+        (["--integrator", "dop853", "--tolerance", "inf"], ["tolerance  a finite number is needed, got `inf`"]),
         (["--integrator", "rk5"], ["rk5", "rk4"]),
         (["--integrator", "nonsense"], ["rk4", "dopri5", "gear"]),
         (["--formulation", "lagrang"], ["lagrang", "lagrange"]),
@@ -150,7 +153,7 @@ def test_forces_beyond_all_bounds_give_no_warnings(folder):
         (["--tolerance", "2"], ["tolerance", "less than 1 was expected, got `2`"]),
         (["--tolerance", "1e-8"], ["`tolerance` has no effect", "`integrator: rk4` is fixed"]),
         (["--largest-step", "1 ms"], ["`largest_step` has no effect", "`integrator: rk4` is fixed"]),
-        (["--cut", "hinge"], ["`cut` has no effect", "coordinates: relative"]),
+        (["--cut", "hinge", "--coordinates", "absolute"], ["`cut` has no effect", "coordinates: relative"]),
         (["--set", "simulation.penalty.omega=10"], ["`penalty` has no effect", "augmented-lagrangian"]),
         (["--set", "simulation.corrector.iteration=newton"], ["`corrector` has no effect", "rk4"]),
         (["--output-interval", "1.5 ms"], ["output_interval", "multiple of the step"]),
@@ -167,6 +170,23 @@ def test_wrong_options_end_with_code_two_and_say_what_would_be_right(folder, arg
     for word in words:
         assert word in done.stderr
     assert not (folder / "pendulum.nc").exists()
+
+
+def test_everything_that_does_not_go_together_is_said_at_once_and_before_anything_is_compiled(folder):
+    driven = PENDULUM + "drivers: {turn: {coordinate: hinge, value: 2*time}}\n"
+    (folder / "pendulum.yaml").write_text(driven)
+    options = "--stabilisation geometric --formulation penalty --coordinates independent --tolerance 1e-8"
+    done = nivel(folder, "run", "pendulum.yaml", *options.split(), "--set", "simulation.rotations=euler-angles")
+    assert done.returncode == 2
+    for part in (
+        "'penalty' does not go with independent coordinates",
+        "'euler-angles' are rotation coordinates of `formulation: lagrange`",
+        "'geometric' scales velocities to the energy they should have, and turn prescribes",
+        "`tolerance` has no effect here",
+        "4 faults",
+    ):
+        assert part in done.stderr
+    assert "compiling" not in done.stderr
 
 
 def test_settings_of_other_methods_may_rest_in_the_file(folder):

@@ -3,7 +3,7 @@
 import pytest
 from refusals import refused
 
-from nivel.machine import Driver, Expression, Sensor, Table
+from nivel.machine import Driver, Event, Expression, Sensor, Table
 
 TURNS = "def turn(t):\n    return t, 1.0, 0.0\n"
 
@@ -94,3 +94,35 @@ def test_sensors_have_one_of_six_forms(given, form):
 )
 def test_sensors_refused(given, part):
     assert part in refused(Sensor, name="s", **given)
+
+
+@pytest.mark.parametrize(
+    ("when", "part"),
+    [
+        (
+            "hinge.angle - 2 m",
+            "`hinge.angle` is an angle (rad); a length (m) cannot be added to it or subtracted from it",
+        ),
+        ("2 kg - arm.x", "`arm.x` is a length (m); a mass (kg)"),
+        ("-(time + 1) - 3 m", "`time` is a time (s); a length (m)"),
+        ("arm.x - 3 deg", "`arm.x` is a length (m); an angle (rad)"),
+        ("gap.rate - 3 N", "`gap.rate` is a velocity (m/s) or an angular velocity (rad/s); a force (N)"),
+    ],
+)
+def test_an_event_does_not_add_unlike_terms(when, part):
+    assert f"events.e.when: `{when}`: {part}" in refused(Event, name="e", when=when)
+
+
+@pytest.mark.parametrize(
+    "when",
+    [
+        "arm.x - 20 cm",
+        "hinge.angle - 30 deg",
+        "hinge.angle_rate - 30 rpm",
+        "200*arm.x - 5 N",
+        "gap.rate - 1",
+        "a.b - 1 N",
+    ],
+)
+def test_an_event_of_like_or_bare_terms_is_taken(when):
+    assert Event(name="e", when=when).when

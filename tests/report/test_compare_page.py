@@ -97,6 +97,21 @@ def test_every_row_and_every_number_is_there():
     assert "Furthest apart of 2 methods, each at its finest: none and direct." in text
 
 
+def test_runs_that_an_event_ended_are_told():
+    ended = row("none", 1e-3, error=1e-9, seconds=1e-2, stopped_by="far <1>", end_time=0.71234567)
+    other = row("direct", 1e-3, error=1e-9, seconds=1e-2, end_time=1.0)
+    text = words(comparison_html(comparison((ended, other))))
+    assert (
+        "Methods compared in 2 runs. 1 of them ran to the end. 1 of 2 runs was ended by the event far &lt;1&gt;,"
+        in text
+    )
+    assert "at 0.712346 s." in text
+    assert "up to 1 s simulated" in text
+    assert "ended at 0.712346 s" in text
+    assert "None of them ran to the end. The run was ended by" in words(comparison_html(comparison((ended,))))
+    assert "All of them ran to the end." in words(comparison_html(comparison((other,))))
+
+
 def test_a_curve_for_every_method_from_coarse_to_fine():
     drawn = curves(comparison())
     assert [curve.label for curve in drawn] == ["newton-euler · none", "newton-euler · direct"]

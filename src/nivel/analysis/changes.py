@@ -9,14 +9,17 @@ from nivel.machine.settings import SimulationSettings
 
 
 def changed(settings: SimulationSettings, changes: Mapping[str, Any]) -> SimulationSettings:
-    """`settings` with `changes`; what belongs to a method that is replaced is left behind.
+    """`settings` with `changes`, of `cut` also a single name; what belongs to a method that is replaced is left behind,
+    unless it is among the changes itself.
 
     Raises ModelError where the words are not known or the numbers do not fit together.
     """
     changes = dict(changes)
+    if isinstance(changes.get("cut"), str):
+        changes["cut"] = (changes["cut"],)
     # own Baumgarte coefficients belong to the stabilisation they were given with
     if changes.get("stabilisation", "baumgarte") != "baumgarte" and settings.baumgarte is not None:
-        changes["baumgarte"] = None
+        changes.setdefault("baumgarte", None)
     # rotation coordinates belong to lagrange in absolute coordinates
     if (changes.get("formulation", "lagrange"), changes.get("coordinates", "absolute")) != ("lagrange", "absolute"):
         changes.setdefault("rotations", "euler-parameters")

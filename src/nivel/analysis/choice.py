@@ -1,5 +1,7 @@
 """What `coordinates: auto` means for a machine: the ones in which an evaluation of its equations costs least.
 
+Joints named in `cut` are a wish about relative coordinates: where these are possible, they are taken.
+
 Counted are, in relative coordinates, the bodies of the tree and the rows that are left with the joint velocities on their way to the
 ground; in absolute ones the rows with the bodies that they touch; and in both the entries of S. Weights are nanoseconds, fitted to
 measured evaluations of the slider-crank, chains and pairs of bodies (`benchmarks/profile_step.py`).
@@ -19,12 +21,16 @@ BODY, BLOCK, ENTRY = 60.0, 15.0, 4.0
 
 
 def choose_coordinates(machine: MachineRecord) -> str:
-    """The coordinates of a run of `machine`: its own, or for `auto` the ones that cost least with its formulation."""
+    """The coordinates of a run of `machine`: its own; for `auto` relative where joints are named in `cut`, else the ones
+    that cost least, of those that its formulation knows.
+    """
     settings = machine.simulation
     if settings.coordinates != "auto":
         return settings.coordinates
     if settings.formulation == "lagrange" or not machine.joints:
         return "absolute"
+    if settings.cut:
+        return "relative"
     return "relative" if _relative_cost(machine) < _absolute_cost(machine) else "absolute"
 
 

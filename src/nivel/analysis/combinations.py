@@ -18,7 +18,7 @@ def refuse_combinations(settings: SimulationSettings, coordinates: str) -> list[
             f"{formulation} in {coordinates} coordinates has no use for them"
         )
         faults.append(_fault("rotations", message))
-    elif path_of(coordinates, formulation, settings.rotations) is None:
+    if path_of(coordinates, formulation, "euler-parameters") is None:
         known = sorted({c for c, f, _ in PATHS if f == ("lagrange" if formulation == "lagrange" else "newton-euler")})
         message = f"'{coordinates}' does not go with `formulation: {formulation}`, which is for {' or '.join(known)}"
         faults.append(_fault("coordinates", message))

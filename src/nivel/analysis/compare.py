@@ -92,7 +92,7 @@ class _Bench:
                 again = run_in_memory(cell.machine, cell.settings, self.listener.progress)[1]
                 times.append(again.timing["loop_seconds"])
         finally:  # also where the repeats were interrupted
-            self.rows.append(self._measured(_timed(row, finished, min(times)), result))
+            self.rows.append(self._measured(_timed(row, result, finished, min(times)), result))
 
     def _measured(self, row: Row, result: Result) -> Row:
         """`row` with the errors of its run, if it came to the end."""
@@ -134,14 +134,16 @@ class _Bench:
         )
 
 
-def _timed(row: Row, finished: Finished, loop_seconds: float) -> Row:
-    """`row` with what its run took, and why it stopped."""
+def _timed(row: Row, result: Result, finished: Finished, loop_seconds: float) -> Row:
+    """`row` with what its run took, and when and why it stopped."""
     timing = finished.timing
     steps = int(timing["steps"])
     return replace(
         row,
         outcome="failed" if finished.failure else "done",
         reason=finished.failure[0] if finished.failure else "",
+        end_time=float(result.time[-1]) if len(result.time) else None,
+        stopped_by=finished.stopped_by,
         loop_seconds=loop_seconds,
         seconds_per_step=loop_seconds / steps if steps else None,
         steps=steps,

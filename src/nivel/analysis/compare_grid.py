@@ -18,7 +18,7 @@ from nivel.analysis.listener import Listener
 from nivel.analysis.settings import FRAMES, RunSettings, complete
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.quantity import Duration
+from nivel.machine.quantity import Duration, fault
 from nivel.machine.record import Record
 from nivel.machine.settings import (
     Coordinates,
@@ -38,23 +38,37 @@ FINEST: Final = 10**12  # largest denominator of a step in seconds that is looke
 
 
 def _listed(value: Any) -> Any:
-    return (value,) if isinstance(value, str | float | int) else value
+    """A single value as a list of one; a list of none, and one with an empty text, is refused."""
+    if value is None:
+        return None
+    if isinstance(value, str | float | int):
+        value = (value,)
+    if isinstance(value, Collection):
+        if len(value) == 0:
+            raise fault("nothing stands here; leave it out for the machine's own setting, or give one value at least")
+        empty = [str(k + 1) for k, each in enumerate(value) if isinstance(each, str) and not each.strip()]
+        if empty and len(value) == 1:
+            raise fault("nothing stands here; leave it out for the machine's own setting, or give a value")
+        if empty:
+            places = f"at place {empty[0]}" if len(empty) == 1 else f"at the places {', '.join(empty)}"
+            raise fault(f"nothing stands here {places} of {len(value)}; give a value, or take a comma away")
+    return value
 
 
 Word = TypeVar("Word")
-Several = Annotated[tuple[Word, ...], BeforeValidator(_listed)]
+Several = Annotated[tuple[Word, ...] | None, BeforeValidator(_listed)]
 
 
 class Axes(Record):
-    """The words, steps [s] and tolerances of a grid. Where an axis is empty, the machine's own setting is taken."""
+    """The words, steps [s] and tolerances of a grid. Where an axis is None, the machine's own setting is taken."""
 
-    integrators: Several[Integrator] = ()
-    formulations: Several[Formulation] = ()
-    coordinates: Several[Coordinates] = ()
-    rotations: Several[Rotations] = ()
-    stabilisations: Several[Stabilisation] = ()
-    steps: Several[Duration] = ()
-    tolerances: Several[Tolerance] = ()
+    integrators: Several[Integrator] = None
+    formulations: Several[Formulation] = None
+    coordinates: Several[Coordinates] = None
+    rotations: Several[Rotations] = None
+    stabilisations: Several[Stabilisation] = None
+    steps: Several[Duration] = None
+    tolerances: Several[Tolerance] = None
 
 
 @dataclass(frozen=True)
@@ -175,15 +189,21 @@ def _common_interval(steps: list[float], own: SimulationSettings) -> float:
     denominator = lcm(*(each.denominator for each in fractions))
     multiple = Fraction(lcm(*(int(each * denominator) for each in fractions)), denominator)
     if len(steps) > 1 and not 0 < multiple <= Fraction(own.duration) / FEWEST_FRAMES:
-        shown = ", ".join(f"{step:g} s" for step in steps)
+        shown = ", ".join(f"{text} s" for text in _told_apart(steps))
         message = (
             f"the steps {shown} have no common multiple below a tenth of the duration {own.duration:g} s, so their runs cannot be "
-            f"compared at common times; take steps like {steps[0]:g} s, {steps[0] / 2:g} s, {steps[0] / 4:g} s, or give an "
+            f"compared at common times; take steps like {', '.join(f'{steps[0] / k:g} s' for k in (1, 2, 4))}, or give an "
             f"output interval: cells whose step does not divide it are refused"
         )
         raise ModelError(Fault("", 0, 0, "steps", message))
     base = float(multiple) if len(steps) > 1 else steps[0]
     return base * max(1, ceil(own.duration / FRAMES / base * (1.0 - 1e-12)))
+
+
+def _told_apart(steps: list[float]) -> list[str]:
+    """Different steps in the fewest digits, six at least, in which no two are alike."""
+    texts = ([f"{step:.{digits}g}" for step in steps] for digits in range(6, 18))
+    return next(each for each in texts if len(set(each)) == len(steps))
 
 
 def _divides(step: float, interval: float) -> bool:

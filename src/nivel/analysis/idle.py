@@ -7,24 +7,22 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from nivel.errors import Fault, ModelError
+from nivel.errors import Fault
 from nivel.machine.settings import SimulationSettings
 from nivel.march.catalogue import INTEGRATORS
 from nivel.motion.catalogue import FORMULATIONS
 
 
-def refuse_idle(given: Collection[str], settings: SimulationSettings, coordinates: str) -> None:
-    """Raise ModelError for those of the settings `given` that the methods of `settings` have no use for.
+def idle_settings(given: Collection[str], settings: SimulationSettings, coordinates: str) -> list[Fault]:
+    """Faults for those of the settings `given` that the methods of `settings` have no use for.
 
     coordinates : of the run, `auto` resolved. Methods that are not known are left to others.
     """
-    faults = [
+    return [
         Fault("", 0, 0, f"simulation.{name}", f"`{name}` has no effect here: {reason}")
         for name in given
         if (reason := _idle(name, settings, coordinates))
     ]
-    if faults:
-        raise ModelError(faults)
 
 
 def _idle(name: str, settings: SimulationSettings, coordinates: str) -> str:

@@ -76,13 +76,13 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
 @click.option("--json", "as_json", is_flag=True, help="Print the comparison as JSON on standard output.")
 def command(
     machine: str,
-    integrators: tuple[str, ...],
-    formulations: tuple[str, ...],
-    coordinates: tuple[str, ...],
-    rotations: tuple[str, ...],
-    stabilisations: tuple[str, ...],
-    steps: tuple[str, ...],
-    tolerances: tuple[str, ...],
+    integrators: tuple[str, ...] | None,
+    formulations: tuple[str, ...] | None,
+    coordinates: tuple[str, ...] | None,
+    rotations: tuple[str, ...] | None,
+    stabilisations: tuple[str, ...] | None,
+    steps: tuple[str, ...] | None,
+    tolerances: tuple[str, ...] | None,
     repeat: int,
     duration: str | None,
     output_interval: str | None,
@@ -104,7 +104,10 @@ def command(
     code 0 the grid was run, 2 the input is at fault, 3 every cell failed, 130 interrupted; what was computed is written.
     """
     from nivel.api import load
+    from nivel.errors import ModelError
 
+    if no_report and report is not None:
+        raise ModelError(f"--no-report and --report {report} contradict each other: take one of them away")
     loaded = load(machine, overrides, allow_code=allow_code)
     tables = out or tuple(Path(f"{loaded.name}-compare{suffix}") for suffix in FORMATS)
     page = None if no_report else report or tables[0].with_suffix(".html")
@@ -140,18 +143,18 @@ def command(
 
 
 def _refuse_to_replace(tables: tuple[Path, ...], page: Path | None, force: bool, machine: Path) -> None:
-    """Refuse files that exist, unless they may be replaced, and tables that are neither CSV nor JSON."""
+    """Refuse, before anything is run, files that cannot be written or exist and may not be replaced, and tables of other kinds."""
     from nivel.errors import ModelError
-    from nivel.results.target import check_target
+    from nivel.results.target import check_text_target
 
     for path in tables:
         if path.suffix not in FORMATS:
             raise ModelError(f"{path}: a table ends with .csv or .json; the page is named with --report")
-        check_target(path, "table", force=force, sources=[machine])
+        check_text_target(path, "table", force=force, sources=[machine])
     if page is not None:
         if page in tables:
             raise ModelError(f"{page}: the page would be written over the table; use a name ending in .html")
-        check_target(page, "report", force=force, sources=[machine])
+        check_text_target(page, "report", force=force, sources=[machine])
 
 
 def _written(comparison: Comparison, tables: tuple[Path, ...], page: Path | None, quiet: bool) -> ModelError | None:
@@ -160,9 +163,10 @@ def _written(comparison: Comparison, tables: tuple[Path, ...], page: Path | None
 
     try:
         for path in tables:
-            comparison.to_csv(path) if path.suffix == ".csv" else comparison.to_json(path)
+            write = comparison.to_csv if path.suffix == ".csv" else comparison.to_json
+            write(path, force=True)  # whether it may be replaced was asked before the grid was run
         if page is not None:
-            comparison.report(page)
+            comparison.report(page, force=True)
     except ModelError as error:
         return error
     if not quiet:

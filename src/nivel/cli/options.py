@@ -42,9 +42,12 @@ allow_code_option = click.option(
 quiet_option = click.option("--quiet", is_flag=True, help="Say nothing on standard error but errors.")
 
 
-def separated(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...]:
-    """The words of an option that takes several, separated by commas, or that is repeated."""
-    return tuple(word.strip() for text in values for word in text.split(",") if word.strip())
+def separated(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:
+    """The words of an option that takes several, separated by commas, or that is repeated; None where it is not given.
+
+    Words that are empty are kept: their reader refuses them.
+    """
+    return tuple(word.strip() for text in values for word in text.split(",")) if values else None
 
 
 class MethodOption(click.Option):

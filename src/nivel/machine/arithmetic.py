@@ -84,6 +84,7 @@ class Call:
 Node = Number | Time | Signal | Name | Negative | Operation | Call
 Parameters = Mapping[str, Number | None]  # None marks a parameter at fault
 
+NOT_FINITE: Final = ("nan", "inf", "infinity")
 CONSTANTS: Final = {"pi": math.pi, "e": math.e}
 FUNCTIONS: Final[dict[str, tuple[Callable[..., float], tuple[int, int]]]] = {  # the function, fewest and most arguments
     "sin": (math.sin, (1, 1)),
@@ -211,6 +212,8 @@ def _value_of(name: str, parameters: Parameters, local: Collection[str]) -> Numb
     try:
         return Number(*unit(name))
     except UnknownUnitError:
+        if name.lower() in NOT_FINITE:
+            raise ExpressionError(f"a finite number is needed, got `{name}`") from None
         near = get_close_matches(name, [*local, *parameters, *RESERVED, *UNITS], n=1, cutoff=0.6)
         hint = f"; did you mean `{near[0]}`?" if near else ""
         raise UnknownNameError(name, hint) from None

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, ValidationInfo
 
+from nivel.machine.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Truth
-from nivel.machine.quantity import fault, shown
+from nivel.machine.measure import refuse_unlike_terms
+from nivel.machine.quantity import bound_tree, expression_fault, fault, parameters_of, shown
 from nivel.machine.record import Name
 from nivel.machine.table import Table
 from nivel.machine.time_function import Measured
@@ -17,13 +19,22 @@ from nivel.machine.time_function import Measured
 _COMPARISONS = ("<", ">", "=")
 
 
-def _passes_zero(value: Any) -> Any:
-    """Refuse comparisons, which people try first."""
+def _passes_zero(value: Any, info: ValidationInfo) -> Any:
+    """Refuse comparisons, which people try first, and sums of unlike terms."""
     if isinstance(value, str) and any(sign in value for sign in _COMPARISONS):
         raise fault(
             f"an event is where an expression passes zero, not a comparison as in {shown(value)}: "
             "for `hinge.angle > 2` write `hinge.angle - 2` and `direction: rising`"
         )
+    if isinstance(value, str):
+        try:
+            tree = bound_tree(value, parameters_of(info))
+        except (ExpressionError, FaultyParameterError):
+            return value  # reported where the text is read
+        try:
+            refuse_unlike_terms(tree)
+        except ExpressionError as problem:
+            raise expression_fault(problem, value) from None
     return value
 
 

@@ -97,6 +97,42 @@ def measure(node: Node, reading: Reading | None = None) -> Dimension | None:
             raise ExpressionError(f"`{text}` has no value")
 
 
+def refuse_unlike_terms(node: Node) -> None:
+    """Refuse a sum in which a quantity with a unit stands beside `time` or a signal of another dimension: `hinge.angle - 2 m`.
+
+    Only where they stand for themselves: in `200*arm.x - 5 N` the bare 200 may be a stiffness.
+    Raises ExpressionError.
+    """
+    terms = list(_terms(node))
+    quantities = [its for term in terms if not varies(term) and (its := measure(term)) is not None]
+    for term in terms:
+        match term:
+            case Time():
+                name, own = TIME, (_SECOND,)
+            case Signal(path):
+                name, own = path, signal_dimensions(path)
+            case _:
+                continue
+        for its in quantities:
+            if own and all(without_angle(its) != without_angle(each) for each in own):
+                meant = " or ".join(described(each) for each in own)
+                raise ExpressionError(
+                    f"`{name}` is {meant}; {described(its)} cannot be added to it or subtracted from it"
+                )
+
+
+def _terms(node: Node) -> Iterator[Node]:
+    """What is added and subtracted in `node`, without signs."""
+    match node:
+        case Operation("+" | "-", left, right):
+            yield from _terms(left)
+            yield from _terms(right)
+        case Negative(operand):
+            yield from _terms(operand)
+        case _:
+            yield node
+
+
 def _of_operation(symbol: str, left: Node, right: Node, reading: Reading) -> Dimension | None:
     first, second = measure(left, reading), measure(right, reading)
     match symbol:

@@ -40,7 +40,9 @@ Name = Annotated[str, BeforeValidator(_named), WithJsonSchema({"type": "string",
 class Record(BaseModel):
     """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as a ModelError."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True, hide_input_in_errors=True)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", populate_by_name=True, hide_input_in_errors=True, allow_inf_nan=False
+    )
     collection: ClassVar[str] = ""  # the section of the machine that holds such records
     # Fields that are one of several records, and where in the place of a fault pydantic puts the type that it chose.
     tagged: ClassVar[Mapping[str, int]] = {}
@@ -106,6 +108,7 @@ _SENTENCES = {
     "string_type": "a text was expected, got {input}",
     **dict.fromkeys(("float_type", "float_parsing"), "a number was expected, got {input}"),
     **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "a whole number was expected, got {input}"),
+    "finite_number": "a finite number is needed, got {input}",
     "greater_than": "a number greater than {gt:g} was expected, got {input}",
     "greater_than_equal": "a number of at least {ge:g} was expected, got {input}",
     "less_than": "a number less than {lt:g} was expected, got {input}",

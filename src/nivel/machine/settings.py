@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import Annotated, Literal, get_args
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from nivel.machine.quantity import Duration, Rate, fault
 from nivel.machine.record import Record
@@ -86,6 +87,14 @@ class SimulationSettings(Record):
     baumgarte: Baumgarte | None = Field(
         default=None, description="own coefficients alpha and beta of the baumgarte stabilisation"
     )
+
+    @field_validator("cut")
+    @classmethod
+    def _named_once(cls, cut: tuple[str, ...]) -> tuple[str, ...]:
+        twice = [name for name, count in Counter(cut).items() if count > 1]
+        if twice:
+            raise fault(f"{', '.join(f'`{name}`' for name in twice)} stands here more than once; name each joint once")
+        return cut
 
     @model_validator(mode="after")
     def _makes_sense(self) -> SimulationSettings:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from nivel.report.work_precision import NARROW, WIDE, curves, diagram, legend_mark
 from nivel.results.comparison import CONVERGED, Comparison, Row
 from nivel.results.comparison_files import write_text
-from nivel.results.comparison_table import fineness, motion, not_converged, number, order, seconds
+from nivel.results.comparison_table import fineness, motion, not_converged, number, order, seconds, simulated, stops
 from nivel.results.motion import DEFINITION
 
 HERE = Path(__file__).parent
@@ -94,9 +94,9 @@ COLUMNS = (
 )
 
 
-def write_comparison(comparison: Comparison, path: str | os.PathLike[str]) -> Path:
-    """Write the page of `comparison` to `path`; an existing file is replaced. The file needs no network and nothing beside it."""
-    write_text(comparison_html(comparison), path, "report")
+def write_comparison(comparison: Comparison, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+    """Write the page of `comparison` to `path`; an existing file is replaced with `force` only. The file needs no network and nothing beside it."""
+    write_text(comparison_html(comparison), path, "report", force=force)
     return Path(path)
 
 
@@ -127,17 +127,18 @@ def comparison_html(comparison: Comparison) -> str:
 
 def _title(comparison: Comparison) -> str:
     rows, completed = len(comparison.rows), len(comparison.completed)
-    ran = "All of them ran to the end." if rows == completed else f"{completed} of them ran to the end."
+    ended = completed - len(comparison.stopped)
+    ran = f"{'All' if ended == rows else ended or 'None'} of them ran to the end."
     cells = "1 run" if rows == 1 else f"{rows} runs"
-    return f"Methods compared in {cells}. {ran}" + (
-        " Interrupted: cells are missing." if comparison.outcome != "done" else ""
-    )
+    stopped = [f"{line[0].upper()}{line[1:]}." for line in stops(comparison)]
+    missing = ["Interrupted: cells are missing."] if comparison.outcome != "done" else []
+    return " ".join([f"Methods compared in {cells}. {ran}", *stopped, *missing])
 
 
 def _facts(comparison: Comparison) -> list[str]:
     """What all cells share."""
     return [
-        f"{seconds(comparison.duration)} simulated",
+        simulated(comparison),
         f"a frame every {seconds(comparison.output_interval)}",
         f"times are the least of {comparison.repeat}",
         *comparison.common,

@@ -31,6 +31,7 @@ class Row:
     """One cell of the grid. What a cell has not, because it was refused or stopped, is None.
 
     step [s] : of integrators with a fixed one; tolerance : of the others. reason : why it was refused, or what stopped it.
+    end_time [s] : of its last frame; stopped_by : the event that ended the run there, before its duration was over, "" where none did.
     loop_seconds, seconds_per_step : process time in the compiled loop, the least of the repeats, frames included.
     constraint_error, _mean : largest and mean magnitude over frames and rows, lengths divided by the machine's size.
     constraint_rate_error, _mean [1/s] : the same of their rates. energy_error [J] : largest; energy_error_relative : divided by the
@@ -47,6 +48,8 @@ class Row:
     tolerance: float | None = None
     outcome: CellOutcome = "done"
     reason: str = ""
+    end_time: float | None = None
+    stopped_by: str = ""
     loop_seconds: float | None = None
     seconds_per_step: float | None = None
     steps: int | None = None
@@ -125,8 +128,13 @@ class Comparison:
 
     @property
     def completed(self) -> tuple[Row, ...]:
-        """The rows that ran to their end."""
+        """The rows that ran to their end, or to an event that ended them."""
         return tuple(row for row in self.rows if row.outcome == "done")
+
+    @property
+    def stopped(self) -> tuple[Row, ...]:
+        """The completed rows that an event ended."""
+        return tuple(row for row in self.completed if row.stopped_by)
 
     @property
     def varying(self) -> tuple[str, ...]:
@@ -165,17 +173,17 @@ class Comparison:
             out.setdefault(row.method, []).append(row)
         return {method: sorted(rows, key=lambda row: -row.fineness) for method, rows in out.items()}
 
-    def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
-        """A table with a line for every row; written to `path` where one is given. An existing file is replaced."""
+    def to_csv(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
+        """A table with a line for every row; written to `path` where one is given. force : replace an existing file."""
         from nivel.results.comparison_files import csv_text, write_text
 
-        return write_text(csv_text(self), path, "table")
+        return write_text(csv_text(self), path, "table", force=force)
 
-    def to_json(self, path: str | os.PathLike[str] | None = None) -> str:
-        """Everything as JSON; written to `path` where one is given. An existing file is replaced."""
+    def to_json(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
+        """Everything as JSON; written to `path` where one is given. force : replace an existing file."""
         from nivel.results.comparison_files import json_text, write_text
 
-        return write_text(json_text(self), path, "comparison")
+        return write_text(json_text(self), path, "comparison", force=force)
 
     @classmethod
     def from_json(cls, text: str) -> Comparison:
@@ -184,11 +192,14 @@ class Comparison:
 
         return read_json(text)
 
-    def report(self, path: str | os.PathLike[str]) -> Path:
-        """Write a page with the table and a work–precision diagram, one HTML file that needs no network; replaces an existing one."""
+    def report(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Write a page with the table and a work–precision diagram, one HTML file that needs no network.
+
+        force : replace an existing file.
+        """
         from nivel.report.compare_page import write_comparison
 
-        return write_comparison(self, path)
+        return write_comparison(self, path, force=force)
 
     def __str__(self) -> str:
         from nivel.results.comparison_table import as_text

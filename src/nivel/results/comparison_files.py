@@ -12,6 +12,7 @@ from typing import Any, Final
 
 from nivel.errors import ModelError
 from nivel.results.comparison import Comparison, Reference, Row, Spread, as_record
+from nivel.results.target import check_target
 
 UNITS: Final = {
     "step": "s",
@@ -58,9 +59,13 @@ def read_json(text: str) -> Comparison:
     )
 
 
-def write_text(text: str, path: str | os.PathLike[str] | None, what: str) -> str:
-    """Write `text` to `path`, if there is one; returns it. `what` it is, for the message where it cannot be written."""
+def write_text(text: str, path: str | os.PathLike[str] | None, what: str, *, force: bool) -> str:
+    """Write `text` to `path`, if there is one; returns it. `what` it is, for the message where it cannot be written.
+
+    An existing file is replaced with `force` only.
+    """
     if path is not None:
+        check_target(Path(path), what, force=force)
         try:
             Path(path).write_text(text, encoding="utf-8")
         except OSError as error:

@@ -29,6 +29,8 @@ def columns(comparison: Comparison) -> list[Column]:
         out.append(Column("step", lambda row: seconds(row.step)))
     if any(row.tolerance is not None for row in rows):
         out.append(Column("tolerance", lambda row: number(row.tolerance, 2)))
+    if comparison.stopped:
+        out.append(Column("ended at", lambda row: f"{row.end_time:.6g} s" if row.stopped_by else ""))
     out.append(Column("loop time", lambda row: seconds(row.loop_seconds) or row.outcome))
     out.append(Column("per step", lambda row: seconds(row.seconds_per_step)))
     counts = ("steps", "rejected", "evaluations", "iterations")
@@ -49,8 +51,9 @@ def lines(comparison: Comparison) -> list[str]:
     """What stands below the table: rows without numbers, what is the same for all, references, agreement."""
     out = _failures(comparison)
     if comparison.rows:
-        words = ", ".join([*comparison.common, f"{seconds(comparison.duration)} simulated"])
+        words = ", ".join([*comparison.common, simulated(comparison)])
         out.append(f"all: {words}; times are the least of {_plural(comparison.repeat, 'run')}")
+    out += stops(comparison)
     out += [
         f"reference: {each.name}, its own error {number(each.error, 2)} ({each.how})" for each in comparison.references
     ]
@@ -62,6 +65,33 @@ def lines(comparison: Comparison) -> list[str]:
     if comparison.outcome != "done":
         out.append("interrupted: cells are missing")
     return out
+
+
+def simulated(comparison: Comparison) -> str:
+    """How long the runs are."""
+    return f"{'up to ' if comparison.stopped else ''}{seconds(comparison.duration)} simulated"
+
+
+def stops(comparison: Comparison) -> list[str]:
+    """A line for every event that ended runs: how many, and when."""
+    times: dict[str, list[float]] = {}
+    for row in comparison.stopped:
+        times.setdefault(row.stopped_by, []).append(row.end_time or 0.0)
+    ran = sum(row.outcome != "refused" for row in comparison.rows)
+    return [
+        f"{_how_many(len(its), ran)} ended by the event {event}, at {_between(its)}" for event, its in times.items()
+    ]
+
+
+def _how_many(count: int, ran: int) -> str:
+    if ran == 1:
+        return "the run was"
+    return f"{count} of {ran} runs {'was' if count == 1 else 'were'}"
+
+
+def _between(times: list[float]) -> str:
+    first, last = (f"{time:.6g}" for time in (min(times), max(times)))
+    return f"{first} s" if first == last else f"{first} to {last} s"
 
 
 def spread_line(comparison: Comparison) -> str:

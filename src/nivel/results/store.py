@@ -22,7 +22,7 @@ from nivel.march.sink import Header
 from nivel.results.contents import resolved, shape_of
 from nivel.results.space import Space
 from nivel.results.stored import StoredContents, opened
-from nivel.results.target import check_target
+from nivel.results.target import check_folder, check_target
 from nivel.system.layout import Variable
 
 if TYPE_CHECKING:
@@ -254,14 +254,8 @@ def _header_size(attributes: Attributes) -> int:
 
 
 def _check_path(path: Path, force: bool) -> None:
-    folder = path.parent
-    if not os.path.exists(folder):  # Path.exists raises where the name is too long
-        raise ModelError(f"there is no folder {folder} for the result file {path.name}")
-    if not os.path.isdir(folder):
-        raise ModelError(f"{folder} is not a folder, so the result file {path.name} cannot be written there")
+    check_folder(path, "result file")
     check_target(path, "result file", force=force)
-    if not os.access(folder, os.W_OK):
-        raise ModelError(f"nothing may be written into the folder {folder}: permission denied")
 
 
 def _reason(error: OSError) -> str:

@@ -28,6 +28,25 @@ def check_target(path: Path, what: str, *, force: bool, sources: Iterable[Path] 
         raise ModelError(f"the {what} {path} exists already; it is replaced with --force (in Python: force=True)")
 
 
+def check_folder(path: Path, what: str) -> None:
+    """Refuse to write `what` to `path` where its folder is none, or may not be written into. Raises ModelError."""
+    folder = path.parent
+    if not os.path.exists(folder):  # Path.exists raises where the name is too long
+        raise ModelError(f"there is no folder {folder} for the {what} {path.name}")
+    if not os.path.isdir(folder):
+        raise ModelError(f"{folder} is not a folder, so the {what} {path.name} cannot be written there")
+    if not os.access(folder, os.W_OK):
+        raise ModelError(f"nothing may be written into the folder {folder}: permission denied")
+
+
+def check_text_target(path: Path, what: str, *, force: bool, sources: Iterable[Path] = ()) -> None:
+    """As `check_target`, and refuse where a text cannot be written to `path`: what was computed for it would be lost. Raises ModelError."""
+    check_target(path, what, force=force, sources=sources)
+    check_folder(path, what)
+    if path.exists() and not os.access(path, os.W_OK):
+        raise ModelError(f"the {what} {path} cannot be written: permission denied")
+
+
 def keep_sources(path: Path, what: str, sources: Iterable[Path]) -> None:
     """Refuse to write `what` to `path` where that is one of the files `sources`, which are read. Raises ModelError."""
     found = status(path, what)

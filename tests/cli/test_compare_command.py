@@ -146,9 +146,10 @@ def test_code_two_where_every_cell_is_refused(folder):
 def test_an_interrupt_ends_with_code_130_and_writes_what_there_is(folder):
     command = [sys.executable, "-m", "nivel", "compare", "pendulum.yaml", "--steps", "5ms,10ms", "--force", "--repeat"]
     subprocess.run([*command, "1"], cwd=folder, check=True, capture_output=True)  # compiles
-    with subprocess.Popen(
-        [*command, "1000000"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    ) as process:
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    # a shell that runs the tests in the background has SIGINT ignored, and children inherit that
+    heard = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
+    with subprocess.Popen([*command, "1000000"], cwd=folder, **pipes, **heard) as process:
         time.sleep(20)  # in the repeats of the first cell
         process.send_signal(signal.SIGINT)
         out, errors = process.communicate(timeout=120)

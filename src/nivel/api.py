@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from html import escape
@@ -17,7 +17,7 @@ from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import compile_path
 from nivel.analysis.idle import idle_settings
 from nivel.analysis.listener import Listener
-from nivel.errors import ModelError
+from nivel.errors import Fault, ModelError
 from nivel.files.reader import locate, parse_machine, read_text
 from nivel.files.writer import write_machine
 from nivel.machine import (
@@ -244,12 +244,7 @@ class Machine:
 
         coordinates = choose_coordinates(self.record)
         faults = idle_settings(given, self.record.simulation, coordinates)
-        try:
-            with self._faults_in_file():
-                if wrong := disagreements(self.record):
-                    raise ModelError(wrong)
-        except ModelError as error:
-            faults += error.faults
+        faults += self._placed(disagreements(self.record))
         if faults:
             raise ModelError(faults)
 
@@ -259,14 +254,16 @@ class Machine:
         try:
             yield
         except ModelError as error:
-            if not self.source:
-                raise
-            raise ModelError(
-                fault
-                if fault.line or not fault.path
-                else replace(fault, file=self.file, **_place(self.source, fault.path))
-                for fault in error.faults
-            ) from error
+            raise ModelError(self._placed(error.faults)) from error
+
+    def _placed(self, faults: Iterable[Fault]) -> list[Fault]:
+        """`faults` with the places of their elements in the machine's file, if it has one."""
+        return [
+            fault
+            if not self.source or fault.line or not fault.path
+            else replace(fault, file=self.file, **_place(self.source, fault.path))
+            for fault in faults
+        ]
 
     def with_settings(self, settings: Mapping[str, Any]) -> Machine:
         """The same machine with some simulation settings replaced."""

@@ -254,15 +254,13 @@ class Machine:
         try:
             yield
         except ModelError as error:
-            if not self.source:
-                raise
             raise ModelError(self._placed(error.faults)) from error
 
     def _placed(self, faults: Iterable[Fault]) -> list[Fault]:
-        """`faults` with their lines in the machine's file, where they have none and there is one."""
+        """`faults` with the places of their elements in the machine's file, if it has one."""
         return [
             fault
-            if fault.line or not fault.path or not self.source
+            if not self.source or fault.line or not fault.path
             else replace(fault, file=self.file, **_place(self.source, fault.path))
             for fault in faults
         ]

@@ -105,6 +105,8 @@ def refuse_unlike_terms(node: Node) -> None:
     """
     terms = list(_terms(node))
     quantities = [its for term in terms if not varies(term) and (its := measure(term)) is not None]
+    if len({without_angle(its) for its in quantities}) > 1:
+        return  # what clashes without the signals is told by `measure`
     for term in terms:
         match term:
             case Time():

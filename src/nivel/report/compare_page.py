@@ -95,7 +95,10 @@ COLUMNS = (
 
 
 def write_comparison(comparison: Comparison, path: str | os.PathLike[str], *, force: bool = False) -> Path:
-    """Write the page of `comparison` to `path`; an existing file is replaced with `force` only. It needs nothing beside it."""
+    """Write the page of `comparison` to `path`; an existing file is replaced with `force` only.
+
+    The file needs no network and nothing beside it.
+    """
     write_text(comparison_html(comparison), path, "report", force=force)
     return Path(path)
 

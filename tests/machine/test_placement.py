@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from nivel.errors import ModelError
@@ -30,6 +30,7 @@ def _is_frame(A):
 
 
 @given(vectors, vectors)
+@example(np.array([0.0, 0.0, 9.0]), np.array([0.0, 0.015625, 2.0]))
 def test_x_points_from_the_first_point_to_the_second(start, end):
     if np.linalg.norm(end - start) < 1e-2:
         return

@@ -31,12 +31,12 @@ DOOR = {
 
 def test_augmented_lagrangian_that_does_not_converge_stops():
     """Masses of 8 kg hold some of 1e6 kg: 30 iterations with the default factor leave the multipliers wrong by per cents."""
-    given = {"duration": 0.01, "step": 1e-3, "coordinates": "absolute", "formulation": "augmented-lagrangian"}
+    given = {"duration": 0.2, "step": 1e-3, "coordinates": "absolute", "formulation": "augmented-lagrangian"}
     with pytest.raises(SolveError, match="finds no multipliers within 30 iterations"):
         simulate(HEAVY, **given)
     expected = simulate(HEAVY, **{**given, "formulation": "newton-euler"})
-    found = simulate(HEAVY, **given, penalty={"factor": 1e10})
-    np.testing.assert_allclose(found.array("acceleration"), expected.array("acceleration"), atol=1e-5)
+    found = simulate(HEAVY, **given, penalty={"factor": 1e8})
+    np.testing.assert_allclose(found.array("acceleration"), expected.array("acceleration"), atol=1e-7)
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])

@@ -29,6 +29,7 @@ from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
 from nivel.kernels.record import WATCH
+from nivel.kernels.saddle import MOST_UNSETTLED
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS, IntegratorFacts
@@ -237,7 +238,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
         count[NEWTON] = int(settings.corrector.iteration == "newton")
     newton = len(y) if count[NEWTON] else 0
     record = system.record
-    record.control.iterations[1] = 0
+    record.control.iterations[1:] = 0, MOST_UNSETTLED
     forget(record.partition)
     record.coordinates.reference[:] = prepared.assembly.reference
     record.watched.followed[:] = 0

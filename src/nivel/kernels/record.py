@@ -329,7 +329,8 @@ class Control(NamedTuple):
     """Numbers that steer an evaluation."""
 
     rank: U1  # (1,) independent rows
-    iterations: U1  # (2,) most iterations of the augmented Lagrangian (1: none), those of all evaluations so far
+    # (3,) most iterations of the augmented Lagrangian (1: none), those of all evaluations so far, evaluations since it last converged
+    iterations: U1
     stabilise: F1  # (4,) Baumgarte 2α and β²; tolerances of |C|/scale and |Ċ|/scale for the direct correction
     energy: F1  # (3,) kinetic and potential energy of the last observation, their sum at the start
     power: F1  # (2,) work of external forces and dissipation per second

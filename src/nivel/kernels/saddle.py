@@ -22,6 +22,8 @@ SETTLED = 1e-24
 GOOD_ENOUGH = 1e-12
 # That series is not taken for slower than this: then round-off would count.
 SLOWEST = 1.0 - 1e-4
+# A singular position, where it does not converge, may last for so many evaluations; at the start of a run for none.
+MOST_UNSETTLED = 200
 
 
 @stage
@@ -123,6 +125,10 @@ def multipliers(machine, width):
             for i in range(width):
                 forces += real(saddle.z[body, i] * saddle.z[body, i])
     status = solve_rows(machine, forces)
+    unsettled = record.control.iterations[2:3]
+    unsettled[0] = 0 if status == OK else unsettled[0] + 1
+    if unsettled[0] <= MOST_UNSETTLED:
+        status = OK
     for k in range(b.shape[0]):
         constraints.lam[saddle.row[k]] = b[k]
     subtract_rows(saddle, width)

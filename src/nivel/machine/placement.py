@@ -99,5 +99,8 @@ def _unit(vector: Array) -> Array:
 
 def _perpendicular(vector: Array, to: Array) -> Array:
     """The unit vector along the part of `vector` that is perpendicular to the unit vector `to`."""
-    vector = _unit(vector)
-    return _unit(vector - (vector @ to) * to)
+    # twice: the first difference is nearly zero where they are nearly parallel, and its round-off is not
+    for _ in range(2):
+        vector = _unit(vector)
+        vector = vector - (vector @ to) * to
+    return _unit(vector)

@@ -248,7 +248,7 @@ def _groups(rows: RowTable, row_count: int) -> list[list[int]]:
 def _control(rows: int) -> Control:
     return Control(
         rank=np.array([rows], dtype=np.uint32),
-        iterations=np.array([1, 0], dtype=np.uint32),
+        iterations=np.array([1, 0, 0], dtype=np.uint32),
         stabilise=np.zeros(4),
         energy=np.zeros(3),
         power=np.zeros(2),

@@ -9,11 +9,24 @@ from nivel.kernels.spatial import centripetal, multiply
 @stage
 def place_marker(bodies, markers, k):
     """Position r and axes A of marker k."""
+    place_point(bodies, markers, k)
+    turn_axes(bodies, markers, k)
+
+
+@stage
+def place_point(bodies, markers, k):
+    """Position r of marker k."""
     b = markers.body[k]
-    A = bodies.A[b]
-    multiply(A, markers.position_b[k], markers.u[k])
+    multiply(bodies.A[b], markers.position_b[k], markers.u[k])
     for i in range(3):
         markers.r[k, i] = bodies.R[b, i] + markers.u[k, i]
+
+
+@stage
+def turn_axes(bodies, markers, k):
+    """Axes A of marker k."""
+    A = bodies.A[markers.body[k]]
+    for i in range(3):
         for j in range(3):
             markers.A[k, i, j] = (
                 A[i, 0] * markers.frame_b[k, 0, j]

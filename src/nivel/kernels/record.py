@@ -259,6 +259,7 @@ class Tree(NamedTuple):
     number: F2
     first: F3  # (D, 3, 3) axes of the parent's marker, in the parent
     marker: U1  # markers that every evaluation needs
+    turning: U1  # 1 for those of them whose axes it needs too
     rows: Constraints  # of the joints that carry bodies: they hold by themselves, and are filled for frames only
     carried: U2  # (D, 2) in `reaction`, from, to
     reaction: U2  # (·, 3) row of the joint that carries the body, part of its marker on the child, that marker

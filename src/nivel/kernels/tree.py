@@ -166,17 +166,20 @@ def move_child(bodies, tree, n, y):
     """Pose and velocity of the child of node n, its acceleration while no joint velocity changes, and the columns of its joint."""
     node, number = tree.node[n], tree.number[n]
     child, parent, kind, k = node[0], node[1], node[2], np.int64(node[4])
-    Ap, F, A = bodies.A[parent], tree.first[n], bodies.A[child]
-    arm = (
-        Ap[0, 0] * number[4] + Ap[0, 1] * number[5] + Ap[0, 2] * number[6],
-        Ap[1, 0] * number[4] + Ap[1, 1] * number[5] + Ap[1, 2] * number[6],
-        Ap[2, 0] * number[4] + Ap[2, 1] * number[5] + Ap[2, 2] * number[6],
-    )
-    Ai = tree.axes
-    product(Ap, F, Ai)
-    arm = plus(arm, move_joint(kind, number, y[tree.place[n, 0] :], Ai, A, tree.column, k))
-    R, Rp = bodies.R[child], bodies.R[parent]
-    R[0], R[1], R[2] = Rp[0] + arm[0], Rp[1] + arm[1], Rp[2] + arm[2]
+    carried = parent != bodies.mass.shape[0]
+    axes, arm, A = tree.first[n], (number[4], number[5], number[6]), bodies.A[child]
+    if carried:
+        Ap = bodies.A[parent]
+        product(Ap, tree.first[n], tree.axes)
+        axes = tree.axes
+        arm = (
+            Ap[0, 0] * number[4] + Ap[0, 1] * number[5] + Ap[0, 2] * number[6],
+            Ap[1, 0] * number[4] + Ap[1, 1] * number[5] + Ap[1, 2] * number[6],
+            Ap[2, 0] * number[4] + Ap[2, 1] * number[5] + Ap[2, 2] * number[6],
+        )
+    arm = plus(arm, move_joint(kind, number, y[tree.place[n, 0] :], axes, A, tree.column, k))
+    R, V, w = bodies.R[child], bodies.Rdot[child], bodies.omega[child]
+    alpha, a = tree.alpha0[child], tree.Rddot0[child]
     tree.arm[child, 0], tree.arm[child, 1], tree.arm[child, 2] = arm
     multiply(A, bodies.centre_b[child], bodies.c[child])
     u = y[tree.place[n, 1] :]
@@ -189,21 +192,34 @@ def move_child(bodies, tree, n, y):
         v0 += rate * s[3]
         v1 += rate * s[4]
         v2 += rate * s[5]
-    V, W, wp, w = bodies.Rdot[child], bodies.Rdot[parent], bodies.omega[parent], bodies.omega[child]
-    out, bend, coriolis = cross(wp, arm), cross(wp, (w0, w1, w2)), cross(wp, (v0, v1, v2))
-    w[0], w[1], w[2] = wp[0] + w0, wp[1] + w1, wp[2] + w2
-    V[0], V[1], V[2] = W[0] + out[0] + v0, W[1] + out[1] + v1, W[2] + out[2] + v2
-    ap, alpha, a, ar = tree.alpha0[parent], tree.alpha0[child], tree.Rddot0[child], tree.Rddot0[parent]
-    there = swing(ap, wp, arm)
-    alpha[0], alpha[1], alpha[2] = ap[0] + bend[0], ap[1] + bend[1], ap[2] + bend[2]
+    R[0], R[1], R[2] = arm
+    w[0], w[1], w[2] = w0, w1, w2
+    V[0], V[1], V[2] = v0, v1, v2
+    alpha[0], alpha[1], alpha[2] = 0.0, 0.0, 0.0
+    a[0], a[1], a[2] = 0.0, 0.0, 0.0
     if kind == UNIVERSAL:
         twist = cross(tree.column[k][0:3], tree.column[k + 1][0:3])
-        alpha[0] += u[0] * u[1] * twist[0]
-        alpha[1] += u[0] * u[1] * twist[1]
-        alpha[2] += u[0] * u[1] * twist[2]
+        alpha[0], alpha[1], alpha[2] = times(u[0] * u[1], twist)
+    if carried:
+        add_parent(bodies, tree, child, parent, arm)
+
+
+@stage
+def add_parent(bodies, tree, child, parent, arm):
+    """Add the motion of the parent to that of the child relative to it."""
+    R, Rp, V, Vp = bodies.R[child], bodies.R[parent], bodies.Rdot[child], bodies.Rdot[parent]
+    w, wp, alpha, ap = bodies.omega[child], bodies.omega[parent], tree.alpha0[child], tree.alpha0[parent]
+    a, ar = tree.Rddot0[child], tree.Rddot0[parent]
+    out, bend, coriolis, there = cross(wp, arm), cross(wp, w), cross(wp, V), swing(ap, wp, arm)
+    R[0], R[1], R[2] = Rp[0] + arm[0], Rp[1] + arm[1], Rp[2] + arm[2]
+    alpha[0] += ap[0] + bend[0]
+    alpha[1] += ap[1] + bend[1]
+    alpha[2] += ap[2] + bend[2]
     a[0] = ar[0] + there[0] + 2.0 * coriolis[0]
     a[1] = ar[1] + there[1] + 2.0 * coriolis[1]
     a[2] = ar[2] + there[2] + 2.0 * coriolis[2]
+    w[0], w[1], w[2] = wp[0] + w[0], wp[1] + w[1], wp[2] + w[2]
+    V[0], V[1], V[2] = Vp[0] + out[0] + V[0], Vp[1] + out[1] + V[1], Vp[2] + out[2] + V[2]
 
 
 @stage

@@ -12,7 +12,7 @@ from nivel.kernels.articulated import accelerate, factorise_tree, whiten_efforts
 from nivel.kernels.compile import entry, stage
 from nivel.kernels.constraint import constraint_rows
 from nivel.kernels.hook import apply_forces, finish_forces, measure_active
-from nivel.kernels.marker import move_marker, place_marker
+from nivel.kernels.marker import move_marker, place_point, turn_axes
 from nivel.kernels.record import FREE, SPHERICAL, correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.rotation import rates_of_parameters
@@ -52,7 +52,9 @@ def read_state(machine, t, y):
     move_tree(bodies, record.tree, y)
     for n in range(record.tree.marker.shape[0]):
         k = record.tree.marker[n]
-        place_marker(bodies, markers, k)
+        place_point(bodies, markers, k)
+        if record.tree.turning[n] != 0:
+            turn_axes(bodies, markers, k)
         move_marker(bodies, markers, k)
     constraint_rows(bodies, markers, record.constraints)
     return measure_active(machine, t)

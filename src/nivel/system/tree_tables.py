@@ -17,6 +17,7 @@ def empty_tree(constraints: Constraints, nodes: int = 0, columns: int = 0, posit
         number=np.zeros((nodes, 7)),
         first=np.zeros((nodes, 3, 3)),
         marker=empty,
+        turning=empty,
         rows=constraints,
         carried=empty.reshape(0, 2),
         reaction=empty.reshape(0, 3),

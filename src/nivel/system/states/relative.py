@@ -39,7 +39,6 @@ KINDS = {
     "free": (kernels.FREE, ("m",) * 3 + ("1",) * 4, 6),
 }
 
-
 # rows that are whitened together
 LARGEST_BUNDLE = 6
 Index = NDArray[np.uint32]
@@ -77,6 +76,7 @@ def arrange(
     paths = _paths(nodes, parts, len(rows) + len(old.friction.columns))
     blocks, path_tables = _blocks(nodes, paths, positions)
     angles = turns(old.coordinates, nodes, start.q)
+    in_use = _markers_in_use(old, nodes, angles.followed)
     record = old._replace(
         coordinates=old.coordinates._replace(followed=angles.followed),
         bodies=_bodies_in(frames, old),
@@ -97,7 +97,8 @@ def arrange(
             own_theta=start.own_theta,
             size=np.array([absolute.size]),
             rows=_chosen(old, ~left)[0],
-            marker=_markers_in_use(old, nodes, angles.followed),
+            marker=in_use,
+            turning=np.isin(in_use, _with_axes(old, constraints, angles.followed)).astype(np.uint32),
             counted=angles.counted,
             turn=angles.number,
             part=index_array(parts, 4),
@@ -276,6 +277,13 @@ def _markers_in_use(old: Record, nodes: list[Node], followed: Index) -> Index:
     in_use = np.union1d(old.coordinates.active, followed)
     measured = set(old.coordinates.what[in_use, 1:3].ravel().tolist())
     return index_array([k for k in range(len(old.markers.body)) if k not in carrying or k in measured], 1)
+
+
+def _with_axes(old: Record, left: Constraints, followed: Index) -> Index:
+    """Markers whose axes an evaluation may need, or more: those of rows with axes, of coordinates, and all that forces name by number."""
+    measured = np.union1d(old.coordinates.active, followed)
+    of_rows = [left.d1[:, [0, 2]], left.d2[:, [0, 2]], old.coordinates.what[measured, 1:3]]
+    return np.concatenate([table.ravel() for table in (*of_rows, old.elements.columns, old.friction.columns)])
 
 
 def _reactions(old: Record, nodes: list[Node]) -> dict[str, Index]:

@@ -133,6 +133,9 @@ class Machine:
         corrector: Mapping[str, Any] | None = None,
         penalty: Mapping[str, Any] | None = None,
         baumgarte: Mapping[str, Any] | None = None,
+        newmark: Mapping[str, Any] | None = None,
+        hht: Mapping[str, Any] | None = None,
+        generalised_alpha: Mapping[str, Any] | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         verify: bool = False,
@@ -141,7 +144,8 @@ class Machine:
         """Motion in time. Options given here go before those of the machine's `simulation`.
 
         duration, step, output_interval, largest_step : [s], or texts with units. tolerance : of integrators that choose their steps.
-        cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte : mappings as in a machine file.
+        cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte, newmark,
+        hht, generalised_alpha : mappings as in a machine file.
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : estimate the accuracy with a second
         run, at half the step or a tenth of the tolerance. A setting given here that has no effect with the methods of the run is
         refused; in a file it rests.
@@ -162,6 +166,9 @@ class Machine:
             "corrector": corrector,
             "penalty": penalty,
             "baumgarte": baumgarte,
+            "newmark": newmark,
+            "hht": hht,
+            "generalised_alpha": generalised_alpha,
         }
         given = {key: value for key, value in given.items() if value is not None}
         chosen = self.with_settings(given)

@@ -13,6 +13,7 @@ import numpy as np
 from nivel.analysis.assemble import Assembly, assemble
 from nivel.analysis.combinations import refuse_combinations
 from nivel.analysis.equations import MotionEquations, equations
+from nivel.analysis.implicit import equip
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
 from nivel.analysis.mobility import bound_pivots
@@ -46,6 +47,7 @@ from nivel.march.run import (
     EVALUATIONS,
     EVENTS,
     EVERY,
+    FACTORISATIONS,
     FRAMES,
     INTERVAL,
     ITERATIONS,
@@ -137,6 +139,8 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         prepared = penalise(prepared, y, machine.simulation, FORMULATIONS[formulation])
     else:
         bound_pivots(prepared, y)
+    if INTEGRATORS[machine.simulation.integrator].residual:
+        prepared = equip(prepared, y, coordinates, machine.simulation)
     return Prepared(prepared, y, absolute, assembly, redundancy, len(machine.drivers))
 
 
@@ -205,6 +209,7 @@ def march(
         "steps": int(run.counter[DONE_STEPS]),
         "evaluations": int(run.counter[EVALUATIONS]),
         "iterations": int(run.counter[ITERATIONS]) + int(system.record.control.iterations[1]),
+        "factorisations": int(run.counter[FACTORISATIONS]),
         "rejected": int(run.counter[REJECTED]),
         "unconserved": int(run.counter[UNCONSERVED]),
         "partitions": _partitions_changed(system),
@@ -236,10 +241,17 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
         clock[CORRECTOR_TOLERANCE] = settings.corrector.tolerance
         count[MOST_ITERATIONS] = settings.corrector.most_iterations
         count[NEWTON] = int(settings.corrector.iteration == "newton")
-    newton = len(y) if count[NEWTON] else 0
+    newton = len(y) if count[NEWTON] and not facts.residual else 0
+    numbers = np.zeros(facts.numbers)
+    numbers[: len(settings.constants)] = settings.constants
     record = system.record
     record.control.iterations[1:] = 0, MOST_UNSETTLED
     forget(record.partition)
+    record.newton.kept[:] = 0.0
+    if settings.corrector is not None:
+        record.newton.settings[:] = settings.corrector.tolerance, settings.corrector.most_iterations
+    if len(record.newton.index):
+        record.newton.index[0] = 3 if settings.stabilisation == "none" else 2
     record.coordinates.reference[:] = prepared.assembly.reference
     record.watched.followed[:] = 0
     record.elements.memory[:] = 0.0
@@ -266,7 +278,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
         trial=np.zeros_like(y),
         scale=_scales(system, y, settings.duration),
         stages=np.zeros((facts.stages, len(y))),
-        numbers=np.zeros(facts.numbers),
+        numbers=numbers,
         matrix=np.zeros((newton, newton)),
         pivot=np.zeros(newton, dtype=np.uint32),
         plain=system.map.plain,

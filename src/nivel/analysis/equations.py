@@ -21,10 +21,11 @@ from nivel.system.system import Array, Equations, System, parameter_rates
 
 @dataclass(frozen=True)
 class MotionEquations:
-    """A system with its compiled `evaluate` and `keep`."""
+    """A system with its compiled `evaluate` and `keep`; twin : its record with complex work, where implicit methods need one."""
 
     system: System
     kernels: Any
+    twin: Handle | None = None
 
     @cached_property
     def handle(self) -> Handle:

@@ -8,6 +8,7 @@ from math import ceil
 from nivel.analysis.combinations import refuse_combinations
 from nivel.errors import Fault, ModelError
 from nivel.machine.settings import Corrector, Penalty, SimulationSettings
+from nivel.march.alpha_constants import generalised_alpha, hht, newmark
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
@@ -25,7 +26,7 @@ class RunSettings:
     """Everything that decides a run. Times in s; coordinates as chosen.
 
     steps : in all, `every` of them between frames; both 0 where the integrator chooses its steps. tolerance, corrector, penalty : None
-    where the methods have none.
+    where the methods have none. constants : of the integrator, as its module wants them.
     """
 
     duration: float
@@ -43,6 +44,7 @@ class RunSettings:
     corrector: Corrector | None
     penalty: Penalty | None
     baumgarte: tuple[float, float] | None
+    constants: tuple[float, ...] = ()
 
     def as_dict(self) -> dict[str, object]:
         """For the result's `settings`."""
@@ -55,6 +57,9 @@ class RunSettings:
         for name in ("corrector", "penalty"):
             if (given := getattr(self, name)) is not None:
                 out[name] = given.model_dump(exclude_none=True)
+        if self.constants:
+            names = ("alpha_m", "alpha_f", "beta", "gamma", "delta_m", "delta_f", "theta")
+            out["constants"] = dict(zip(names, self.constants, strict=True))
         if self.baumgarte is not None:
             out["baumgarte"] = {"alpha": self.baumgarte[0], "beta": self.baumgarte[1]}
         return out
@@ -114,7 +119,20 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         corrector=settings.corrector if implicit else None,
         penalty=settings.penalty if FORMULATIONS[settings.formulation].factor > 0.0 else None,
         baumgarte=None if own is None else (own.alpha, own.beta),
+        constants=_constants(settings),
     )
+
+
+def _constants(settings: SimulationSettings) -> tuple[float, ...]:
+    """Constants of the integrator, where its user may choose them."""
+    match settings.integrator:
+        case "newmark":
+            return newmark(settings.newmark.beta, settings.newmark.gamma)
+        case "hht":
+            return hht(settings.hht.alpha)
+        case "generalised-alpha":
+            return generalised_alpha(settings.generalised_alpha.spectral_radius)
+    return ()
 
 
 def _every(settings: SimulationSettings, steps: int, faults: list[Fault]) -> int:

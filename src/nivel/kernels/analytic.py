@@ -27,3 +27,15 @@ def arctan2(y, x):
         angle = -np.arctan(x / y)
         angle += 0.5 * np.pi if real(y) > 0.0 else -0.5 * np.pi
     return angle
+
+
+@leaf
+def absolute(x):
+    """|x|."""
+    return -x if real(x) < 0.0 else x
+
+
+@leaf
+def maximum(x, y):
+    """The larger one; x where they are equal, and where y is not a number."""
+    return y if real(y) > real(x) else x

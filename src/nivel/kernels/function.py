@@ -7,6 +7,7 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
+from nivel.kernels.analytic import real
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.record import record_at
 
@@ -18,12 +19,13 @@ NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY = 0, 1, 2, 
 
 @intrinsic
 def call_law(typingctx, address, arguments, first):
-    """Call a C function double(double *) at `address` (uint64) with the array's entries from `first` on; about 3 ns."""
-    signature = types.float64(types.uint64, arguments, types.int64)
+    """Call a C function double(double *) at `address` (uint64) with the array's entries from `first` on; about 3 ns. Of complex
+    arguments: one of complex numbers."""
+    signature = arguments.dtype(types.uint64, arguments, types.int64)
 
     def generate(context, builder, sig, args):
-        double = context.get_value_type(types.float64)
-        kind = ir.FunctionType(double, [double.as_pointer()])
+        number = context.get_value_type(arguments.dtype)
+        kind = ir.FunctionType(number, [number.as_pointer()])
         data = context.make_array(sig.args[1])(context, builder, args[1]).data
         pointer = builder.inttoptr(args[0], kind.as_pointer())
         return builder.call(pointer, [builder.gep(data, [args[2]])])
@@ -35,7 +37,7 @@ def call_law(typingctx, address, arguments, first):
 def knot_before(functions, k, x):
     """The knot of table k whose polynomial holds at x: the last one before it, the first where there is none."""
     low, last = np.int64(functions.table[k, 0]), np.int64(functions.table[k, 1]) - 1
-    knots = functions.knots
+    knots, x = functions.knots, real(x)
     if x > knots[last]:
         return last
     high = last
@@ -54,7 +56,7 @@ def table_value(functions, k, x):
     knot = knot_before(functions, k, x)
     c = functions.coefficients[knot]
     s = x - functions.knots[knot]
-    if s < 0.0 and functions.kind[k] == TABLE_HELD:
+    if real(s) < 0.0 and functions.kind[k] == TABLE_HELD:
         return c[0], 0.0, 0.0
     value = c[0] + s * (c[1] + s * (c[2] + s * c[3]))
     return value, c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]), 2.0 * c[2] + 6.0 * s * c[3]

@@ -15,6 +15,8 @@ from numba import types
 from numba.extending import intrinsic
 
 address_type = types.uint64
+# The address of a record whose work is complex: a type of its own, so that kernels compile for it, and never take one for the other.
+complex_address_type = types.UniTuple(types.uint64, 1)
 
 
 class Handle:
@@ -37,16 +39,19 @@ def _descriptors(record: Any) -> Iterator[int]:
             yield from (0, 0, field.size, field.itemsize, field.ctypes.data, *field.shape, *field.strides)
 
 
-def reader(record_type: types.Type) -> Any:
-    """An intrinsic that gives kernels the record of `record_type` at an address."""
+def reader(record_type: types.Type, complex_type: types.Type | None = None) -> Any:
+    """An intrinsic that gives kernels the record of `record_type` at an address, or of `complex_type` at a complex one."""
 
     @intrinsic
     def record_at(typingctx: Any, address: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            model = context.data_model_manager[record_type]
-            pointer = builder.inttoptr(args[0], model.get_data_type().as_pointer())
-            return model.load_from_data_pointer(builder, pointer)
+        is_complex = address == complex_address_type
+        kind = complex_type if is_complex else record_type
 
-        return record_type(address_type), generate
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            model = context.data_model_manager[kind]
+            word = builder.extract_value(args[0], 0) if is_complex else args[0]
+            return model.load_from_data_pointer(builder, builder.inttoptr(word, model.get_data_type().as_pointer()))
+
+        return kind(complex_address_type if is_complex else address_type), generate
 
     return record_at

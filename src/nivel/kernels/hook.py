@@ -7,6 +7,7 @@ the same machine code for every machine. A call costs about a nanosecond.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 from llvmlite import ir
@@ -14,24 +15,46 @@ from numba import types
 from numba.extending import intrinsic
 
 from nivel.kernels.compile import address, stage
-from nivel.kernels.record import FRICTION, MEASURE, family_signature, record_at
+from nivel.kernels.handle import complex_address_type
+from nivel.kernels.record import FRICTION, MEASURE, complex_family_signature, family_signature, record_at
 from nivel.kernels.status import OK
 
 
-def family(function: Callable[..., Any]) -> Any:
+class Family:
+    """A function `(machine, number, t) -> status` that kernels call by its address; on complex numbers it is compiled when first used."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self._function = function
+        self._code = address(family_signature)(function)
+        self.address = int(self._code.address)
+        FAMILIES[self.address] = self
+
+    @cached_property
+    def complex_address(self) -> int:
+        """Address of the function for records whose work is complex."""
+        self._complex_code = address(complex_family_signature)(self._function)
+        return int(self._complex_code.address)
+
+
+FAMILIES: dict[int, Family] = {}
+
+
+def family(function: Callable[..., Any]) -> Family:
     """Decorator: `function(machine, family, t) -> status` compiled, now and cached, to something with an `address`."""
-    return address(family_signature)(function)
+    return Family(function)
 
 
 @intrinsic
 def call_family(typingctx, address, machine, number, t):
-    """Call a function of `family_signature` at `address` (uint64)."""
-    signature = types.int64(types.uint64, types.uint64, types.int64, types.float64)
+    """Call a function of `family_signature` at `address` (uint64), or one on complex numbers where the machine is."""
+    is_complex = machine == complex_address_type
+    kind = complex_family_signature if is_complex else family_signature
+    signature = types.int64(types.uint64, *kind.args)
 
     def generate(context, builder, sig, args):
-        word, double = context.get_value_type(types.int64), context.get_value_type(types.float64)
-        kind = ir.FunctionType(word, [word, word, double])
-        return builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
+        values = [context.get_value_type(each) for each in kind.args]
+        code = ir.FunctionType(context.get_value_type(types.int64), values)
+        return builder.call(builder.inttoptr(args[0], code.as_pointer()), args[1:])
 
     return signature, generate
 

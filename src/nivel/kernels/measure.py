@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.analytic import real
 from nivel.kernels.constraint import combine
 from nivel.kernels.coordinate import measure as measure_one
 from nivel.kernels.hook import ACCEPTED, ACTIVE, SHOWN, family
@@ -27,7 +28,7 @@ def measure(machine, job, t):
         value, rate, bias = measure_one(record.bodies, record.markers, coordinates, k)
         coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
         if job == ACCEPTED:
-            coordinates.reference[k] = value
+            coordinates.reference[k] = real(value)
     if job == ACTIVE:
         combine(machine, record.constraints, coordinates, record.friction, t)
     return OK

@@ -12,8 +12,9 @@ from typing import NamedTuple
 
 from numba import types
 
-from nivel.kernels.arrays import A1, F1, F2, F3, U1, U2, numba_type
-from nivel.kernels.handle import address_type, reader
+from nivel.kernels.arrays import A1, F1, F2, F3, U1, U2, W1, W2, W3, numba_type
+from nivel.kernels.handle import address_type, complex_address_type, reader
+from nivel.kernels.implicit_record import Newton, Residual
 
 
 class Bodies(NamedTuple):
@@ -27,16 +28,16 @@ class Bodies(NamedTuple):
     inverse_root_mass: F1  # (B,) 1/√mass
     gravity: F1  # (3,) [m/s²]
     # work, for the state last evaluated
-    R: F2  # (B+1, 3) [m] position of the frame origin
-    theta: F2  # (B+1, 4) [-] Euler parameters, scalar first
-    A: F3  # (B+1, 3, 3) [-] rotation matrix: columns are the body axes
-    Rdot: F2  # (B+1, 3) [m/s]
-    omega: F2  # (B+1, 3) [rad/s]
-    omega_b: F2  # (B+1, 3) [rad/s]
-    c: F2  # (B+1, 3) [m] centre of mass from the frame origin
-    wrench: F2  # (B+1, 6) [N, N m] applied force, and torque about the frame origin
-    Rddot: F2  # (B+1, 3) [m/s²]
-    alpha_b: F2  # (B+1, 3) [rad/s²]
+    R: W2  # (B+1, 3) [m] position of the frame origin
+    theta: W2  # (B+1, 4) [-] Euler parameters, scalar first
+    A: W3  # (B+1, 3, 3) [-] rotation matrix: columns are the body axes
+    Rdot: W2  # (B+1, 3) [m/s]
+    omega: W2  # (B+1, 3) [rad/s]
+    omega_b: W2  # (B+1, 3) [rad/s]
+    c: W2  # (B+1, 3) [m] centre of mass from the frame origin
+    wrench: W2  # (B+1, 6) [N, N m] applied force, and torque about the frame origin
+    Rddot: W2  # (B+1, 3) [m/s²]
+    alpha_b: W2  # (B+1, 3) [rad/s²]
 
 
 class Rotations(NamedTuple):
@@ -60,11 +61,11 @@ class Markers(NamedTuple):
     position_b: F2  # (M, 3) [m]
     frame_b: F3  # (M, 3, 3) [-]
     # work
-    u: F2  # (M, 3) [m] from the frame origin of the body
-    r: F2  # (M, 3) [m]
-    A: F3  # (M, 3, 3) [-]
-    rdot: F2  # (M, 3) [m/s]
-    bias: F2  # (M, 3) [m/s²] acceleration of the point when the body's Rddot and alpha are zero
+    u: W2  # (M, 3) [m] from the frame origin of the body
+    r: W2  # (M, 3) [m]
+    A: W3  # (M, 3, 3) [-]
+    rdot: W2  # (M, 3) [m/s]
+    bias: W2  # (M, 3) [m/s²] acceleration of the point when the body's Rddot and alpha are zero
 
 
 class Coordinates(NamedTuple):
@@ -75,10 +76,10 @@ class Coordinates(NamedTuple):
     followed: U1  # angles that are measured at every accepted state, to count their turns
     reference: F1  # (Q,) [rad] angle at the last accepted state: angles are followed from there
     # work, of the active ones
-    value: F1  # (Q,) [m or rad]
-    rate: F1  # (Q,)
-    bias: F1  # (Q,) second derivative when the accelerations of the bodies are zero
-    J: F2  # (2 Q + 2, 6) rate = J[2k] (ṙ, ω of the first marker) + J[2k + 1] (those of the second); the last two are work
+    value: W1  # (Q,) [m or rad]
+    rate: W1  # (Q,)
+    bias: W1  # (Q,) second derivative when the accelerations of the bodies are zero
+    J: W2  # (2 Q + 2, 6) rate = J[2k] (ṙ, ω of the first marker) + J[2k + 1] (those of the second); the last two are work
 
 
 class Constraints(NamedTuple):
@@ -94,14 +95,14 @@ class Constraints(NamedTuple):
     term: U2  # (·, 3) coordinate, part of its first marker, part of its second
     factor: F1  # (·,) of each term
     offset: F1  # (combinations,) Σ factor coordinate - offset - f(t) = 0
-    motion: F1  # (combinations,) f'(t), work
+    motion: W1  # (combinations,) f'(t), work
     scale: F1  # (K,) what a violation is measured by: the length of the machine [m], or 1 for cosines and angles
     # work
-    C: F1  # (K,)
-    Cdot: F1  # (K,)
-    gamma: F1  # (K + X,) right-hand side of C_q v̇ = γ; the last X are those of the extra rows of friction
-    J: F2  # (P, 6) parts of the rows of C_q
-    lam: F1  # (K,) multipliers: M v̇ + C_qᵀ λ = Q
+    C: W1  # (K,)
+    Cdot: W1  # (K,)
+    gamma: W1  # (K + X,) right-hand side of C_q v̇ = γ; the last X are those of the extra rows of friction
+    J: W2  # (P, 6) parts of the rows of C_q
+    lam: W1  # (K,) multipliers: M v̇ + C_qᵀ λ = Q
 
 
 class Joints(NamedTuple):
@@ -123,7 +124,7 @@ class Functions(NamedTuple):
     coefficients: F2  # (knots, 4) of powers of the distance from the knot; those of the last knot hold beyond it
     argument: U2  # (·, 4) signal kind, index, component, place in `arguments`
     span: U2  # (functions, 3) first argument, one past the last, first place
-    arguments: F1  # values of the arguments, then two places for the derivatives of a motion
+    arguments: W1  # values of the arguments, then two places for the derivatives of a motion
     address: A1  # (·,) of a compiled function
 
 
@@ -136,15 +137,15 @@ class Elements(NamedTuple):
     address: A1  # (families,)
     span: U2  # (families, 2) first element, one past the last
     columns: U2  # (E, ·) markers, coordinates, functions, states, first output
-    number: F2  # (E, ·)
+    number: W2  # (E, ·)
     memory: F2  # (E, ·) what an element keeps from accepted state to accepted state
-    proposal: F2  # (E, ·) the memory that the state last evaluated would leave
+    proposal: W2  # (E, ·) the memory that the state last evaluated would leave
     depth: (
-        F2  # (E, ·) overlap at each surface of contacts and stops, negative while apart; one to each place of `memory`
+        W2  # (E, ·) overlap at each surface of contacts and stops, negative while apart; one to each place of `memory`
     )
-    depth_rate: F2  # (E, ·) its rate, where contacts and stops are followed
-    state: F1  # (nx,) first-order states, copied from y
-    state_rate: F1  # (nx,)
+    depth_rate: W2  # (E, ·) its rate, where contacts and stops are followed
+    state: W1  # (nx,) first-order states, copied from y
+    state_rate: W1  # (nx,)
 
 
 class Friction(NamedTuple):
@@ -169,7 +170,7 @@ class Friction(NamedTuple):
 class Outputs(NamedTuple):
     """What forces, drivers and sensors report: one number each in a frame."""
 
-    value: F1
+    value: W1
     combination: (
         U2  # (combinations, 2) first output of the effort (and power) of a coupling or driver or NONE, has power
     )
@@ -196,7 +197,7 @@ class Watched(NamedTuple):
 class Hooks(NamedTuple):
     """Addresses of what only some machines need, or zero: see `family_signature`."""
 
-    address: A1  # (5,) measure, friction, sense, complete, watch
+    address: A1  # (6,) measure, friction, sense, complete, watch, residual
 
 
 class Saddle(NamedTuple):
@@ -257,7 +258,7 @@ class Tree(NamedTuple):
     place: U2  # (D, 2) where the joint's positions start in y, and its velocities
     # (D, 7) lead of a screw [m/rad], its displacement at angle zero, cosine and sine of a constant turn about z, the parent's marker
     number: F2
-    first: F3  # (D, 3, 3) axes of the parent's marker, in the parent
+    first: W3  # (D, 3, 3) axes of the parent's marker, in the parent
     marker: U1  # markers that every evaluation needs
     turning: U1  # 1 for those of them whose axes it needs too
     rows: Constraints  # of the joints that carry bodies: they hold by themselves, and are filled for frames only
@@ -279,11 +280,11 @@ class Tree(NamedTuple):
     size: F1  # (1,) [m] length of the machine
     positions: U1  # (1,) their number
     # work
-    axes: F2  # (3, 3) of a marker
-    arm: F2  # (B+1, 3) from the parent's origin to the body's
-    alpha0: F2  # (B+1, 3) angular acceleration while no joint velocity changes
-    Rddot0: F2  # (B+1, 3) acceleration of the origin while no joint velocity changes
-    column: F2  # (U, 6) motion of a joint velocity
+    axes: W2  # (3, 3) of a marker
+    arm: W2  # (B+1, 3) from the parent's origin to the body's
+    alpha0: W2  # (B+1, 3) angular acceleration while no joint velocity changes
+    Rddot0: W2  # (B+1, 3) acceleration of the origin while no joint velocity changes
+    column: W2  # (U, 6) motion of a joint velocity
     inertia: F2  # (B+1, 27) articulated inertia: I (6), H (9), M (6); I of the body alone (6)
     U: F2  # (U, 6) inertia times column
     Dinv: F1  # (U,) 1/(columnᵀ U)
@@ -334,8 +335,8 @@ class Control(NamedTuple):
     iterations: U1
     stabilise: F1  # (4,) Baumgarte 2α and β²; tolerances of |C|/scale and |Ċ|/scale for the direct correction
     energy: F1  # (3,) kinetic and potential energy of the last observation, their sum at the start
-    power: F1  # (2,) work of external forces and dissipation per second
-    stored: F1  # (1,) [J] elastic energy of the forces
+    power: W1  # (2,) work of external forces and dissipation per second
+    stored: W1  # (1,) [J] elastic energy of the forces
     # (2,) [s] time within which stiction stops a joint; two steps, which bristles have to be slower than, or 0 where steps are chosen
     stick: F1
     failure: U1  # (1,) row that could not be eliminated, friction that did not converge, body of singular rotations
@@ -357,6 +358,8 @@ class Record(NamedTuple):
     tree: Tree
     frames: Frames
     partition: Partition
+    residual: Residual
+    newton: Newton
     sensors: Sensors
     watched: Watched
     outputs: Outputs
@@ -365,7 +368,7 @@ class Record(NamedTuple):
 
 
 record_type = numba_type(Record)
-record_at = reader(record_type)
+record_at = reader(record_type, numba_type(Record, types.complex128))
 state_type = types.Array(types.float64, 1, "C")
 # kinds of nodes
 REVOLUTE, TRANSLATIONAL, CYLINDRICAL, SCREW, UNIVERSAL, SPHERICAL, PLANAR, FIXED, FREE = 0, 1, 2, 3, 4, 5, 6, 7, 8
@@ -374,9 +377,10 @@ observe_signature = types.void(address_type, types.float64, state_type, state_ty
 correct_signature = types.int64(address_type, types.float64, state_type)
 # address of the record, number of the family (0 for a hook), time → status
 family_signature = types.int64(address_type, types.int64, types.float64)
+complex_family_signature = types.int64(complex_address_type, types.int64, types.complex128)
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
-MEASURE, FRICTION, SENSE, COMPLETE, WATCH = 0, 1, 2, 3, 4  # entries of Hooks.address
+MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL = 0, 1, 2, 3, 4, 5  # entries of Hooks.address
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions

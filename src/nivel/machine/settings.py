@@ -17,6 +17,7 @@ Integrator = Literal[
     "abm1", "abm2", "abm3", "abm4", "abm5",
     "gear1", "gear2", "gear3", "gear4",
     "dopri5", "dop853", "adams", "gear",
+    "newmark", "hht", "generalised-alpha",
 ]  # fmt: skip
 # those of them that choose their steps
 CHOOSING = ("dopri5", "dop853", "adams", "gear")
@@ -59,6 +60,25 @@ class Corrector(Record):
     most_iterations: Annotated[int, Field(ge=1, le=1000)] = 50
 
 
+class Newmark(Record):
+    """Constants of newmark: order 2 and no damping with γ = ½, stable at any step with β ≥ γ/2."""
+
+    beta: Annotated[float, Field(gt=0.0, le=1.0)] = 0.25
+    gamma: Annotated[float, Field(ge=0.5, le=1.0)] = 0.5
+
+
+class HHT(Record):
+    """Damping of hht: 0 none (newmark), ⅓ most."""
+
+    alpha: Annotated[float, Field(ge=0.0, le=1.0 / 3.0)] = 0.1
+
+
+class GeneralisedAlpha(Record):
+    """Damping of generalised-alpha: what is left of a vibration far above the step's frequency after one step, 0 … 1."""
+
+    spectral_radius: Annotated[float, Field(ge=0.0, le=1.0)] = 0.8
+
+
 SHORTEST = 1e-12  # s; squares of speeds of a machine's length in such a time are still numbers
 
 
@@ -83,6 +103,11 @@ class SimulationSettings(Record):
     tolerance: Tolerance = Field(default=1e-6, description="of integrators that choose their steps")
     largest_step: Duration | None = Field(default=None, description="of integrators that choose their steps")
     corrector: Corrector = Field(default=Corrector(), description="of implicit multistep methods")
+    newmark: Newmark = Field(default=Newmark(), description="constants of newmark")
+    hht: HHT = Field(default=HHT(), description="damping of hht")
+    generalised_alpha: GeneralisedAlpha = Field(
+        default=GeneralisedAlpha(), description="damping of generalised-alpha"
+    )
     penalty: Penalty = Field(default=Penalty(), description="of penalty and augmented-lagrangian")
     baumgarte: Baumgarte | None = Field(
         default=None, description="own coefficients alpha and beta of the baumgarte stabilisation"

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 class IntegratorFacts:
     """`function` of `module` is the compiled step; `stages` vectors and `numbers` of work and history; `order` of convergence.
 
-    chooses_steps : controls its error. implicit : iterates a corrector, by Newton's method on request.
+    chooses_steps : controls its error. implicit : iterates a corrector, by Newton's method on request. residual : solves the equations
+    of motion themselves, with exact tangents, for accelerations and multipliers.
     """
 
     module: str
@@ -22,6 +23,7 @@ class IntegratorFacts:
     numbers: int = 0
     chooses_steps: bool = False
     implicit: bool = False
+    residual: bool = False
 
 
 _ADAMS, _MOULTON, _GEAR = "nivel.march.adams", "nivel.march.moulton", "nivel.march.gear"
@@ -40,5 +42,9 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     "dopri5": IntegratorFacts("nivel.march.dormand_prince", "dopri5", 7, 5, numbers=2, chooses_steps=True),
     "dop853": IntegratorFacts("nivel.march.dop853", "dop853", 16, 8, numbers=2, chooses_steps=True),
     "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 31, 12, 66, chooses_steps=True, implicit=True),
+    **{
+        name: IntegratorFacts("nivel.march.alpha", "alpha", 6, 2, 7, implicit=True, residual=True)
+        for name in ("newmark", "hht", "generalised-alpha")
+    },
     "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 31, 5, 66, chooses_steps=True, implicit=True),
 }

@@ -19,8 +19,8 @@ DONE_STEPS, ALL_STEPS, EVERY, FRAMES, LAST_FRAME, BUDGET, EVALUATIONS, EVALUATED
 ITERATIONS, REJECTED, RESTART, DENSE, INSIDE, STOPPED, EVENTS, ORDER, MOST_ITERATIONS, NEWTON = (
     8, 9, 10, 11, 12, 13, 14, 15, 16, 17,
 )  # fmt: skip
-POWERS, UNCONSERVED, CONSERVE, KNOWN, SWITCHED = 18, 19, 20, 21, 22
-COUNTS = 23
+POWERS, UNCONSERVED, CONSERVE, KNOWN, SWITCHED, FACTORISATIONS = 18, 19, 20, 21, 22, 23
+COUNTS = 24
 # rows of Run.event_values
 BEFORE, AFTER, SIDE, WHEN, RATE_BEFORE, RATE_AFTER = 0, 1, 2, 3, 4, 5
 # most rows of Run.dense
@@ -41,7 +41,8 @@ class Run(NamedTuple):
     # steps done, steps in all (0: not known), steps between frames, frames in the buffer, number of the last frame, budget, evaluations,
     # whether `rate` is that of y; corrector iterations, steps rejected, whether the history must be forgotten, rows of `dense` in use,
     # whether frames and events inside the last step have to be handed out, number of the event that ended the run (from 1), events in
-    # the buffer, order in use, ..., whether the state reached is evaluated already (its rate is `scratch`), whether contacts change sides
+    # the buffer, order in use, ..., whether the state reached is evaluated already (its rate is `scratch`), whether contacts change sides,
+    # matrices of Newton's iteration found
     counter: I1
     y: F1  # (ny,) state
     rate: F1  # (ny,) ẏ at the accepted state

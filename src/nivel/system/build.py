@@ -38,6 +38,7 @@ from nivel.machine.placement import initial_velocity, placement
 from nivel.system.draft import Draft, located
 from nivel.system.elimination import plan
 from nivel.system.forces import FORCES, family_addresses
+from nivel.system.implicit import no_newton, no_residual
 from nivel.system.layout import frame_layout
 from nivel.system.partition import no_partition
 from nivel.system.rows import RowTable, add_couplings, add_drivers, add_joint, coordinate_units
@@ -101,6 +102,8 @@ def build(machine: MachineRecord, equations: Equations) -> System:
             tree=empty_tree(constraints),
             frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
             partition=no_partition(),
+            residual=no_residual(),
+            newton=no_newton(),
             sensors=Sensors(index_array(sensors, 4)),
             watched=watched,
             outputs=Outputs(np.zeros(len(draft.outputs.entries)), index_array(rows.reports, 2)),
@@ -154,7 +157,7 @@ def _watched(draft: Draft) -> Watched:
 
 def _hooks(draft: Draft, sensors: bool) -> Hooks:
     """Addresses of the compiled functions that only some machines need."""
-    address = np.zeros(5, dtype=np.uint64)
+    address = np.zeros(6, dtype=np.uint64)
     if draft.coordinates.what:
         address[MEASURE] = import_module("nivel.kernels.measure").measure.address
     if draft.frictions:

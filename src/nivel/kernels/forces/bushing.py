@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.analytic import arctan2, real
 from nivel.kernels.compile import stage
 from nivel.kernels.forces.push import push_marker, twist_body
 from nivel.kernels.hook import family
@@ -35,19 +36,20 @@ def rotation_vector(A, B, psi):
     r12 = A[0, 1] * B[0, 2] + A[1, 1] * B[1, 2] + A[2, 1] * B[2, 2]
     r21 = A[0, 2] * B[0, 1] + A[1, 2] * B[1, 1] + A[2, 2] * B[2, 1]
     trace = r00 + r11 + r22
-    if trace >= r00 and trace >= r11 and trace >= r22:
+    x, y, z, w = real(r00), real(r11), real(r22), real(trace)
+    if w >= x and w >= y and w >= z:
         e0, e1, e2, e3 = 1.0 + trace, r21 - r12, r02 - r20, r10 - r01
-    elif r00 >= r11 and r00 >= r22:
+    elif x >= y and x >= z:
         e0, e1, e2, e3 = r21 - r12, 1.0 + 2.0 * r00 - trace, r10 + r01, r02 + r20
-    elif r11 >= r22:
+    elif y >= z:
         e0, e1, e2, e3 = r02 - r20, r10 + r01, 1.0 + 2.0 * r11 - trace, r21 + r12
     else:
         e0, e1, e2, e3 = r10 - r01, r02 + r20, r21 + r12, 1.0 + 2.0 * r22 - trace
-    sign = 1.0 if e0 >= 0.0 else -1.0
+    sign = 1.0 if real(e0) >= 0.0 else -1.0
     sine = np.sqrt(e1 * e1 + e2 * e2 + e3 * e3)
     length = np.sqrt(e0 * e0 + sine * sine)
     # ψ = 2 atan2(sine, e0) e/sine; 2 e/e0 in the limit
-    factor = sign * 2.0 * np.arctan2(sine, sign * e0) / sine if sine > 1e-9 * length else 2.0 / e0
+    factor = sign * 2.0 * arctan2(sine, sign * e0) / sine if real(sine) > 1e-9 * real(length) else 2.0 / e0
     psi[0], psi[1], psi[2] = factor * e1, factor * e2, factor * e3
 
 
@@ -60,7 +62,7 @@ def tangent_product(psi, w, transpose, out):
     """
     square = dot(psi, psi)
     theta = np.sqrt(square)
-    eta = (1.0 - 0.5 * theta / np.tan(0.5 * theta)) / square if theta > 1e-3 else 1.0 / 12.0 + square / 720.0
+    eta = (1.0 - 0.5 * theta / np.tan(0.5 * theta)) / square if real(theta) > 1e-3 else 1.0 / 12.0 + square / 720.0
     half = 0.5 if transpose else -0.5
     c0, c1, c2 = psi[1] * w[2] - psi[2] * w[1], psi[2] * w[0] - psi[0] * w[2], psi[0] * w[1] - psi[1] * w[0]
     d0, d1, d2 = psi[1] * c2 - psi[2] * c1, psi[2] * c0 - psi[0] * c2, psi[0] * c1 - psi[1] * c0

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.analytic import maximum, real
 from nivel.kernels.compile import stage
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.push import push_point
@@ -44,7 +45,7 @@ def rim_point(A, r, size, n, normal, p):
         c -= normal[a] * A[a, 0]
         s -= normal[a] * A[a, 1]
     length = np.sqrt(c * c + s * s)
-    if length > 1e-12:
+    if real(length) > 1e-12:
         c, s = c / length, s / length
     else:
         c, s = 1.0, 0.0
@@ -85,8 +86,8 @@ def touch(machine, k, n, depth):
     control.power[1] += loss
     s0, s1, s2 = v0 - out * normal[0], v1 - out * normal[1], v2 - out * normal[2]
     speed = np.sqrt(s0 * s0 + s1 * s1 + s2 * s2)
-    friction = 0.0
-    if numbers[FRICTION] > 0.0 and speed > 0.0:
+    friction = 0.0 * force
+    if real(numbers[FRICTION]) > 0.0 and real(speed) > 0.0:
         friction = numbers[FRICTION] * force * np.tanh(speed / numbers[TRANSITION])
         s0, s1, s2 = friction * s0 / speed, friction * s1 / speed, friction * s2 / speed
         control.power[1] += friction * speed
@@ -130,8 +131,8 @@ def find_point(machine, k, n):
         d0, d1, d2 = r[0] - o[0], r[1] - o[1], r[2] - o[2]
         distance = np.sqrt(d0 * d0 + d1 * d1 + d2 * d2)
         depth = size[0] + size[1] - distance
-        if distance == 0.0:
-            d2, distance = 1.0, 1.0  # any direction will do
+        if real(distance) == 0.0:
+            d2, distance = d2 + 1.0, distance + 1.0  # any direction will do
         normal[0], normal[1], normal[2] = d0 / distance, d1 / distance, d2 / distance
         for a in range(3):
             p[a] = o[a] + (size[1] - 0.5 * depth) * normal[a]
@@ -160,14 +161,15 @@ def apply(machine, number, t):
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         kind = elements.columns[k, KIND]
         count = POINTS if kind in (BOX, CYLINDER) else 1
-        normal_force, friction_force, deepest, power = 0.0, 0.0, -np.inf, 0.0
+        nothing = 0.0 * elements.number[k, STIFFNESS]
+        normal_force, friction_force, deepest, power = nothing, nothing, nothing - np.inf, nothing
         for n in range(count):
             depth = find_point(machine, k, n)
-            deepest = max(deepest, depth)
+            deepest = maximum(deepest, depth)
             elements.depth[k, n] = depth
             if followed == 1:
                 elements.depth_rate[k, n] = approach(machine, k)
-            if depth > 0.0 or (followed == 1 and elements.memory[k, n] > 0.0):
+            if real(depth) > 0.0 or (followed == 1 and elements.memory[k, n] > 0.0):
                 force, friction, gained = touch(machine, k, n, depth)
                 normal_force += force
                 friction_force += friction

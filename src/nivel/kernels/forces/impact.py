@@ -7,8 +7,7 @@ a number of the element; v is remembered from the first accepted state in contac
 
 from __future__ import annotations
 
-import numpy as np
-
+from nivel.kernels.analytic import absolute, maximum, real
 from nivel.kernels.compile import leaf
 
 # approach speeds below this [m/s or rad/s] count as this one: a slower touch would be damped without bounds
@@ -22,14 +21,17 @@ def impact(depth, rate, stiffness, exponent, x, remembered, followed):
     followed : the surfaces touch or are apart as in the last accepted state, whatever `depth` is, so that the force is smooth over the
     whole step; it is continued as an odd function of `depth`. The step is then cut where `depth` changes its sign.
     """
-    if depth <= 0.0 and not (followed == 1 and remembered > 0.0):
-        return 0.0, 0.0, 0.0, 0.0
-    speed = remembered if remembered > 0.0 else max(rate, SLOWEST)
-    kept = speed if depth > 0.0 else 0.0
+    nothing = 0.0 * rate
+    if real(depth) <= 0.0 and not (followed == 1 and remembered > 0.0):
+        return nothing, nothing, nothing, nothing
+    speed = remembered if remembered > 0.0 else maximum(rate, SLOWEST)
+    kept = speed if real(depth) > 0.0 else nothing
     if followed == 1 and remembered == 0.0:
-        return 0.0, 0.0, 0.0, kept
-    elastic = np.copysign(stiffness * np.abs(depth) ** exponent, depth)
+        return nothing, nothing, nothing, kept
+    elastic = stiffness * absolute(depth) ** exponent
+    if real(depth) < 0.0:
+        elastic = -elastic
     force = elastic * (1.0 + x / speed * rate)
-    if depth > 0.0:
-        force = max(force, 0.0)
+    if real(depth) > 0.0 and real(force) < 0.0:
+        force = nothing
     return force, elastic * depth / (exponent + 1.0), (force - elastic) * rate, kept

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nivel.kernels.analytic import real
 from nivel.kernels.forces.push import push_coordinate
 from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
@@ -23,12 +24,12 @@ def apply(machine, number, t):
         q, out = elements.columns[k, COORDINATE], elements.columns[k, OUTPUT]
         gain, limit = elements.number[k, GAIN], elements.number[k, LIMIT]
         effort = evaluate_function(machine, elements.columns[k, COMMAND], t)
-        if gain > 0.0:
+        if real(gain) > 0.0:
             effort = gain * (effort - coordinates.rate[q])
         # not min and max: these would hide an effort that is not a number
-        if effort > limit:
+        if real(effort) > real(limit):
             effort = limit
-        elif effort < -limit:
+        elif real(effort) < -real(limit):
             effort = -limit
         record.outputs.value[out] = effort
         power = push_coordinate(machine, q, effort)

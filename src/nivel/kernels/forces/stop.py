@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nivel.kernels.analytic import maximum
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.push import push_coordinate
 from nivel.kernels.hook import family
@@ -37,5 +38,5 @@ def apply(machine, number, t):
         control.power[1] += loss
         record.outputs.value[out] = up - down
         record.outputs.value[out + 1] = push_coordinate(machine, q, up - down)
-        record.outputs.value[out + 2] = max(depth[0], depth[1], 0.0)
+        record.outputs.value[out + 2] = maximum(maximum(depth[0], depth[1]), 0.0)
     return OK

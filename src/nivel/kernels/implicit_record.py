@@ -1,0 +1,59 @@
+"""What implicit methods add to a machine in numbers: its equations as a residual, and Newton's iteration for them.
+
+n velocities, S states of forces and K constraint rows make N = n + S + K unknowns: accelerations v̇, rates ẋ, multipliers λ.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from nivel.kernels.arrays import A1, F1, F2, U1, U2, W1, W2
+
+
+class Residual(NamedTuple):
+    """The equations of motion as a residual; see `nivel.kernels.residual`. Without numbers for explicit methods."""
+
+    row: U1  # (K,) row of the constraints that each row here is: no redundant one is
+    part: U2  # (·, 4) row here, part of C_q, marker, body
+    # what it is to be evaluated for
+    y: W1  # (ny,) state
+    vdot: W1  # (n,) accelerations
+    lam: W1  # (K,) multipliers
+    # work
+    value: W1  # (n + S + 3 K,) M v̇ + C_qᵀ λ - Q, rates of the states of forces, then C, Ċ and C̈
+    acceleration: W2  # (B+1, 6) (α, R̈) of the bodies, global axes
+    wrench: W2  # (B+1, 6) (moment about the frame origin, force) that their joints have to transmit
+
+
+class Newton(NamedTuple):
+    """Newton's iteration for the residual, in a state that is an affine function of the unknowns; see `nivel.kernels.newton`."""
+
+    address: A1  # (2,) of the record with complex work, of its residual
+    place: U2  # (n, 2) place in y of the position that a velocity moves, NONE; or of four Euler parameters, axis 0, 1 or 2
+    group: U1  # unknowns with derivatives of their own, those with nothing in common next to each other
+    group_start: U1  # groups + 1
+    entry_start: U1  # (N + 1,) entries of each unknown
+    entry: U2  # (·, 3) row, place of its derivative in `value`, place of the transposed one or NONE
+    column: U1  # (·,) column of each entry of the matrix
+    row_start: U1  # (N + 1,) entries of each row of the matrix
+    # The state to be found: y = base ∘ (turn + cq v̇ + correction), v = speed + cv v̇, x = state + cx ẋ
+    base: F1  # (ny,)
+    turn: F1  # (n,) [m or rad] change of the positions for v̇ = 0
+    speed: F1  # (n,) velocities for v̇ = 0
+    state: F1  # (S,) states of forces for ẋ = 0
+    correction: F1  # (n,) [m or rad] further change that closes the positions
+    rate: F1  # (S,) ẋ
+    # work
+    change: F1  # (n,) of the positions
+    value: F1  # (·,) entries of the matrix
+    matrix: F2  # (N, N) its factors where they are dense, or (0, 0)
+    pivot: U1  # (N,)
+    b: F1  # (N,) right-hand side, then solution
+    last: F1  # (N,) work
+    moved: F1  # (n,) solution for the positions
+    before: F1  # (N,) the change before
+    moved_before: F1  # (n,)
+    lam_before: F1  # (K,) multipliers of the state before the accepted one
+    kept: F1  # (4,) cq, cv, cx that the factors are for (0: none), contraction seen with them
+    settings: F1  # (2,) tolerance of a change as a share of the scales, most iterations
+    index: U1  # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction

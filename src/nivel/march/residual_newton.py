@@ -1,0 +1,243 @@
+"""Newton's iteration of implicit methods: accelerations, rates of states and multipliers for which the residual vanishes.
+
+Every method gives the state as an affine function of the unknown accelerations v̇ and rates ẋ (`nivel.kernels.implicit_record.Newton`):
+
+    q = base ∘ exp(turn + cq v̇ + correction)        v = speed + cv v̇        x = state + cx ẋ
+
+With index 3 the multipliers close the positions. With index 2 they close the velocities, and `correction` the positions: along
+(M + cv D + cq K)⁻¹ C_qᵀ, so that stiff springs are not stretched by it (the stabilised form of Gear, Gupta, Leimkuhler 1985).
+
+Policy: a matrix is kept, also from step to step, as long as the step is the same and every change is below SLOW of the one before;
+then it is made anew at the iterate. A change larger than the one before by GROWTH is taken back by halves (natural monotonicity test,
+Deuflhard 2004). The iteration ends where the contraction seen so far puts the next change below the tolerance; all changes are shares of
+the scales of the positions and velocities that they move, so neither units nor the step decide.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import leaf, stage
+from nivel.kernels.hook import call_hook
+from nivel.kernels.lu import factorise_lu, solve_lu
+from nivel.kernels.record import NONE, RESIDUAL, record_at
+from nivel.kernels.spatial import dot
+from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.kernels.tangent import differentiate, inverse_tangent
+from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
+
+SLOW = 0.2
+GROWTH = 2.0
+LEAST_SHARE = 0.02
+# the contraction of a new matrix is taken for no better than this
+SANGUINE = 0.05
+CQ, CV, CX, CONTRACTION = 0, 1, 2, 3
+TOLERANCE, MOST = 0, 1
+
+
+@leaf
+def turn_by(theta, psi, out):
+    """θ of A(θ) exp(ψ̃): four Euler parameters after a rotation vector ψ in the turned axes."""
+    square = dot(psi, psi)
+    half = 0.5 * np.sqrt(square)
+    s = 0.5 * np.sin(half) / half if half > 1e-4 else 0.5 - half * half / 12.0
+    c = np.cos(half)
+    x, y, z = s * psi[0], s * psi[1], s * psi[2]
+    e0, e1, e2, e3 = theta[0], theta[1], theta[2], theta[3]
+    out[0] = e0 * c - e1 * x - e2 * y - e3 * z
+    out[1] = e1 * c + e0 * x + e2 * z - e3 * y
+    out[2] = e2 * c + e0 * y + e3 * x - e1 * z
+    out[3] = e3 * c + e0 * z + e1 * y - e2 * x
+
+
+@stage
+def set_state(machine, cq, cv, cx):
+    """`residual.y` of the unknowns."""
+    record = record_at(machine)
+    newton, residual = record.newton, record.residual
+    y, base, vdot = residual.y, newton.base, residual.vdot
+    n, states = vdot.shape[0], newton.state.shape[0]
+    positions = np.int64(y.shape[0]) - n - states - 2
+    for k in range(n):
+        newton.change[k] = newton.turn[k] + cq * vdot[k] + newton.correction[k]
+        y[positions + k] = newton.speed[k] + cv * vdot[k]
+    for k in range(n):
+        p = np.int64(newton.place[k, 0])
+        if newton.place[k, 1] == NONE:
+            y[p] = base[p] + newton.change[k]
+        elif newton.place[k, 1] == 0:
+            turn_by(base[p : p + 4], newton.change[k : k + 3], y[p : p + 4])
+    for k in range(states):
+        y[positions + n + k] = newton.state[k] + cx * newton.rate[k]
+
+
+@stage
+def factorise(machine):
+    """Factors of the matrix whose entries were found. Returns a status; the unknown without a pivot is left in control.failure."""
+    newton = record_at(machine).newton
+    size = newton.b.shape[0]
+    newton.matrix[:, :] = 0.0
+    for i in range(size):
+        for p in range(newton.row_start[i], newton.row_start[i + 1]):
+            newton.matrix[i, newton.column[p]] = newton.value[p]
+    return OK if factorise_lu(newton.matrix, newton.pivot) else NOT_CONVERGED
+
+
+@stage
+def solve(machine):
+    """Overwrite newton.b with the solution."""
+    newton = record_at(machine).newton
+    solve_lu(newton.matrix, newton.pivot, newton.b)
+
+
+@stage
+def write_defect(machine, cq, cv):
+    """b := minus the residual; of the constraints, positions or velocities as the index says, in units of accelerations."""
+    record = record_at(machine)
+    newton, residual = record.newton, record.residual
+    b, value = newton.b, residual.value
+    n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.row.shape[0]
+    first = n + states
+    for i in range(n):
+        b[i] = -value[i]
+    for i in range(states):
+        b[n + i] = value[n + i] - newton.rate[i]
+    for k in range(rows):
+        b[first + k] = -value[first + k] / cq if newton.index[0] == 3 else -value[first + rows + k] / cv
+
+
+@stage
+def close_positions(machine, cq, cv):
+    """newton.moved := the further change of positions that closes them after the change in newton.b is made. Overwrites `last`."""
+    record = record_at(machine)
+    newton, residual = record.newton, record.residual
+    b, value, kept = newton.b, residual.value, newton.last
+    n, rows = residual.vdot.shape[0], residual.row.shape[0]
+    first = n + newton.state.shape[0]
+    for i in range(b.shape[0]):
+        kept[i] = b[i]
+        b[i] = 0.0
+    for k in range(rows):
+        # C_q (cq δv̇) = -cq Ċ/cv is what the velocities' own change does to the positions
+        b[first + k] = -value[first + k] + cq / cv * value[first + rows + k]
+    solve(machine)
+    for i in range(n):
+        newton.moved[i] = b[i]
+    for i in range(b.shape[0]):
+        b[i] = kept[i]
+
+
+@stage
+def apply_turns(newton, x):
+    """Overwrite changes x (n,) of rotations after the iterate by those of their rotation vectors."""
+    for k in range(newton.place.shape[0]):
+        if newton.place[k, 1] == 0:
+            x[k], x[k + 1], x[k + 2] = inverse_tangent(newton.change[k : k + 3], (x[k], x[k + 1], x[k + 2]))
+
+
+@stage
+def size_of_change(machine, scale, cq, cv, cx):
+    """Largest change of a position, velocity or state of forces by newton.b and newton.moved, as a share of its scale; its unknown is
+    left in control.failure."""
+    record = record_at(machine)
+    newton, failure = record.newton, record.control.failure
+    b, moved = newton.b, newton.moved
+    n, states = moved.shape[0], newton.state.shape[0]
+    positions = scale.shape[0] - n - states - 2
+    largest = 0.0
+    for k in range(n):
+        at_position = scale[newton.place[k, 0]]
+        share = max(np.abs(cv * b[k]) / scale[positions + k], np.abs(cq * b[k] + moved[k]) / at_position)
+        if not share <= largest:
+            largest, failure[0] = share, k
+    for k in range(n, n + states):
+        share = np.abs(cx * b[k]) / scale[positions + k]
+        if not share <= largest:
+            largest, failure[0] = share, k
+    return largest
+
+
+@stage
+def take_change(newton, residual, b, moved, share):
+    """Add `share` of the changes b and `moved` to the unknowns."""
+    n, states = residual.vdot.shape[0], newton.state.shape[0]
+    for k in range(n):
+        residual.vdot[k] += share * b[k]
+        newton.correction[k] += share * moved[k]
+    for k in range(states):
+        newton.rate[k] += share * b[n + k]
+    for k in range(residual.lam.shape[0]):
+        residual.lam[k] += share * b[n + states + k]
+
+
+@stage
+def keep_change(newton):
+    """Remember the change just taken, which may have to be taken back."""
+    for k in range(newton.b.shape[0]):
+        newton.before[k] = newton.b[k]
+    for k in range(newton.moved.shape[0]):
+        newton.moved_before[k] = newton.moved[k]
+
+
+@stage
+def is_kept(newton, cq, cv, cx):
+    """Whether the factors are for these coefficients."""
+    return newton.kept[CQ] == cq and newton.kept[CV] == cv and newton.kept[CX] == cx
+
+
+@stage
+def find_change(machine, cq, cv):
+    """newton.b and newton.moved: the change of all unknowns that the residual just evaluated asks for."""
+    newton = record_at(machine).newton
+    write_defect(machine, cq, cv)
+    solve(machine)
+    if newton.index[0] == 2 and newton.b.shape[0] > newton.moved.shape[0] + newton.state.shape[0]:
+        close_positions(machine, cq, cv)
+        apply_turns(newton, newton.moved)
+    apply_turns(newton, newton.b)
+
+
+@leaf
+def iterate(machine, history, t, cq, cv, cx):
+    """The unknowns for which the residual vanishes at time t, starting from those there are. `residual.y` is the state then. Returns a
+    status."""
+    run, record = run_at(history), record_at(machine)
+    newton, counter = record.newton, run.counter
+    stale, last, share = False, np.inf, 1.0
+    for _ in range(np.int64(newton.settings[MOST])):
+        set_state(machine, cq, cv, cx)
+        status = call_hook(machine, RESIDUAL, 0, t)
+        counter[EVALUATIONS] += 1
+        counter[ITERATIONS] += 1
+        if status == OK and (stale or not is_kept(newton, cq, cv, cx)):
+            status = differentiate(machine, t, cq, cv, cx)
+            if status == OK:
+                status = factorise(machine)
+            counter[FACTORISATIONS] += 1
+            newton.kept[CQ], newton.kept[CV], newton.kept[CX], newton.kept[CONTRACTION] = cq, cv, cx, SANGUINE
+            stale = False
+        if status != OK:
+            newton.kept[CQ] = 0.0
+            return status
+        find_change(machine, cq, cv)
+        size = size_of_change(machine, run.scale, cq, cv, cx)
+        contraction = size / last if last < np.inf else newton.kept[CONTRACTION]
+        if not contraction <= GROWTH and last < np.inf and share > LEAST_SHARE:
+            share *= 0.5
+            take_change(newton, record.residual, newton.before, newton.moved_before, -share)
+            stale = True
+            continue
+        share = 1.0
+        take_change(newton, record.residual, newton.b, newton.moved, share)
+        keep_change(newton)
+        if size <= newton.settings[TOLERANCE] or (
+            contraction < 1.0 and contraction / (1.0 - contraction) * size <= newton.settings[TOLERANCE]
+        ):
+            set_state(machine, cq, cv, cx)
+            return OK
+        if last < np.inf:
+            newton.kept[CONTRACTION] = max(contraction, 0.1 * SANGUINE)
+            stale = not contraction <= SLOW
+        last = size
+    newton.kept[CQ] = 0.0
+    return NOT_CONVERGED

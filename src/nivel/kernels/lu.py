@@ -1,4 +1,7 @@
-"""Dense linear systems without symmetry: LU by Gaussian elimination with exchanges of rows (Golub, Van Loan 2013, §3.4)."""
+"""Dense linear systems without symmetry: LU by Gaussian elimination with exchanges of rows (Golub, Van Loan 2013, §3.4).
+
+The kernels work on float64 and on complex128 alike; rows are exchanged by the absolute value.
+"""
 
 from __future__ import annotations
 

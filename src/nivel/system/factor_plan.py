@@ -10,6 +10,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -43,13 +44,18 @@ class FactorPlan:
     def entry(self, rows: ArrayLike, columns: ArrayLike) -> Index:
         """Numbers of entries (rows[n], columns[n]) in the pattern, broadcast against each other. Raises KeyError where A has none."""
         key = np.asarray(rows, dtype=np.int64) * self.size + np.asarray(columns, dtype=np.int64)
-        own = np.repeat(np.arange(self.size), np.diff(self.row_start.astype(np.int64))) * self.size + self.column
-        found = np.searchsorted(own, key)
-        missing = own[np.minimum(found, own.size - 1)] != key if own.size else np.ones(key.shape, dtype=bool)
+        found = np.searchsorted(self._keys[:-1], key)
+        missing = self._keys[found] != key
         if np.any(missing):
             row, column = divmod(int(key[missing].flat[0]), self.size)
             raise KeyError(f"the matrix has no entry ({row}, {column})")
         return found.astype(np.uint32)
+
+    @cached_property
+    def _keys(self) -> Places:
+        """row N + column of each entry, ascending, and one that none has."""
+        row = np.repeat(np.arange(self.size), np.diff(self.row_start.astype(np.int64)))
+        return np.append(row * self.size + self.column, -1)
 
     def workspace(self, dtype: DTypeLike = np.float64) -> tuple[NDArray, NDArray, NDArray, NDArray]:
         """L, U, Dinv and work of the kernels."""
@@ -141,7 +147,7 @@ def _pattern(start: Places, adjacent: Sequence[set[int]]) -> tuple[Index, Index]
 def _postordered(order: Sequence[int], beside: Sequence[set[int]]) -> tuple[list[int], list[set[int]]]:
     """The same elimination with every group as close as can be behind those it follows from (postorder of the elimination tree).
 
-    Fill is the same, and a group follows directly on the child whose unknowns beside it are the most, so blocks are long.
+    Fill and pivots are the same, and a group follows directly on the child whose unknowns beside it are the most, so blocks are long.
     """
     place = {g: k for k, g in enumerate(order)}
     children: dict[int, list[int]] = {g: [] for g in order}
@@ -213,7 +219,11 @@ def _layout(start: Places, blocks: Sequence[Sequence[int]], beside: Sequence[set
     order = np.concatenate([np.zeros(0, np.int64), *(np.arange(start[g], start[g + 1]) for g in groups)])
     block_size = np.array([sum(int(size[g]) for g in block) for block in blocks], dtype=np.int64)
     places = [
-        [place for first, n in sorted((int(group_place[g]), int(size[g])) for g in beside[block[-1]]) for place in range(first, first + n)]
+        [
+            place
+            for first, n in sorted((int(group_place[g]), int(size[g])) for g in beside[block[-1]])
+            for place in range(first, first + n)
+        ]
         for block in blocks
     ]
     beside_count = np.array([len(row) for row in places], dtype=np.int64)
@@ -270,7 +280,7 @@ def _parts(layout: _Layout) -> tuple[Places, Places, Places, Places, Places]:
     part_count = np.diff(np.append(part, owner.size))
     count = np.bincount(owner[part], minlength=layout.width.size)
     part_start = _starts(count)
-    pairs = np.repeat(count[owner[part]], 1)
+    pairs = count[owner[part]]
     row = np.repeat(np.arange(part.size), pairs)
     column = np.arange(row.size) - np.repeat(_starts(pairs)[:-1], pairs) + part_start[owner[part]][row]
     _, target = layout.home(part_first[row], part_first[column])

@@ -22,6 +22,7 @@ import numpy as np
 
 from nivel.kernels.arrays import U1
 from nivel.kernels.compile import leaf, stage
+from nivel.kernels.lu import magnitude
 
 # A pivot this small against the sum of what was taken from it is round-off: the row depends on those before it.
 DEPENDENT = 1e-13
@@ -45,12 +46,6 @@ class SparseLU(NamedTuple):
     part_block: U1  # (P,) block that they belong to
     target_start: U1  # (S,) first target of each block
     target: U1  # for each pair of parts of a block (row, column): where L U of the two begins, in U, or in L left of the diagonal
-
-
-@leaf
-def _magnitude(x):
-    """|Re x| + |Im x|, cheaper than the absolute value of a complex number."""
-    return np.abs(np.real(x)) + np.abs(np.imag(x))
 
 
 @leaf
@@ -106,9 +101,9 @@ def _eliminate_block(tables, k, U, Dinv):
                 factor = row[p] * Dinv[first + p]
                 row[p] = factor
                 above = U[start + p * width : start + (p + 1) * width]
-                taken += _magnitude(factor * above[i])
+                taken += magnitude(factor * above[i])
                 _subtract(row[p + 1 : width], factor, above[p + 1 : width])
-        pivot = _magnitude(row[i])
+        pivot = magnitude(row[i])
         if not (pivot > DEPENDENT * taken and pivot < np.inf):
             return first + i
         Dinv[first + i] = 1.0 / row[i]
@@ -141,7 +136,7 @@ def _eliminate_beside(tables, k, L, U, Dinv, work):
                     lower[p] = factor
                     above = U[start + p * width : start + (p + 1) * width]
                     _subtract(row[p + 1 : width], factor, above[p + 1 : width])
-            Dinv[np.int64(tables.part_first[i]) + r] += _magnitude(row[diagonal])
+            Dinv[np.int64(tables.part_first[i]) + r] += magnitude(row[diagonal])
             column = size
             for j in range(parts, end):
                 count = np.int64(tables.part_count[j])

@@ -61,6 +61,8 @@ def test_entry_outside_the_pattern_is_refused():
     np.testing.assert_array_equal(plan.entry([[2], [3]], [[2, 3]]), [[4, 5], [6, 7]])
     with pytest.raises(KeyError, match=r"no entry \(1, 3\)"):
         plan.entry([0, 1], [1, 3])
+    with pytest.raises(KeyError, match=r"no entry \(1, 4\)"):
+        plan.entry(1, 4)
 
 
 def test_the_group_with_the_fewest_unknowns_beside_it_is_first():

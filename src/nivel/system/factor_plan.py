@@ -43,12 +43,12 @@ class FactorPlan:
 
     def entry(self, rows: ArrayLike, columns: ArrayLike) -> Index:
         """Numbers of entries (rows[n], columns[n]) in the pattern, broadcast against each other. Raises KeyError where A has none."""
-        key = np.asarray(rows, dtype=np.int64) * self.size + np.asarray(columns, dtype=np.int64)
+        row, column = np.broadcast_arrays(np.asarray(rows, dtype=np.int64), np.asarray(columns, dtype=np.int64))
+        key = row * self.size + column
         found = np.searchsorted(self._keys[:-1], key)
-        missing = self._keys[found] != key
+        missing = (self._keys[found] != key) | (column < 0) | (column >= self.size)
         if np.any(missing):
-            row, column = divmod(int(key[missing].flat[0]), self.size)
-            raise KeyError(f"the matrix has no entry ({row}, {column})")
+            raise KeyError(f"the matrix has no entry ({row[missing][0]}, {column[missing][0]})")
         return found.astype(np.uint32)
 
     @cached_property

@@ -30,7 +30,7 @@ def refuse_combinations(settings: SimulationSettings, coordinates: str) -> list[
         faults.append(_fault("stabilisation", message))
     if coordinates == "independent":
         faults += _refuse_feedback(formulation, stabilisation)
-    return faults + _refuse_chosen_steps(settings)
+    return faults + _refuse_residual(settings, coordinates) + _refuse_chosen_steps(settings)
 
 
 def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
@@ -43,6 +43,33 @@ def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
     if FORMULATIONS[formulation].factor > 0.0:
         message = f"'{formulation}' does not go with independent coordinates: {left}; take newton-euler"
         faults.append(_fault("formulation", message))
+    return faults
+
+
+def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fault]:
+    """What does not go with an integrator that solves the equations of motion for accelerations and multipliers itself."""
+    facts, faults = INTEGRATORS.get(settings.integrator), []
+    if facts is None or not facts.residual:
+        return faults
+    name = settings.integrator
+    if settings.formulation != "newton-euler":
+        message = (
+            f"'{settings.formulation}' does not go with `integrator: {name}`, which solves for accelerations and multipliers at once and "
+            f"turns bodies as a Lie group: take newton-euler, whose motion is the same"
+        )
+        faults.append(_fault("formulation", message))
+    if coordinates == "independent":
+        message = (
+            f"'independent' does not go with `integrator: {name}`: with `stabilisation: direct` it closes positions and velocities in the "
+            f"same solution, which is what a partition is for; take absolute or relative"
+        )
+        faults.append(_fault("coordinates", message))
+    if settings.stabilisation == "baumgarte":
+        message = (
+            f"'baumgarte' does not go with `integrator: {name}`, which solves the constraints themselves and not their second derivative: "
+            f"take direct (stabilised index 2), geometric (and the energy kept), or none (index 3)"
+        )
+        faults.append(_fault("stabilisation", message))
     return faults
 
 

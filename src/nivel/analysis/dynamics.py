@@ -23,8 +23,10 @@ from nivel.analysis.redundancy import Redundancy, analyse
 from nivel.analysis.refusals import (
     refuse_conserved_drivers,
     refuse_deep_starts,
+    refuse_implicit_stiction,
     refuse_rough_motions,
     refuse_uncertain_loads,
+    refuse_unsettled_multipliers,
 )
 from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
@@ -124,6 +126,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         raise ModelError(Fault("", 0, 0, "machine", message))
     refuse_uncertain_loads(machine, redundancy)
     refuse_conserved_drivers(machine)
+    refuse_implicit_stiction(machine)
     refuse_rough_motions(machine)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
     absolute = MotionEquations(motion.system.known_rank(rank), motion.kernels)
@@ -140,7 +143,8 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     else:
         bound_pivots(prepared, y)
     if INTEGRATORS[machine.simulation.integrator].residual:
-        prepared = equip(prepared, y, coordinates, machine.simulation)
+        refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
+        prepared = equip(prepared, y, coordinates)
     return Prepared(prepared, y, absolute, assembly, redundancy, len(machine.drivers))
 
 
@@ -250,16 +254,17 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     record.newton.kept[:] = 0.0
     if settings.corrector is not None:
         record.newton.settings[:] = settings.corrector.tolerance, settings.corrector.most_iterations
-    if len(record.newton.index):
-        record.newton.index[0] = 3 if settings.stabilisation == "none" else 2
+    if len(record.newton.level):
+        record.newton.level[0] = 3 if settings.stabilisation == "none" else 2
     record.coordinates.reference[:] = prepared.assembly.reference
     record.watched.followed[:] = 0
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
     record.friction.force[:] = 0.0
     # Where steps are chosen, the first one is still what the user calls a short time: stiction stops within two of them, and the error
-    # control makes steps as short as that takes. Bristles need no limit there.
-    record.control.stick[:] = STICK_STEPS * settings.step, 0.0 if facts.chooses_steps else STICK_STEPS * settings.step
+    # control makes steps as short as that takes. Bristles need no limit there, nor in implicit methods.
+    follows = facts.chooses_steps or facts.residual
+    record.control.stick[:] = STICK_STEPS * settings.step, 0.0 if follows else STICK_STEPS * settings.step
     system.record.control.energy[:] = 0.0
     prepared.motion.evaluate(0.0, y)
     observe: Any = import_module("nivel.kernels.observe").observe

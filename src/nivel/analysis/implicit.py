@@ -4,51 +4,138 @@ from __future__ import annotations
 
 from dataclasses import replace
 from importlib import import_module
+from itertools import combinations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import qr
 
 from nivel.analysis.equations import MotionEquations
 from nivel.kernels.arrays import complex_twin
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES
-from nivel.kernels.record import MEASURE, RESIDUAL, Hooks, Record
-from nivel.machine.settings import SimulationSettings
+from nivel.kernels.record import GIVEN_FRICTION, MEASURE, NONE, RESIDUAL, Hooks, Record
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
-from nivel.system.system import Array
+from nivel.system.laws import complex_address
+from nivel.system.system import Array, System
+from nivel.system.tangent_plan import plan_tangent
 
+Index = NDArray[np.integer]
 RESIDUALS = {"absolute": "nivel.motion.newton_euler_residual", "relative": "nivel.motion.relative_residual"}
 
 
-def equip(motion: MotionEquations, y: Array, coordinates: str, settings: SimulationSettings) -> MotionEquations:
-    """The same equations, with the residual of implicit methods and the record of its complex twin."""
-    del settings
+def equip(motion: MotionEquations, y: Array, coordinates: str) -> MotionEquations:
+    """The same equations, with the residual of implicit methods, its derivatives, and the record of its complex twin.
+
+    Of redundant constraints those rows stay that say nothing new at the state y of the start: with them the matrix would be singular.
+    """
+    rows = len(motion.system.record.saddle.row)
+    whole = _with_rows(motion, y, coordinates, np.arange(rows))
+    rank = int(motion.system.record.control.rank[0])
+    if rank == rows:
+        return whole
+    residual = whole.system.record.residual
+    residual.y[:] = y
+    _, tangent = find_tangent(whole, 0.0, 1.0, 1.0, 1.0)
+    return _with_rows(motion, y, coordinates, _independent(tangent[len(tangent) - rows :, : len(residual.vdot)], rank))
+
+
+def _independent(C_q: Array, rank: int) -> Index:
+    """Numbers of `rank` independent rows."""
+    lengths = np.linalg.norm(C_q, axis=1, keepdims=True)
+    unit = C_q / np.maximum(lengths, 1e-300)
+    pivoted: Any = qr(unit.T, mode="economic", pivoting=True)
+    order = pivoted[2]
+    return np.sort(order[:rank])
+
+
+def _with_rows(motion: MotionEquations, y: Array, coordinates: str, kept: Index) -> MotionEquations:
+    """With the rows `kept` of those of the saddle."""
     system = motion.system
     record, positions = system.record, system.positions
     states = len(record.elements.state)
     velocities = len(y) - positions - states - 2
-    place = places(system.map, velocities, positions)
     part = parts_of(record, coordinates == "relative")
-    rows = len(record.saddle.row)
-    residual = residual_tables(system.body_count, len(y), velocities, states, record.saddle.row, part)
-    size = velocities + states + rows
-    evaluated = range(velocities + states)
-    newton = newton_tables(place, len(y), states, rows, [[j] for j in evaluated], [range(size) for _ in evaluated])
+    renumbered = np.full(len(record.saddle.row), NONE, dtype=np.uint32)
+    renumbered[kept] = np.arange(len(kept))
+    part[:, 0] = renumbered[part[:, 0]]
+    part = np.ascontiguousarray(part[part[:, 0] != NONE])
+    row = np.ascontiguousarray(record.saddle.row[kept])
+    residual = residual_tables(system.body_count, len(y), velocities, states, row, part)
+    plan = plan_tangent(*_groups(system, velocities, row, part, coordinates), mirrored=not len(system.frictions))
+    newton = newton_tables(places(system.map, velocities, positions), len(y), states, len(row), plan)
     family = import_module(RESIDUALS[coordinates]).residual
-    record = record._replace(residual=residual, newton=newton, hooks=record.hooks._replace(address=record.hooks.address.copy()))
-    record.hooks.address[RESIDUAL] = family.address
+    hooks = record.hooks._replace(address=record.hooks.address.copy())
+    record = record._replace(residual=residual, newton=newton, hooks=hooks)
+    hooks.address[RESIDUAL] = family.address
+    if len(system.frictions):
+        hooks.address[GIVEN_FRICTION] = import_module("nivel.kernels.friction_residual").rub.address
     twin = _twin(record)
-    record.newton.address[:] = twin.address, family.complex_address
+    newton.address[:] = twin.address, family.complex_address
     return MotionEquations(replace(system, record=record), motion.kernels, twin)
+
+
+def _groups(
+    system: System, velocities: int, row: Index, part: Index, coordinates: str
+) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
+    """Sizes of the groups of unknowns, which are constraints, and which depend on each other: bodies (or all joint velocities as one),
+    states of forces, joints."""
+    record = system.record
+    states = len(record.elements.state)
+    owners = [system.row_owner[k] for k in row]
+    joints = list(dict.fromkeys(owners))
+    moving = system.body_count if coordinates == "absolute" else 1
+    per_joint = [owners.count(joint) for joint in joints]
+    sizes = [*([6] * moving if coordinates == "absolute" else [velocities]), *[1] * states, *per_joint]
+    constraint = [k >= moving + states for k in range(len(sizes))]
+    if coordinates == "relative":
+        return sizes, constraint, {(a, b) for b in range(len(sizes)) for a in range(b)}
+    number = {joint: moving + states + k for k, joint in enumerate(joints)}
+    couples = set()
+    bodies_of: dict[int, set[int]] = {}
+    for k, _, _, body in part.tolist():
+        bodies_of.setdefault(number[owners[k]], set()).add(body)
+    for joint, bodies in bodies_of.items():
+        couples |= {(body, joint) for body in bodies} | set(combinations(sorted(bodies), 2))
+    for bodies in system.coupled:
+        couples |= set(combinations(sorted(bodies - {moving}), 2))
+    for bodies, state, joint in _frictions(system):
+        depending = [*([moving + state] if state != NONE else []), *([number[joint]] if joint in number else [])]
+        couples |= {(body, group) for body in bodies for group in depending}
+        couples |= set(combinations(depending, 2))
+    return sizes, constraint, couples
+
+
+def _frictions(system: System) -> list[tuple[set[int], int, str]]:
+    """Moving bodies, state or NONE, and the joint whose reaction is the load (empty: none), of each friction."""
+    if not system.frictions:
+        return []
+    record, columns = system.record, import_module("nivel.kernels.friction")
+    out = []
+    for index in record.friction.columns.tolist():
+        ends = record.coordinates.what[index[columns.COORDINATE], 1:3]
+        loading = index[columns.JOINT]
+        bodies = set(record.markers.body[ends].tolist()) - {system.body_count}
+        out.append((bodies, index[columns.STATE], "" if loading == NONE else system.joints[loading]))
+    return out
 
 
 def _twin(record: Record) -> Handle:
     """The record with complex work, and with the families of forces compiled for it."""
     twin = complex_twin(record)
     address = np.zeros_like(record.hooks.address)
-    address[MEASURE] = _complex(record.hooks.address[MEASURE])
+    for hook in (MEASURE, GIVEN_FRICTION):
+        address[hook] = _complex(record.hooks.address[hook])
     families = np.array([_complex(each) for each in record.elements.address], dtype=np.uint64)
-    return Handle(twin._replace(elements=twin.elements._replace(address=families), hooks=Hooks(address)))
+    laws = np.array([complex_address(int(each)) if each else 0 for each in record.functions.address], dtype=np.uint64)
+    return Handle(
+        twin._replace(
+            elements=twin.elements._replace(address=families),
+            functions=twin.functions._replace(address=laws),
+            hooks=Hooks(address),
+        )
+    )
 
 
 def _complex(address: Any) -> int:
@@ -61,7 +148,9 @@ def evaluate_residual(motion: MotionEquations, t: float) -> int:
     return int(import_module("nivel.kernels.tangent_entries").evaluate_residual(motion.handle.address, t))
 
 
-def find_tangent(motion: MotionEquations, t: float, position: float, velocity: float, state: float) -> tuple[int, Array]:
+def find_tangent(
+    motion: MotionEquations, t: float, position: float, velocity: float, state: float
+) -> tuple[int, Array]:
     """Status and matrix (N, N) of Newton's iteration; unknowns move positions, velocities and states by these shares [s², s, s]."""
     entries, newton = import_module("nivel.kernels.tangent_entries"), motion.system.record.newton
     status = int(entries.find_tangent(motion.handle.address, t, position, velocity, state))

@@ -39,6 +39,43 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
         raise ModelError(faults)
 
 
+def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> None:
+    """Methods without any damping as index 3: what a jump of the load leaves in the multipliers then alternates for ever."""
+    settings = machine.simulation
+    undamped = {
+        "newmark": settings.newmark.gamma == 0.5,
+        "hht": settings.hht.alpha == 0.0,
+        "generalised-alpha": settings.generalised_alpha.spectral_radius == 1.0,
+    }
+    if constraints and settings.stabilisation == "none" and undamped.get(settings.integrator):
+        message = (
+            f"'none' makes {settings.integrator} solve the positions' constraints alone (index 3), and without damping its multipliers "
+            f"never settle after a load changes: take direct (stabilised index 2), or damp: "
+            f"`generalised_alpha: {{spectral_radius: 0.8}}`, `hht: {{alpha: 0.1}}`"
+        )
+        raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
+
+
+def refuse_implicit_stiction(machine: MachineRecord) -> None:
+    """Stiction stops a joint within two steps of an explicit method; implicit ones need a law of the state."""
+    if not INTEGRATORS[machine.simulation.integrator].residual:
+        return
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"forces.{force.name}.model",
+            f"'stiction' does not go with `integrator: {machine.simulation.integrator}`, whose forces have to follow from the "
+            f"state: take lugre, which sticks too, or coulomb; or an explicit integrator",
+        )
+        for force in machine.forces
+        if isinstance(force, Friction) and force.model == "stiction"
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
 def refuse_conserved_drivers(machine: MachineRecord) -> None:
     """Drivers prescribe speeds, which the energy constraint would have to scale. What a fixed step misses of a contact that begins in
     it is no drift either: to scale all velocities for it would take momentum where no force does."""

@@ -39,3 +39,9 @@ def absolute(x):
 def maximum(x, y):
     """The larger one; x where they are equal, and where y is not a number."""
     return y if real(y) > real(x) else x
+
+
+@leaf
+def minimum(x, y):
+    """The smaller one; x where they are equal, and where y is not a number."""
+    return y if real(y) < real(x) else x

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.analytic import absolute
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
@@ -136,8 +137,8 @@ def normal_load(machine, k):
     mz = A[0, 2] * m0 + A[1, 2] * m1 + A[2, 2] * m2
     load += np.sqrt(fx * fx + fy * fy) + n[MOMENT_ARM] * np.sqrt(mx * mx + my * my)
     if friction.columns[k, ROTATES] == 1:
-        return load + n[COLLAR] * np.abs(fz)
-    return load + n[SPIN_ARM] * np.abs(mz)
+        return load + n[COLLAR] * absolute(fz)
+    return load + n[SPIN_ARM] * absolute(mz)
 
 
 @stage
@@ -155,37 +156,47 @@ def relaxation(machine, k):
     record = record_at(machine)
     n = record.friction.number[k]
     speed = record.coordinates.rate[record.friction.columns[k, COORDINATE]] * n[ARM]
-    return n[STIFFNESS] * np.abs(speed) / coefficient(n, speed)
+    return n[STIFFNESS] * absolute(speed) / coefficient(n, speed)
+
+
+@stage
+def sliding_effort(machine, k):
+    """Effort of friction k, without stiction, for the present multipliers; the rate of its bristle is left with the states of forces.
+
+    Viscous friction comes on top of it. LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995) with the bristle z per unit load:
+    ż = v - σ0 |v| z/μ(v), effort -(σ0 z + σ1 ż) times the load.
+    """
+    record = record_at(machine)
+    friction = record.friction
+    n, rate = friction.number[k], record.coordinates.rate[friction.columns[k, COORDINATE]]
+    speed = rate * n[ARM]
+    load = normal_load(machine, k) * n[ARM]
+    viscous = n[VISCOUS] * rate
+    if friction.columns[k, MODEL] == COULOMB:
+        return -coefficient(n, speed) * np.tanh(speed / n[TRANSITION]) * load - viscous
+    z = record.elements.state[friction.columns[k, STATE]]
+    zdot = speed - relaxation(machine, k) * z
+    record.elements.state_rate[friction.columns[k, STATE]] = zdot
+    return -(n[STIFFNESS] * z + n[DAMPING] * zdot) * load - viscous
 
 
 @stage
 def effort(machine, k, tau, anchor):
-    """Effort of friction k for the present multipliers and efforts of the others. Viscous friction comes on top of it.
-
-    LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995) with the bristle z per unit load: ż = v - σ0 |v| z/μ(v),
-    effort -(σ0 z + σ1 ż) times the load.
-    """
+    """Effort of friction k for the present multipliers and efforts of the others."""
     record = record_at(machine)
     friction, coordinates = record.friction, record.coordinates
     n, q, model = friction.number[k], friction.columns[k, COORDINATE], friction.columns[k, MODEL]
-    rate, arm = coordinates.rate[q], n[ARM]
-    speed = rate * arm
-    load = normal_load(machine, k) * arm
+    if model != STICTION:
+        return sliding_effort(machine, k)
+    rate = coordinates.rate[q]
     viscous = n[VISCOUS] * rate
-    if model == COULOMB:
-        return -coefficient(n, speed) * np.tanh(speed / n[TRANSITION]) * load - viscous
-    if model == LUGRE:
-        z = record.elements.state[friction.columns[k, STATE]]
-        zdot = speed - relaxation(machine, k) * z
-        record.elements.state_rate[friction.columns[k, STATE]] = zdot
-        return -(n[STIFFNESS] * z + n[DAMPING] * zdot) * load - viscous
     # what makes c̈ = -ċ/τ, if it is within the cone
     acceleration = friction.free[k] + rate / tau
     for other in range(friction.columns.shape[0]):
         if other != k:
             acceleration += friction.S[k, other] * friction.force[other]
     wanted = (anchor * friction.anchor[k] - acceleration / friction.S[k, k]) / (1.0 + anchor) + viscous
-    largest = coefficient(n, speed) * load
+    largest = coefficient(n, rate * n[ARM]) * normal_load(machine, k) * n[ARM]
     return min(max(wanted, -largest), largest) - viscous
 
 

@@ -39,7 +39,7 @@ def _descriptors(record: Any) -> Iterator[int]:
             yield from (0, 0, field.size, field.itemsize, field.ctypes.data, *field.shape, *field.strides)
 
 
-def reader(record_type: types.Type, complex_type: types.Type | None = None) -> Any:
+def reader(record_type: Any, complex_type: Any = None) -> Any:
     """An intrinsic that gives kernels the record of `record_type` at an address, or of `complex_type` at a complex one."""
 
     @intrinsic

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from nivel.kernels.arrays import A1, F1, F2, U1, U2, W1, W2
+from nivel.kernels.sparse_lu import SparseLU
 
 
 class Residual(NamedTuple):
@@ -29,13 +30,16 @@ class Newton(NamedTuple):
     """Newton's iteration for the residual, in a state that is an affine function of the unknowns; see `nivel.kernels.newton`."""
 
     address: A1  # (2,) of the record with complex work, of its residual
-    place: U2  # (n, 2) place in y of the position that a velocity moves, NONE; or of four Euler parameters, axis 0, 1 or 2
+    place: (
+        U2  # (n, 2) place in y of the position that a velocity moves, NONE; or of four Euler parameters, axis 0, 1 or 2
+    )
     group: U1  # unknowns with derivatives of their own, those with nothing in common next to each other
     group_start: U1  # groups + 1
     entry_start: U1  # (N + 1,) entries of each unknown
     entry: U2  # (·, 3) row, place of its derivative in `value`, place of the transposed one or NONE
     column: U1  # (·,) column of each entry of the matrix
     row_start: U1  # (N + 1,) entries of each row of the matrix
+    lu: SparseLU  # order of elimination, where the matrix is sparse
     # The state to be found: y = base ∘ (turn + cq v̇ + correction), v = speed + cv v̇, x = state + cx ẋ
     base: F1  # (ny,)
     turn: F1  # (n,) [m or rad] change of the positions for v̇ = 0
@@ -46,7 +50,11 @@ class Newton(NamedTuple):
     # work
     change: F1  # (n,) of the positions
     value: F1  # (·,) entries of the matrix
-    matrix: F2  # (N, N) its factors where they are dense, or (0, 0)
+    L: F1  # its factors where it is sparse
+    U: F1
+    Dinv: F1
+    work: F1
+    matrix: F2  # (N, N) its factors where it is not, or (0, 0)
     pivot: U1  # (N,)
     b: F1  # (N,) right-hand side, then solution
     last: F1  # (N,) work
@@ -56,4 +64,4 @@ class Newton(NamedTuple):
     lam_before: F1  # (K,) multipliers of the state before the accepted one
     kept: F1  # (4,) cq, cv, cx that the factors are for (0: none), contraction seen with them
     settings: F1  # (2,) tolerance of a change as a share of the scales, most iterations
-    index: U1  # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction
+    level: U1  # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction

@@ -197,7 +197,7 @@ class Watched(NamedTuple):
 class Hooks(NamedTuple):
     """Addresses of what only some machines need, or zero: see `family_signature`."""
 
-    address: A1  # (6,) measure, friction, sense, complete, watch, residual
+    address: A1  # (7,) measure, friction, sense, complete, watch, residual, friction for given multipliers
 
 
 class Saddle(NamedTuple):
@@ -381,6 +381,6 @@ complex_family_signature = types.int64(complex_address_type, types.int64, types.
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
-MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL = 0, 1, 2, 3, 4, 5  # entries of Hooks.address
+MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION = 0, 1, 2, 3, 4, 5, 6  # entries of Hooks.address
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions

@@ -9,13 +9,15 @@ derivatives. Coordinates add only how accelerations of bodies come from v̇, and
 from __future__ import annotations
 
 from nivel.kernels.compile import stage
-from nivel.kernels.record import record_at
+from nivel.kernels.hook import call_hook
+from nivel.kernels.record import GIVEN_FRICTION, record_at
 from nivel.kernels.spatial import cross, dot
 
 
 @stage
-def load_multipliers(machine):
-    """Add the forces -C_qᵀ λ of the constraints to the wrenches of the bodies, and the work of drivers to the power."""
+def load_multipliers(machine, t):
+    """Add the forces -C_qᵀ λ of the constraints to the wrenches of the bodies, with the friction that they cause, and the work of drivers
+    to the power. Returns a status."""
     record = record_at(machine)
     residual, constraints, markers, wrench = record.residual, record.constraints, record.markers, record.bodies.wrench
     for row in range(constraints.lam.shape[0]):
@@ -34,6 +36,7 @@ def load_multipliers(machine):
         F[5] -= lam * J[5] + u[0] * y - u[1] * x
     for k in range(constraints.combination.shape[0]):
         record.control.power[0] -= constraints.lam[constraints.combination[k, 0]] * constraints.motion[k]
+    return call_hook(machine, GIVEN_FRICTION, 0, t)
 
 
 @stage
@@ -45,7 +48,14 @@ def inertial_wrenches(machine):
     record = record_at(machine)
     bodies, residual = record.bodies, record.residual
     for b in range(bodies.mass.shape[0]):
-        A, J, w, c, F, m = bodies.A[b], bodies.inertia_origin_b[b], bodies.omega[b], bodies.c[b], bodies.wrench[b], bodies.mass[b]
+        A, J, w, c, F, m = (
+            bodies.A[b],
+            bodies.inertia_origin_b[b],
+            bodies.omega[b],
+            bodies.c[b],
+            bodies.wrench[b],
+            bodies.mass[b],
+        )
         x, out = residual.acceleration[b], residual.wrench[b]
         alpha, a = (x[0], x[1], x[2]), (x[3], x[4], x[5])
         turning, wc, ww, lever = cross(alpha, c), dot(w, c), dot(w, w), cross(c, a)
@@ -71,7 +81,12 @@ def inertial_wrenches(machine):
 def write_rows(machine, first):
     """Rates of the states of forces, C, Ċ and C̈ into `residual.value` from `first` on."""
     record = record_at(machine)
-    residual, constraints, markers, rate = record.residual, record.constraints, record.markers, record.elements.state_rate
+    residual, constraints, markers, rate = (
+        record.residual,
+        record.constraints,
+        record.markers,
+        record.elements.state_rate,
+    )
     value, rows, states = residual.value, residual.row.shape[0], rate.shape[0]
     for i in range(states):
         value[first + i] = rate[i]
@@ -82,7 +97,11 @@ def write_rows(machine, first):
         value[at + 2 * rows + k] = -constraints.gamma[row]
     at += 2 * rows
     for p in range(residual.part.shape[0]):
-        J, u, x = constraints.J[residual.part[p, 1]], markers.u[residual.part[p, 2]], residual.acceleration[residual.part[p, 3]]
+        J, u, x = (
+            constraints.J[residual.part[p, 1]],
+            markers.u[residual.part[p, 2]],
+            residual.acceleration[residual.part[p, 3]],
+        )
         turning = x[1] * u[2] - x[2] * u[1], x[2] * u[0] - x[0] * u[2], x[0] * u[1] - x[1] * u[0]
         along = J[0] * (x[3] + turning[0]) + J[1] * (x[4] + turning[1]) + J[2] * (x[5] + turning[2])
         value[at + residual.part[p, 0]] += along + J[3] * x[0] + J[4] * x[1] + J[5] * x[2]

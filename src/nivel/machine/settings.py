@@ -105,9 +105,7 @@ class SimulationSettings(Record):
     corrector: Corrector = Field(default=Corrector(), description="of implicit multistep methods")
     newmark: Newmark = Field(default=Newmark(), description="constants of newmark")
     hht: HHT = Field(default=HHT(), description="damping of hht")
-    generalised_alpha: GeneralisedAlpha = Field(
-        default=GeneralisedAlpha(), description="damping of generalised-alpha"
-    )
+    generalised_alpha: GeneralisedAlpha = Field(default=GeneralisedAlpha(), description="damping of generalised-alpha")
     penalty: Penalty = Field(default=Penalty(), description="of penalty and augmented-lagrangian")
     baumgarte: Baumgarte | None = Field(
         default=None, description="own coefficients alpha and beta of the baumgarte stabilisation"

@@ -21,6 +21,7 @@ from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.lu import factorise_lu, solve_lu
 from nivel.kernels.record import NONE, RESIDUAL, record_at
+from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.kernels.spatial import dot
 from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.kernels.tangent import differentiate, inverse_tangent
@@ -74,8 +75,14 @@ def set_state(machine, cq, cv, cx):
 @stage
 def factorise(machine):
     """Factors of the matrix whose entries were found. Returns a status; the unknown without a pivot is left in control.failure."""
-    newton = record_at(machine).newton
-    size = newton.b.shape[0]
+    record = record_at(machine)
+    newton = record.newton
+    size = newton.matrix.shape[0]
+    if size == 0 and newton.b.shape[0] > 0:
+        failed = factorise_sparse_lu(newton.lu, newton.value, newton.L, newton.U, newton.Dinv, newton.work)
+        if failed >= 0:
+            record.control.failure[0] = failed
+        return OK if failed < 0 else NOT_CONVERGED
     newton.matrix[:, :] = 0.0
     for i in range(size):
         for p in range(newton.row_start[i], newton.row_start[i + 1]):
@@ -87,7 +94,10 @@ def factorise(machine):
 def solve(machine):
     """Overwrite newton.b with the solution."""
     newton = record_at(machine).newton
-    solve_lu(newton.matrix, newton.pivot, newton.b)
+    if newton.matrix.shape[0] == 0:
+        solve_sparse_lu(newton.lu, newton.L, newton.U, newton.Dinv, newton.b, newton.work)
+    else:
+        solve_lu(newton.matrix, newton.pivot, newton.b)
 
 
 @stage
@@ -103,7 +113,7 @@ def write_defect(machine, cq, cv):
     for i in range(states):
         b[n + i] = value[n + i] - newton.rate[i]
     for k in range(rows):
-        b[first + k] = -value[first + k] / cq if newton.index[0] == 3 else -value[first + rows + k] / cv
+        b[first + k] = -value[first + k] / cq if newton.level[0] == 3 else -value[first + rows + k] / cv
 
 
 @stage
@@ -191,7 +201,7 @@ def find_change(machine, cq, cv):
     newton = record_at(machine).newton
     write_defect(machine, cq, cv)
     solve(machine)
-    if newton.index[0] == 2 and newton.b.shape[0] > newton.moved.shape[0] + newton.state.shape[0]:
+    if newton.level[0] == 2 and newton.b.shape[0] > newton.moved.shape[0] + newton.state.shape[0]:
         close_positions(machine, cq, cv)
         apply_turns(newton, newton.moved)
     apply_turns(newton, newton.b)

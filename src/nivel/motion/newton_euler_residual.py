@@ -28,7 +28,9 @@ def residual(machine, job, t):
         for i in range(3):
             x[i] = A[i, 0] * v[3] + A[i, 1] * v[4] + A[i, 2] * v[5]
             x[3 + i] = v[i]
-    load_multipliers(machine)
+    status = load_multipliers(machine, t)
+    if status != OK:
+        return status
     inertial_wrenches(machine)
     for b in range(count):
         A, F = bodies.A[b], own.wrench[b]

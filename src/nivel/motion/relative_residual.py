@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.articulated import hand_wrench
 from nivel.kernels.hook import apply_forces, family
 from nivel.kernels.record import record_at
-from nivel.kernels.articulated import hand_wrench
 from nivel.kernels.residual import inertial_wrenches, load_multipliers, write_rows
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.status import OK
@@ -44,7 +44,9 @@ def residual(machine, job, t):
         for i in range(3):
             own.acceleration[b, i] += tree.alpha0[b, i]
             own.acceleration[b, 3 + i] += tree.Rddot0[b, i]
-    load_multipliers(machine)
+    status = load_multipliers(machine, t)
+    if status != OK:
+        return status
     inertial_wrenches(machine)
     for m in range(count):
         node = tree.node[count - 1 - m]

@@ -121,6 +121,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
         bodies=names,
         joints=tuple(joint.name for joint in machine.joints),
         events=tuple(event.name for event in machine.events),
+        coupled=tuple(draft.noted),
         frictions=tuple(force.name for force in machine.forces if force.type == "friction"),
         rows=tuple(row_names),
         row_owner=tuple(rows.owner),
@@ -135,7 +136,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
 
 
 def _add_force(draft: Draft, force: Any) -> None:
-    with located(f"forces.{force.name}"):
+    with located(f"forces.{force.name}"), draft.noting_bodies():
         FORCES[force.type].add(draft, force)
 
 
@@ -157,7 +158,7 @@ def _watched(draft: Draft) -> Watched:
 
 def _hooks(draft: Draft, sensors: bool) -> Hooks:
     """Addresses of the compiled functions that only some machines need."""
-    address = np.zeros(6, dtype=np.uint64)
+    address = np.zeros(7, dtype=np.uint64)
     if draft.coordinates.what:
         address[MEASURE] = import_module("nivel.kernels.measure").measure.address
     if draft.frictions:

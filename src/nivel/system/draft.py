@@ -40,7 +40,7 @@ class Draft:
     """Tables of a machine and the indices of what has a name in it. Body number len(machine.bodies) is the ground.
 
     joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
-    frictions : (columns of index, of number) of `nivel.kernels.friction`.
+    frictions : (columns of index, of number) of `nivel.kernels.friction`. noted : the bodies looked at in each `noting_bodies`.
     """
 
     machine: MachineRecord
@@ -51,6 +51,8 @@ class Draft:
     outputs: OutputTable = field(default_factory=OutputTable)
     joint_coordinates: dict[str, int] = field(default_factory=dict)
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
+    noted: list[frozenset[int]] = field(default_factory=list)
+    _noting: set[int] = field(default_factory=set)
     _named: dict[str, int] = field(default_factory=dict)
     _frames: dict[str, int] = field(default_factory=dict)
 
@@ -62,22 +64,36 @@ class Draft:
         names = [body.name for body in self.machine.bodies]
         self._bodies = {name: k for k, name in enumerate((*names, GROUND))}
 
+    @contextmanager
+    def noting_bodies(self) -> Iterator[None]:
+        """Append the bodies whose markers and coordinates are asked for inside to `noted`."""
+        self._noting.clear()
+        yield
+        self.noted.append(frozenset(self._noting))
+
+    def _note(self, *markers: int) -> None:
+        self._noting.update(self.markers.body[marker] for marker in markers)
+
     def place(self, placed: Placed) -> int:
         """Index of a new marker: body, point and axes in the body's frame."""
         body, point, axes = placed
-        return self.markers.add(self.body(body), point, axes)
+        marker = self.markers.add(self.body(body), point, axes)
+        self._note(marker)
+        return marker
 
     def marker(self, name: str) -> int:
         """Index of the marker called `name`."""
         if name not in self._named:
             record = self.machine.marker_named[name]
             self._named[name] = self.place((record.body, *marker_frame(record)))
+        self._note(self._named[name])
         return self._named[name]
 
     def frame(self, body: str) -> int:
         """Index of the marker that is the frame of a body or of the ground."""
         if body not in self._frames:
             self._frames[body] = self.place((body, np.zeros(3), np.eye(3)))
+        self._note(self._frames[body])
         return self._frames[body]
 
     def marker_or_ground(self, name: str | None) -> int:
@@ -101,7 +117,12 @@ class Draft:
     def coordinate(self, reference: str, kind: Kind | None = None) -> int:
         """Index of a joint coordinate, which is measured in every evaluation from now on."""
         joint, name = resolve(reference, self.machine.joints, kind)
-        return self.coordinates.use(self.joint_coordinates[f"{joint}.{name}"])
+        return self._measured(f"{joint}.{name}")
+
+    def _measured(self, name: str) -> int:
+        index = self.joint_coordinates[name]
+        self._note(*self.coordinates.what[index][1:3])
+        return self.coordinates.use(index)
 
     def function(self, value: TimeFunction, local: dict[str, Signal] | None = None, *, motion: bool = False) -> int:
         """Index of a new function; `local` are the symbols that only this one knows."""
@@ -116,7 +137,7 @@ class Draft:
         symbol = find_symbol(path, self.machine)
         if symbol.section == "joints":
             name = symbol.quantity.removesuffix("_rate")
-            index = self.coordinates.use(self.joint_coordinates[f"{symbol.name}.{name}"])
+            index = self._measured(f"{symbol.name}.{name}")
             return (COORDINATE if name == symbol.quantity else RATE, index, 0)
         if symbol.section == "sensors":
             sensor = next(sensor for sensor in self.machine.sensors if sensor.name == symbol.name)

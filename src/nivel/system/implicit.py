@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,7 +9,10 @@ from nivel.kernels.implicit_record import Newton, Residual
 from nivel.kernels.record import NONE, Record
 from nivel.system.system import StateMap
 from nivel.system.tables import index_array
+from nivel.system.tangent_plan import TangentPlan, plan_tangent
 
+# share of the places of a full matrix that its factors need: above it exchanges of rows cost nothing
+MOSTLY_FULL = 0.6
 Index = NDArray[np.uint32]
 
 
@@ -22,7 +23,7 @@ def no_residual() -> Residual:
 
 def no_newton() -> Newton:
     """For explicit methods: all arrays empty."""
-    return newton_tables(index_array([], 2), 0, 0, 0, [], [])
+    return newton_tables(index_array([], 2), 0, 0, 0, plan_tangent([], [], [], mirrored=True))
 
 
 def residual_tables(bodies: int, state: int, velocities: int, states: int, row: Index, part: Index) -> Residual:
@@ -59,33 +60,23 @@ def places(state_map: StateMap, velocities: int, positions: int) -> Index:
     return out
 
 
-def newton_tables(
-    place: Index, state: int, states: int, rows: int, groups: Sequence[Sequence[int]], columns: Sequence[Sequence[int]]
-) -> Newton:
-    """For `place` of the velocities, entries of y, states of forces and constraint rows.
-
-    groups : unknowns whose derivatives are found at once. columns : the rows that each of the N unknowns has derivatives in; those of
-    multipliers follow from the rows of the velocities where the unknown is in no group.
-    """
-    n = len(place)
-    size = n + states + rows
-    dense = np.arange(size * size, dtype=np.uint32).reshape(size, size)
-    alone = {unknown for group in groups for unknown in group}
-    starts, entries = [0], []
-    for j, of_column in enumerate(columns):
-        for i in of_column:
-            mirrored = i >= n + states and i not in alone and j < n
-            entries.append((i, dense[i, j], dense[j, i] if mirrored else NONE))
-        starts.append(len(entries))
+def newton_tables(place: Index, state: int, states: int, rows: int, plan: TangentPlan) -> Newton:
+    """For `place` of the velocities, entries of y, states of forces, constraint rows and the derivatives planned."""
+    n, factor = len(place), plan.factor
+    size = factor.size
+    dense = factor.fill > MOSTLY_FULL
+    L, U, Dinv, work = factor.workspace() if not dense else (np.zeros(0),) * 4
+    full = size if dense else 0
     return Newton(
         address=np.zeros(2, dtype=np.uint64),
         place=place,
-        group=index_array([unknown for group in groups for unknown in group], 1),
-        group_start=np.cumsum([0, *(len(group) for group in groups)]).astype(np.uint32),
-        entry_start=index_array(starts, 1),
-        entry=index_array(entries, 3),
-        column=np.tile(np.arange(size, dtype=np.uint32), size),
-        row_start=(np.arange(size + 1) * size).astype(np.uint32),
+        group=plan.group,
+        group_start=plan.group_start,
+        entry_start=plan.entry_start,
+        entry=plan.entry,
+        column=factor.column,
+        row_start=factor.row_start,
+        lu=factor.tables,
         base=np.zeros(state),
         turn=np.zeros(n),
         speed=np.zeros(n),
@@ -93,9 +84,13 @@ def newton_tables(
         correction=np.zeros(n),
         rate=np.zeros(states),
         change=np.zeros(n),
-        value=np.zeros(size * size),
-        matrix=np.zeros((size, size)),
-        pivot=np.zeros(size, dtype=np.uint32),
+        value=np.zeros(len(factor.column)),
+        L=L,
+        U=U,
+        Dinv=Dinv,
+        work=work,
+        matrix=np.zeros((full, full)),
+        pivot=np.zeros(full, dtype=np.uint32),
         b=np.zeros(size),
         last=np.zeros(size),
         moved=np.zeros(n),
@@ -104,5 +99,5 @@ def newton_tables(
         lam_before=np.zeros(rows),
         kept=np.zeros(4),
         settings=np.zeros(2),
-        index=np.zeros(1, dtype=np.uint32),
+        level=np.zeros(1, dtype=np.uint32),
     )

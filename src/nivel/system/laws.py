@@ -52,13 +52,56 @@ for _nivel_name, _nivel_part in list(globals().items()):
 def nivel_law(x):
 {body}
 """
+# The same on complex numbers, for exact derivatives.
+COMPLEX_EXPRESSION = '''"""A function written by nivel from an expression of a machine file, for exact derivatives."""
+
+import numpy as np
+from numba import cfunc, types
+
+from nivel.kernels.analytic import absolute, arctan2, maximum, minimum
+
+
+@cfunc(types.complex128(types.CPointer(types.complex128)), cache=True, error_model="numpy")
+def nivel_law(x):
+{body}
+'''
+
+# The derivative of a Python law along the imaginary parts of its arguments, by differences of order four: its text need not know complex
+# numbers. Steps are shares of the arguments.
+COMPLEX_LAW = """{source}
+
+
+import types as _nivel_python_types
+
+import numba as _nivel_numba
+import numpy as _nivel_numpy
+
+for _nivel_name, _nivel_part in list(globals().items()):
+    if isinstance(_nivel_part, _nivel_python_types.FunctionType) and _nivel_part.__module__ == __name__:
+        globals()[_nivel_name] = _nivel_numba.njit(error_model="numpy")(_nivel_part)
+
+
+@_nivel_numba.cfunc(
+    _nivel_numba.types.complex128(_nivel_numba.types.CPointer(_nivel_numba.types.complex128)), cache=True, error_model="numpy"
+)
+def nivel_law(x):
+{body}
+"""
+SHARE = 1e-4
 SPELLING = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2"}
 
 
 def expression_address(expression: Expression, signals: Sequence[str]) -> int:
     """Address of the code of an expression of `signals`, of which the first is the time."""
     places = {path: place for place, path in enumerate(signals)}
-    return _address(EXPRESSION.format(body=f"    return {source(expression.tree, places)}"))
+    address = _address(EXPRESSION.format(body=f"    return {source(expression.tree, places)}"))
+    _twins[address] = COMPLEX_EXPRESSION.format(body=f"    return {_analytic(source(expression.tree, places))}")
+    return address
+
+
+def complex_address(address: int) -> int:
+    """Address of the code on complex numbers of the function at `address`, compiled when it is asked for."""
+    return _address(_twins[address])
 
 
 def motion_address(expression: Expression) -> int:
@@ -69,7 +112,9 @@ def motion_address(expression: Expression) -> int:
         f"x[2] = {source(rate.derivative.tree, {})}",
         f"return {source(expression.tree, {})}",
     ]
-    return _address(EXPRESSION.format(body="\n".join(f"    {line}" for line in lines)))
+    address = _address(EXPRESSION.format(body="\n".join(f"    {line}" for line in lines)))
+    _twins[address] = COMPLEX_EXPRESSION.format(body="\n".join(f"    {_analytic(line)}" for line in lines))
+    return address
 
 
 def law_address(law: PythonLaw, *, motion: bool) -> int:
@@ -78,11 +123,13 @@ def law_address(law: PythonLaw, *, motion: bool) -> int:
     Raises ModelError where it cannot be compiled.
     """
     try:
-        return _address(_law_text(law, motion=motion))
+        address = _address(_law_text(law, motion=motion))
     except Exception as problem:  # whatever a foreign text does while it is compiled is the user's fault to mend
         where = f" in {law.file}" if law.file else ""
         message = f"the law `{law.function}`{where} cannot be compiled: {_telling(problem)}"
         raise ModelError(Fault("", 0, 0, "", message)) from problem
+    _twins[address] = _complex_law_text(law, motion=motion)
+    return address
 
 
 def _law_text(law: PythonLaw, *, motion: bool) -> str:
@@ -99,6 +146,36 @@ def _law_text(law: PythonLaw, *, motion: bool) -> str:
     else:
         lines = [f"return {call}"]
     return LAW.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
+
+
+def _complex_law_text(law: PythonLaw, *, motion: bool) -> str:
+    """The module of the law on complex arguments. Motions depend on the time alone: their derivatives are what they return."""
+    count = len(law.arguments)
+
+    def call(step: str) -> str:
+        return f"{law.function}({', '.join(f'x[{n}].real + {step} * x[{n}].imag' for n in range(count))})"
+
+    if motion:
+        lines = [
+            f"value, rate, acceleration = {call('0.0')}",
+            f"x[{count}] = complex(rate, x[0].imag * acceleration)",
+            f"x[{count + 1}] = acceleration",
+            "return complex(value, x[0].imag * rate)",
+        ]
+    else:
+        lines = [
+            "reach = _nivel_numpy.inf",
+            f"for n in range({count}):",
+            "    if x[n].imag != 0.0:",
+            f"        reach = min(reach, {SHARE} * max(abs(x[n].real), {SHARE}) / abs(x[n].imag))",
+            f"value = {call('0.0')}",
+            "if reach == _nivel_numpy.inf:",
+            "    return complex(value, 0.0)",
+            f"near = {call('reach')} - {call('(-reach)')}",
+            f"far = {call('(2.0 * reach)')} - {call('(-2.0 * reach)')}",
+            "return complex(value, (8.0 * near - far) / (12.0 * reach))",
+        ]
+    return COMPLEX_LAW.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
 
 
 def false_derivative(law: PythonLaw, end: float) -> str:
@@ -169,6 +246,22 @@ def source(node: Node, places: dict[str, int]) -> str:
             return f"np.{SPELLING.get(function, function)}({', '.join(source(each, places) for each in arguments)})"
         case Name(text):
             raise ValueError(f"the name {text} is not bound")
+
+
+def _analytic(text: str) -> str:
+    """Source of an expression with the functions that stay analytic on complex numbers."""
+    for function, known in (
+        ("abs", "absolute"),
+        ("arctan2", "arctan2"),
+        ("maximum", "maximum"),
+        ("minimum", "minimum"),
+    ):
+        text = text.replace(f"np.{function}(", f"{known}(")
+    return text
+
+
+# text of the code on complex numbers for the addresses handed out
+_twins: dict[int, str] = {}
 
 
 def _address(text: str) -> int:

@@ -39,6 +39,7 @@ class System:
 
     rows : name of every constraint row of the formulation, e.g. ``hinge.s.x``; the first `machine_rows` belong to joints, couplings
     and drivers. row_owner : name of the joint, coupling or driver of each of these. point_masses : (B,) bodies that do not turn.
+    coupled : bodies that each force acts on or depends on, the ground included.
     as_placed : combinations that keep the value that they have as the machine is placed.
     size : length of the machine [m], the scale of its tolerances. state_map : what the entries of y are; None: as `absolute_map`.
     """
@@ -48,6 +49,7 @@ class System:
     layout: FrameLayout
     bodies: tuple[str, ...]
     joints: tuple[str, ...]
+    coupled: tuple[frozenset[int], ...]
     frictions: tuple[str, ...]
     events: tuple[str, ...]
     rows: tuple[str, ...]

@@ -57,7 +57,7 @@ class Newton(NamedTuple):
     matrix: F2  # (N, N) its factors where it is not, or (0, 0)
     pivot: U1  # (N,)
     b: F1  # (N,) right-hand side, then solution
-    last: F1  # (N,) work
+    last: F1  # (max(N, 4),) work
     moved: F1  # (n,) solution for the positions
     before: F1  # (N,) the change before
     moved_before: F1  # (n,)

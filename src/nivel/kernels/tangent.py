@@ -16,8 +16,8 @@ from nivel.kernels.status import OK
 
 # far below round-off in every product with a real number, far above the smallest number in every product with a small direction
 EPSILON = 1e-30
-# which rows of constraints are solved, and what their derivatives are divided by
-POSITIONS, VELOCITIES, ACCELERATIONS = 0, 1, 2
+# which rows of the constraints stand in the matrix: C/cq or C̈
+POSITIONS, ACCELERATIONS = 0, 1
 
 
 @leaf
@@ -63,14 +63,15 @@ def move_unknown(newton, moving, j, factor, cq, cv, cx):
 
 
 @stage
-def write_column(newton, value, j, n, cq):
+def write_column(newton, value, j, n, cq, level):
     """Column j of the matrix from the imaginary parts of the residual's value, and the row of C_qᵀ that goes with it."""
     states = newton.state.shape[0]
+    rows = newton.b.shape[0] - n - states
     for e in range(newton.entry_start[j], newton.entry_start[j + 1]):
         row, p, transposed = np.int64(newton.entry[e, 0]), newton.entry[e, 1], newton.entry[e, 2]
         slope = value[row].imag / EPSILON
         if row >= n + states:
-            newton.value[p] = slope / cq
+            newton.value[p] = slope / cq if level == POSITIONS else value[row + 2 * rows].imag / EPSILON
             if transposed != NONE:
                 newton.value[transposed] = slope / cq
         elif row >= n:
@@ -80,23 +81,30 @@ def write_column(newton, value, j, n, cq):
 
 
 @stage
-def differentiate(machine, t, cq, cv, cx):
-    """Entries of the matrix of Newton's iteration, [M + cv D + cq K, C_qᵀ; C_q, 0], at `residual.y`, `vdot`, `lam`. Returns a status.
-
-    Unknown v̇ moves positions by cq and velocities by cv, ẋ the states of forces by cx; columns are with respect to rotations after
-    A exp(change), and scaled like accelerations.
-    """
-    record = record_at(machine)
-    newton, here = record.newton, record.residual
+def load_twin(newton, here):
+    """The complex residual at the same state, accelerations and multipliers. Returns the complex record's address and its residual."""
     twin = (newton.address[0],)
     moving = record_at(twin).residual
-    n = here.vdot.shape[0]
     for i in range(here.y.shape[0]):
         moving.y[i] = here.y[i]
-    for i in range(n):
+    for i in range(here.vdot.shape[0]):
         moving.vdot[i] = here.vdot[i]
     for i in range(here.lam.shape[0]):
         moving.lam[i] = here.lam[i]
+    return twin, moving
+
+
+@stage
+def differentiate(machine, t, cq, cv, cx, level):
+    """Entries of the matrix of Newton's iteration, [M + cv D + cq K, C_qᵀ; C_q, 0], at `residual.y`, `vdot`, `lam`. Returns a status.
+
+    Unknown v̇ moves positions by cq and velocities by cv, ẋ the states of forces by cx; columns are with respect to rotations after
+    A exp(change), and scaled like accelerations. level : ACCELERATIONS has the derivatives of C̈ in place of the last rows.
+    """
+    record = record_at(machine)
+    newton, here = record.newton, record.residual
+    twin, moving = load_twin(newton, here)
+    n = here.vdot.shape[0]
     for g in range(newton.group_start.shape[0] - 1):
         first, last = np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])
         for m in range(first, last):
@@ -105,7 +113,7 @@ def differentiate(machine, t, cq, cv, cx):
         if status != OK:
             return status
         for m in range(first, last):
-            write_column(newton, moving.value, np.int64(newton.group[m]), n, cq)
+            write_column(newton, moving.value, np.int64(newton.group[m]), n, cq, level)
         # moved back: a complex number less what was added would keep its imaginary part only to round-off
         for m in range(first, last):
             still(newton, moving, here, np.int64(newton.group[m]))

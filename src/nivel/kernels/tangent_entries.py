@@ -8,7 +8,7 @@ from nivel.kernels.compile import entry
 from nivel.kernels.handle import address_type
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import RESIDUAL
-from nivel.kernels.tangent import differentiate
+from nivel.kernels.tangent import POSITIONS, differentiate
 
 _number = types.float64
 
@@ -22,4 +22,4 @@ def evaluate_residual(machine, t):
 @entry(types.int64(address_type, _number, _number, _number, _number))
 def find_tangent(machine, t, cq, cv, cx):
     """Fill `newton.value`, see `nivel.kernels.tangent.differentiate`. Returns a status."""
-    return differentiate(machine, t, cq, cv, cx)
+    return differentiate(machine, t, cq, cv, cx, POSITIONS)

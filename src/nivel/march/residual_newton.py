@@ -19,12 +19,11 @@ import numpy as np
 
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import call_hook
-from nivel.kernels.lu import factorise_lu, solve_lu
+from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import NONE, RESIDUAL, record_at
-from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.kernels.spatial import dot
 from nivel.kernels.status import NOT_CONVERGED, OK
-from nivel.kernels.tangent import differentiate, inverse_tangent
+from nivel.kernels.tangent import POSITIONS, differentiate, inverse_tangent
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
 
 SLOW = 0.2
@@ -70,34 +69,6 @@ def set_state(machine, cq, cv, cx):
             turn_by(base[p : p + 4], newton.change[k : k + 3], y[p : p + 4])
     for k in range(states):
         y[positions + n + k] = newton.state[k] + cx * newton.rate[k]
-
-
-@stage
-def factorise(machine):
-    """Factors of the matrix whose entries were found. Returns a status; the unknown without a pivot is left in control.failure."""
-    record = record_at(machine)
-    newton = record.newton
-    size = newton.matrix.shape[0]
-    if size == 0 and newton.b.shape[0] > 0:
-        failed = factorise_sparse_lu(newton.lu, newton.value, newton.L, newton.U, newton.Dinv, newton.work)
-        if failed >= 0:
-            record.control.failure[0] = failed
-        return OK if failed < 0 else NOT_CONVERGED
-    newton.matrix[:, :] = 0.0
-    for i in range(size):
-        for p in range(newton.row_start[i], newton.row_start[i + 1]):
-            newton.matrix[i, newton.column[p]] = newton.value[p]
-    return OK if factorise_lu(newton.matrix, newton.pivot) else NOT_CONVERGED
-
-
-@stage
-def solve(machine):
-    """Overwrite newton.b with the solution."""
-    newton = record_at(machine).newton
-    if newton.matrix.shape[0] == 0:
-        solve_sparse_lu(newton.lu, newton.L, newton.U, newton.Dinv, newton.b, newton.work)
-    else:
-        solve_lu(newton.matrix, newton.pivot, newton.b)
 
 
 @stage
@@ -220,7 +191,7 @@ def iterate(machine, history, t, cq, cv, cx):
         counter[EVALUATIONS] += 1
         counter[ITERATIONS] += 1
         if status == OK and (stale or not is_kept(newton, cq, cv, cx)):
-            status = differentiate(machine, t, cq, cv, cx)
+            status = differentiate(machine, t, cq, cv, cx, POSITIONS)
             if status == OK:
                 status = factorise(machine)
             counter[FACTORISATIONS] += 1

@@ -92,7 +92,7 @@ def newton_tables(place: Index, state: int, states: int, rows: int, plan: Tangen
         matrix=np.zeros((full, full)),
         pivot=np.zeros(full, dtype=np.uint32),
         b=np.zeros(size),
-        last=np.zeros(size),
+        last=np.zeros(max(size, 4)),
         moved=np.zeros(n),
         before=np.zeros(size),
         moved_before=np.zeros(n),

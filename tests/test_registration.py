@@ -4,7 +4,7 @@ from typing import get_args
 
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.joint import JOINT_COORDINATES, JointType
-from nivel.machine.settings import SimulationSettings
+from nivel.machine.settings import CHOOSING, EITHER, SimulationSettings
 from nivel.march import variable_workspace, workspace
 from nivel.march.catalogue import INTEGRATORS
 from nivel.march.stabilise.catalogue import STABILISATIONS
@@ -25,6 +25,8 @@ def test_every_joint_that_a_file_may_name_is_built_and_the_other_way_round():
 
 def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():
     assert words("integrator") == set(INTEGRATORS)
+    assert set(CHOOSING) == {name for name, facts in INTEGRATORS.items() if facts.chooses_steps}
+    assert set(EITHER) == {name for name, facts in INTEGRATORS.items() if facts.either}
     assert words("formulation") == set(FORMULATIONS)
     assert words("stabilisation") == set(STABILISATIONS)
 

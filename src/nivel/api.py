@@ -127,6 +127,7 @@ class Machine:
         coordinates: str | None = None,
         rotations: str | None = None,
         stabilisation: str | None = None,
+        step_control: str | None = None,
         tolerance: float | str | None = None,
         largest_step: float | str | None = None,
         cut: Sequence[str] | str | None = None,
@@ -143,7 +144,8 @@ class Machine:
     ) -> Result:
         """Motion in time. Options given here go before those of the machine's `simulation`.
 
-        duration, step, output_interval, largest_step : [s], or texts with units. tolerance : of integrators that choose their steps.
+        duration, step, output_interval, largest_step : [s], or texts with units. step_control : fixed, or error: steps chosen for the
+        tolerance, where the integrator can do both. tolerance : of integrators that choose their steps.
         cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte, newmark,
         hht, generalised_alpha : mappings as in a machine file.
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : estimate the accuracy with a second
@@ -160,6 +162,7 @@ class Machine:
             "coordinates": coordinates,
             "rotations": rotations,
             "stabilisation": stabilisation,
+            "step_control": step_control,
             "tolerance": tolerance,
             "largest_step": largest_step,
             "cut": cut,

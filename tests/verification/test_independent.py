@@ -230,7 +230,7 @@ def test_rockers_change_the_partition_by_themselves_and_keep_their_energy():
 
 
 @pytest.mark.parametrize("stabilisation", ["none", "direct", "geometric"])
-@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("integrator", [name for name, facts in INTEGRATORS.items() if not facts.residual])
 def test_constraints_hold_to_round_off_in_every_frame(integrator, stabilisation):
     r = run(
         machines.slider_crank(), duration=0.5, step=1e-3, integrator=integrator,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.choice import choose_coordinates
+from nivel.analysis.choice import choose_coordinates, choose_cut
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.elements import coupling_in_words, driver_in_words, event_in_words, force_in_words, sensor_in_words
 from nivel.analysis.settings import RunSettings, complete
@@ -192,7 +192,7 @@ def check(machine: MachineRecord) -> Check:
 
 def _cut(machine: MachineRecord) -> tuple[str, ...]:
     """Joints that stay constraints in relative coordinates."""
-    return tuple(machine.joints[k].name for k in tree_of(machine, machine.simulation).cut)
+    return tuple(machine.joints[k].name for k in tree_of(machine, choose_cut(machine)).cut)
 
 
 def _turn(theta: Array) -> tuple[tuple[float, ...], float]:

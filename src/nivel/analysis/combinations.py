@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nivel.errors import Fault
 from nivel.machine.settings import SimulationSettings
-from nivel.march.catalogue import INTEGRATORS
+from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.motion.catalogue import FORMULATIONS, PATHS, path_of
 
 
@@ -30,7 +30,8 @@ def refuse_combinations(settings: SimulationSettings, coordinates: str) -> list[
         faults.append(_fault("stabilisation", message))
     if coordinates == "independent":
         faults += _refuse_feedback(formulation, stabilisation)
-    return faults + _refuse_residual(settings, coordinates) + _refuse_chosen_steps(settings)
+    faults += _refuse_residual(settings, coordinates) + _refuse_step_control(settings)
+    return faults + _refuse_chosen_steps(settings)
 
 
 def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
@@ -73,23 +74,34 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
     return faults
 
 
+def _refuse_step_control(settings: SimulationSettings) -> list[Fault]:
+    """Steps that the integrator cannot choose, or cannot but choose."""
+    facts, wanted = INTEGRATORS.get(settings.integrator), settings.step_control
+    if facts is None or wanted == "own" or facts.either or facts.chooses_steps == (wanted == "error"):
+        return []
+    if wanted == "fixed":
+        message = f"{settings.integrator} always chooses its steps: take an integrator of fixed step, e.g. rk4 or generalised-alpha"
+    else:
+        message = f"{settings.integrator} has no estimate of its error: take dopri5, or radau for stiff machines"
+    return [_fault("step_control", message)]
+
+
 def _refuse_chosen_steps(settings: SimulationSettings) -> list[Fault]:
     """What needs a step of fixed size and gets an integrator that chooses its steps."""
     faults = []
-    facts = INTEGRATORS.get(settings.integrator)
-    if facts is None or not facts.chooses_steps:
+    if not chooses(settings.integrator, settings.step_control):
         return faults
-    chooses = f"which depend on the step, and {settings.integrator} chooses its steps"
+    reason = f"which depend on the step, and {settings.integrator} chooses its steps"
     if settings.stabilisation == "baumgarte" and settings.baumgarte is None:
         message = (
-            f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, {chooses}: take direct, or own coefficients "
+            f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, {reason}: take direct, or own coefficients "
             f"`baumgarte: {{alpha: 20 1/s, beta: 20 1/s}}`"
         )
         faults.append(_fault("stabilisation", message))
     penalised = FORMULATIONS[settings.formulation].factor > 0.0
     if penalised and settings.stabilisation == "none" and settings.penalty.omega is None:
         message = (
-            f"{settings.formulation} without `omega` takes Ω = 0.1/step, {chooses}: set `penalty: {{omega: 10 1/s}}`, or take "
+            f"{settings.formulation} without `omega` takes Ω = 0.1/step, {reason}: set `penalty: {{omega: 10 1/s}}`, or take "
             f"`stabilisation: direct`, which needs no Ω"
         )
         faults.append(_fault("penalty", message))

@@ -29,7 +29,7 @@ from nivel.machine.settings import (
     Stabilisation,
     Tolerance,
 )
-from nivel.march.catalogue import INTEGRATORS
+from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.results.comparison import Method
 
 REFERENCES: Final = ("dop853", "rk4")  # integrators of the solutions that cells are held against
@@ -104,7 +104,7 @@ def lay_out(machine: MachineRecord, axes: Axes, given: Collection[str] = ()) -> 
     """
     own = machine.simulation.replace(output_interval=None)
     integrators = dict.fromkeys(axes.integrators or (own.integrator,))
-    fixed = any(not _chooses(word) for word in integrators)
+    fixed = any(not chooses(word, own.step_control) for word in integrators)
     steps = [step for step in dict.fromkeys(axes.steps or (own.step,)) if step <= own.duration] if fixed else []
     asked = machine.simulation.output_interval if "output_interval" in given else None
     interval = asked or _common_interval(steps, machine.simulation)
@@ -150,7 +150,7 @@ def _methods(axes: Axes, own: SimulationSettings) -> Iterator[Method]:
 
 def _sizes(axes: Axes, own: SimulationSettings, integrator: str) -> Iterator[tuple[float | None, float | None]]:
     """(step, tolerance) of the cells of an integrator: it has one of them."""
-    if _chooses(integrator):
+    if chooses(integrator, own.step_control):
         yield from ((None, tolerance) for tolerance in dict.fromkeys(axes.tolerances or (own.tolerance,)))
     else:
         yield from ((step, None) for step in dict.fromkeys(axes.steps or (own.step,)))
@@ -173,10 +173,6 @@ def _cell(machine: MachineRecord, method: Method, step: float | None, tolerance:
 def reasons(error: ModelError) -> str:
     """The faults of a cell in one sentence."""
     return "; ".join(fault.message for fault in error.faults)
-
-
-def _chooses(integrator: str) -> bool:
-    return integrator in INTEGRATORS and INTEGRATORS[integrator].chooses_steps
 
 
 def _common_interval(steps: list[float], own: SimulationSettings) -> float:
@@ -217,10 +213,10 @@ def _refuse_idle(
     """What was asked for and would change no cell is refused."""
     faults = []
     known = [word for word in integrators if word in INTEGRATORS]
-    fixed = bool(known) and not any(_chooses(word) for word in known)
+    fixed = bool(known) and not any(chooses(word, own.step_control) for word in known)
     if axes.tolerances and fixed:
         faults.append(("tolerances", f"the steps of {', '.join(known)} are fixed: give steps"))
-    if axes.steps and known and all(_chooses(word) for word in known):
+    if axes.steps and known and all(chooses(word, own.step_control) for word in known):
         faults.append(("steps", f"{', '.join(known)} choose their steps: give tolerances"))
     if axes.rotations and "lagrange" not in (axes.formulations or (own.formulation,)):
         faults.append(("rotations", "they are of `lagrange`, which is not among the formulations"))

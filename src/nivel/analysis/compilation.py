@@ -9,7 +9,7 @@ from time import perf_counter
 from nivel.analysis.listener import Listener
 from nivel.kernels import cache
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import INTEGRATORS
+from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import path_of
 from nivel.system.forces import FORCES
@@ -40,8 +40,8 @@ def compile_path(
     Returns the wall time [s].
     """
     begin = perf_counter()
-    chooses = integrator in INTEGRATORS and INTEGRATORS[integrator].chooses_steps
-    parts = [("nivel.kernels.observe", "output"), *_rare_parts(machine, chooses)]
+    chosen = chooses(integrator, machine.simulation.step_control)
+    parts = [("nivel.kernels.observe", "output"), *_rare_parts(machine, chosen)]
     parts.insert(0, (ASSEMBLY, "the equations of motion, newton-euler"))
     if (facts := path_of(*path)) is not None:
         if facts.module != ASSEMBLY:
@@ -67,10 +67,10 @@ def rare_modules() -> list[str]:
     return [*(f"nivel.kernels.forces.{family}" for family in families), *RARE]
 
 
-def _rare_parts(machine: MachineRecord, chooses: bool) -> list[tuple[str, str]]:
+def _rare_parts(machine: MachineRecord, chosen: bool) -> list[tuple[str, str]]:
     """Modules of what only some machines have: kinds of forces, measured coordinates, friction, sensors, events.
 
-    chooses : the integrator chooses its steps; it follows contacts and stops.
+    chosen : the integrator chooses its steps; it follows contacts and stops.
     """
     types = {force.type for force in machine.forces}
     families = dict.fromkeys(family for force in types for family in FORCES[force].families)
@@ -80,7 +80,7 @@ def _rare_parts(machine: MachineRecord, chooses: bool) -> list[tuple[str, str]]:
         ),
         "nivel.kernels.friction": "friction" in types,
         "nivel.kernels.sensor": bool(machine.sensors),
-        "nivel.kernels.watch": bool(machine.events) or (chooses and bool(types & {*FOLLOWED})),
+        "nivel.kernels.watch": bool(machine.events) or (chosen and bool(types & {*FOLLOWED})),
     }
     parts = [(f"nivel.kernels.forces.{family}", f"forces: {family}") for family in families]
     return parts + [(module, what) for module, what in RARE.items() if needed[module]]

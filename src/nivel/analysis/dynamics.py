@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 
 from nivel.analysis.assemble import Assembly, assemble
+from nivel.analysis.choice import choose_cut
 from nivel.analysis.combinations import refuse_combinations
+from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.implicit import equip
 from nivel.analysis.interrupt import interruptible
@@ -136,7 +138,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         raise ModelError(refuse_combinations(machine.simulation.replace(formulation=formulation), coordinates))
     motion.system.record.coordinates.reference[:] = assembly.reference
     arrange = import_module(facts.arrangement).arrange
-    system, y = arrange(machine, motion.system, assembly.y, rank, machine.simulation)
+    system, y = arrange(machine, motion.system, assembly.y, rank, choose_cut(machine))
     prepared = MotionEquations(system, import_module(facts.module))
     if FORMULATIONS[formulation].factor > 0.0:
         prepared = penalise(prepared, y, machine.simulation, FORMULATIONS[formulation])
@@ -144,7 +146,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         bound_pivots(prepared, y)
     if INTEGRATORS[machine.simulation.integrator].residual:
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
-        prepared = equip(prepared, y, coordinates)
+        prepared = equip(prepared, y, coordinates, corners(machine))
     return Prepared(prepared, y, absolute, assembly, redundancy, len(machine.drivers))
 
 
@@ -206,7 +208,7 @@ def march(
         finished.outcome = "failed"
         step_size = float(run.clock[STEP])
         message, advice = failure(
-            prepared.motion, status, float(run.clock[TIME]), step_size, run.previous, chosen=facts.chooses_steps
+            prepared.motion, status, float(run.clock[TIME]), step_size, run.previous, chosen=settings.steps == 0
         )
         finished.failure = (message, advice, float(run.clock[TIME]))
     finished.timing = {
@@ -263,7 +265,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     record.friction.force[:] = 0.0
     # Where steps are chosen, the first one is still what the user calls a short time: stiction stops within two of them, and the error
     # control makes steps as short as that takes. Bristles need no limit there, nor in implicit methods.
-    follows = facts.chooses_steps or facts.residual
+    follows = settings.steps == 0 or facts.residual
     record.control.stick[:] = STICK_STEPS * settings.step, 0.0 if follows else STICK_STEPS * settings.step
     system.record.control.energy[:] = 0.0
     prepared.motion.evaluate(0.0, y)
@@ -271,7 +273,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     observe(prepared.motion.handle.address, 0.0, y, np.zeros(width))
     energy = system.record.control.energy
     energy[2] = energy[0] + energy[1]
-    values = _watch(system, facts)
+    values = _watch(system, chosen=settings.steps == 0)
     count[SWITCHED] = record.watched.followed[0]
     return Run(
         clock=clock,
@@ -295,10 +297,10 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     )
 
 
-def _watch(system: System, facts: IntegratorFacts) -> int:
+def _watch(system: System, *, chosen: bool) -> int:
     """Number of values whose zeros are looked for: events, and where steps are chosen, contacts and stops."""
     watched = system.record.watched
-    if facts.chooses_steps:
+    if chosen:
         watched.followed[0] = int(len(watched.surface) > 0)
     count = len(watched.event) + (len(watched.surface) if watched.followed[0] else 0)
     if count:

@@ -9,7 +9,7 @@ from collections.abc import Collection
 
 from nivel.errors import Fault
 from nivel.machine.settings import SimulationSettings
-from nivel.march.catalogue import INTEGRATORS
+from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.motion.catalogue import FORMULATIONS
 
 
@@ -28,9 +28,10 @@ def idle_settings(given: Collection[str], settings: SimulationSettings, coordina
 def _idle(name: str, settings: SimulationSettings, coordinates: str) -> str:
     """Why the setting `name` has no effect; empty where it has one."""
     integrator, formulation = INTEGRATORS.get(settings.integrator), FORMULATIONS.get(settings.formulation)
-    if name in ("tolerance", "largest_step") and integrator and not integrator.chooses_steps:
+    if name in ("tolerance", "largest_step") and integrator and not chooses(settings.integrator, settings.step_control):
         fitting = [each for each, facts in INTEGRATORS.items() if facts.chooses_steps]
-        return f"the step of `integrator: {settings.integrator}` is fixed; {_choice('it', fitting)}"
+        more = "; `step_control: error` lets it choose its steps" if integrator.either else ""
+        return f"the step of `integrator: {settings.integrator}` is fixed; {_choice('it', fitting)}{more}"
     if name == "corrector" and integrator and not integrator.implicit:
         fitting = [each for each, facts in INTEGRATORS.items() if facts.implicit]
         return f"`integrator: {settings.integrator}` solves no equations; {_choice('it', fitting)}"

@@ -10,7 +10,7 @@ from nivel.machine.forces import Contact, Friction, Stop
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.table import Table
-from nivel.march.catalogue import INTEGRATORS
+from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.system.laws import false_derivative
 from nivel.system.system import Array
 
@@ -82,7 +82,7 @@ def refuse_conserved_drivers(machine: MachineRecord) -> None:
     if machine.simulation.stabilisation != "geometric":
         return
     sudden = [force.name for force in machine.forces if isinstance(force, Contact | Stop)]
-    if sudden and not INTEGRATORS[machine.simulation.integrator].chooses_steps:
+    if sudden and not chooses(machine.simulation.integrator, machine.simulation.step_control):
         message = (
             f"'geometric' scales all velocities to the energy they should have, also for what a step of fixed size misses when "
             f"{', '.join(sudden)} begin{'s' * (len(sudden) == 1)} to touch within it: take direct, or `integrator: dopri5`, whose steps "

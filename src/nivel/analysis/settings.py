@@ -9,7 +9,7 @@ from nivel.analysis.combinations import refuse_combinations
 from nivel.errors import Fault, ModelError
 from nivel.machine.settings import Corrector, Penalty, SimulationSettings
 from nivel.march.alpha_constants import generalised_alpha, hht, newmark
-from nivel.march.catalogue import INTEGRATORS
+from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
 
@@ -80,13 +80,13 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         if word not in known:
             faults.append(_fault(field, f"'{word}' is not known; known are {', '.join(known)}"))
     facts = INTEGRATORS.get(settings.integrator)
-    chooses = facts is not None and facts.chooses_steps
-    if not chooses and not settings.duration <= MOST_STEPS * settings.step:
+    chosen_steps = chooses(settings.integrator, settings.step_control)
+    if not chosen_steps and not settings.duration <= MOST_STEPS * settings.step:
         wanted = f"a duration of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
         faults.append(_fault("step", f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step"))
         raise ModelError(faults)
     steps, every = 0, 0
-    if chooses:
+    if chosen_steps:
         interval = settings.output_interval or settings.duration / FRAMES
         if settings.duration > MOST_STEPS * interval:
             faults.append(_fault("output_interval", f"{interval:.6g} s would give more than {MOST_STEPS:.0e} frames"))
@@ -114,7 +114,7 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         coordinates=chosen,
         stabilisation=settings.stabilisation,
         rotations=settings.rotations,
-        tolerance=settings.tolerance if chooses else None,
+        tolerance=settings.tolerance if chosen_steps else None,
         largest_step=settings.largest_step or settings.duration,
         corrector=settings.corrector if implicit else None,
         penalty=settings.penalty if FORMULATIONS[settings.formulation].factor > 0.0 else None,

@@ -71,6 +71,7 @@ METHODS: Final[dict[str, str]] = {
     "coordinates": "What the equations are written in:",
     "rotations": "Rotation coordinates of lagrange in absolute coordinates:",
     "stabilisation": "What keeps the joints closed:",
+    "step_control": "Steps of implicit integrators, fixed or chosen for the tolerance:",
 }
 
 
@@ -78,7 +79,7 @@ def method_option(setting: str, *, plural: bool = False) -> Any:
     """`--integrator NAME`, or `--integrators NAMES` that takes several."""
     common: dict[str, Any] = {"cls": MethodOption, "setting": setting, "help": METHODS[setting]}
     if not plural:
-        return click.option(f"--{setting}", metavar="NAME", **common)
+        return click.option(f"--{setting.replace('_', '-')}", metavar="NAME", **common)
     name = f"--{setting}" if setting.endswith("s") else f"--{setting}s"
     return click.option(name, metavar="NAMES", multiple=True, callback=separated, **common)
 

@@ -61,7 +61,9 @@ class Newton(NamedTuple):
     moved: F1  # (n,) solution for the positions
     before: F1  # (N,) the change before
     moved_before: F1  # (n,)
-    lam_before: F1  # (K,) multipliers of the state before the accepted one
+    lam: F1  # (K,) multipliers of the accepted state
+    lam_before: F1  # (K,) those of the state before
+    corners: F1  # [s] times at which functions of time have corners, ascending
     kept: F1  # (4,) cq, cv, cx that the factors are for (0: none), contraction seen with them
     settings: F1  # (2,) tolerance of a change as a share of the scales, most iterations
     level: U1  # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction

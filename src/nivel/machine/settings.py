@@ -19,8 +19,10 @@ Integrator = Literal[
     "dopri5", "dop853", "adams", "gear",
     "newmark", "hht", "generalised-alpha",
 ]  # fmt: skip
-# those of them that choose their steps
+# those of them that choose their steps, and those that do so with `step_control: error`
 CHOOSING = ("dopri5", "dop853", "adams", "gear")
+EITHER = ("newmark", "hht", "generalised-alpha")
+StepControl = Literal["own", "fixed", "error"]
 Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangian"]
 Coordinates = Literal["auto", "absolute", "relative", "independent"]
 Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]
@@ -100,6 +102,9 @@ class SimulationSettings(Record):
     stabilisation: Stabilisation = "direct"
     rotations: Rotations = Field(default="euler-parameters", description="of lagrange in absolute coordinates")
     cut: tuple[str, ...] = Field(default=(), description="joints that stay constraints in relative coordinates")
+    step_control: StepControl = Field(
+        default="own", description="fixed steps, or steps chosen for the tolerance; own: as the integrator does"
+    )
     tolerance: Tolerance = Field(default=1e-6, description="of integrators that choose their steps")
     largest_step: Duration | None = Field(default=None, description="of integrators that choose their steps")
     corrector: Corrector = Field(default=Corrector(), description="of implicit multistep methods")
@@ -121,7 +126,7 @@ class SimulationSettings(Record):
 
     @model_validator(mode="after")
     def _makes_sense(self) -> SimulationSettings:
-        fixed = self.integrator not in CHOOSING
+        fixed = self.integrator not in CHOOSING and not (self.integrator in EITHER and self.step_control == "error")
         if self.duration < SHORTEST:
             raise fault(f"`duration` {self.duration:g} s is shorter than {SHORTEST:g} s, the shortest run there is")
         if fixed and self.step > self.duration:

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 class IntegratorFacts:
     """`function` of `module` is the compiled step; `stages` vectors and `numbers` of work and history; `order` of convergence.
 
-    chooses_steps : controls its error. implicit : iterates a corrector, by Newton's method on request. residual : solves the equations
-    of motion themselves, with exact tangents, for accelerations and multipliers.
+    chooses_steps : controls its error; either : does so on request. implicit : iterates a corrector, by Newton's method on request.
+    residual : solves the equations of motion themselves, with exact tangents, for accelerations and multipliers.
     """
 
     module: str
@@ -24,6 +24,7 @@ class IntegratorFacts:
     chooses_steps: bool = False
     implicit: bool = False
     residual: bool = False
+    either: bool = False
 
 
 _ADAMS, _MOULTON, _GEAR = "nivel.march.adams", "nivel.march.moulton", "nivel.march.gear"
@@ -43,8 +44,14 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     "dop853": IntegratorFacts("nivel.march.dop853", "dop853", 16, 8, numbers=2, chooses_steps=True),
     "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 31, 12, 66, chooses_steps=True, implicit=True),
     **{
-        name: IntegratorFacts("nivel.march.alpha", "alpha", 6, 2, 7, implicit=True, residual=True)
+        name: IntegratorFacts("nivel.march.alpha", "alpha", 7, 2, 8, implicit=True, residual=True, either=True)
         for name in ("newmark", "hht", "generalised-alpha")
     },
     "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 31, 5, 66, chooses_steps=True, implicit=True),
 }
+
+
+def chooses(integrator: str, step_control: str) -> bool:
+    """Whether the integrator controls its error in a run with this `step_control`; one that is not known does not."""
+    facts = INTEGRATORS.get(integrator)
+    return facts is not None and (facts.chooses_steps or (facts.either and step_control == "error"))

@@ -7,8 +7,8 @@ Every method gives the state as an affine function of the unknown accelerations 
 With index 3 the multipliers close the positions. With index 2 they close the velocities, and `correction` the positions: along
 (M + cv D + cq K)⁻¹ C_qᵀ, so that stiff springs are not stretched by it (the stabilised form of Gear, Gupta, Leimkuhler 1985).
 
-Policy: a matrix is kept, also from step to step, as long as the step is the same and every change is below SLOW of the one before;
-then it is made anew at the iterate. A change larger than the one before by GROWTH is taken back by halves (natural monotonicity test,
+Policy: a matrix is kept, also from step to step, as long as the step is the same and the iterations that it still asks for are cheaper than
+a new one, which takes about two of them for every evaluation on complex numbers; then it is made anew at the iterate. A change larger than the one before by GROWTH is taken back by halves (natural monotonicity test,
 Deuflhard 2004). The iteration ends where the contraction seen so far puts the next change below the tolerance; all changes are shares of
 the scales of the positions and velocities that they move, so neither units nor the step decide.
 """
@@ -26,8 +26,11 @@ from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.kernels.tangent import POSITIONS, differentiate, inverse_tangent
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
 
-SLOW = 0.2
 GROWTH = 2.0
+# Iterations that a new matrix costs, for each evaluation on complex numbers, and at most.
+DEAR, DEAREST = 2.0, 12.0
+# Slower than this no matrix is good enough.
+SLOW = 0.9
 LEAST_SHARE = 0.02
 # the contraction of a new matrix is taken for no better than this
 SANGUINE = 0.05
@@ -160,10 +163,16 @@ def keep_change(newton):
         newton.moved_before[k] = newton.moved[k]
 
 
+@leaf
+def is_same(a, b):
+    """Whether two coefficients differ by round-off only."""
+    return np.abs(a - b) <= 1e-6 * np.abs(b)
+
+
 @stage
 def is_kept(newton, cq, cv, cx):
-    """Whether the factors are for these coefficients."""
-    return newton.kept[CQ] == cq and newton.kept[CV] == cv and newton.kept[CX] == cx
+    """Whether the factors are for these coefficients, but for the round-off of a step that is a difference of times."""
+    return is_same(newton.kept[CQ], cq) and is_same(newton.kept[CV], cv) and is_same(newton.kept[CX], cx)
 
 
 @stage
@@ -178,10 +187,19 @@ def find_change(machine, cq, cv):
     apply_turns(newton, newton.b)
 
 
+@stage
+def is_worth_a_new_one(newton, contraction, size, tolerance):
+    """Whether the iterations still to come with the matrix that there is would cost more than another matrix."""
+    price = min(DEAR * (newton.group_start.shape[0] - 1.0), DEAREST)
+    return not contraction <= SLOW or size * contraction**price > tolerance
+
+
 @leaf
-def iterate(machine, history, t, cq, cv, cx):
-    """The unknowns for which the residual vanishes at time t, starting from those there are. `residual.y` is the state then. Returns a
-    status."""
+def iterate(machine, history, t, cq, cv, cx, tolerance):
+    """The unknowns for which the residual vanishes at time t, starting from those there are. `residual.y` is the state then.
+
+    tolerance : share of the scales that the positions and velocities found may still change by. Returns a status.
+    """
     run, record = run_at(history), record_at(machine)
     newton, counter = record.newton, run.counter
     stale, last, share = False, np.inf, 1.0
@@ -211,14 +229,12 @@ def iterate(machine, history, t, cq, cv, cx):
         share = 1.0
         take_change(newton, record.residual, newton.b, newton.moved, share)
         keep_change(newton)
-        if size <= newton.settings[TOLERANCE] or (
-            contraction < 1.0 and contraction / (1.0 - contraction) * size <= newton.settings[TOLERANCE]
-        ):
+        if size <= tolerance or (contraction < 1.0 and contraction / (1.0 - contraction) * size <= tolerance):
             set_state(machine, cq, cv, cx)
             return OK
         if last < np.inf:
             newton.kept[CONTRACTION] = max(contraction, 0.1 * SANGUINE)
-            stale = not contraction <= SLOW
+            stale = is_worth_a_new_one(newton, contraction, size, tolerance)
         last = size
     newton.kept[CQ] = 0.0
     return NOT_CONVERGED

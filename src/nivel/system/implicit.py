@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -60,8 +62,10 @@ def places(state_map: StateMap, velocities: int, positions: int) -> Index:
     return out
 
 
-def newton_tables(place: Index, state: int, states: int, rows: int, plan: TangentPlan) -> Newton:
-    """For `place` of the velocities, entries of y, states of forces, constraint rows and the derivatives planned."""
+def newton_tables(
+    place: Index, state: int, states: int, rows: int, plan: TangentPlan, corners: Sequence[float] = ()
+) -> Newton:
+    """For `place` of the velocities, entries of y, states of forces, constraint rows, the derivatives planned and corners [s]."""
     n, factor = len(place), plan.factor
     size = factor.size
     dense = factor.fill > MOSTLY_FULL
@@ -96,7 +100,9 @@ def newton_tables(place: Index, state: int, states: int, rows: int, plan: Tangen
         moved=np.zeros(n),
         before=np.zeros(size),
         moved_before=np.zeros(n),
+        lam=np.zeros(rows),
         lam_before=np.zeros(rows),
+        corners=np.array(corners, dtype=float),
         kept=np.zeros(4),
         settings=np.zeros(2),
         level=np.zeros(1, dtype=np.uint32),

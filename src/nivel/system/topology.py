@@ -55,10 +55,15 @@ class SpanningTree:
 
 
 def spanning_tree(
-    bodies: int, edges: Sequence[Edge], kept: Collection[str] = (), weight: Sequence[float] = ()
+    bodies: int,
+    edges: Sequence[Edge],
+    kept: Collection[str] = (),
+    weight: Sequence[float] = (),
+    *,
+    heavy_first: bool = False,
 ) -> SpanningTree:
     """Tree of `bodies` bodies and the ground. kept : joints that stay constraints. weight : of the bodies; what hangs on nothing gets its
-    root at the heaviest.
+    root at the heaviest. heavy_first : the tree carries heavy bodies first, whatever the rows, so loops are cut where forces are small.
     """
     around: list[list[int]] = [[] for _ in range(bodies + 1)]
     for k, edge in enumerate(edges):
@@ -67,11 +72,15 @@ def spanning_tree(
             around[edge.second].append(k)
     branches: list[Branch] = []
     reached = [False] * (bodies + 1)
-    _grow(bodies, 0, edges, around, reached, branches)
+    lighter = (
+        [min((weight[b] for b in (e.first, e.second) if b < bodies), default=0.0) for e in edges] if heavy_first else []
+    )
+    rank = [(-lighter[k] if heavy_first else 0.0, -CARRIERS.get(edge.type, 0)) for k, edge in enumerate(edges)]
+    _grow(bodies, 0, edges, around, reached, branches, rank)
     for body in sorted(range(bodies), key=lambda b: -weight[b] if len(weight) else b):
         if not reached[body]:
             branches.append(Branch(body, bodies, FREE, turned=False))
-            _grow(body, 1, edges, around, reached, branches)
+            _grow(body, 1, edges, around, reached, branches, rank)
     carriers = {branch.joint for branch in branches}
     return SpanningTree(tuple(branches), tuple(k for k in range(len(edges)) if k not in carriers))
 
@@ -83,14 +92,15 @@ def _grow(
     around: Sequence[Sequence[int]],
     reached: list[bool],
     branches: list[Branch],
+    rank: Sequence[tuple[float, int]],
 ) -> None:
-    """Add all that hangs on `root`: always the joint with the most rows next, of these the one nearest to the root."""
-    heap: list[tuple[int, int, int, int]] = []
+    """Add all that hangs on `root`: always the joint of lowest rank next, of these the one nearest to the root."""
+    heap: list[tuple[tuple[float, int], int, int, int]] = []
 
     def offer(body: int, at: int) -> None:
         reached[body] = True
         for k in around[body]:
-            heapq.heappush(heap, (-CARRIERS[edges[k].type], at, k, body))
+            heapq.heappush(heap, (rank[k], at, k, body))
 
     offer(root, depth)
     while heap:

@@ -44,8 +44,11 @@ LARGEST_BUNDLE = 6
 Index = NDArray[np.uint32]
 
 
-def tree_of(machine: MachineRecord, settings: SimulationSettings) -> SpanningTree:
-    """Spanning tree of `machine`. Joints that the settings name stay constraints, and those whose reaction loads a friction."""
+def tree_of(machine: MachineRecord, settings: SimulationSettings, *, heavy_first: bool = False) -> SpanningTree:
+    """Spanning tree of `machine`. Joints that the settings name stay constraints, and those whose reaction loads a friction.
+
+    heavy_first : see `nivel.system.topology.spanning_tree`.
+    """
     number = {body.name: k for k, body in enumerate(machine.bodies)} | {"ground": len(machine.bodies)}
     edges = [
         Edge(joint.name, joint.type, number[first], number[second])
@@ -57,7 +60,7 @@ def tree_of(machine: MachineRecord, settings: SimulationSettings) -> SpanningTre
         if isinstance(force, Friction) and force.normal_load is None
     }
     weight = [body.mass or 0.0 for body in machine.bodies]
-    return spanning_tree(len(machine.bodies), edges, {*settings.cut, *loading}, weight)
+    return spanning_tree(len(machine.bodies), edges, {*settings.cut, *loading}, weight, heavy_first=heavy_first)
 
 
 def arrange(

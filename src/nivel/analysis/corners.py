@@ -1,0 +1,85 @@
+"""Times at which the functions of time of a machine have corners: points of tables of straight lines, and where an absolute value, a
+minimum or a maximum of expressions of time alone changes sides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.optimize import brentq
+
+from nivel.machine.arithmetic import TIME, Call, ExpressionError, Negative, Node, Operation, evaluate, signals
+from nivel.machine.expression import Expression
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.record import Record
+from nivel.machine.table import Table
+
+# Sides of an expression are looked at so many times in a run.
+SAMPLES = 2000
+# Slopes of a table that differ by less, as a share of the largest, make no corner.
+STRAIGHT = 1e-9
+
+
+def corners(machine: MachineRecord) -> tuple[float, ...]:
+    """Corners within the run [s], ascending."""
+    end = machine.simulation.duration
+    found: set[float] = set()
+    for part in (*machine.drivers, *machine.forces):
+        for function in _functions(part):
+            times = _of_table(function) if isinstance(function, Table) else _of_expression(function, end)
+            found |= {time for time in times if 0.0 < time < end}
+    return tuple(sorted(found))
+
+
+def _functions(part: Record) -> Iterator[Table | Expression]:
+    """The functions among the fields of a record."""
+    for name in type(part).model_fields:
+        value = getattr(part, name)
+        for each in value if isinstance(value, tuple) else (value,):
+            if isinstance(each, Expression) or (isinstance(each, Table) and each.of == TIME):
+                yield each
+
+
+def _of_table(table: Table) -> Iterator[float]:
+    if table.interpolation != "linear":
+        # a natural spline ends straight: where it does not hold its end value before and after, its slope jumps there
+        yield from (table.times[0], table.times[-1])
+        return
+    slope = np.concatenate([[0.0], np.diff(table.values) / np.diff(table.times), [0.0]])
+    for time, jump in zip(table.times, np.abs(np.diff(slope)), strict=True):
+        if jump > STRAIGHT * np.abs(slope).max():
+            yield float(time)
+
+
+def _of_expression(expression: Expression, end: float) -> Iterator[float]:
+    times = np.linspace(0.0, end, SAMPLES + 1)
+    for first, second in _sides(expression.tree):
+
+        def difference(time: float, first: Node = first, second: Node | None = second) -> float:
+            return evaluate(first, time) - (evaluate(second, time) if second is not None else 0.0)
+
+        try:
+            values = np.array([difference(float(time)) for time in times])
+        except ExpressionError:
+            continue
+        for k in np.flatnonzero(values[:-1] * values[1:] < 0.0):
+            yield float(brentq(difference, times[k], times[k + 1], xtol=1e-15 * end, rtol=1e-14))
+        yield from (float(time) for time in times[values == 0.0])
+
+
+def _sides(node: Node) -> Iterator[tuple[Node, Node | None]]:
+    """Pairs of expressions of time alone whose order decides about a value within `node`."""
+    match node:
+        case Negative(operand):
+            yield from _sides(operand)
+        case Operation(_, left, right):
+            yield from _sides(left)
+            yield from _sides(right)
+        case Call(function, arguments):
+            for argument in arguments:
+                yield from _sides(argument)
+            alone = [argument for argument in arguments if not signals(argument)]
+            if function == "abs":
+                yield from ((argument, None) for argument in alone)
+            elif function in ("min", "max"):
+                yield from ((first, second) for k, first in enumerate(alone) for second in alone[:k])

@@ -1,0 +1,96 @@
+"""Known corners of functions of time: an implicit step ends there, and what follows begins with what holds on their far side.
+
+Beyond a corner of a force the accelerations are others. Beyond one of a driver the speeds are: they jump, as by an impulse of the driver
+through the joints, by the least change in the mass metric; its work is that of the driver.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import leaf, stage
+from nivel.kernels.hook import call_hook
+from nivel.kernels.newton_matrix import factorise, solve
+from nivel.kernels.record import RESIDUAL, record_at
+from nivel.kernels.status import OK
+from nivel.kernels.tangent import POSITIONS, differentiate
+from nivel.march.run import run_at
+from nivel.march.step_control import ROUND_OFF
+
+# [s] steps for which stiffness and damping are nothing beside the mass
+INSTANT = 1e-12
+# Speeds that differ by less, as a share of their scales, have no corner.
+SMOOTH = 1e-9
+
+
+@leaf
+def next_corner(machine, t, target):
+    """The first corner after t and not after `target`; infinity where there is none. Corners within the round-off of t are behind it."""
+    corners = record_at(machine).newton.corners
+    near = 16.0 * ROUND_OFF * max(np.abs(t), np.abs(target))
+    for k in range(corners.shape[0]):
+        if corners[k] > t + near:
+            return corners[k] if corners[k] <= target + near else np.inf
+    return np.inf
+
+
+@leaf
+def before(t):
+    """A time before t by a few units in its last place: functions that have a corner at t still are what they were."""
+    return t - 8.0 * ROUND_OFF * np.abs(t)
+
+
+@stage
+def speeds_are_open(residual, scale, first):
+    """Whether a velocity constraint is violated, by more than round-off."""
+    rows, largest = residual.row.shape[0], 0.0
+    for k in range(rows):
+        largest = max(largest, np.abs(residual.value[first + rows + k]) / scale[residual.row[k]])
+    return largest > SMOOTH
+
+
+@stage
+def work_of_drivers(constraints):
+    """-Σ μ f' of all drivers for impulses μ in `constraints.lam` [J]."""
+    work = 0.0
+    for k in range(constraints.combination.shape[0]):
+        work -= constraints.lam[constraints.combination[k, 0]] * constraints.motion[k]
+    return work
+
+
+@leaf
+def pass_corner(machine, history, t):
+    """Let the speeds of run.y be those beyond the corner at time t. Returns a status."""
+    run, record = run_at(history), record_at(machine)
+    newton, residual, constraints = record.newton, record.residual, record.constraints
+    n, first = residual.vdot.shape[0], residual.vdot.shape[0] + newton.state.shape[0]
+    positions, rows = np.int64(run.y.shape[0]) - first - 2, residual.row.shape[0]
+    for i in range(run.y.shape[0]):
+        residual.y[i] = run.y[i]
+    status = call_hook(machine, RESIDUAL, 0, t)
+    if status == OK and speeds_are_open(residual, constraints.scale, first):
+        for k in range(n):
+            newton.change[k] = 0.0
+        status = differentiate(machine, t, INSTANT * INSTANT, INSTANT, INSTANT, POSITIONS)
+        if status == OK:
+            status = factorise(machine)
+        if status != OK:
+            return status
+        for k in range(first):
+            newton.b[k] = 0.0
+        for k in range(rows):
+            newton.b[first + k] = -residual.value[first + rows + k]
+        solve(machine)
+        for k in range(n):
+            run.y[positions + k] += newton.b[k]
+        for k in range(constraints.lam.shape[0]):
+            constraints.lam[k] = 0.0
+        for k in range(rows):
+            constraints.lam[residual.row[k]] = newton.b[first + k]
+        # an impulse does the mean of the work that it would do at the speeds on either side
+        work = work_of_drivers(constraints)
+        for k in range(rows):
+            residual.lam[k] = newton.b[first + k]
+        status = call_hook(machine, RESIDUAL, 0, before(t))
+        run.y[run.y.shape[0] - 2] += 0.5 * (work + work_of_drivers(constraints))
+    return status

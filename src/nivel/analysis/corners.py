@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 from nivel.machine.arithmetic import TIME, Call, ExpressionError, Negative, Node, Operation, evaluate, signals
 from nivel.machine.expression import Expression
@@ -63,7 +63,7 @@ def _of_expression(expression: Expression, end: float) -> Iterator[float]:
         except ExpressionError:
             continue
         for k in np.flatnonzero(values[:-1] * values[1:] < 0.0):
-            yield float(brentq(difference, times[k], times[k + 1], xtol=1e-15 * end, rtol=1e-14))
+            yield root_scalar(difference, bracket=(times[k], times[k + 1]), xtol=1e-15 * end, rtol=1e-14).root
         yield from (float(time) for time in times[values == 0.0])
 
 

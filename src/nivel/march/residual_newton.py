@@ -8,9 +8,10 @@ With index 3 the multipliers close the positions. With index 2 they close the ve
 (M + cv D + cq K)⁻¹ C_qᵀ, so that stiff springs are not stretched by it (the stabilised form of Gear, Gupta, Leimkuhler 1985).
 
 Policy: a matrix is kept, also from step to step, as long as the step is the same and the iterations that it still asks for are cheaper than
-a new one, which takes about two of them for every evaluation on complex numbers; then it is made anew at the iterate. A change larger than the one before by GROWTH is taken back by halves (natural monotonicity test,
-Deuflhard 2004). The iteration ends where the contraction seen so far puts the next change below the tolerance; all changes are shares of
-the scales of the positions and velocities that they move, so neither units nor the step decide.
+a new one, which takes about two of them for every evaluation on complex numbers; then it is made anew at the iterate. A change larger
+than the one before by GROWTH is taken back by halves (natural monotonicity test, Deuflhard 2004). The iteration ends where the
+contraction seen so far puts the next change below the tolerance; all changes are shares of the scales of the positions and velocities
+that they move, so neither units nor the step decide.
 """
 
 from __future__ import annotations

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.equations import MotionEquations
+from nivel.analysis.unknowns import unknown_name
 from nivel.kernels.status import (
     BRISTLE_TOO_FAST,
     CONTRADICTION,
@@ -55,6 +56,8 @@ def failure(
             told = _no_step(motion, status, time, step, y)
         elif told is None and status == SINGULAR:
             told = _singular(motion, number, time, step, y)
+        elif told is None and status == NOT_CONVERGED and len(motion.system.record.residual.vdot):
+            told = _no_solution(motion, number, time, step, y)
         elif told is None:
             told = (_not_converged if status == NOT_CONVERGED else _not_a_number)(motion, time, step, y)
     return f"stopped at t = {time:.6g} s: {told[0]}", told[1]
@@ -219,6 +222,19 @@ def _broken_function(motion: MotionEquations, time: float, step: float, y: Array
                 f"Look at the law of {broken[0].split()[-1]}: {advice}",
             )
     return None
+
+
+def _no_solution(motion: MotionEquations, number: int, time: float, step: float, y: Array) -> tuple[str, str]:
+    """Where Newton's iteration for accelerations and multipliers finds nothing."""
+    stalled = unknown_name(motion.system, number)
+    motion.evaluate(time, y)
+    message = (
+        f"Newton's iteration finds no solution within a step of {step:.3g} s: it stalls at {stalled}; {_worst(motion)}"
+    )
+    return message, (
+        f"Try --step {step / 4:.3g}, or --step-control error, which makes steps as short as it takes. If it stops here again, the machine "
+        f"comes to a position that it cannot pass, or a force jumps: look at {stalled}."
+    )
 
 
 def _not_converged(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str]:

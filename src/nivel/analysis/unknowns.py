@@ -1,0 +1,30 @@
+"""Names of the unknowns of implicit methods: what moves in a joint or a body, the states of forces, the rows of constraints."""
+
+from __future__ import annotations
+
+from nivel.system.system import System
+
+DIRECTIONS = ("x of its position", "y of its position", "z of its position", "its turn about its x axis", "its turn about its y axis",
+              "its turn about its z axis")  # fmt: skip
+
+
+def unknown_name(system: System, number: int) -> str:
+    """Unknown `number` of the iteration in words: a joint and its coordinate, a body and its direction, a friction, a constraint row."""
+    record = system.record
+    n, states = len(record.residual.vdot), len(record.newton.state)
+    if number >= n + states:
+        return f"the constraint {system.rows[record.residual.row[number - n - states]]}"
+    if number >= n:
+        return "the state of a friction"
+    if not len(record.tree.node):
+        return f"{system.bodies[number // 6]}, {DIRECTIONS[number % 6]}"
+    of_node = next(node for node in record.tree.node.tolist() if node[4] <= number < node[5])
+    child, _, _, joint, first, last = of_node
+    if joint >= len(system.joints):
+        return f"{system.bodies[child]}, free in space"
+    names = [
+        name for name in system.layout.coordinates["joint_coordinate"] if name.startswith(f"{system.joints[joint]}.")
+    ]
+    if len(names) == last - first:
+        return f"the joint {system.joints[joint]}, coordinate {names[number - first]}"
+    return f"the joint {system.joints[joint]}"

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 class IntegratorFacts:
     """`function` of `module` is the compiled step; `stages` vectors and `numbers` of work and history; `order` of convergence.
 
-    chooses_steps : controls its error. implicit : iterates a corrector, by Newton's method on request. residual : solves the equations
-    of motion themselves, with exact tangents, for accelerations and multipliers.
+    chooses_steps : controls its error. implicit : iterates a corrector, by Newton's method on request. residual : needs the equations of
+    motion as a residual, with exact tangents, and iterates by Newton's method alone; it solves them for accelerations and multipliers, or
+    with `rates` for the rates of the state.
     """
 
     module: str
@@ -24,6 +25,7 @@ class IntegratorFacts:
     chooses_steps: bool = False
     implicit: bool = False
     residual: bool = False
+    rates: bool = False
 
 
 _ADAMS, _MOULTON, _GEAR = "nivel.march.adams", "nivel.march.moulton", "nivel.march.gear"
@@ -47,4 +49,8 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
         for name in ("newmark", "hht", "generalised-alpha")
     },
     "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 31, 5, 66, chooses_steps=True, implicit=True),
+    "bdf": IntegratorFacts(
+        "nivel.march.variable_bdf", "bdf", 31, 5, 66, chooses_steps=True, implicit=True, residual=True, rates=True
+    ),
+    "ros2": IntegratorFacts("nivel.march.rosenbrock", "ros2", 2, 2, residual=True, rates=True),
 }

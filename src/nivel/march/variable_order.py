@@ -33,7 +33,7 @@ from nivel.march.step_control import (
     too_small,
     turned_too_far,
 )
-from nivel.march.variable_corrector import FORGET, correct
+from nivel.march.variable_corrector import FORGET
 from nivel.march.variable_workspace import (
     CHANGE,
     CONTRACTION,
@@ -167,52 +167,57 @@ def choose(run, family, most, h, tolerance, error, factors):
     return growth
 
 
-@leaf
-def variable_step(evaluate, machine, history, family, most, tolerance):
-    """One accepted step of the family, of an order up to `most`. Returns a status."""
-    run = run_at(history)
-    numbers = run.numbers
-    enter(evaluate, machine, history, 1.0, tolerance)
-    if is_fresh(run):
-        start(run)
-        run.counter[RESTART] = 0
-    elif run.counter[NEWTON] == 0:
-        measure_contraction(run)
-    renew(run, family)
-    status, error, rejections = OK, 0.0, 0
-    while True:
-        h = reach(run)
-        if h == 0.0:
-            return too_small(run, status, error)
-        q = run.counter[ORDER]
-        place_points(run, h)
-        c = numbers[C : C + MOST_ORDER + 1]
-        factors = correction(family, q, numbers[XI : XI + MOST_ORDER + 3], numbers[WORK : WORK + MOST_ORDER + 4], c)
-        predict(run, h / numbers[SCALED])
-        status = correct(evaluate, machine, history, h, tolerance)
-        if status != OK:
-            reject(run, h, AFTER_FAILURE)
-        else:
-            error = factors[2] / factors[0] * size(run, run.stages[CORRECTION]) / tolerance
-            shorter = turned_too_far(machine, h)
-            if error <= 1.0 and shorter == 1.0:
-                break
-            reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
-        rejections += 1
-        if rejections % PATIENCE == 0:
+def multistep(family, most, correct):
+    """The function `variable_step` of a family, for orders up to `most`, with this corrector (`nivel.march.variable_corrector`)."""
+
+    @leaf
+    def variable_step(evaluate, machine, history, tolerance):
+        """One accepted step that may be wrong by `tolerance`. Returns a status."""
+        run = run_at(history)
+        numbers = run.numbers
+        enter(evaluate, machine, history, 1.0, tolerance)
+        if is_fresh(run):
             start(run)
-    accept(run, c)
-    extrapolated = factors[2] / factors[0] if family == ADAMS and run.counter[NEWTON] == 0 else 0.0
-    for i in range(run.y.shape[0]):
-        run.y[i] = run.stages[Z, i] - extrapolated * run.stages[CORRECTION, i]
-        run.stages[SLOPE, i] = run.stages[Z + 1, i]
-    if wanted(run):
-        fill_dense(run)
-    numbers[SCALED] = h
-    for m in range(MOST_ORDER):
-        numbers[STEPS + MOST_ORDER - m] = numbers[STEPS + MOST_ORDER - m - 1]
-    first = numbers[STEPS + 1] == 0.0
-    numbers[STEPS] = h
-    growth = choose(run, family, most, h, tolerance, error, factors)
-    run.clock[STEP] = h * min(growth, 1.0 if rejections > 0 else (FIRST_GROWTH if first else MOST_GROWTH))
-    return OK
+            run.counter[RESTART] = 0
+        elif run.counter[NEWTON] == 0:
+            measure_contraction(run)
+        renew(run, family)
+        status, error, rejections = OK, 0.0, 0
+        while True:
+            h = reach(run)
+            if h == 0.0:
+                return too_small(run, status, error)
+            q = run.counter[ORDER]
+            place_points(run, h)
+            c = numbers[C : C + MOST_ORDER + 1]
+            factors = correction(family, q, numbers[XI : XI + MOST_ORDER + 3], numbers[WORK : WORK + MOST_ORDER + 4], c)
+            predict(run, h / numbers[SCALED])
+            status = correct(evaluate, machine, history, h, tolerance)
+            if status != OK:
+                reject(run, h, AFTER_FAILURE)
+            else:
+                error = factors[2] / factors[0] * size(run, run.stages[CORRECTION]) / tolerance
+                shorter = turned_too_far(machine, h)
+                if error <= 1.0 and shorter == 1.0:
+                    break
+                reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
+            rejections += 1
+            if rejections % PATIENCE == 0:
+                start(run)
+        accept(run, c)
+        extrapolated = factors[2] / factors[0] if family == ADAMS and run.counter[NEWTON] == 0 else 0.0
+        for i in range(run.y.shape[0]):
+            run.y[i] = run.stages[Z, i] - extrapolated * run.stages[CORRECTION, i]
+            run.stages[SLOPE, i] = run.stages[Z + 1, i]
+        if wanted(run):
+            fill_dense(run)
+        numbers[SCALED] = h
+        for m in range(MOST_ORDER):
+            numbers[STEPS + MOST_ORDER - m] = numbers[STEPS + MOST_ORDER - m - 1]
+        first = numbers[STEPS + 1] == 0.0
+        numbers[STEPS] = h
+        growth = choose(run, family, most, h, tolerance, error, factors)
+        run.clock[STEP] = h * min(growth, 1.0 if rejections > 0 else (FIRST_GROWTH if first else MOST_GROWTH))
+        return OK
+
+    return variable_step

@@ -43,14 +43,14 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     **{f"gear{k}": IntegratorFacts(_GEAR, "gear", _ROWS, k, _NUMBERS, implicit=True) for k in range(1, 5)},
     "dopri5": IntegratorFacts("nivel.march.dormand_prince", "dopri5", 7, 5, numbers=2, chooses_steps=True),
     "dop853": IntegratorFacts("nivel.march.dop853", "dop853", 16, 8, numbers=2, chooses_steps=True),
-    "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 31, 12, 66, chooses_steps=True, implicit=True),
+    "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 32, 12, 66, chooses_steps=True, implicit=True),
     **{
         name: IntegratorFacts("nivel.march.alpha", "alpha", 6, 2, 7, implicit=True, residual=True)
         for name in ("newmark", "hht", "generalised-alpha")
     },
-    "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 31, 5, 66, chooses_steps=True, implicit=True),
+    "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 32, 5, 66, chooses_steps=True, implicit=True),
     "bdf": IntegratorFacts(
-        "nivel.march.variable_bdf", "bdf", 31, 5, 66, chooses_steps=True, implicit=True, residual=True, rates=True
+        "nivel.march.variable_bdf", "bdf", 32, 5, 66, chooses_steps=True, implicit=True, residual=True, rates=True
     ),
     "ros2": IntegratorFacts("nivel.march.rosenbrock", "ros2", 2, 2, residual=True, rates=True),
 }

@@ -13,7 +13,7 @@ from nivel.march.variable_order import multistep
 MOST_ORDER = 11
 SHARE = 0.03
 
-variable_step = multistep(ADAMS, MOST_ORDER, corrector(find_matrix, solve_matrix))
+variable_step = multistep(ADAMS, MOST_ORDER, *corrector(find_matrix, solve_matrix))
 
 
 @entry(step_signature)

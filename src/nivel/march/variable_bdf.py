@@ -11,7 +11,7 @@ from nivel.march.variable_corrector import corrector
 from nivel.march.variable_gear import MOST_ORDER, SHARE
 from nivel.march.variable_order import multistep
 
-variable_step = multistep(BDF, MOST_ORDER, corrector(find_matrix, solve_matrix))
+variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix))
 
 
 @entry(step_signature)

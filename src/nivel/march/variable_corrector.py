@@ -27,7 +27,7 @@ SAME = 0.3
 
 
 def corrector(find_matrix, solve_matrix):
-    """The function `correct` with Newton's matrix from these."""
+    """The functions `correct` and `damp` with Newton's matrix from these."""
 
     @leaf
     def iterate(evaluate, machine, history, h, tolerance):
@@ -99,4 +99,12 @@ def corrector(find_matrix, solve_matrix):
         status = renew(evaluate, machine, history, share)
         return iterate(evaluate, machine, history, h, tolerance) if status == OK else status
 
-    return correct
+    @leaf
+    def damp(machine, history, source, x):
+        """x := `source`, with Newton's method less of the vibrations that are stiff: (1 - (h/c_1) ∂f/∂y)⁻¹ of it. Returns a status."""
+        run = run_at(history)
+        for i in range(x.shape[0]):
+            x[i] = source[i]
+        return solve_matrix(machine, history, x) if run.counter[NEWTON] == 1 else OK
+
+    return correct, damp

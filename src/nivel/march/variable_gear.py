@@ -13,7 +13,7 @@ from nivel.march.variable_order import multistep
 MOST_ORDER = 5
 SHARE = 0.001
 
-variable_step = multistep(BDF, MOST_ORDER, corrector(find_matrix, solve_matrix))
+variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix))
 
 
 @entry(step_signature)

@@ -38,6 +38,7 @@ from nivel.march.variable_workspace import (
     CHANGE,
     CONTRACTION,
     CORRECTION,
+    ESTIMATE,
     LAST,
     LAST_STEP,
     MOST_ORDER,
@@ -129,7 +130,7 @@ def higher_error(run, h, K, above):
     q = run.counter[ORDER]
     ratio, largest = (h / run.numbers[LAST_STEP]) ** (q + 1), 0.0
     for i in range(run.y.shape[0]):
-        difference = run.stages[CORRECTION, i] / K - ratio * run.stages[LAST, i]
+        difference = run.stages[ESTIMATE, i] / K - ratio * run.stages[LAST, i]
         largest = max(largest, np.abs(difference) / run.scale[i])
     return above * largest / (q + 2.0)
 
@@ -141,8 +142,9 @@ def longer(error, order, margin):
 
 
 @leaf
-def choose(run, family, most, h, tolerance, error, factors):
-    """The next order and step. error : of the step just done, a share of the allowed one; factors : (K, C_{q-1}, C_q, C_{q+1})."""
+def choose(run, family, most, h, tolerance, error, lower, factors):
+    """The next order and step. error : of the step just done, a share of the allowed one; lower : size of z_q; factors : (K, C_{q-1}, C_q,
+    C_{q+1})."""
     K, below, _, above = factors
     q, numbers = run.counter[ORDER], run.numbers
     growth, change = longer(error, q, SAME), 0
@@ -150,7 +152,7 @@ def choose(run, family, most, h, tolerance, error, factors):
     if numbers[WAIT] <= 0.0:
         numbers[WAIT] = 2.0
         if q > 1:
-            factor = longer(below * size(run, run.stages[Z + q]) / tolerance, q - 1, LOWER)
+            factor = longer(below * lower / tolerance, q - 1, LOWER)
             if factor > growth:
                 growth, change = factor, -1
         if q < most and numbers[LAST_STEP] > 0.0:
@@ -158,7 +160,7 @@ def choose(run, family, most, h, tolerance, error, factors):
             if factor > growth:
                 growth, change = factor, 1
     for i in range(run.y.shape[0]):
-        run.stages[LAST, i] = run.stages[CORRECTION, i] / K
+        run.stages[LAST, i] = run.stages[ESTIMATE, i] / K
     numbers[LAST_STEP] = h
     if growth > 1.0 and growth < WORTH:
         growth = 1.0
@@ -167,8 +169,8 @@ def choose(run, family, most, h, tolerance, error, factors):
     return growth
 
 
-def multistep(family, most, correct):
-    """The function `variable_step` of a family, for orders up to `most`, with this corrector (`nivel.march.variable_corrector`)."""
+def multistep(family, most, correct, damp):
+    """The function `variable_step` of a family, for orders up to `most`, with a corrector of `nivel.march.variable_corrector`."""
 
     @leaf
     def variable_step(evaluate, machine, history, tolerance):
@@ -193,10 +195,12 @@ def multistep(family, most, correct):
             factors = correction(family, q, numbers[XI : XI + MOST_ORDER + 3], numbers[WORK : WORK + MOST_ORDER + 4], c)
             predict(run, h / numbers[SCALED])
             status = correct(evaluate, machine, history, h, tolerance)
+            if status == OK:
+                status = damp(machine, history, run.stages[CORRECTION], run.stages[ESTIMATE])
             if status != OK:
                 reject(run, h, AFTER_FAILURE)
             else:
-                error = factors[2] / factors[0] * size(run, run.stages[CORRECTION]) / tolerance
+                error = factors[2] / factors[0] * size(run, run.stages[ESTIMATE]) / tolerance
                 shorter = turned_too_far(machine, h)
                 if error <= 1.0 and shorter == 1.0:
                     break
@@ -216,8 +220,12 @@ def multistep(family, most, correct):
             numbers[STEPS + MOST_ORDER - m] = numbers[STEPS + MOST_ORDER - m - 1]
         first = numbers[STEPS + 1] == 0.0
         numbers[STEPS] = h
-        growth = choose(run, family, most, h, tolerance, error, factors)
+        lower = 0.0
+        if numbers[WAIT] <= 1.0:
+            status = damp(machine, history, run.stages[Z + q], run.stages[CHANGE])
+            lower = size(run, run.stages[CHANGE])
+        growth = choose(run, family, most, h, tolerance, error, lower, factors)
         run.clock[STEP] = h * min(growth, 1.0 if rejections > 0 else (FIRST_GROWTH if first else MOST_GROWTH))
-        return OK
+        return status
 
     return variable_step

@@ -10,6 +10,10 @@ rate is kept, since in stiff directions a small change of y would change it beyo
 
 With functional iteration the Adams methods go on from the next order: the estimated error of the corrected state is subtracted, which
 makes it that of the method of order q + 1 (Shampine, Gordon 1975), and what a step errs by is well below its estimate.
+
+With Newton's method errors are measured after (1 - (h/c_1) ∂f/∂y)⁻¹ (Shampine, Baca 1984), which leaves the slow ones as they are. In the
+direction of a stiff spring velocities are derivatives of positions that hardly change, as they are in a rigid joint: with every change
+of the step or the order they jump by as much as h^q, whatever the next step is, and unfiltered that would be rejected again and again.
 """
 
 from __future__ import annotations

@@ -16,7 +16,9 @@ from references import stick_slip
 from running import run
 from simulating import G, simulate, slide, solid
 
-IMPLICIT = [name for name, facts in INTEGRATORS.items() if facts.implicit and not facts.chooses_steps]
+IMPLICIT = [
+    name for name, facts in INTEGRATORS.items() if facts.implicit and not facts.residual and not facts.chooses_steps
+]
 NEWTON = {"iteration": "newton"}
 
 

@@ -33,7 +33,7 @@ def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():
 
 def test_multistep_methods_get_the_rows_and_numbers_that_they_use():
     for name, facts in INTEGRATORS.items():
-        if name in ("adams", "gear"):
+        if name in ("adams", "gear", "bdf"):
             assert (facts.stages, facts.numbers) == (variable_workspace.ROWS, variable_workspace.NUMBERS)
         elif name.startswith(("ab", "am", "gear")):
             assert (facts.stages, facts.numbers) == (workspace.ROWS, workspace.NUMBERS)

@@ -17,7 +17,7 @@ from running import run
 from simulating import G, simulate, slide, solid
 
 IMPLICIT = [
-    name for name, facts in INTEGRATORS.items() if facts.implicit and not (facts.chooses_steps or facts.residual)
+    name for name, facts in INTEGRATORS.items() if facts.implicit and not facts.residual and not facts.chooses_steps
 ]
 NEWTON = {"iteration": "newton"}
 

@@ -48,8 +48,8 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
     """
     from nivel.system.states.relative import tree_of
 
-    settings = machine.simulation
-    if settings.cut or not INTEGRATORS[settings.integrator].residual:
+    settings, facts = machine.simulation, INTEGRATORS[machine.simulation.integrator]
+    if settings.cut or not facts.residual or facts.rates:
         return settings
     tree = tree_of(machine, settings, heavy_first=True)
     return settings.replace(cut=tuple(machine.joints[k].name for k in tree.cut))

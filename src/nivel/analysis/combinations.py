@@ -48,29 +48,40 @@ def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
 
 
 def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fault]:
-    """What does not go with an integrator that solves the equations of motion for accelerations and multipliers itself."""
+    """What does not go with an integrator that needs the equations of motion as a residual, with exact tangents."""
     facts, faults = INTEGRATORS.get(settings.integrator), []
     if facts is None or not facts.residual:
         return faults
-    name = settings.integrator
+    name = f"`integrator: {settings.integrator}`"
     if settings.formulation != "newton-euler":
-        message = (
-            f"'{settings.formulation}' does not go with `integrator: {name}`, which solves for accelerations and multipliers at once and "
-            f"turns bodies as a Lie group: take newton-euler, whose motion is the same"
+        why = (
+            "has the exact tangents of newton-euler alone"
+            if facts.rates
+            else ("solves for accelerations and multipliers at once and turns bodies as a Lie group")
         )
+        message = f"'{settings.formulation}' does not go with {name}, which {why}: take newton-euler, whose motion is the same"
         faults.append(_fault("formulation", message))
     if coordinates == "independent":
-        message = (
-            f"'independent' does not go with `integrator: {name}`: with `stabilisation: direct` it closes positions and velocities in the "
-            f"same solution, which is what a partition is for; take absolute or relative"
+        why = (
+            ", which has the exact tangents of absolute and relative ones"
+            if facts.rates
+            else (
+                ": with `stabilisation: direct` it closes positions and velocities in the same solution, which is what a partition is for"
+            )
         )
+        message = f"'independent' does not go with {name}{why}; take absolute or relative"
         faults.append(_fault("coordinates", message))
     if settings.stabilisation == "baumgarte":
-        message = (
-            f"'baumgarte' does not go with `integrator: {name}`, which solves the constraints themselves and not their second derivative: "
-            f"take direct (stabilised index 2), geometric (and the energy kept), or none (index 3)"
+        message = f"'baumgarte' does not go with {name}, " + (
+            "whose tangents are those of the equations without its feedback: take direct, geometric (and the energy kept), or none"
+            if facts.rates
+            else "which solves the constraints themselves and not their second derivative: take direct (stabilised index 2), "
+            "geometric (and the energy kept), or none (index 3)"
         )
         faults.append(_fault("stabilisation", message))
+    if facts.implicit and settings.corrector.iteration == "functional":
+        message = f"'functional' does not go with {name}, which takes Newton's method with exact tangents: leave `iteration` out"
+        faults.append(_fault("corrector.iteration", message))
     return faults
 
 

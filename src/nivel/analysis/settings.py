@@ -9,7 +9,7 @@ from nivel.analysis.combinations import refuse_combinations
 from nivel.errors import Fault, ModelError
 from nivel.machine.settings import Corrector, Penalty, SimulationSettings
 from nivel.march.alpha_constants import generalised_alpha, hht, newmark
-from nivel.march.catalogue import INTEGRATORS, chooses
+from nivel.march.catalogue import INTEGRATORS, IntegratorFacts, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
 
@@ -102,7 +102,6 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
     if faults:
         raise ModelError(faults)
     own = settings.baumgarte
-    implicit = facts is not None and facts.implicit
     return RunSettings(
         duration=settings.duration,
         step=settings.step,
@@ -116,11 +115,16 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         rotations=settings.rotations,
         tolerance=settings.tolerance if chosen_steps else None,
         largest_step=settings.largest_step or settings.duration,
-        corrector=settings.corrector if implicit else None,
+        corrector=_corrector(settings.corrector, facts) if facts is not None and facts.implicit else None,
         penalty=settings.penalty if FORMULATIONS[settings.formulation].factor > 0.0 else None,
         baumgarte=None if own is None else (own.alpha, own.beta),
         constants=_constants(settings),
     )
+
+
+def _corrector(given: Corrector, facts: IntegratorFacts) -> Corrector:
+    """With an iteration: Newton's for methods with exact tangents, functional for the others where none was chosen."""
+    return given.replace(iteration="newton" if facts.residual else given.iteration or "functional")
 
 
 def _constants(settings: SimulationSettings) -> tuple[float, ...]:

@@ -5,9 +5,9 @@ f comes from M v̇ + C_qᵀ λ = Q and C̈ = 0, so the change of v̇ by a change
 
     [M + s D + s² K, C_qᵀ; ∂C̈/∂v̇, 0] [Δv̇; Δλ] = -(what the residual changes by along q: r_q + s r_v, v: r_v, x: r_x)
 
-whose right-hand side is one evaluation on complex numbers. The turning of a body's axes by its own angular velocity within s, and the
-energies at the end of y, on which nothing depends, are left out: this is for iterations, and for methods that keep their order with any
-matrix.
+whose right-hand side is one evaluation on complex numbers, with the time moved too where its part of f is wanted. The turning of a body's
+axes by its own angular velocity within s, and the energies at the end of y, on which nothing depends, are left out: this is for
+iterations, and for methods that keep their order with any matrix.
 """
 
 from __future__ import annotations
@@ -66,15 +66,15 @@ def move_along(newton, residual, moving, r, s):
 
 
 @stage
-def solve_shifted(machine, t, r, s):
-    """Overwrite r (ny,) with x. Returns a status."""
+def solve_shifted(machine, t, r, s, ahead):
+    """Overwrite r (ny,) with x, the solution of (1 - s ∂f/∂y) x = r + s ahead ∂f/∂t. Returns a status."""
     record = record_at(machine)
     newton, residual = record.newton, record.residual
     twin, moving = load_twin(newton, residual)
     n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.row.shape[0]
     positions = np.int64(r.shape[0]) - n - states - 2
     move_along(newton, residual, moving, r, s)
-    status = call_family(newton.address[1], twin, 0, complex(t))  # type: ignore[call-arg]
+    status = call_family(newton.address[1], twin, 0, complex(t, EPSILON * ahead))  # type: ignore[call-arg]
     if status != OK:
         return status
     b = newton.b

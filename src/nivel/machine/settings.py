@@ -18,9 +18,10 @@ Integrator = Literal[
     "gear1", "gear2", "gear3", "gear4",
     "dopri5", "dop853", "adams", "gear",
     "newmark", "hht", "generalised-alpha",
+    "bdf", "ros2",
 ]  # fmt: skip
 # those of them that choose their steps, and those that do so with `step_control: error`
-CHOOSING = ("dopri5", "dop853", "adams", "gear")
+CHOOSING = ("dopri5", "dop853", "adams", "gear", "bdf")
 EITHER = ("newmark", "hht", "generalised-alpha")
 StepControl = Literal["own", "fixed", "error"]
 Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangian"]
@@ -52,12 +53,13 @@ class Penalty(Record):
 
 
 class Corrector(Record):
-    """How the equations of implicit multistep methods are solved: iteration, its tolerance (relative to each coordinate) and limit.
+    """How the equations of implicit methods are solved: iteration, its tolerance (relative to each coordinate) and limit.
 
+    Without `iteration`, as suits the method: newton where it has exact tangents, functional otherwise.
     Methods that choose their steps iterate as exactly as the `tolerance` of the run asks for, four times at most.
     """
 
-    iteration: Literal["functional", "newton"] = "functional"
+    iteration: Literal["functional", "newton"] | None = None
     tolerance: Tolerance = 1e-10
     most_iterations: Annotated[int, Field(ge=1, le=1000)] = 50
 
@@ -107,7 +109,7 @@ class SimulationSettings(Record):
     )
     tolerance: Tolerance = Field(default=1e-6, description="of integrators that choose their steps")
     largest_step: Duration | None = Field(default=None, description="of integrators that choose their steps")
-    corrector: Corrector = Field(default=Corrector(), description="of implicit multistep methods")
+    corrector: Corrector = Field(default=Corrector(), description="of implicit methods")
     newmark: Newmark = Field(default=Newmark(), description="constants of newmark")
     hht: HHT = Field(default=HHT(), description="damping of hht")
     generalised_alpha: GeneralisedAlpha = Field(default=GeneralisedAlpha(), description="damping of generalised-alpha")

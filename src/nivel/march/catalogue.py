@@ -13,7 +13,8 @@ class IntegratorFacts:
     """`function` of `module` is the compiled step; `stages` vectors and `numbers` of work and history; `order` of convergence.
 
     chooses_steps : controls its error; either : does so on request. implicit : iterates a corrector, by Newton's method on request.
-    residual : solves the equations of motion themselves, with exact tangents, for accelerations and multipliers.
+    residual : needs the equations of motion as a residual, with exact tangents, and iterates by Newton's method alone; it solves them for
+    accelerations and multipliers, or with `rates` for the rates of the state.
     """
 
     module: str
@@ -25,6 +26,7 @@ class IntegratorFacts:
     implicit: bool = False
     residual: bool = False
     either: bool = False
+    rates: bool = False
 
 
 _ADAMS, _MOULTON, _GEAR = "nivel.march.adams", "nivel.march.moulton", "nivel.march.gear"
@@ -42,12 +44,16 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     **{f"gear{k}": IntegratorFacts(_GEAR, "gear", _ROWS, k, _NUMBERS, implicit=True) for k in range(1, 5)},
     "dopri5": IntegratorFacts("nivel.march.dormand_prince", "dopri5", 7, 5, numbers=2, chooses_steps=True),
     "dop853": IntegratorFacts("nivel.march.dop853", "dop853", 16, 8, numbers=2, chooses_steps=True),
-    "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 31, 12, 66, chooses_steps=True, implicit=True),
+    "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 32, 12, 66, chooses_steps=True, implicit=True),
     **{
         name: IntegratorFacts("nivel.march.alpha", "alpha", 7, 2, 8, implicit=True, residual=True, either=True)
         for name in ("newmark", "hht", "generalised-alpha")
     },
-    "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 31, 5, 66, chooses_steps=True, implicit=True),
+    "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 32, 5, 66, chooses_steps=True, implicit=True),
+    "bdf": IntegratorFacts(
+        "nivel.march.variable_bdf", "bdf", 32, 5, 66, chooses_steps=True, implicit=True, residual=True, rates=True
+    ),
+    "ros2": IntegratorFacts("nivel.march.rosenbrock", "ros2", 2, 2, residual=True, rates=True),
 }
 
 

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from nivel.kernels.compile import entry
+from nivel.march.difference_matrix import find_matrix, solve_matrix
 from nivel.march.multistep_polynomials import BDF
 from nivel.march.run import run_at, step_signature
 from nivel.march.step_control import allowed
-from nivel.march.variable_order import variable_step
+from nivel.march.variable_corrector import corrector
+from nivel.march.variable_order import multistep
 
 MOST_ORDER = 5
 SHARE = 0.001
+
+variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix))
 
 
 @entry(step_signature)
 def gear(evaluate, machine, history):
     """One accepted step."""
-    return variable_step(evaluate, machine, history, BDF, MOST_ORDER, allowed(run_at(history), SHARE))
+    return variable_step(evaluate, machine, history, allowed(run_at(history), SHARE))

@@ -10,6 +10,10 @@ rate is kept, since in stiff directions a small change of y would change it beyo
 
 With functional iteration the Adams methods go on from the next order: the estimated error of the corrected state is subtracted, which
 makes it that of the method of order q + 1 (Shampine, Gordon 1975), and what a step errs by is well below its estimate.
+
+With Newton's method errors are measured after (1 - (h/c_1) ∂f/∂y)⁻¹ (Shampine, Baca 1984), which leaves the slow ones as they are. In the
+direction of a stiff spring velocities are derivatives of positions that hardly change, as they are in a rigid joint: with every change
+of the step or the order they jump by as much as h^q, whatever the next step is, and unfiltered that would be rejected again and again.
 """
 
 from __future__ import annotations
@@ -33,11 +37,12 @@ from nivel.march.step_control import (
     too_small,
     turned_too_far,
 )
-from nivel.march.variable_corrector import FORGET, correct
+from nivel.march.variable_corrector import FORGET
 from nivel.march.variable_workspace import (
     CHANGE,
     CONTRACTION,
     CORRECTION,
+    ESTIMATE,
     LAST,
     LAST_STEP,
     MOST_ORDER,
@@ -129,7 +134,7 @@ def higher_error(run, h, K, above):
     q = run.counter[ORDER]
     ratio, largest = (h / run.numbers[LAST_STEP]) ** (q + 1), 0.0
     for i in range(run.y.shape[0]):
-        difference = run.stages[CORRECTION, i] / K - ratio * run.stages[LAST, i]
+        difference = run.stages[ESTIMATE, i] / K - ratio * run.stages[LAST, i]
         largest = max(largest, np.abs(difference) / run.scale[i])
     return above * largest / (q + 2.0)
 
@@ -141,8 +146,9 @@ def longer(error, order, margin):
 
 
 @leaf
-def choose(run, family, most, h, tolerance, error, factors):
-    """The next order and step. error : of the step just done, a share of the allowed one; factors : (K, C_{q-1}, C_q, C_{q+1})."""
+def choose(run, family, most, h, tolerance, error, lower, factors):
+    """The next order and step. error : of the step just done, a share of the allowed one; lower : size of z_q; factors : (K, C_{q-1}, C_q,
+    C_{q+1})."""
     K, below, _, above = factors
     q, numbers = run.counter[ORDER], run.numbers
     growth, change = longer(error, q, SAME), 0
@@ -150,7 +156,7 @@ def choose(run, family, most, h, tolerance, error, factors):
     if numbers[WAIT] <= 0.0:
         numbers[WAIT] = 2.0
         if q > 1:
-            factor = longer(below * size(run, run.stages[Z + q]) / tolerance, q - 1, LOWER)
+            factor = longer(below * lower / tolerance, q - 1, LOWER)
             if factor > growth:
                 growth, change = factor, -1
         if q < most and numbers[LAST_STEP] > 0.0:
@@ -158,7 +164,7 @@ def choose(run, family, most, h, tolerance, error, factors):
             if factor > growth:
                 growth, change = factor, 1
     for i in range(run.y.shape[0]):
-        run.stages[LAST, i] = run.stages[CORRECTION, i] / K
+        run.stages[LAST, i] = run.stages[ESTIMATE, i] / K
     numbers[LAST_STEP] = h
     if growth > 1.0 and growth < WORTH:
         growth = 1.0
@@ -167,52 +173,63 @@ def choose(run, family, most, h, tolerance, error, factors):
     return growth
 
 
-@leaf
-def variable_step(evaluate, machine, history, family, most, tolerance):
-    """One accepted step of the family, of an order up to `most`. Returns a status."""
-    run = run_at(history)
-    numbers = run.numbers
-    enter(evaluate, machine, history, 1.0, tolerance)
-    if is_fresh(run):
-        start(run)
-        run.counter[RESTART] = 0
-    elif run.counter[NEWTON] == 0:
-        measure_contraction(run)
-    renew(run, family)
-    status, error, rejections = OK, 0.0, 0
-    while True:
-        h = reach(run)
-        if h == 0.0:
-            return too_small(run, status, error)
-        q = run.counter[ORDER]
-        place_points(run, h)
-        c = numbers[C : C + MOST_ORDER + 1]
-        factors = correction(family, q, numbers[XI : XI + MOST_ORDER + 3], numbers[WORK : WORK + MOST_ORDER + 4], c)
-        predict(run, h / numbers[SCALED])
-        status = correct(evaluate, machine, history, h, tolerance)
-        if status != OK:
-            reject(run, h, AFTER_FAILURE)
-        else:
-            error = factors[2] / factors[0] * size(run, run.stages[CORRECTION]) / tolerance
-            shorter = turned_too_far(machine, h)
-            if error <= 1.0 and shorter == 1.0:
-                break
-            reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
-        rejections += 1
-        if rejections % PATIENCE == 0:
+def multistep(family, most, correct, damp):
+    """The function `variable_step` of a family, for orders up to `most`, with a corrector of `nivel.march.variable_corrector`."""
+
+    @leaf
+    def variable_step(evaluate, machine, history, tolerance):
+        """One accepted step that may be wrong by `tolerance`. Returns a status."""
+        run = run_at(history)
+        numbers = run.numbers
+        enter(evaluate, machine, history, 1.0, tolerance)
+        if is_fresh(run):
             start(run)
-    accept(run, c)
-    extrapolated = factors[2] / factors[0] if family == ADAMS and run.counter[NEWTON] == 0 else 0.0
-    for i in range(run.y.shape[0]):
-        run.y[i] = run.stages[Z, i] - extrapolated * run.stages[CORRECTION, i]
-        run.stages[SLOPE, i] = run.stages[Z + 1, i]
-    if wanted(run):
-        fill_dense(run)
-    numbers[SCALED] = h
-    for m in range(MOST_ORDER):
-        numbers[STEPS + MOST_ORDER - m] = numbers[STEPS + MOST_ORDER - m - 1]
-    first = numbers[STEPS + 1] == 0.0
-    numbers[STEPS] = h
-    growth = choose(run, family, most, h, tolerance, error, factors)
-    run.clock[STEP] = h * min(growth, 1.0 if rejections > 0 else (FIRST_GROWTH if first else MOST_GROWTH))
-    return OK
+            run.counter[RESTART] = 0
+        elif run.counter[NEWTON] == 0:
+            measure_contraction(run)
+        renew(run, family)
+        status, error, rejections = OK, 0.0, 0
+        while True:
+            h = reach(run)
+            if h == 0.0:
+                return too_small(run, status, error)
+            q = run.counter[ORDER]
+            place_points(run, h)
+            c = numbers[C : C + MOST_ORDER + 1]
+            factors = correction(family, q, numbers[XI : XI + MOST_ORDER + 3], numbers[WORK : WORK + MOST_ORDER + 4], c)
+            predict(run, h / numbers[SCALED])
+            status = correct(evaluate, machine, history, h, tolerance)
+            if status == OK:
+                status = damp(machine, history, run.stages[CORRECTION], run.stages[ESTIMATE])
+            if status != OK:
+                reject(run, h, AFTER_FAILURE)
+            else:
+                error = factors[2] / factors[0] * size(run, run.stages[ESTIMATE]) / tolerance
+                shorter = turned_too_far(machine, h)
+                if error <= 1.0 and shorter == 1.0:
+                    break
+                reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
+            rejections += 1
+            if rejections % PATIENCE == 0:
+                start(run)
+        accept(run, c)
+        extrapolated = factors[2] / factors[0] if family == ADAMS and run.counter[NEWTON] == 0 else 0.0
+        for i in range(run.y.shape[0]):
+            run.y[i] = run.stages[Z, i] - extrapolated * run.stages[CORRECTION, i]
+            run.stages[SLOPE, i] = run.stages[Z + 1, i]
+        if wanted(run):
+            fill_dense(run)
+        numbers[SCALED] = h
+        for m in range(MOST_ORDER):
+            numbers[STEPS + MOST_ORDER - m] = numbers[STEPS + MOST_ORDER - m - 1]
+        first = numbers[STEPS + 1] == 0.0
+        numbers[STEPS] = h
+        lower = 0.0
+        if numbers[WAIT] <= 1.0:
+            status = damp(machine, history, run.stages[Z + q], run.stages[CHANGE])
+            lower = size(run, run.stages[CHANGE])
+        growth = choose(run, family, most, h, tolerance, error, lower, factors)
+        run.clock[STEP] = h * min(growth, 1.0 if rejections > 0 else (FIRST_GROWTH if first else MOST_GROWTH))
+        return status
+
+    return variable_step

@@ -1,0 +1,22 @@
+"""Newton's matrix of multistep methods that choose their steps, from exact derivatives of the equations of motion; sparse."""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import leaf
+from nivel.kernels.shifted import prepare_shifted, solve_shifted
+from nivel.march.run import REACHED, run_at
+from nivel.march.variable_workspace import SHARE
+
+
+@leaf
+def find_matrix(evaluate, machine, history, share, rate):
+    """The factors that 1 - share ∂f/∂y takes at run.trial, last evaluated with f = `rate`. Returns a status."""
+    run = run_at(history)
+    return prepare_shifted(machine, run.clock[REACHED], run.trial, rate, share)
+
+
+@leaf
+def solve_matrix(machine, history, x):
+    """Overwrite x (ny,) with the solution. Returns a status."""
+    run = run_at(history)
+    return solve_shifted(machine, run.clock[REACHED], x, run.numbers[SHARE], 0.0)

@@ -1,0 +1,20 @@
+"""BDF of orders 1 to 5, of variable step, for stiff machines: Newton's iteration with exact sparse tangents (`nivel.kernels.shifted`)."""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import entry
+from nivel.march.exact_matrix import find_matrix, solve_matrix
+from nivel.march.multistep_polynomials import BDF
+from nivel.march.run import run_at, step_signature
+from nivel.march.step_control import allowed
+from nivel.march.variable_corrector import corrector
+from nivel.march.variable_gear import MOST_ORDER, SHARE
+from nivel.march.variable_order import multistep
+
+variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix))
+
+
+@entry(step_signature)
+def bdf(evaluate, machine, history):
+    """One accepted step."""
+    return variable_step(evaluate, machine, history, allowed(run_at(history), SHARE))

@@ -21,11 +21,13 @@ def test_every_unknown_has_its_name():
 
 
 def test_a_failed_iteration_keeps_the_result_and_names_where_it_stalls():
-    """A step of a tenth of a turn of the crank and more."""
-    r = run(machines.slider_crank(), integrator="generalised-alpha", step=0.04, coordinates="relative", cut=("hinge",))
+    """Two iterations are too few for 1e-10."""
+    r = run(
+        machines.slider_crank(), integrator="generalised-alpha", step=5e-3, coordinates="relative",
+        corrector={"most_iterations": 2},
+    )  # fmt: skip
     assert r.finished.outcome == "failed"
-    message, advice, time = r.finished.failure
+    message, advice, _ = r.finished.failure
     assert "stalls at the joint" in message
     assert "--step" in advice
-    assert 0.0 < time < 8.0
-    assert len(r.time) > 1
+    assert len(r.time) >= 1

@@ -9,6 +9,7 @@ import force_zoo
 import linked
 import machines
 import nivel
+from unknowns import moving
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
@@ -50,6 +51,16 @@ WHOLE = {
     **{path.name: (lambda path=path: example(path)) for path in sorted(EXAMPLES.glob("*.yaml"))},
 }  # fmt: skip
 ZOO = {**JOINTS, **WHOLE, **force_zoo.ELEMENTS}
-PLACES = {name: case.place for name, case in force_zoo.CASES.items()}
+# draws until surfaces that are meant to press do
+DRAWS = 40
 EACH = pytest.mark.parametrize("name", ZOO)
 COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+
+
+def state_of(name, coordinates, rng):
+    """A state of a machine of the zoo in motion; surfaces that touch are pressed together, which those that fly apart are not."""
+    case = force_zoo.CASES.get(name, force_zoo.Case({}))
+    for here in moving(ZOO[name](), coordinates, rng, DRAWS, place=case.place):
+        if not case.touches or here.motion.system.record.outputs.value[0] != 0.0:
+            return here
+    raise AssertionError(f"no state of {name} has a force")

@@ -9,7 +9,7 @@ from assembled import mass_matrix
 from nivel.analysis.implicit import evaluate_residual, find_tangent
 from nivel.system.tables import index_array
 from simulating import G, solid
-from tangent_zoo import COORDINATES, EACH, PLACES, ZOO
+from tangent_zoo import COORDINATES, EACH, state_of
 from unknowns import SHARES, TIME, moving
 
 
@@ -33,7 +33,7 @@ def coupled(record):
 @EACH
 def test_columns_found_together_are_those_found_one_by_one(name, coordinates, rng):
     """To the last bit: what is moved together meets in no row."""
-    here = next(moving(ZOO[name](), coordinates, rng, place=PLACES.get(name)))
+    here = state_of(name, coordinates, rng)
     record = put(here)
     _, together = find_tangent(here.motion, TIME, *SHARES)
     single = record.newton._replace(group_start=np.arange(len(record.newton.group) + 1, dtype=np.uint32))
@@ -45,7 +45,7 @@ def test_columns_found_together_are_those_found_one_by_one(name, coordinates, rn
 @EACH
 def test_what_is_not_a_number_in_one_body_stays_within_what_is_coupled_to_it(name, rng):
     """NaN in the position, rotation or velocities of one body reaches only rows that the plan has for its unknowns."""
-    here = next(moving(ZOO[name](), "absolute", rng, place=PLACES.get(name)))
+    here = state_of(name, "absolute", rng)
     record = put(here)
     known, n, states, rows = coupled(record), here.n, here.states, here.rows
     for body in range(here.motion.system.body_count):
@@ -72,7 +72,7 @@ def test_what_is_not_a_number_in_one_body_stays_within_what_is_coupled_to_it(nam
 @EACH
 def test_mass_matrix_is_symmetric_and_positive_and_rows_of_constraints_are_transposed(name, coordinates, rng):
     """With unknowns that move next to nothing the matrix is [M C_qᵀ; C_q 0]; friction that its joint's reaction loads bends C_qᵀ."""
-    here = next(moving(ZOO[name](), coordinates, rng, place=PLACES.get(name)))
+    here = state_of(name, coordinates, rng)
     record = put(here)
     status, matrix = find_tangent(here.motion, TIME, 1e-20, 1e-20, 1e-20)
     assert status == 0

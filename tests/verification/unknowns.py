@@ -137,14 +137,14 @@ class Unknowns:
         return np.concatenate([r, z[here.n : here.n + here.states] - rates, C / SHARES[0]])
 
     def widths(self):
-        """First steps of the differences, by unknown: a tenth of a radian, of the machine's length, of the largest multiplier."""
+        """First steps of the differences, by unknown: 2 % of a radian, of the machine's length or a metre, of the largest multiplier."""
         here, (cq, _, cx) = self.here, SHARES
         units = here.motion.system.map.units
         lengths = np.array(
-            [here.size if unit == "m/s" else 1.0 for unit in units[here.positions : here.positions + here.n]]
+            [min(here.size, 1.0) if unit == "m/s" else 1.0 for unit in units[here.positions : here.positions + here.n]]
         )
         lam = np.full(here.rows, 1.0 + np.abs(here.lam).max(initial=0.0))
-        return 0.1 * np.concatenate([lengths / cq, np.full(here.states, 1e-3 / cx), lam])
+        return 0.02 * np.concatenate([lengths / cq, np.full(here.states, 5e-3 / cx), lam])
 
     def derivative(self, j, width):
         """Column j of the Jacobian: of differences with steps halved again and again, entry by entry the one that halving changes least."""

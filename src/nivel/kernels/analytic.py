@@ -45,3 +45,34 @@ def maximum(x, y):
 def minimum(x, y):
     """The smaller one; x where they are equal, and where y is not a number."""
     return y if real(y) < real(x) else x
+
+
+@leaf
+def power(x, y):
+    """x ** y. Through a logarithm, as the power of complex numbers is, a negative x would leave round-off of the size of the result in
+    place of the derivative: y x**(y - 1) along x, log x x**y along y."""
+    a, b, along, beside = np.real(x), np.real(y), np.imag(x), np.imag(y)
+    value, slope = a**b, 0.0
+    if along != 0.0 and b != 0.0:
+        slope = b * a ** (b - 1.0) * along
+    if beside != 0.0:
+        slope += np.log(a) * value * beside
+    return complex(value, slope)
+
+
+@leaf
+def hypot(x, y):
+    """√(x² + y²)."""
+    return np.sqrt(x * x + y * y)
+
+
+@leaf
+def copysign(x, y):
+    """|x| with the sign of y."""
+    return x * (np.copysign(1.0, real(x)) * np.copysign(1.0, real(y)))
+
+
+@leaf
+def modulo(x, y):
+    """What is left of x after whole multiples of y."""
+    return x - y * np.floor(real(x) / real(y))

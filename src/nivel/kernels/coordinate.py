@@ -190,12 +190,14 @@ def displacement(bodies, markers, kind, i, j, axis, reference, Ji, Jj, other_i, 
         bias = (Xdot * Xdot + Ydot * Ydot + X * Xbias + Y * Ybias - rate * rate) / value
         for k in range(6):
             Ji[k] = (X * Ji[k] + Y * other_i[k]) / value
+        for k in range(3):
             Jj[k] = (X * Jj[k] + Y * other_j[k]) / value
         return value, rate, bias
     rate = (X * Ydot - Y * Xdot) / square
     bias = (X * Ybias - Y * Xbias - 2.0 * rate * (X * Xdot + Y * Ydot)) / square
     for k in range(6):
         Ji[k] = (X * other_i[k] - Y * Ji[k]) / square
+    for k in range(3):
         Jj[k] = (X * other_j[k] - Y * Jj[k]) / square
     return near(arctan2(Y, X), reference), rate, bias
 

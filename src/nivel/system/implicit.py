@@ -31,7 +31,6 @@ def no_newton() -> Newton:
 def residual_tables(bodies: int, state: int, velocities: int, states: int, row: Index, part: Index) -> Residual:
     """For so many bodies, entries of y, velocities and states of forces. row, part : as in `Residual`."""
     rows = len(row)
-    moving = bodies + 1 if velocities else 0
     return Residual(
         row=row,
         part=part,
@@ -39,8 +38,8 @@ def residual_tables(bodies: int, state: int, velocities: int, states: int, row: 
         vdot=np.zeros(velocities),
         lam=np.zeros(rows),
         value=np.zeros(velocities + states + 3 * rows),
-        acceleration=np.zeros((moving, 6)),
-        wrench=np.zeros((moving, 6)),
+        acceleration=np.zeros((bodies + 1, 6)),
+        wrench=np.zeros((bodies + 1, 6)),
     )
 
 

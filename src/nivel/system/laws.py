@@ -17,9 +17,11 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels import cache
-from nivel.machine.arithmetic import TIME, Call, Name, Negative, Node, Number, Operation, Signal, Time
+from nivel.machine.arithmetic import TIME
 from nivel.machine.expression import Expression
 from nivel.machine.python_law import PythonLaw
+from nivel.system.analytic_text import analytic_text
+from nivel.system.expression_text import ANALYTIC, SPELLING, motion_lines, source
 
 EXPRESSION = '''"""A function written by nivel from an expression of a machine file."""
 
@@ -58,7 +60,7 @@ COMPLEX_EXPRESSION = '''"""A function written by nivel from an expression of a m
 import numpy as np
 from numba import cfunc, types
 
-from nivel.kernels.analytic import absolute, arctan2, maximum, minimum
+from nivel.kernels.analytic import absolute, arctan2, maximum, minimum, power
 
 
 @cfunc(types.complex128(types.CPointer(types.complex128)), cache=True, error_model="numpy")
@@ -66,8 +68,8 @@ def nivel_law(x):
 {body}
 '''
 
-# The derivative of a Python law along the imaginary parts of its arguments, by differences of order four: its text need not know complex
-# numbers. Steps are shares of the arguments.
+# A Python law on complex numbers: its text made analytic, or where that is not possible, its derivative along the imaginary parts of its
+# arguments by differences of order four, whose steps are shares of the arguments.
 COMPLEX_LAW = """{source}
 
 
@@ -88,32 +90,32 @@ def nivel_law(x):
 {body}
 """
 SHARE = 1e-4
-SPELLING = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2"}
 
 
 def expression_address(expression: Expression, signals: Sequence[str]) -> int:
     """Address of the code of an expression of `signals`, of which the first is the time."""
     places = {path: place for place, path in enumerate(signals)}
     address = _address(EXPRESSION.format(body=f"    return {source(expression.tree, places)}"))
-    _twins[address] = COMPLEX_EXPRESSION.format(body=f"    return {_analytic(source(expression.tree, places))}")
+    _twins[address] = (COMPLEX_EXPRESSION.format(body=f"    return {source(expression.tree, places, ANALYTIC)}"),)
     return address
 
 
 def complex_address(address: int) -> int:
-    """Address of the code on complex numbers of the function at `address`, compiled when it is asked for."""
-    return _address(_twins[address])
+    """Address of the code on complex numbers of the function at `address`, compiled when it is asked for: of the first of its texts that
+    can be compiled."""
+    first, *others = _twins[address]
+    for other in others:
+        try:
+            return _address(first)
+        except Exception:  # whatever a foreign text does on complex numbers, there is another way
+            first = other
+    return _address(first)
 
 
 def motion_address(expression: Expression) -> int:
     """Address of the code of an expression of time alone, which leaves its two derivatives behind its argument."""
-    rate = expression.derivative
-    lines = [
-        f"x[1] = {source(rate.tree, {})}",
-        f"x[2] = {source(rate.derivative.tree, {})}",
-        f"return {source(expression.tree, {})}",
-    ]
-    address = _address(EXPRESSION.format(body="\n".join(f"    {line}" for line in lines)))
-    _twins[address] = COMPLEX_EXPRESSION.format(body="\n".join(f"    {_analytic(line)}" for line in lines))
+    address = _address(EXPRESSION.format(body=motion_lines(expression, SPELLING)))
+    _twins[address] = (COMPLEX_EXPRESSION.format(body=motion_lines(expression, ANALYTIC)),)
     return address
 
 
@@ -128,7 +130,7 @@ def law_address(law: PythonLaw, *, motion: bool) -> int:
         where = f" in {law.file}" if law.file else ""
         message = f"the law `{law.function}`{where} cannot be compiled: {_telling(problem)}"
         raise ModelError(Fault("", 0, 0, "", message)) from problem
-    _twins[address] = _complex_law_text(law, motion=motion)
+    _twins[address] = _complex_law_texts(law, motion=motion)
     return address
 
 
@@ -148,12 +150,16 @@ def _law_text(law: PythonLaw, *, motion: bool) -> str:
     return LAW.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
 
 
-def _complex_law_text(law: PythonLaw, *, motion: bool) -> str:
-    """The module of the law on complex arguments. Motions depend on the time alone: their derivatives are what they return."""
+def _complex_law_texts(law: PythonLaw, *, motion: bool) -> tuple[str, ...]:
+    """Modules of the law on complex arguments, the best one first. Motions depend on the time alone: their derivatives are what they
+    return."""
     count = len(law.arguments)
 
     def call(step: str) -> str:
         return f"{law.function}({', '.join(f'x[{n}].real + {step} * x[{n}].imag' for n in range(count))})"
+
+    def module(text: str, lines: list[str]) -> str:
+        return COMPLEX_LAW.format(source=text, body="\n".join(f"    {line}" for line in lines))
 
     if motion:
         lines = [
@@ -162,20 +168,25 @@ def _complex_law_text(law: PythonLaw, *, motion: bool) -> str:
             f"x[{count + 1}] = acceleration",
             "return complex(value, x[0].imag * rate)",
         ]
-    else:
-        lines = [
-            "reach = _nivel_numpy.inf",
-            f"for n in range({count}):",
-            "    if x[n].imag != 0.0:",
-            f"        reach = min(reach, {SHARE} * max(abs(x[n].real), {SHARE}) / abs(x[n].imag))",
-            f"value = {call('0.0')}",
-            "if reach == _nivel_numpy.inf:",
-            "    return complex(value, 0.0)",
-            f"near = {call('reach')} - {call('(-reach)')}",
-            f"far = {call('(2.0 * reach)')} - {call('(-2.0 * reach)')}",
-            "return complex(value, (8.0 * near - far) / (12.0 * reach))",
-        ]
-    return COMPLEX_LAW.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
+        return (module(law.source, lines),)
+    lines = [
+        "reach = _nivel_numpy.inf",
+        f"for n in range({count}):",
+        "    if x[n].imag != 0.0:",
+        f"        reach = min(reach, {SHARE} * max(abs(x[n].real), {SHARE}) / abs(x[n].imag))",
+        f"value = {call('0.0')}",
+        "if reach == _nivel_numpy.inf:",
+        "    return complex(value, 0.0)",
+        f"near = {call('reach')} - {call('(-reach)')}",
+        f"far = {call('(2.0 * reach)')} - {call('(-2.0 * reach)')}",
+        "return complex(value, (8.0 * near - far) / (12.0 * reach))",
+    ]
+    by_differences = module(law.source, lines)
+    text = analytic_text(law.source, law.function)
+    if text is None:
+        return (by_differences,)
+    exact = f"return {law.function}({', '.join(f'x[{n}]' for n in range(count))})"
+    return module(text, [exact]), by_differences
 
 
 def false_derivative(law: PythonLaw, end: float) -> str:
@@ -221,47 +232,8 @@ def _telling(problem: Exception) -> str:
     return f"{type(problem).__name__}: {' '.join(told)[:400]}" if told else type(problem).__name__
 
 
-def source(node: Node, places: dict[str, int]) -> str:
-    """Python source of an arithmetic tree for the compiler; the time is x[0], a signal x[its place].
-
-    `max` and `min` of many arguments are nested.
-    """
-    match node:
-        case Number(value, _):
-            return f"({value!r})"
-        case Time():
-            return "x[0]"
-        case Signal(path):
-            return f"x[{places[path]}]"
-        case Negative(operand):
-            return f"(-{source(operand, places)})"
-        case Operation(symbol, left, right):
-            return f"({source(left, places)} {symbol} {source(right, places)})"
-        case Call(("min" | "max") as function, (first, *others)):
-            text = source(first, places)
-            for other in others:
-                text = f"np.{function}imum({text}, {source(other, places)})"
-            return text
-        case Call(function, arguments):
-            return f"np.{SPELLING.get(function, function)}({', '.join(source(each, places) for each in arguments)})"
-        case Name(text):
-            raise ValueError(f"the name {text} is not bound")
-
-
-def _analytic(text: str) -> str:
-    """Source of an expression with the functions that stay analytic on complex numbers."""
-    for function, known in (
-        ("abs", "absolute"),
-        ("arctan2", "arctan2"),
-        ("maximum", "maximum"),
-        ("minimum", "minimum"),
-    ):
-        text = text.replace(f"np.{function}(", f"{known}(")
-    return text
-
-
-# text of the code on complex numbers for the addresses handed out
-_twins: dict[int, str] = {}
+# texts of the code on complex numbers for the addresses handed out
+_twins: dict[int, tuple[str, ...]] = {}
 
 
 def _address(text: str) -> int:

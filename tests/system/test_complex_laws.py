@@ -1,0 +1,187 @@
+"""Expressions and Python laws on complex numbers: imaginary parts are derivatives, of the branch that the real parts are on."""
+
+import numpy as np
+import pytest
+from numba import njit
+
+from nivel.kernels.function import call_law
+from nivel.machine.expression import Expression
+from nivel.machine.python_law import PythonLaw
+from nivel.system.analytic_text import analytic_text
+from nivel.system.laws import complex_address, expression_address, law_address, motion_address
+
+STEP = 1e-30
+TIMES = (-2.3, -1.0, -0.4, 0.0, 0.3, 1.0, 2.7)
+
+
+@njit
+def called(address, arguments):
+    return call_law(address, arguments, 0)
+
+
+def on_complex(address, *arguments, behind=0):
+    """Value and derivative along `arguments` (value, direction), and the arguments as the function left them."""
+    given = np.array([value + 1j * STEP * direction for value, direction in arguments] + [0j] * behind)
+    result = called(np.uint64(complex_address(address)), given)
+    return result.real, result.imag / STEP, given
+
+
+# on all of TIMES but at poles and corners
+SMOOTH = (
+    *("time^2", "time^3", "(time - 5)^3", "(time - 5)^-3", "time^1", "time^0", "2^time", "(time + 3)^time", "(time + 3)^1.5"),
+    *("sqrt(time + 4)", "exp(-time)*sin(3*time)", "log(time + 4)", "tan(time/2)", "asin(time/3)", "acos(time/3)", "atan(time)"),
+    *("atan2(time, 2)", "atan2(2, time)", "atan2(time, -2 - time^2)", "atan2(-1, time)", "1/(time^2 + 1)", "-cos(time)^5"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("text", SMOOTH)
+def test_expressions_on_complex_numbers_give_their_derivatives(text):
+    """Against the derivative of the expression that drivers use, which is symbolic."""
+    expression = Expression(text)
+    address = expression_address(expression, ["time"])
+    for time in TIMES:
+        value, slope, _ = on_complex(address, (time, 1.0))
+        assert value == pytest.approx(expression(time), rel=1e-14, abs=1e-15)
+        assert slope == pytest.approx(expression.derivative(time), rel=1e-13, abs=1e-14)
+
+
+CORNERS = {
+    "abs(time)": np.sign,
+    "abs(time)*time": lambda t: 2 * abs(t),
+    "min(time, 0.5, -time)": lambda t: 1.0 if t < 0 else -1.0,
+    "max(time^2, 0.5, time)": lambda t: 2 * t if t * t > 0.5 and t * t >= t else 0.0 if t < 0.5 else 1.0,
+    "abs(time)^1.5": lambda t: 1.5 * np.sign(t) * abs(t) ** 0.5,
+    "max(time, 0)^2": lambda t: 2 * max(t, 0.0),
+}
+
+
+@pytest.mark.parametrize("text", CORNERS)
+def test_expressions_with_corners_give_the_derivative_of_the_branch_they_are_on(text):
+    address = expression_address(Expression(text), ["time"])
+    for time in TIMES:
+        if time not in (0.0, 1.0, -1.0):
+            value, slope, _ = on_complex(address, (time, 1.0))
+            assert value == pytest.approx(Expression(text)(time), abs=1e-15)
+            assert slope == pytest.approx(CORNERS[text](time), abs=1e-14)
+
+
+def test_motions_leave_rate_and_acceleration_with_their_derivatives():
+    address = motion_address(Expression("0.3*sin(4*time)"))
+    value, slope, given = on_complex(address, (0.7, 1.0), behind=2)
+    assert value == pytest.approx(0.3 * np.sin(2.8))
+    assert slope == pytest.approx(1.2 * np.cos(2.8))
+    np.testing.assert_allclose(given[1:].real, [1.2 * np.cos(2.8), -4.8 * np.sin(2.8)])
+    np.testing.assert_allclose(given[1:].imag / STEP, [-4.8 * np.sin(2.8), -19.2 * np.cos(2.8)])
+
+
+TEXT = '''
+"""Laws."""
+import math
+from math import copysign, pi
+
+import numpy as np
+
+KNOTS = (0.0, 0.5, 2.0)
+RISES = (3.0, -1.0, 2.0)
+GRID = np.array([-3.0, 0.0, 1.0, 3.0])
+VALUES = np.array([1.0, 2.0, -1.0, 4.0])
+
+
+def signed_square(x: float, size: float) -> float:
+    """Branches, a sign, powers of negative numbers."""
+    if x < 0.0 or not x < 100.0:
+        return -size*x**2 + copysign(0.1*x, -1.0)
+    elif 0.0 <= x < 0.5:
+        return size*x**3
+    return size*math.sqrt(x)
+
+
+def looped(x, size):
+    total = 0.0
+    k = 0
+    while k < 4:
+        total += math.sin(k*x)/(k + 1) + (x if x > 0.0 else 2.0*x)
+        k += 1
+    for rise in RISES:
+        total -= abs(rise*x)
+    total **= 2
+    return size*total
+
+
+def table(x, size):
+    """A table read by hand."""
+    place = max(min(abs(x), 1.999), 0.0)
+    k = 0
+    while k < 1 and place >= KNOTS[k + 1]:
+        k += 1
+    return size*(RISES[k] + (RISES[k + 1] - RISES[k])*(place - KNOTS[k])/(KNOTS[k + 1] - KNOTS[k]))
+
+
+def periodic(x, size):
+    return size*math.cos(pi*(x % 0.75)) + math.floor(x) + math.hypot(x, 1.0) + math.atan2(x, -2.0) + helper(x) + float(int(x))
+
+
+def helper(x):
+    return pow(2.0 + x*x, 1.5) + np.arctan(x) + math.exp(-x*x)*math.tanh(x)
+
+
+def steady(x, size):
+    return 3.0
+
+
+def interpolated(x, size):
+    """What complex numbers cannot do."""
+    return size*np.interp(x, GRID, VALUES)
+'''
+PLACES = (-2.3, -1.1, -0.4, 0.3, 0.6, 1.3, 2.7)
+
+
+def slope_of(function, x, size):
+    """Derivative with respect to x along one, and size along two, by extrapolated differences."""
+
+    def central(h):
+        return sum(
+            w * (function(x + k * h, size + 2 * k * h) - function(x - k * h, size - 2 * k * h)) / h
+            for k, w in enumerate((4 / 5, -1 / 5, 4 / 105, -1 / 280), start=1)
+        )
+
+    found = [central(1e-2 * 0.5**k) for k in range(8)]
+    k = int(np.argmin(np.abs(np.diff(found))))
+    return found[k + 1]
+
+
+@pytest.mark.parametrize("name", ["signed_square", "looped", "table", "periodic", "steady", "interpolated"])
+def test_python_laws_give_the_derivative_of_the_branch_they_are_on(name):
+    namespace = {}
+    exec(TEXT, namespace)
+    address = law_address(PythonLaw(TEXT, name, ("a.angle", "b.angle")), motion=False)
+    for x in PLACES:
+        value, slope, _ = on_complex(address, (x, 1.0), (0.7, 2.0))
+        assert value == pytest.approx(namespace[name](x, 0.7), rel=1e-14, abs=1e-15)
+        assert slope == pytest.approx(slope_of(namespace[name], x, 0.7), rel=3e-11, abs=1e-11)
+
+
+@pytest.mark.parametrize("name", ["signed_square", "looped", "periodic"])
+def test_python_laws_are_exact_where_an_argument_is_next_to_nothing(name):
+    """Steps of differences could only be guessed there."""
+    address = law_address(PythonLaw(TEXT, name, ("a.angle", "b.angle")), motion=False)
+    near, far = (on_complex(address, (x, 1.0), (0.7, 0.0))[1] for x in (1e-13, 1e-5))
+    assert near == pytest.approx(far, abs=1e-3)
+    assert near == on_complex(address, (1e-13, 2.0), (0.7, 0.0))[1] / 2
+
+
+REFUSED = (
+    "def f(x):\n    return x.real\n",
+    "import numpy as np\n\ndef f(x):\n    return np.linalg.norm(x)\n",
+    "import numpy as np\n\ndef f(x):\n    return np.interp(x, A, B)\n",
+    "def f(x):\n    return x or 1.0\n",
+    "def f(x):\n    return [k*x for k in (1, 2)][0]\n",
+    "def f(x):\n    return (lambda y: y)(x)\n",
+    "def abs(x):\n    return x\n\ndef f(x):\n    return abs(x)\n",
+    "def f(x):\n    return x if x else 1.0\n",
+)
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_texts_of_which_it_is_not_known_what_they_do_with_complex_numbers_are_left_alone(text):
+    assert analytic_text(text, "f") is None

@@ -1,0 +1,199 @@
+"""Every kind of force, coupling and driver once, and more than once where it has branches, on machines in motion."""
+
+from dataclasses import dataclass, field
+
+import linked
+from simulating import G, hinge, slide, solid
+
+LAW = """
+import math
+
+import numpy as np
+
+LIMIT = 0.4
+
+
+def tension(length, rate, stiffness):
+    \"\"\"Progressive, with a softer damper on the way in.\"\"\"
+    stretch = length - 0.3
+    force = stiffness*stretch + 30.0*stretch**3
+    if rate < 0.0:
+        return force + 2.0*rate
+    return force + 5.0*math.tanh(rate) + 0.1*abs(stretch)
+
+
+def pull(angle, rate, time):
+    total = 0.0
+    for k in range(1, 4):
+        total += math.sin(k*angle)/k
+    return -2.0*total - bounded(rate) + math.exp(-time)*np.cos(angle)
+
+
+def bounded(x):
+    return max(min(0.3*x, LIMIT), -LIMIT)
+"""
+
+
+def law(function, *arguments):
+    return {"source": LAW, "function": function, "arguments": list(arguments)}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A force by its words on the machine `bed`, with further sections.
+
+    place : body that is put at an offset [m] from another one, or from the origin, before the state is looked at: the body, the other, the
+    offset. touches : surfaces overlap there, or (False) are apart.
+    """
+
+    force: dict
+    place: tuple | None = None
+    touches: bool | None = None
+    more: dict = field(default_factory=dict)
+
+
+def bed(case):
+    """Two bodies that tumble, a cylindrical joint between them; a third one alone, a wheel on the ground."""
+    bodies = {
+        "a": solid(1.3, (0.05, 0.08, 0.06), position=[0.0, 0.1, 0.5], centre_of_mass=[0.03, 0.02, -0.01]),
+        "b": solid(0.9, (0.03, 0.04, 0.02), position=[0.6, 0.2, 0.7], orientation={"axis": [1, 2, 0], "angle": 0.4}),
+        "c": solid(0.7, (0.02, 0.02, 0.03), position=[-0.5, 0.9, 0.4], orientation={"axis": [0, 1, 1], "angle": 1.1}),
+        "wheel": solid(0.6, (0.01, 0.01, 0.02), position=[1.0, -0.5, 0.2]),
+    }
+    markers = {
+        "tip": {"body": "a", "position": [0.1, 0.05, 0.02], "orientation": {"axis": [0, 0, 1], "angle": 0.3}},
+        "eye": {"body": "b", "position": [-0.05, 0.1, 0.03], "axis": [0.3, 0.2, 1]},
+        "far": {"body": "c", "position": [0.05, -0.1, 0.1], "axis": [1, 0.2, 0.4]},
+        "floor": {"body": "ground", "position": [0, 0, 0.0], "axis": [0.05, -0.1, 1]},
+    }
+    joints = {
+        "j": {"type": "cylindrical", "bodies": ["a", "b"], "point": [0.3, 0.1, 0.6], "axis": [1, 0.3, 0.2]},
+        "axle": hinge("ground", "wheel", (1.0, -0.5, 0.0)),
+    }
+    sections = {"gravity": [1.0, 2.0, -G], "bodies": bodies, "markers": markers, "joints": joints}
+    for name, more in case.more.items():
+        sections[name] = {**sections.get(name, {}), **more}
+    return linked.record({**sections, "forces": {"f": case.force}})
+
+
+def shape(body, kind, **size):
+    """`body` of the bed with a shape, in place of its inertia."""
+    return {"bodies": {body: {"shape": {"type": kind, **size}, "mass": 0.8, "position": [-0.5, 0.9, 3.0],
+                              "orientation": {"axis": [1, 1, 0.2], "angle": 0.5}}}}  # fmt: skip
+
+
+BETWEEN = {"markers": ["tip", "eye"]}
+RUBBING = {"type": "friction", "coordinate": "j.displacement", "coefficient": 0.3, "static_coefficient": 0.45,
+           "stribeck_speed": 1.0}  # fmt: skip
+CONTACT = {"type": "contact", "stiffness": 3e3, "restitution": 0.6, "friction": 0.3, "friction_transition_speed": 0.8}
+ON = ("c", "", [-0.5, 0.9, 0.4])
+ON_FLOOR = {**CONTACT, "body": "c", "plane": "floor"}
+MOUNT = {"type": "bushing", **BETWEEN, "stiffness": [4, 6, 8, 0.5, 0.8, 0.6], "damping": [1, 2, 1, 0.1, 0.2, 0.1]}
+
+CASES = {
+    "spring": Case({"type": "spring-damper", **BETWEEN, "stiffness": 80, "free_length": 0.3, "damping": 2, "preload": 5}),
+    "spring table": Case({"type": "spring-damper", **BETWEEN, "free_length": 0.4,
+                          "table": {"deflections": [-0.3, 0.0, 0.3, 0.8], "forces": [-60, -4, 7, 90]}}),
+    "spring expression": Case({"type": "spring-damper", **BETWEEN, "law": "50*(length - 0.3) + 30*(length - 2)^3 + 0.5*rate^2"}),
+    "functions": Case({"type": "force", "body": "a", "position": [0.1, 0.2, 0.3], "vector": [
+        "5*sin(2*atan2(tip.vx, tip.y)) + min(tip.z, 2, tip.vx^2) - max(tip.vx, -tip.vx/2, 0.1) + abs(tip.vy)^1.5",
+        "sqrt(abs(tip.z) + 1)*exp(-tip.vx) + log(abs(tip.z) + 3) + cos(asin(0.2*tan(0.1*tip.vx)) - acos(0.3*sin(tip.vy)) + atan(tip.vy/3))",
+        "cos(tip.vx)^3 - 2^tip.vy + (abs(tip.x) + 1)^tip.vx + (tip.vx - 9)^2 + (tip.vx - tip.x - 9)^-3 + 3*(tip.y - 9)^1",
+    ]}),
+    "spring python": Case({"type": "spring-damper", **BETWEEN, "law": law("tension", "length", "rate", 60.0)}),
+    "spring of equal points": Case({"type": "spring-damper", "stiffness": 30, "free_length": 0.3,
+                                    "markers": [{"body": "ground"}, {"body": "wheel", "position": [-1.0, 0.5, -0.2]}]}),
+    "torsional": Case({"type": "torsional-spring-damper", "stiffness": 3, "damping": 0.4, "free_angle": 0.2,
+                       "markers": [{"body": "ground", "axis": [0, 0, 1]}, {"body": "wheel"}]}),
+    "joint spring": Case({"type": "joint-spring-damper", "coordinate": "j.displacement", "stiffness": 90, "damping": 3}),
+    "joint spring, angle": Case({"type": "joint-spring-damper", "coordinate": "j.angle", "stiffness": 4, "damping": 0.3}),
+    "joint law": Case({"type": "joint-spring-damper", "coordinate": "j.angle", "law": "4*value + 2*value^2 + 0.1*rate*abs(rate)"}),
+    "joint python": Case({"type": "joint-spring-damper", "coordinate": "j.angle", "law": law("pull", "value", "rate", "time")}),
+    "stop": Case({"type": "stop", "coordinate": "j.angle", "lower": -0.001, "upper": 0.001, "stiffness": 50, "restitution": 0.5},
+                 touches=True),
+    "stop, power": Case({"type": "stop", "coordinate": "j.displacement", "lower": -0.001, "upper": 0.001, "stiffness": 500,
+                         "restitution": 0.8, "exponent": 1.5}, touches=True),
+    "stop, apart": Case({"type": "stop", "coordinate": "j.angle", "lower": -2, "upper": 2, "stiffness": 50, "restitution": 0.5},
+                        touches=False),
+    "motor": Case({"type": "motor", "coordinate": "axle", "speed": "3 + sin(time)", "gain": 0.2}),
+    "motor, limited": Case({"type": "motor", "coordinate": "axle", "speed": 300, "gain": 0.2, "limit": 0.1}),
+    "motor, effort": Case({"type": "motor", "coordinate": "j.angle", "effort": "-0.4*j.angle_rate - 3*axle.angle*j.angle"}),
+    "bushing": Case(MOUNT),
+    "bushing, large turn": Case({**MOUNT, "markers": ["tip", {"body": "b", "orientation": {"axis": [1, -1, 0.5], "angle": 2.9}}]}),
+    "bushing, other turn": Case({**MOUNT, "markers": ["tip", {"body": "b", "orientation": {"axis": [-0.2, 1, 0.3], "angle": -2.4}}]}),
+    "bushing, full matrix": Case({**MOUNT, "stiffness": [[9 - abs(i - k) if i == k else 0.3 for k in range(6)] for i in range(6)]}),
+    "sphere": Case(ON_FLOOR, ON, True, shape("c", "sphere", radius=0.4)),
+    "sphere, linear": Case({**ON_FLOOR, "exponent": 1}, ON, True, shape("c", "sphere", radius=0.4)),
+    "sphere, apart": Case(ON_FLOOR, None, False, shape("c", "sphere", radius=0.4)),
+    "box": Case(ON_FLOOR, ("c", "", [-0.5, 0.9, 0.25]), True, shape("c", "box", size=[0.5, 0.6, 0.7])),
+    "cylinder": Case(ON_FLOOR, ("c", "", [-0.5, 0.9, 0.3]), True, shape("c", "cylinder", radius=0.3, length=0.8)),
+    "moving floor": Case({**ON_FLOOR, "plane": "eye"}, ("c", "b", [0.05, 0.02, 0.05]), True, shape("c", "sphere", radius=0.6)),
+    "spheres": Case({**CONTACT, "bodies": ["c", "ball"]}, ("c", "ball", [0.3, 0.4, 0.3]), True,
+                    {"bodies": {**shape("c", "sphere", radius=0.4)["bodies"],
+                                "ball": {"shape": {"type": "sphere", "radius": 0.5}, "mass": 0.5, "position": [-0.4, 0.6, 1.9]}}}),
+    "follower": Case({"type": "force", "body": "a", "position": [0.1, 0.2, 0.3], "vector": [3, -2, 5], "axes": "body"}),
+    "global force": Case({"type": "force", "body": "a", "position": [0.1, 0.2, 0.3], "vector": [3, "-2*cos(5*time)", 5]}),
+    "torque": Case({"type": "torque", "body": "a", "vector": [1, 2, -1], "axes": "body"}),
+    "law of far bodies": Case({"type": "force", "body": "wheel", "position": [0.1, 0.2, 0.0], "axes": "body",
+                               "vector": ["3*sin(j.angle) - far.vx", "-2*a.wz + eye.y", "0.5*c.x + 0.1*j.displacement_rate*far.z"]}),
+    "pair force": Case({"type": "pair-force", **BETWEEN, "magnitude": "-3/length + 2*sin(4*time) - rate*far.x"}),
+    "coulomb": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "viscous": 0.1}),
+    "coulomb, given load": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "normal_load": 20}),
+    "coulomb, turning": Case({**RUBBING, "coordinate": "axle.angle", "model": "coulomb", "transition_speed": 0.05, "radius": 0.04,
+                              "collar_radius": 0.05, "bearing_length": 0.1}),
+    "lugre": Case({**RUBBING, "model": "lugre", "bristle_stiffness": 500, "viscous": 0.1}),
+    "lugre, given load": Case({**RUBBING, "model": "lugre", "bristle_stiffness": 500, "normal_load": 20}),
+}  # fmt: skip
+
+
+def two_shafts(sections):
+    """Wheels and a slider on a moving base, coupled or driven."""
+    bodies = {
+        "base": solid(
+            3.0, (0.3, 0.4, 0.5), centre_of_mass=[0.05, 0.1, -0.02], orientation={"axis": [1, 2, 3], "angle": 0.2}
+        ),
+        "one": solid(0.5, (0.02, 0.02, 0.03), position=[0.4, 0.0, 0.1]),
+        "two": solid(0.7, (0.03, 0.03, 0.05), position=[-0.3, 0.1, 0.1], centre_of_mass=[0.0, 0.05, 0.0]),
+        "bar": solid(0.8, (0.02, 0.02, 0.03), position=[0.0, 0.4, 0.0]),
+    }
+    joints = {
+        "foot": {"type": "spherical", "bodies": ["base", "ground"], "point": [0, -0.5, 0]},
+        "p": hinge("base", "one", (0.4, 0, 0.1)),
+        "q": {"type": "revolute", "bodies": ["two", "base"], "point": [-0.3, 0.1, 0.1], "axis": [0.2, 0.3, 1]},
+        "s": slide("base", "bar", (0.1, 1, 0.2)),
+    }
+    markers = {"knob": {"body": "two", "position": [0.1, 0.02, 0.05]}, "pen": {"body": "base", "axis": [0.2, 0.1, 1]}}
+    return linked.record(
+        {"gravity": [1.0, -G, 2.0], "bodies": bodies, "joints": joints, "markers": markers, **sections}
+    )
+
+
+MOTION = """
+import math
+
+
+def wave(time, size):
+    return size*math.sin(3.0*time), 3.0*size*math.cos(3.0*time), -9.0*size*math.sin(3.0*time)
+"""
+COUPLED = {
+    "gear": {"type": "gear", "joints": ["p", "q"], "teeth": [17, 51]},
+    "internal gear": {"type": "gear", "joints": ["p", "q"], "ratio": 3, "internal": True},
+    "belt": {"type": "belt", "joints": ["p", "q"], "radii": [0.04, 0.1]},
+    "rack": {"type": "rack", "joints": ["p", "s"], "radius": 0.05},
+    "linear": {"type": "linear", "coordinates": ["p.angle", "q.angle", "s.displacement"], "factors": [1.0, -2.0, 5.0]},
+}
+DRIVEN = {
+    "angle": {"coordinate": "p.angle", "value": "0.3*sin(4*time)"},
+    "displacement": {"coordinate": "s", "value": "0.05*time + 0.1*time^2"},
+    "table": {"coordinate": "p.angle", "value": {"times": [0, 0.01, 0.03, 0.5, 2], "values": [0, 0.02, 0.03, 0.1, 0.0],
+                                                 "interpolation": "cubic"}},
+    "python": {"coordinate": "p.angle", "value": {"source": MOTION, "function": "wave", "arguments": ["time", 0.2]}},
+    "marker along": {"marker": "knob", "along": "y", "relative_to": "pen", "value": "0.27 + 0.1*sin(2*time)"},
+    "marker about": {"marker": "knob", "about": "z", "relative_to": "pen", "value": "-0.1*sin(2*time)"},
+    "marker of the ground": {"marker": "knob", "along": "x", "value": "-0.1 + 0.2*sin(2*time)"},
+}  # fmt: skip
+ELEMENTS = {
+    **{name: (lambda case=case: bed(case)) for name, case in CASES.items()},
+    **{f"coupling, {name}": (lambda one=one: two_shafts({"couplings": {"e": one}})) for name, one in COUPLED.items()},
+    **{f"driver, {name}": (lambda one=one: two_shafts({"drivers": {"e": one}})) for name, one in DRIVEN.items()},
+}

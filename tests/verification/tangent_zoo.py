@@ -1,0 +1,66 @@
+"""Machines whose residual and tangent are verified: every joint, force, coupling and driver, loops, trees, examples."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import force_zoo
+import linked
+import machines
+import nivel
+from unknowns import moving
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+
+def seeded(make, *arguments, **options):
+    return lambda: make(*arguments, np.random.default_rng(11), **options)
+
+
+def example(path):
+    """An example; stiction, which implicit methods refuse, as Coulomb's friction, and where there is friction gravity aslant: a reaction of
+    zero is at the kink of its size, where nothing has a derivative."""
+    machine = nivel.load(path, allow_code=True).record
+    if not any(force.type == "friction" for force in machine.forces):
+        return machine
+    forces = [
+        force.replace(model="coulomb", transition_speed=0.1) if getattr(force, "model", "") == "stiction" else force
+        for force in machine.forces
+    ]
+    return machine.replace(forces=tuple(forces), gravity=(1.0, 2.0, -9.81))
+
+
+JOINTS = {
+    f"{kind}{', ground' if ground else ''}": seeded(machines.pair, kind, ground=ground)
+    for kind in machines.KINDS
+    for ground in (False, True)
+}
+WHOLE = {
+    "slider-crank": machines.slider_crank,
+    "four-bar": machines.four_bar,
+    "four-bar of revolutes": lambda: machines.four_bar("revolute", "revolute"),
+    "bennett": machines.bennett,
+    "heavy-top": machines.heavy_top,
+    "tree": seeded(machines.tree),
+    "marked tree": seeded(linked.marked_tree, branches=1),
+    "free tree": seeded(linked.marked_tree, free=True, branches=1),
+    "loops": lambda: linked.record(linked.loops()),
+    "free ring": lambda: linked.record(linked.free_ring()),
+    **{f"every element, {model}": (lambda model=model: linked.record(linked.every_element(model))) for model in ("coulomb", "lugre")},
+    **{path.name: (lambda path=path: example(path)) for path in sorted(EXAMPLES.glob("*.yaml"))},
+}  # fmt: skip
+ZOO = {**JOINTS, **WHOLE, **force_zoo.ELEMENTS}
+# draws until surfaces that are meant to press do
+DRAWS = 40
+EACH = pytest.mark.parametrize("name", ZOO)
+COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+
+
+def state_of(name, coordinates, rng):
+    """A state of a machine of the zoo in motion; surfaces that touch are pressed together, which those that fly apart are not."""
+    case = force_zoo.CASES.get(name, force_zoo.Case({}))
+    for here in moving(ZOO[name](), coordinates, rng, DRAWS, place=case.place):
+        if not case.touches or here.motion.system.record.outputs.value[0] != 0.0:
+            return here
+    raise AssertionError(f"no state of {name} has a force")

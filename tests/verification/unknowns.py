@@ -1,0 +1,189 @@
+"""The unknowns of implicit methods: machines and states in motion, their residual as a function of accelerations, rates and multipliers,
+and its derivatives by extrapolated differences."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from assembled import TIME, random_states
+from nivel.analysis.dynamics import prepare
+from nivel.analysis.equations import MotionEquations
+from nivel.analysis.implicit import equip, evaluate_residual, find_tangent
+from nivel.kernels.record import NONE
+from nivel.kernels.status import OK
+from nivel.system.states.relative import arrange
+
+# [s², s, s] by how much an acceleration moves positions and velocities, and a rate its state: as in a step of about 0.3 s
+SHARES = (0.04, 0.2, 0.2)
+# weights of f(+k h) - f(-k h) in central differences of order eight
+CENTRAL = (4 / 5, -1 / 5, 4 / 105, -1 / 280)
+HALVINGS = 12
+
+
+def moving(machine, coordinates, rng, count=1, *, place=None):
+    """Assembled states in motion: each with the equations, and its state, accelerations, rates and multipliers by `evaluate`.
+
+    place : a free body that is put at an offset [m] from another one, or (no name) from the origin.
+    """
+    settings = {"integrator": "generalised-alpha", "stabilisation": "direct", "coordinates": coordinates}
+    record = machine.replace(simulation=machine.simulation.replace(**settings))
+    prepared = prepare(record, "newton-euler", coordinates)
+    for y in random_states(prepared, rng, count):
+        if place is not None:
+            body, other, offset = place
+            first, origin = (7 * prepared.absolute.system.bodies.index(name) if name else -1 for name in (body, other))
+            y[first : first + 3] = np.array(offset) + (y[origin : origin + 3] if other else 0.0)
+        yield at_state(record, prepared, coordinates, y, rng)
+
+
+def at_state(record, prepared, coordinates, y, rng):
+    """The equations equipped for state y of absolute coordinates, and all unknowns there."""
+    system, own, kernels = prepared.absolute.system, y.copy(), prepared.motion.kernels
+    if coordinates == "relative":
+        system, own = arrange(record, system, y, int(system.record.control.rank[0]), record.simulation)
+    states = len(system.record.elements.state)
+    own[len(own) - 2 - states : -2] = 1e-4 * rng.uniform(-1, 1, states)
+    motion = equip(MotionEquations(system, kernels), own, coordinates)
+    return SimpleNamespace(
+        record=record,
+        prepared=prepared,
+        motion=motion,
+        y=own,
+        size=system.size,
+        positions=system.positions,
+        n=len(own) - system.positions - states - 2,
+        states=states,
+        rows=len(motion.system.record.residual.row),
+        **explicit(motion, own, system.positions, states),
+    )
+
+
+def explicit(motion, y, positions, states):
+    """Accelerations, rates and multipliers as explicit methods have them; of redundant machines the multipliers that the rows kept need."""
+    status, rate = motion.evaluate(TIME, y)
+    assert status == OK
+    residual = motion.system.record.residual
+    n = len(y) - positions - states - 2
+    vdot, xdot = rate[positions : positions + n], rate[positions + n : positions + n + states]
+    lam = motion.system.record.constraints.lam[residual.row].copy()
+    if len(lam) < len(motion.system.record.saddle.row):
+        residual.y[:], residual.vdot[:], residual.lam[:] = y, vdot, 0.0
+        assert evaluate_residual(motion, TIME) == OK
+        value = residual.value[:n].copy()
+        _, matrix = find_tangent(motion, TIME, *SHARES)
+        lam = -np.linalg.lstsq(matrix[:n, n + states :], value, rcond=None)[0]
+    return {"vdot": vdot, "xdot": xdot, "lam": lam}
+
+
+def value_at(here, y, vdot, lam):
+    """(M v̇ + C_qᵀ λ - Q, rates of states, C, Ċ, C̈)."""
+    residual = here.motion.system.record.residual
+    residual.y[:], residual.vdot[:], residual.lam[:] = y, vdot, lam
+    assert evaluate_residual(here.motion, TIME) == OK
+    n, states, rows = here.n, here.states, here.rows
+    return np.split(residual.value.copy(), np.cumsum([n, states, rows, rows]))
+
+
+def turn_after(theta, psi):
+    """Euler parameters of A(θ) exp(ψ̃)."""
+    half = 0.5 * np.linalg.norm(psi)
+    f0, f = np.cos(half), 0.5 * np.sinc(half / np.pi) * psi
+    e0, e = theta[0], theta[1:]
+    return np.append(e0 * f0 - e @ f, e0 * f + f0 * e + np.cross(e, f))
+
+
+def tangent_of_vector(psi):
+    """T(ψ) = 1 - a ψ̃ + b ψ̃²: exp of ψ + δ is exp ψ exp(T δ); a = (1 - cos|ψ|)/ψ², b = (1 - sin|ψ|/|ψ|)/ψ²."""
+    s = psi @ psi
+    root = np.sqrt(s)
+    a, b = ((1 - np.cos(root)) / s, (1 - np.sin(root) / root) / s) if root > 1e-3 else (0.5 - s / 24, 1 / 6 - s / 120)
+    skew = np.cross(np.eye(3), psi)
+    return np.eye(3) - a * skew + b * skew @ skew
+
+
+class Unknowns:
+    """The state as a function of z = (v̇, ẋ, λ), as `nivel.march.residual_newton` has it: at z of the state given, positions are turned
+    from the base by `change` (n,) [m or rad]."""
+
+    def __init__(self, here, change=None):
+        self.here, self.change = here, np.zeros(here.n) if change is None else change
+        self.z = np.concatenate([here.vdot, here.xdot, here.lam])
+        self.place = here.motion.system.record.newton.place
+        self.first_turns = [k for k in range(here.n) if self.place[k, 1] == 0]
+        self.base = self._moved(here.y[: here.positions], -self.change)
+
+    def _moved(self, q, change):
+        q = q.copy()
+        for k, (place, axis) in enumerate(self.place.tolist()):
+            if axis == NONE:
+                q[place] += change[k]
+            elif axis == 0:
+                q[place : place + 4] = turn_after(q[place : place + 4], change[k : k + 3])
+        return q
+
+    def state(self, z):
+        """y of the unknowns z."""
+        here, (cq, cv, cx), d = self.here, SHARES, z - self.z
+        y, n = here.y.copy(), here.n
+        y[: here.positions] = self._moved(self.base, self.change + cq * d[:n])
+        y[here.positions : here.positions + n] += cv * d[:n]
+        y[here.positions + n : len(y) - 2] += cx * d[n : n + here.states]
+        return y
+
+    def residual(self, z):
+        """(r, ẋ - rates, C/cq)."""
+        here = self.here
+        r, rates, C, _, _ = value_at(here, self.state(z), z[: here.n], z[here.n + here.states :])
+        return np.concatenate([r, z[here.n : here.n + here.states] - rates, C / SHARES[0]])
+
+    def widths(self):
+        """First steps of the differences, by unknown: 2 % of a radian, of the machine's length or a metre, of the largest multiplier."""
+        here, (cq, _, cx) = self.here, SHARES
+        units = here.motion.system.map.units
+        lengths = np.array(
+            [min(here.size, 1.0) if unit == "m/s" else 1.0 for unit in units[here.positions : here.positions + here.n]]
+        )
+        lam = np.full(here.rows, 1.0 + np.abs(here.lam).max(initial=0.0))
+        return 0.02 * np.concatenate([lengths / cq, np.full(here.states, 5e-3 / cx), lam])
+
+    def derivative(self, j, width):
+        """Column j of the Jacobian: of differences with steps halved again and again, entry by entry the one that halving changes least."""
+        before, column, least = None, None, None
+        for k in range(HALVINGS):
+            found = np.zeros(len(self.z))
+            step = np.zeros(len(self.z))
+            for m, weight in enumerate(CENTRAL, start=1):
+                step[j] = m * 0.5**k * width
+                found += weight * 2.0**k / width * (self.residual(self.z + step) - self.residual(self.z - step))
+            if before is not None:
+                changed = np.abs(found - before)
+                better = changed < (np.inf if least is None else least)
+                least = changed if least is None else np.where(better, changed, least)
+                column = found if column is None else np.where(better, found, column)
+                if not better.any() and least.max() < 1e-12 * np.abs(column).max():
+                    break
+            before = found
+        return column
+
+    def jacobian(self):
+        """The whole Jacobian, columns those of changes of z."""
+        columns = [self.derivative(j, width) for j, width in enumerate(self.widths())]
+        return np.array(columns).reshape(len(columns), len(columns)).T
+
+    def matrix(self):
+        """(matrix of `differentiate` at z, the same for changes of z): its columns are for turns after the change."""
+        newton, residual = self.here.motion.system.record.newton, self.here.motion.system.record.residual
+        newton.change[:] = self.change
+        residual.y[:], residual.vdot[:], residual.lam[:] = self.here.y, self.here.vdot, self.here.lam
+        status, matrix = find_tangent(self.here.motion, TIME, *SHARES)
+        assert status == OK
+        own = matrix.copy()
+        for k in self.first_turns:
+            own[:, k : k + 3] = matrix[:, k : k + 3] @ tangent_of_vector(self.change[k : k + 3])
+        return matrix, own
+
+
+def error_of(found, expected, widths):
+    """Largest difference of an entry as a share of the largest in its row; unknowns in units of their widths."""
+    rows = np.abs(expected * widths).max(axis=1, keepdims=True, initial=0.0)
+    return float((np.abs(found - expected) * widths / np.maximum(rows, 1e-300)).max(initial=0.0))

@@ -69,7 +69,7 @@ class OwnChain(Chain):
 
     def prepare(self, settings: dict[str, str]) -> None:
         self._machine = nivel.Machine.from_record(chain(self.links))
-        self._settings = {"step": STEP, "integrator": "rk4", **settings}
+        self._settings = {"step": STEP, **settings}
         result = self._run(CHECK_STEPS, frames=50)
         kinetic = np.max(result["kinetic_energy"].values)
         self.energy_error = float(np.max(np.abs(result["energy_error"].values)) / kinetic)
@@ -99,7 +99,7 @@ class PeerChain(Chain):
 
 def chains(options: argparse.Namespace) -> Iterator[OwnChain | PeerChain]:
     """All programs and lengths, ready to be measured."""
-    settings = {name: getattr(options, name) for name in ("coordinates", "formulation", "stabilisation")}
+    settings = {name: getattr(options, name) for name in ("integrator", "coordinates", "formulation", "stabilisation")}
     for links in options.links:
         own = OwnChain("nivel", links)
         own.prepare(settings)
@@ -141,6 +141,7 @@ def show(found: list[Chain], title: str) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("--links", type=int, nargs="+", default=[4, 16, 64, 256, 2000])
+    parser.add_argument("--integrator", default="rk4", help="of nivel; the peers' is RK4")
     parser.add_argument("--formulation", default="newton-euler")
     parser.add_argument("--coordinates", default="relative")
     parser.add_argument("--stabilisation", default="none")
@@ -151,7 +152,10 @@ def main() -> None:
     for _ in range(options.runs):
         for each in found:
             each.measure()
-    show(found, f"{options.coordinates}, {options.formulation}, stabilisation {options.stabilisation}; RK4, {STEP:g} s")
+    show(
+        found,
+        f"{options.coordinates}, {options.formulation}, stabilisation {options.stabilisation}; {options.integrator}, {STEP:g} s",
+    )
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Time of one step and energy error of the two report machines, for coordinates, formulations and stabilisations, beside Exudyn.
 
-    python benchmarks/step_time.py [--peer PYTHON] [--runs 7] [--step 1e-3] [--json FILE]
+    python benchmarks/step_time.py [--peer PYTHON] [--runs 7] [--step 1e-3] [--integrator rk4] [--json FILE]
 
 The first run of every combination compiles and is not counted. Then every round runs each combination once and, with
 `--peer` (the interpreter of an environment with Exudyn, see README.md), each Exudyn model once: a slow moment of the
@@ -37,6 +37,10 @@ METHODS = (
     ("absolute", "lagrange", ("none", "baumgarte", "direct")),
     ("independent", "newton-euler", ("none",)),
 )
+IMPLICIT_METHODS = (
+    ("relative", "newton-euler", ("direct", "geometric", "none")),
+    ("absolute", "newton-euler", ("direct", "geometric")),
+)
 PEER_SOLVERS = ("generalised-alpha", "trapezoidal")
 
 
@@ -60,13 +64,15 @@ class Row:
 class OwnRun:
     """A combination of nivel's options on one machine."""
 
-    def __init__(self, name: str, coordinates: str, formulation: str, stabilisation: str, step: float) -> None:
+    def __init__(
+        self, name: str, coordinates: str, formulation: str, stabilisation: str, step: float, integrator: str
+    ) -> None:
         self.row = Row(name, "nivel", f"{coordinates}, {formulation}", stabilisation)
         self._machine = nivel.load(ROOT / "examples" / f"{name}.yaml")
         self._options = {
             "duration": DURATIONS[name],
             "step": step,
-            "integrator": "rk4",
+            "integrator": integrator,
             "coordinates": coordinates,
             "formulation": formulation,
             "stabilisation": stabilisation,
@@ -124,18 +130,18 @@ def reference_position(name: str, times: np.ndarray, position: np.ndarray) -> np
     return four_bar.solve(times, crank_angle=float(np.arctan2(y, x))).position
 
 
-def runs(peer: str | None, step: float) -> Iterator[OwnRun | PeerRun]:
+def runs(peer: str | None, step: float, integrator: str) -> Iterator[OwnRun | PeerRun]:
     for name in DURATIONS:
-        for coordinates, formulation, stabilisations in METHODS:
+        for coordinates, formulation, stabilisations in METHODS if integrator == "rk4" else IMPLICIT_METHODS:
             for stabilisation in stabilisations:
-                yield OwnRun(name, coordinates, formulation, stabilisation, step)
+                yield OwnRun(name, coordinates, formulation, stabilisation, step, integrator)
         for solver in PEER_SOLVERS if peer else ():
             yield PeerRun(peer, name, solver, step)
 
 
-def show(rows: list[Row], step: float, console: Console) -> None:
+def show(rows: list[Row], title: str, console: Console) -> None:
     """One table; ratios against the faster Exudyn solver and against the more accurate one, of the same machine."""
-    table = Table(title=f"RK4, step {step:g} s; ratio > 1: nivel is better", title_justify="left")
+    table = Table(title=f"{title}; ratio > 1: nivel is better", title_justify="left")
     for heading in ("machine", "program", "method", "stabilisation"):
         table.add_column(heading)
     for heading in ("µs/step", "range", "energy error / max T", "position error, m", "time ratio", "energy ratio"):
@@ -167,11 +173,14 @@ def main() -> None:
     parser.add_argument("--peer", metavar="PYTHON", help="interpreter of the environment with Exudyn")
     parser.add_argument("--runs", type=int, default=7, help="rounds (median)")
     parser.add_argument("--step", type=float, default=1e-3, help="step [s]")
+    parser.add_argument(
+        "--integrator", default="rk4", help="rk4, or one that takes stiff machines, e.g. generalised-alpha"
+    )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the rows there as well")
     options = parser.parse_args()
     # a pipe has no width of its own
     console = Console() if sys.stdout.isatty() else Console(width=170)
-    cases = list(runs(options.peer, options.step))
+    cases = list(runs(options.peer, options.step, options.integrator))
     with console.status("compiling"):
         for case in cases:
             case.measure(counted=False)
@@ -183,7 +192,7 @@ def main() -> None:
         for case in cases:
             case.find_errors()
     rows = [case.row for case in cases]
-    show(rows, options.step, console)
+    show(rows, f"{options.integrator}, step {options.step:g} s", console)
     if options.json:
         options.json.write_text(json.dumps([vars(row) for row in rows], indent=1) + "\n")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from importlib import import_module
 from time import perf_counter
 
@@ -11,16 +12,18 @@ from nivel.kernels import cache
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import path_of
+from nivel.motion.catalogue import RESIDUALS, path_of
 from nivel.system.forces import FORCES
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
 FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
+MEASURE, FRICTION = "nivel.kernels.measure", "nivel.kernels.friction"
+GIVEN_FRICTION = "nivel.kernels.friction_residual"
 RARE = {
-    "nivel.kernels.measure": "measured coordinates",
-    "nivel.kernels.friction": "friction",
+    MEASURE: "measured coordinates",
+    FRICTION: "friction",
     "nivel.kernels.sensor": "sensors",
     "nivel.kernels.watch": "events",
 }
@@ -58,7 +61,30 @@ def compile_path(
             place = f"{missing.index((module, what)) + 1}/{len(missing)}"
             listener.say(f"compiling {what} ({place}; only the first run does this)")
         import_module(module)
+    if integrator in INTEGRATORS and INTEGRATORS[integrator].residual and path[0] in RESIDUALS:
+        _compile_derivatives(RESIDUALS[path[0]], [module for module, _ in parts], listener)
     return perf_counter() - begin
+
+
+def complex_modules() -> list[str]:
+    """Modules of families that exact derivatives may need on complex numbers."""
+    families = dict.fromkeys(family for kind in FORCES.values() for family in kind.families)
+    return [*RESIDUALS.values(), MEASURE, GIVEN_FRICTION, *(f"nivel.kernels.forces.{family}" for family in families)]
+
+
+def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener) -> None:
+    """The residual, and what a run uses of families, for exact derivatives."""
+    needed = [residual, *(module for module in complex_modules() if module in used)]
+    if FRICTION in used:
+        needed.append(GIVEN_FRICTION)
+    cold = [module for module in needed if not cache.is_warm_on_complex_numbers(module.rsplit(".", 1)[1])]
+    for module in needed:
+        if module in cold:
+            place = f"{cold.index(module) + 1}/{len(cold)}"
+            listener.say(
+                f"compiling exact derivatives of {module.rsplit('.', 1)[1]} ({place}; only the first run does this)"
+            )
+        import_module("nivel.kernels.hook").compile_on_complex_numbers(import_module(module))
 
 
 def rare_modules() -> list[str]:
@@ -75,10 +101,8 @@ def _rare_parts(machine: MachineRecord, chosen: bool) -> list[tuple[str, str]]:
     types = {force.type for force in machine.forces}
     families = dict.fromkeys(family for force in types for family in FORCES[force].families)
     needed = {
-        "nivel.kernels.measure": bool(
-            machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}
-        ),
-        "nivel.kernels.friction": "friction" in types,
+        MEASURE: bool(machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}),
+        FRICTION: "friction" in types,
         "nivel.kernels.sensor": bool(machine.sensors),
         "nivel.kernels.watch": bool(machine.events) or (chosen and bool(types & {*FOLLOWED})),
     }

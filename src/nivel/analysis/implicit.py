@@ -17,13 +17,13 @@ from nivel.kernels.arrays import complex_twin
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES
 from nivel.kernels.record import GIVEN_FRICTION, MEASURE, NONE, RESIDUAL, Hooks, Record
+from nivel.motion.catalogue import RESIDUALS
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws import complex_address
 from nivel.system.system import Array, System
 from nivel.system.tangent_plan import plan_tangent
 
 Index = NDArray[np.integer]
-RESIDUALS = {"absolute": "nivel.motion.newton_euler_residual", "relative": "nivel.motion.relative_residual"}
 
 
 def equip(motion: MotionEquations, y: Array, coordinates: str, corners: Sequence[float] = ()) -> MotionEquations:

@@ -17,8 +17,9 @@ def command(quiet: bool) -> None:
 
     from rich.console import Console
 
-    from nivel.analysis.compilation import rare_modules
+    from nivel.analysis.compilation import complex_modules, rare_modules
     from nivel.kernels import cache
+    from nivel.kernels.hook import compile_on_complex_numbers
     from nivel.march.catalogue import INTEGRATORS
     from nivel.motion.catalogue import PATHS
 
@@ -33,4 +34,9 @@ def command(quiet: bool) -> None:
         with console.status(f"compiling {module}"):
             import_module(module)
         console.print(f"{module:36} {time.perf_counter() - begin:6.2f} s")
+    for module in complex_modules():
+        begin = time.perf_counter()
+        with console.status(f"compiling exact derivatives of {module}"):
+            compile_on_complex_numbers(import_module(module))
+        console.print(f"{module:36} {time.perf_counter() - begin:6.2f} s, exact derivatives")
     console.print(f"ready in {time.perf_counter() - total:.1f} s; cache: {cache.directory()}", soft_wrap=True)

@@ -41,6 +41,11 @@ def is_warm(module: str) -> bool:
     return any(directory().glob(f"**/{module}.*.nbi"))
 
 
+def is_warm_on_complex_numbers(module: str) -> bool:
+    """Whether those of its families that run on complex numbers are: they are the second machine code of the same function."""
+    return any(directory().glob(f"**/{module}.*.2.nbc"))
+
+
 def install() -> None:
     """Point Numba at the cache directory; must run before the first kernel is decorated."""
     import numba

@@ -29,6 +29,10 @@ class Family:
         self.address = int(self._code.address)
         FAMILIES[self.address] = self
 
+    def is_of(self, module: Any) -> bool:
+        """Whether the function is written in this module."""
+        return self._function.__module__ == module.__name__
+
     @cached_property
     def complex_address(self) -> int:
         """Address of the function for records whose work is complex."""
@@ -37,6 +41,13 @@ class Family:
 
 
 FAMILIES: dict[int, Family] = {}
+
+
+def compile_on_complex_numbers(module: Any) -> None:
+    """Compile the families of a module for exact derivatives, or load them from the cache."""
+    for part in vars(module).values():
+        if isinstance(part, Family) and part.is_of(module):
+            assert part.complex_address
 
 
 def family(function: Callable[..., Any]) -> Family:

@@ -51,6 +51,9 @@ PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("independent", "newton-euler", "euler-parameters"): _INDEPENDENT,
 }
 
+# coordinates → the residual of newton-euler's equations, for implicit methods
+RESIDUALS = {"absolute": "nivel.motion.newton_euler_residual", "relative": "nivel.motion.relative_residual"}
+
 FORMULATIONS: dict[str, FormulationFacts] = {
     "newton-euler": FormulationFacts(),
     "lagrange": FormulationFacts(),

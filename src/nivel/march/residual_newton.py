@@ -23,7 +23,7 @@ from nivel.kernels.hook import call_hook
 from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import NONE, RESIDUAL, record_at
 from nivel.kernels.spatial import dot
-from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.tangent import POSITIONS, differentiate, inverse_tangent
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
 
@@ -189,6 +189,15 @@ def find_change(machine, cq, cv):
 
 
 @stage
+def is_finite(value):
+    """Whether all entries are numbers; a difference of infinities is none either. Derivatives of other ones would be stale."""
+    total = 0.0
+    for i in range(value.shape[0]):
+        total += value[i] - value[i]
+    return total == 0.0
+
+
+@stage
 def is_worth_a_new_one(newton, contraction, size, tolerance):
     """Whether the iterations still to come with the matrix that there is would cost more than another matrix."""
     price = min(DEAR * (newton.group_start.shape[0] - 1.0), DEAREST)
@@ -209,6 +218,8 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
         status = call_hook(machine, RESIDUAL, 0, t)
         counter[EVALUATIONS] += 1
         counter[ITERATIONS] += 1
+        if status == OK and not is_finite(record.residual.value):
+            status = NOT_FINITE
         if status == OK and (stale or not is_kept(newton, cq, cv, cx)):
             status = differentiate(machine, t, cq, cv, cx, POSITIONS)
             if status == OK:

@@ -13,7 +13,8 @@ class IntegratorFacts:
     """`function` of `module` is the compiled step; `stages` vectors and `numbers` of work and history; `order` of convergence.
 
     chooses_steps : controls its error; either : does so on request. implicit : iterates a corrector, by Newton's method on request.
-    residual : solves the equations of motion themselves, with exact tangents, for accelerations and multipliers.
+    residual : solves the equations of motion themselves, with exact tangents, for accelerations and multipliers; or shifted : solves
+    ẏ = f(t, y), and takes only its tangents from them.
     """
 
     module: str
@@ -25,6 +26,7 @@ class IntegratorFacts:
     implicit: bool = False
     residual: bool = False
     either: bool = False
+    shifted: bool = False
 
 
 _ADAMS, _MOULTON, _GEAR = "nivel.march.adams", "nivel.march.moulton", "nivel.march.gear"
@@ -47,6 +49,7 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
         name: IntegratorFacts("nivel.march.alpha", "alpha", 7, 2, 8, implicit=True, residual=True, either=True)
         for name in ("newmark", "hht", "generalised-alpha")
     },
+    "radau": IntegratorFacts("nivel.march.radau", "radau", 15, 5, 8, chooses_steps=True, residual=True, shifted=True),
     "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 31, 5, 66, chooses_steps=True, implicit=True),
 }
 

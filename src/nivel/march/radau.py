@@ -63,7 +63,7 @@ from nivel.march.step_control import (
 # of the error of one step with its estimate
 ORDER = 4.0
 # A step may err, by its estimate, by SHARE tolerance^(4/5); its stages are found to CLOSE of the tolerance.
-SHARE, CLOSE = 0.02, 0.01
+SHARE, CLOSE = 0.06, 0.01
 # Derivatives are found anew where a change is more than this share of the one before.
 GOOD = 0.02
 LEAST_CHANGE, MOST_CHANGE = 0.2, 8.0

@@ -53,6 +53,8 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
     if facts is None or not facts.residual:
         return faults
     name = settings.integrator
+    if facts.shifted:
+        return _refuse_tangents(settings, coordinates)
     if settings.formulation != "newton-euler":
         message = (
             f"'{settings.formulation}' does not go with `integrator: {name}`, which solves for accelerations and multipliers at once and "
@@ -84,6 +86,28 @@ def _refuse_step_control(settings: SimulationSettings) -> list[Fault]:
     else:
         message = f"{settings.integrator} has no estimate of its error: take dopri5, or radau for stiff machines"
     return [_fault("step_control", message)]
+
+
+def _refuse_tangents(settings: SimulationSettings, coordinates: str) -> list[Fault]:
+    """What does not go with an integrator of the rates that needs their exact derivatives."""
+    faults, name = [], settings.integrator
+    if settings.formulation != "newton-euler":
+        message = (
+            f"'{settings.formulation}' does not go with `integrator: {name}`, whose exact derivatives are those of newton-euler: take that, "
+            f"its motion is the same"
+        )
+        faults.append(_fault("formulation", message))
+    if coordinates == "independent":
+        message = (
+            f"'independent' does not go with `integrator: {name}`, whose exact derivatives need the multipliers: take absolute or relative"
+        )
+        faults.append(_fault("coordinates", message))
+    if settings.stabilisation == "baumgarte":
+        message = (
+            f"'baumgarte' does not go with `integrator: {name}`, whose exact derivatives know of no feedback: take direct, geometric or none"
+        )
+        faults.append(_fault("stabilisation", message))
+    return faults
 
 
 def _refuse_chosen_steps(settings: SimulationSettings) -> list[Fault]:

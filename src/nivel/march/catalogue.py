@@ -49,7 +49,7 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
         name: IntegratorFacts("nivel.march.alpha", "alpha", 7, 2, 8, implicit=True, residual=True, either=True)
         for name in ("newmark", "hht", "generalised-alpha")
     },
-    "radau": IntegratorFacts("nivel.march.radau", "radau", 15, 5, 8, chooses_steps=True, residual=True, shifted=True),
+    "radau": IntegratorFacts("nivel.march.radau", "radau", 14, 5, 9, chooses_steps=True, residual=True, shifted=True),
     "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 31, 5, 66, chooses_steps=True, implicit=True),
 }
 

@@ -14,7 +14,7 @@ import numpy as np
 from nivel.kernels.compile import entry, leaf
 from nivel.kernels.record import record_at
 from nivel.kernels.shifted_parts import keep_multipliers, solve_shifted_parts
-from nivel.kernels.status import OK
+from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.dense import wanted
 from nivel.march.radau_constants import BEND, GAMMA
 from nivel.march.radau_stages import (
@@ -26,6 +26,7 @@ from nivel.march.radau_stages import (
     LAST_ERROR,
     LAST_STEP,
     LEFT_OVER,
+    LONGEST,
     MADE,
     RATES,
     REPEATED,
@@ -67,6 +68,8 @@ SHARE, CLOSE = 0.06, 0.01
 # Derivatives are found anew where a change is more than this share of the one before.
 GOOD = 0.02
 LEAST_CHANGE, MOST_CHANGE = 0.2, 8.0
+# A step whose iteration fails is halved; the steps after it grow to its length by this factor each.
+HALF, REGAIN = 0.5, 1.1
 # A step is kept, and its factors, where it might be longer by less than this.
 WORTH = 1.2
 
@@ -76,7 +79,7 @@ def forget(run):
     """No polynomial, no derivatives."""
     numbers = run.numbers
     numbers[MADE], numbers[FOUND], numbers[AGE], numbers[LEFT_OVER] = 0.0, 0.0, 0.0, 1.0
-    numbers[LAST_STEP], numbers[LAST_ERROR] = 0.0, 1.0
+    numbers[LAST_STEP], numbers[LAST_ERROR], numbers[LONGEST] = 0.0, 1.0, np.inf
     run.counter[RESTART] = 0
 
 
@@ -168,6 +171,7 @@ def radau(evaluate, machine, history):
     if is_fresh(run):
         forget(run)
     numbers[REPEATED] = 0.0
+    run.clock[STEP] = min(run.clock[STEP], numbers[LONGEST])
     status, error = OK, 0.0
     while True:
         h = reach(run)
@@ -180,7 +184,8 @@ def radau(evaluate, machine, history):
                 numbers[FOUND] = 0.0
                 continue
             numbers[FOUND] = 0.0
-            reject(run, h, AFTER_FAILURE)
+            reject(run, h, HALF if status == NOT_CONVERGED else AFTER_FAILURE)
+            numbers[LONGEST] = run.clock[STEP]
         elif error <= 1.0 and shorter == 1.0:
             break
         else:
@@ -189,5 +194,6 @@ def radau(evaluate, machine, history):
     before = numbers[LAST_STEP]
     accept(run, h)
     numbers[AGE] += 1.0
+    numbers[LONGEST] *= REGAIN
     run.clock[STEP] = next_step(run, h, error, before)
     return OK

@@ -14,19 +14,21 @@ from nivel.kernels.record import NONE, record_at
 from nivel.kernels.shifted_parts import factorise_shifted, find_parts, solve_shifted_parts
 from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.radau_constants import GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
-from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, STEP, TIME, run_at
+from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, TIME, run_at
 
 # Rows of run.stages: Z_i; ω₁, Re ω₂, Im ω₂; rates at the stages; d_1 … d_4 of the last accepted step; estimated error; d_1 … d_3 of this
 # step are made in the rows of the rates.
 Z, OMEGA, RATES, LAST, ERROR = 0, 3, 6, 9, 13
 # Entries of run.numbers: the step that the factors are for (0: none), whether there are derivatives, steps since they were found,
 # the share of a change that is left after it (an estimate), the largest contraction of the last step; the last step (0: none), its error,
-# whether this step was rejected.
-MADE, FOUND, AGE, LEFT_OVER, CONTRACTION, LAST_STEP, LAST_ERROR, REPEATED = 0, 1, 2, 3, 4, 5, 6, 7
+# whether this step was rejected, the longest step for which the iteration may converge.
+MADE, FOUND, AGE, LEFT_OVER, CONTRACTION, LAST_STEP, LAST_ERROR, REPEATED, LONGEST = 0, 1, 2, 3, 4, 5, 6, 7, 8
+NUMBERS = 9
 
-MOST = 8
-# the iteration has failed where a change is this share of the one before
-SLOWEST = 0.9
+MOST = 10
+# The iteration has failed where a change is this share of the one before. The first one may be larger: where a stiff spring turns, the
+# matrix is far from normal, and what is predicted too long comes out sideways before it contracts.
+SLOWEST, SIDEWAYS = 0.9, 100.0
 # what is left is taken for no less than this share of a change
 SANGUINE = 1e-3
 FORGET = 0.8
@@ -149,6 +151,14 @@ def unknown_at(newton, place, positions):
 
 
 @leaf
+def fails(k, contraction, change):
+    """Whether iteration k, with this contraction and a change so many times what may be left, will not come to an end."""
+    if not contraction < SLOWEST:
+        return k > 1 or not contraction < SIDEWAYS
+    return contraction ** (MOST - 1 - k) / (1.0 - contraction) * change > 1.0
+
+
+@leaf
 def iterate(evaluate, machine, history, h, close):
     """Z of the step h, until what is left to change is `close`. Returns a status; where the iteration fails, the unknown that changes most
     is left in control.failure."""
@@ -165,13 +175,12 @@ def iterate(evaluate, machine, history, h, close):
         change, energies, worst = take_changes(machine, history)
         if k > 0:
             now = change / last if last > 0.0 else 0.0
-            contraction = now if k == 1 else np.sqrt(now * contraction)
-            numbers[CONTRACTION] = max(numbers[CONTRACTION], contraction) if k > 1 else contraction
-            left = contraction / (1.0 - contraction)
-        failing = k > 0 and change > close and not contraction < SLOWEST
-        if failing or not change < np.inf or (k > 0 and left * contraction ** (MOST - 2 - k) * change > close):
+            contraction = np.sqrt(now * contraction) if k > 1 and contraction < 1.0 else now
+            numbers[CONTRACTION] = contraction
+            left = contraction / (1.0 - contraction) if contraction < 1.0 else np.inf
+        if not change < np.inf or (k > 0 and change > close and fails(k, contraction, change / close)):
             break
-        if max(change, energies) * left <= close:
+        if max(change, energies) * min(left, 1.0) <= close:
             numbers[LEFT_OVER] = max(left, SANGUINE)
             return OK
         last = change

@@ -93,8 +93,8 @@ def _refuse_tangents(settings: SimulationSettings, coordinates: str) -> list[Fau
     faults, name = [], settings.integrator
     if settings.formulation != "newton-euler":
         message = (
-            f"'{settings.formulation}' does not go with `integrator: {name}`, whose exact derivatives are those of newton-euler: take that, "
-            f"its motion is the same"
+            f"'{settings.formulation}' does not go with `integrator: {name}`, whose exact derivatives are those of newton-euler: take "
+            f"that, its motion is the same"
         )
         faults.append(_fault("formulation", message))
     if coordinates == "independent":
@@ -104,7 +104,8 @@ def _refuse_tangents(settings: SimulationSettings, coordinates: str) -> list[Fau
         faults.append(_fault("coordinates", message))
     if settings.stabilisation == "baumgarte":
         message = (
-            f"'baumgarte' does not go with `integrator: {name}`, whose exact derivatives know of no feedback: take direct, geometric or none"
+            f"'baumgarte' does not go with `integrator: {name}`, whose exact derivatives know of no feedback: take direct, geometric or "
+            f"none"
         )
         faults.append(_fault("stabilisation", message))
     return faults

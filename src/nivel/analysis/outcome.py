@@ -77,7 +77,8 @@ def _no_step(motion: MotionEquations, status: int, time: float, step: float, y: 
         )
     return message, (
         "Does a force or a law jump here, or grow without bounds? Give it a smooth passage of finite length. A very stiff force asks for "
-        "`integrator: radau`, or `gear` with `corrector: {iteration: newton}`. A larger `tolerance` may also help, or an integrator of fixed step."
+        "`integrator: radau`, or `gear` with `corrector: {iteration: newton}`. A larger `tolerance` may also help, or an integrator of "
+        "fixed step."
     )
 
 

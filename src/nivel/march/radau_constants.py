@@ -1,4 +1,5 @@
-"""Numbers of Radau IIA with three stages, all from its nodes (Hairer, Wanner 1996, "Solving Ordinary Differential Equations II", §IV.5, IV.8).
+"""Numbers of Radau IIA with three stages, all from its nodes (Hairer, Wanner 1996, "Solving Ordinary Differential Equations II", §IV.5
+and §IV.8).
 
 Collocation: u(t + θ h) = y + Σ d_k θ^k, k = 1 … 3, with u̇ = f at the nodes c_i. With Z_i = u(t + c_i h) - y the equations Z = h A F
 become three that are coupled through f alone by the left eigenvectors p of A⁻¹, μ its eigenvalues, ω = p Z:
@@ -16,8 +17,9 @@ C = np.array([(4.0 - np.sqrt(6.0)) / 10.0, (4.0 + np.sqrt(6.0)) / 10.0, 1.0])
 
 _powers = np.arange(3)
 _A = (C[:, None] ** (_powers + 1) / (_powers + 1)) @ np.linalg.inv(C[:, None] ** _powers)
-_mu, _right = np.linalg.eig(np.linalg.inv(_A))
-_real, _pair = int(np.argmin(np.abs(_mu.imag))), int(np.argmax(_mu.imag))
+_eigenvalues, _right = np.linalg.eig(np.linalg.inv(_A))
+_mu = _eigenvalues.tolist()
+_real, _pair = min(range(3), key=lambda k: abs(_mu[k].imag)), max(range(3), key=lambda k: _mu[k].imag)
 # eigenvectors of which the last entry, that of the end of the step, is 1
 _vectors = np.stack([_right[:, _real], _right[:, _pair], _right[:, _pair].conj()], axis=1)
 _vectors = _vectors / _vectors[2]

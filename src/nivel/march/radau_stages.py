@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf
-from nivel.kernels.record import NONE, record_at
+from nivel.kernels.record import record_at
 from nivel.kernels.shifted_parts import factorise_shifted, find_parts, solve_shifted_parts
 from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.radau_constants import GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
@@ -163,7 +163,7 @@ def iterate(evaluate, machine, history, h, close):
     """Z of the step h, until what is left to change is `close`. Returns a status; where the iteration fails, the unknown that changes most
     is left in control.failure."""
     run, record = run_at(history), record_at(machine)
-    numbers, last, contraction = run.numbers, np.inf, 0.0
+    numbers, last, contraction, worst = run.numbers, np.inf, 0.0, 0
     # what was seen steps ago counts less and less: towards 1, which asks for a second iteration
     left = numbers[LEFT_OVER] ** FORGET
     for k in range(MOST):

@@ -98,9 +98,7 @@ def _refuse_tangents(settings: SimulationSettings, coordinates: str) -> list[Fau
         )
         faults.append(_fault("formulation", message))
     if coordinates == "independent":
-        message = (
-            f"'independent' does not go with `integrator: {name}`, whose exact derivatives need the multipliers: take absolute or relative"
-        )
+        message = f"'independent' does not go with `integrator: {name}`, whose derivatives need multipliers: take absolute or relative"
         faults.append(_fault("coordinates", message))
     if settings.stabilisation == "baumgarte":
         message = (

@@ -15,6 +15,7 @@ from nivel.kernels.compile import entry, leaf
 from nivel.kernels.record import record_at
 from nivel.kernels.shifted_parts import keep_multipliers, solve_shifted_parts
 from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.march.corners import before, next_corner, pass_corner
 from nivel.march.dense import wanted
 from nivel.march.radau_constants import BEND, GAMMA
 from nivel.march.radau_stages import (
@@ -38,8 +39,10 @@ from nivel.march.radau_stages import (
 )
 from nivel.march.run import (
     DENSE,
+    END,
     EVALUATIONS,
     POWERS,
+    REACHED,
     RESTART,
     STEP,
     TIME,
@@ -131,12 +134,12 @@ def accept(run, h):
 
 
 @leaf
-def next_step(run, h, error, before):
-    """The step after a step h of this error, `before` it one of length `before`: it follows the trend of the error (Gustafsson 1994)."""
+def next_step(run, h, error, last):
+    """The step after a step h of this error, before it one of length `last`: it follows the trend of the error (Gustafsson 1994)."""
     numbers, error = run.numbers, max(error, 1e-10)
     factor = SAFETY * error ** (-1.0 / ORDER)
-    if before > 0.0:
-        factor = min(factor, SAFETY * h / before * (numbers[LAST_ERROR] / (error * error)) ** (1.0 / ORDER))
+    if last > 0.0:
+        factor = min(factor, SAFETY * h / last * (numbers[LAST_ERROR] / (error * error)) ** (1.0 / ORDER))
     factor = max(LEAST_CHANGE, min(1.0 if numbers[REPEATED] == 1.0 else MOST_CHANGE, factor))
     numbers[LAST_ERROR] = max(error, 1e-2)
     if numbers[CONTRACTION] > GOOD:
@@ -147,14 +150,15 @@ def next_step(run, h, error, before):
 
 
 @leaf
-def attempt(evaluate, machine, history, h, tolerance):
-    """A status, and the error of a step h as a share of the allowed one; its stages are in Z."""
+def attempt(evaluate, machine, history, h, end, tolerance):
+    """A status, the error of a step h to the time `end` as a share of the allowed one, and how much shorter the step has to be for no body
+    to turn too far. Its stages are in Z."""
     run = run_at(history)
     status = make_factors(machine, history, h)
     if status != OK:
         return status, 0.0, 1.0
     predict(run, h)
-    status = iterate(evaluate, machine, history, h, max(CLOSE * run.clock[TOLERANCE], EXACT))
+    status = iterate(evaluate, machine, history, h, end, max(CLOSE * run.clock[TOLERANCE], EXACT))
     if status != OK:
         return status, 0.0, 1.0
     shorter = turned_too_far(machine, h)
@@ -177,7 +181,13 @@ def radau(evaluate, machine, history):
         h = reach(run)
         if h == 0.0:
             return too_small(run, status, error)
-        status, error, shorter = attempt(evaluate, machine, history, h, tolerance)
+        corner, end, wish = next_corner(machine, run.clock[TIME], run.clock[REACHED]), run.clock[REACHED], h
+        if corner < np.inf:
+            # just beyond it, where functions are what follows, even those that are no number at the corner
+            end = before(corner)
+            run.clock[REACHED] = min(corner + (corner - end), run.clock[END])
+            h = run.clock[REACHED] - run.clock[TIME]
+        status, error, shorter = attempt(evaluate, machine, history, h, end, tolerance)
         if status != OK:
             if numbers[AGE] > 0.0 and numbers[FOUND] == 1.0:
                 # the same step with the derivatives of this state
@@ -191,9 +201,13 @@ def radau(evaluate, machine, history):
         else:
             reject(run, h, min(shorter, factor_after_rejection(OK, error, ORDER) if not error <= 1.0 else 1.0))
         numbers[REPEATED] = 1.0
-    before = numbers[LAST_STEP]
+    last = numbers[LAST_STEP]
     accept(run, h)
     numbers[AGE] += 1.0
     numbers[LONGEST] *= REGAIN
-    run.clock[STEP] = next_step(run, h, error, before)
+    run.clock[STEP] = next_step(run, h, error, last)
+    if corner < np.inf:
+        # what was before it says nothing about what comes
+        run.clock[STEP], run.counter[RESTART] = max(run.clock[STEP], wish), 1
+        return pass_corner(machine, history, run.clock[REACHED])
     return OK

@@ -84,13 +84,14 @@ def write_omega(run):
 
 
 @leaf
-def evaluate_rates(evaluate, machine, history, h):
-    """Rates at the stages. The last evaluation is that at the end of the step. Returns a status."""
+def evaluate_rates(evaluate, machine, history, h, end):
+    """Rates at the stages, the last of them at the time `end`. Returns a status."""
     run = run_at(history)
     for m in range(3):
         for i in range(run.y.shape[0]):
             run.trial[i] = run.y[i] + run.stages[Z + m, i]
-        status = evaluate(machine, run.clock[TIME] + C[m] * h, run.trial, run.stages[RATES + m])
+        t = run.clock[TIME] + C[m] * h if m < 2 else end
+        status = evaluate(machine, t, run.trial, run.stages[RATES + m])
         run.counter[EVALUATIONS] += 1
         if status != OK:
             return status
@@ -159,15 +160,15 @@ def fails(k, contraction, change):
 
 
 @leaf
-def iterate(evaluate, machine, history, h, close):
-    """Z of the step h, until what is left to change is `close`. Returns a status; where the iteration fails, the unknown that changes most
-    is left in control.failure."""
+def iterate(evaluate, machine, history, h, end, close):
+    """Z of the step h to the time `end`, until what is left to change is `close`. Returns a status; where the iteration fails, the unknown
+    that changes most is left in control.failure."""
     run, record = run_at(history), record_at(machine)
     numbers, last, contraction, worst = run.numbers, np.inf, 0.0, 0
     # what was seen steps ago counts less and less: towards 1, which asks for a second iteration
     left = numbers[LEFT_OVER] ** FORGET
     for k in range(MOST):
-        status = evaluate_rates(evaluate, machine, history, h)
+        status = evaluate_rates(evaluate, machine, history, h, end)
         run.counter[ITERATIONS] += 1
         if status != OK:
             return status

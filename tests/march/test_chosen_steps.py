@@ -8,7 +8,7 @@ from nivel.errors import ModelError
 from nivel.machine import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
 from running import run
 
-CHOOSING = pytest.mark.parametrize("integrator", ["dopri5", "dop853", "adams", "gear"])
+CHOOSING = pytest.mark.parametrize("integrator", ["dopri5", "dop853", "adams", "gear", "radau"])
 NEWTON = {"corrector": {"iteration": "newton"}}
 
 
@@ -106,7 +106,7 @@ def test_force_that_becomes_infinite_is_named():
         forces=(PointForce(name="push", body="stone", vector=("sqrt(0.5 - time)", 0, 0)),),
         simulation=SimulationSettings(duration=1.0),
     )
-    for integrator in ("dopri5", "gear"):
+    for integrator in ("dopri5", "gear", "radau"):
         result = run(machine, integrator=integrator, output_interval=0.01)
         assert result.finished.outcome == "failed"
         assert "the force push is not a number at t = 0.5" in result.finished.failure[0]
@@ -122,7 +122,7 @@ def test_motion_that_ends_in_infinity_says_that_no_step_is_small_enough():
         forces=(JointSpringDamper(name="push", coordinate="rail", law="-6*(value + 1)**2"),),
         simulation=SimulationSettings(duration=2.0),
     )
-    for integrator in ("dopri5", "dop853", "adams", "gear"):
+    for integrator in ("dopri5", "dop853", "adams", "gear", "radau"):
         result = run(machine, integrator=integrator, output_interval=0.01, tolerance=1e-6)
         assert result.finished.outcome == "failed"
         message, advice, time = result.finished.failure

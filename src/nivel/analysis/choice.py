@@ -43,8 +43,8 @@ def choose_coordinates(machine: MachineRecord) -> str:
 def choose_cut(machine: MachineRecord) -> SimulationSettings:
     """Settings of a run of `machine` in relative coordinates, with the joints that are cut.
 
-    Explicit methods cut where it leaves the fewest rows. Those that solve for multipliers at the ends of a step err by what the reactions
-    of cut joints do in between: they cut at the lightest bodies (20 times less energy error on the spatial slider-crank).
+    Methods of the rates cut where it leaves the fewest rows. Those that solve for multipliers at the ends of a step err by what the
+    reactions of cut joints do in between: they cut at the lightest bodies (20 times less energy error on the spatial slider-crank).
     """
     from nivel.system.states.relative import tree_of
 

@@ -144,9 +144,10 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         prepared = penalise(prepared, y, machine.simulation, FORMULATIONS[formulation])
     else:
         bound_pivots(prepared, y)
-    if INTEGRATORS[machine.simulation.integrator].residual:
+    integrator = INTEGRATORS[machine.simulation.integrator]
+    if integrator.residual:
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
-        prepared = equip(prepared, y, coordinates, corners(machine))
+        prepared = equip(prepared, y, coordinates, corners(machine), shifted=integrator.shifted)
     return Prepared(prepared, y, absolute, assembly, redundancy, len(machine.drivers))
 
 

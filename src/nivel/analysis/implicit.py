@@ -26,23 +26,25 @@ from nivel.system.tangent_plan import plan_tangent
 Index = NDArray[np.integer]
 
 
-def equip(motion: MotionEquations, y: Array, coordinates: str, corners: Sequence[float] = ()) -> MotionEquations:
+def equip(
+    motion: MotionEquations, y: Array, coordinates: str, corners: Sequence[float] = (), *, shifted: bool = False
+) -> MotionEquations:
     """The same equations, with the residual of implicit methods, its derivatives, and the record of its complex twin.
 
-    corners : times [s] at which functions of time have corners. Of redundant constraints those rows stay that say nothing new at the
-    state y of the start: with the others the matrix would be singular.
+    corners : times [s] at which functions of time have corners. shifted : with room for systems of shifted matrices, see
+    `nivel.kernels.shifted_parts`. Of redundant constraints those rows stay that say nothing new at the state y of the start: with the
+    others the matrix would be singular.
     """
     rows = len(motion.system.record.saddle.row)
-    whole = _with_rows(motion, y, coordinates, corners, np.arange(rows))
+    whole = _with_rows(motion, y, coordinates, corners, np.arange(rows), shifted)
     rank = int(motion.system.record.control.rank[0])
     if rank == rows:
         return whole
     residual = whole.system.record.residual
     residual.y[:] = y
     _, tangent = find_tangent(whole, 0.0, 1.0, 1.0, 1.0)
-    return _with_rows(
-        motion, y, coordinates, corners, _independent(tangent[len(tangent) - rows :, : len(residual.vdot)], rank)
-    )
+    kept = _independent(tangent[len(tangent) - rows :, : len(residual.vdot)], rank)
+    return _with_rows(motion, y, coordinates, corners, kept, shifted)
 
 
 def _independent(C_q: Array, rank: int) -> Index:
@@ -55,7 +57,7 @@ def _independent(C_q: Array, rank: int) -> Index:
 
 
 def _with_rows(
-    motion: MotionEquations, y: Array, coordinates: str, corners: Sequence[float], kept: Index
+    motion: MotionEquations, y: Array, coordinates: str, corners: Sequence[float], kept: Index, shifted: bool
 ) -> MotionEquations:
     """With the rows `kept` of those of the saddle."""
     system = motion.system
@@ -70,7 +72,8 @@ def _with_rows(
     row = np.ascontiguousarray(record.saddle.row[kept])
     residual = residual_tables(system.body_count, len(y), velocities, states, row, part)
     plan = plan_tangent(*_groups(system, velocities, row, part, coordinates), mirrored=not len(system.frictions))
-    newton = newton_tables(places(system.map, velocities, positions), len(y), states, len(row), plan, corners)
+    place = places(system.map, velocities, positions)
+    newton = newton_tables(place, len(y), states, len(row), plan, corners, shifted=shifted)
     family = import_module(RESIDUALS[coordinates]).residual
     hooks = record.hooks._replace(address=record.hooks.address.copy())
     record = record._replace(residual=residual, newton=newton, hooks=hooks)

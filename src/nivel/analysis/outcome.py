@@ -80,7 +80,7 @@ def _no_step(motion: MotionEquations, status: int, time: float, step: float, y: 
         )
     return message, (
         "Does a force or a law jump here, or grow without bounds? Give it a smooth passage of finite length. A very stiff force asks for "
-        "`integrator: bdf`. A larger `tolerance` may also help, or an integrator of fixed step."
+        "`integrator: radau` or `bdf`. A larger `tolerance` may also help, or an integrator of fixed step."
     )
 
 

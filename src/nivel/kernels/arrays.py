@@ -19,12 +19,21 @@ F3 = Annotated[NDArray[np.float64], 3, "real"]
 W1 = Annotated[NDArray[np.float64], 1, "work"]
 W2 = Annotated[NDArray[np.float64], 2, "work"]
 W3 = Annotated[NDArray[np.float64], 3, "work"]
+# complex in the record of real numbers too
+C1 = Annotated[NDArray[np.complex128], 1, "complex"]
+C2 = Annotated[NDArray[np.complex128], 2, "complex"]
 U1 = Annotated[NDArray[np.uint32], 1, "index"]
 U2 = Annotated[NDArray[np.uint32], 2, "index"]
 I1 = Annotated[NDArray[np.int64], 1, "count"]
 A1 = Annotated[NDArray[np.uint64], 1, "address"]
 
-SCALARS = {"real": types.float64, "index": types.uint32, "count": types.int64, "address": types.uint64}
+SCALARS = {
+    "real": types.float64,
+    "complex": types.complex128,
+    "index": types.uint32,
+    "count": types.int64,
+    "address": types.uint64,
+}
 
 
 def numba_type(record_class: type, work: types.Type = types.float64) -> Any:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from nivel.kernels.arrays import A1, F1, F2, U1, U2, W1, W2
+from nivel.kernels.arrays import A1, C1, C2, F1, F2, U1, U2, W1, W2
 from nivel.kernels.sparse_lu import SparseLU
 
 
@@ -24,6 +24,46 @@ class Residual(NamedTuple):
     value: W1  # (n + S + 3 K,) M v̇ + C_qᵀ λ - Q, rates of the states of forces, then C, Ċ and C̈
     acceleration: W2  # (B+1, 6) (α, R̈) of the bodies, global axes
     wrench: W2  # (B+1, 6) (moment about the frame origin, force) that their joints have to transmit
+
+
+class RealFactors(NamedTuple):
+    """One system (1 - s ∂f/∂y) x = r for a real s, see `nivel.kernels.shifted_parts`."""
+
+    value: F1  # (·,) entries of the matrix
+    L: F1  # its factors where it is sparse
+    U: F1
+    Dinv: F1
+    work: F1
+    matrix: F2  # (N, N) its factors where it is not, or (0, 0)
+    pivot: U1  # (N,)
+    b: F1  # (N,) right-hand side of the equations of motion, then solution
+    moved: F1  # (n,) change of the positions while accelerations do not change
+    r: F1  # (ny,) right-hand side, then solution
+
+
+class ComplexFactors(NamedTuple):
+    """The same for a complex s."""
+
+    value: C1
+    L: C1
+    U: C1
+    Dinv: C1
+    work: C1
+    matrix: C2
+    pivot: U1
+    b: C1
+    moved: C1
+    r: C1
+
+
+class Shifted(NamedTuple):
+    """Derivatives of the residual apart, and systems made of them. Without numbers for methods that have no use for it."""
+
+    M: F1  # (·,) entries with respect to accelerations and multipliers, where `Newton.value` has them
+    D: F1  # (·,) with respect to velocities and states of forces
+    K: F1  # (·,) with respect to positions
+    real: RealFactors
+    pair: ComplexFactors
 
 
 class Newton(NamedTuple):
@@ -67,3 +107,4 @@ class Newton(NamedTuple):
     kept: F1  # (4,) cq, cv, cx that the factors are for (0: none), contraction seen with them
     settings: F1  # (2,) tolerance of a change as a share of the scales, most iterations
     level: U1  # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction
+    shifted: Shifted

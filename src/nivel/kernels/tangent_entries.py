@@ -7,7 +7,9 @@ from numba import types
 from nivel.kernels.compile import entry
 from nivel.kernels.handle import address_type
 from nivel.kernels.hook import call_hook
-from nivel.kernels.record import RESIDUAL
+from nivel.kernels.record import RESIDUAL, record_at, state_type
+from nivel.kernels.shifted_parts import factorise_shifted, find_parts, keep_multipliers, solve_shifted_parts
+from nivel.kernels.status import OK
 from nivel.kernels.tangent import POSITIONS, differentiate
 
 _number = types.float64
@@ -23,3 +25,20 @@ def evaluate_residual(machine, t):
 def find_tangent(machine, t, cq, cv, cx):
     """Fill `newton.value`, see `nivel.kernels.tangent.differentiate`. Returns a status."""
     return differentiate(machine, t, cq, cv, cx, POSITIONS)
+
+
+@entry(types.int64(address_type, _number, state_type, state_type, _number, types.complex128))
+def solve_shifted(machine, t, y, rate, s, z):
+    """Overwrite `newton.shifted.real.r` and `pair.r` by the solutions of (1 - s ∂f/∂y) x = r and (1 - z ∂f/∂y) x = r, at the state y last
+    evaluated, whose rate it is. Returns a status."""
+    shifted = record_at(machine).newton.shifted
+    keep_multipliers(machine)
+    status = find_parts(machine, t, y, rate)
+    if status == OK:
+        status = factorise_shifted(machine, shifted.real, s)
+    if status == OK:
+        status = factorise_shifted(machine, shifted.pair, z)
+    if status == OK:
+        solve_shifted_parts(machine, shifted.real, s)
+        solve_shifted_parts(machine, shifted.pair, z)
+    return status

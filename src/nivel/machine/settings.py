@@ -18,10 +18,10 @@ Integrator = Literal[
     "gear1", "gear2", "gear3", "gear4",
     "dopri5", "dop853", "adams", "gear",
     "newmark", "hht", "generalised-alpha",
-    "bdf", "ros2",
+    "bdf", "ros2", "radau",
 ]  # fmt: skip
 # those of them that choose their steps, and those that do so with `step_control: error`
-CHOOSING = ("dopri5", "dop853", "adams", "gear", "bdf")
+CHOOSING = ("dopri5", "dop853", "adams", "gear", "bdf", "radau")
 EITHER = ("newmark", "hht", "generalised-alpha")
 StepControl = Literal["own", "fixed", "error"]
 Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangian"]

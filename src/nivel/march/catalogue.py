@@ -14,7 +14,8 @@ class IntegratorFacts:
 
     chooses_steps : controls its error; either : does so on request. implicit : iterates a corrector, by Newton's method on request.
     residual : needs the equations of motion as a residual, with exact tangents, and iterates by Newton's method alone; it solves them for
-    accelerations and multipliers, or with `rates` for the rates of the state.
+    accelerations and multipliers, or with `rates` for the rates of the state;
+    shifted : it also solves systems with complex shares of a step.
     """
 
     module: str
@@ -27,6 +28,7 @@ class IntegratorFacts:
     residual: bool = False
     either: bool = False
     rates: bool = False
+    shifted: bool = False
 
 
 _ADAMS, _MOULTON, _GEAR = "nivel.march.adams", "nivel.march.moulton", "nivel.march.gear"
@@ -54,6 +56,9 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
         "nivel.march.variable_bdf", "bdf", 32, 5, 66, chooses_steps=True, implicit=True, residual=True, rates=True
     ),
     "ros2": IntegratorFacts("nivel.march.rosenbrock", "ros2", 2, 2, residual=True, rates=True),
+    "radau": IntegratorFacts(
+        "nivel.march.radau", "radau", 14, 5, 9, chooses_steps=True, residual=True, rates=True, shifted=True
+    ),
 }
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.implicit_record import Newton, Residual
+from nivel.kernels.implicit_record import ComplexFactors, Newton, RealFactors, Residual, Shifted
 from nivel.kernels.record import NONE, Record
 from nivel.system.system import StateMap
 from nivel.system.tables import index_array
@@ -16,6 +17,7 @@ from nivel.system.tangent_plan import TangentPlan, plan_tangent
 # share of the places of a full matrix that its factors need: above it exchanges of rows cost nothing
 MOSTLY_FULL = 0.6
 Index = NDArray[np.uint32]
+EMPTY = plan_tangent([], [], [], mirrored=True)
 
 
 def no_residual() -> Residual:
@@ -25,7 +27,7 @@ def no_residual() -> Residual:
 
 def no_newton() -> Newton:
     """For explicit methods: all arrays empty."""
-    return newton_tables(index_array([], 2), 0, 0, 0, plan_tangent([], [], [], mirrored=True))
+    return newton_tables(index_array([], 2), 0, 0, 0, EMPTY)
 
 
 def residual_tables(bodies: int, state: int, velocities: int, states: int, row: Index, part: Index) -> Residual:
@@ -61,10 +63,49 @@ def places(state_map: StateMap, velocities: int, positions: int) -> Index:
     return out
 
 
+def shifted_tables(plan: TangentPlan, velocities: int, state: int) -> Shifted:
+    """For the derivatives planned, so many velocities and entries of y."""
+    factor = plan.factor
+    entries, size = len(factor.column), factor.size
+    dense = factor.fill > MOSTLY_FULL
+    full = size if dense else 0
+
+    def factors(kind: type, dtype: type) -> Any:
+        L, U, Dinv, work = factor.workspace(dtype) if not dense else (np.zeros(0, dtype),) * 4
+        return kind(
+            value=np.zeros(entries, dtype),
+            L=L,
+            U=U,
+            Dinv=Dinv,
+            work=work,
+            matrix=np.zeros((full, full), dtype),
+            pivot=np.zeros(full, dtype=np.uint32),
+            b=np.zeros(size, dtype),
+            moved=np.zeros(velocities, dtype),
+            r=np.zeros(state, dtype),
+        )
+
+    return Shifted(
+        M=np.zeros(entries),
+        D=np.zeros(entries),
+        K=np.zeros(entries),
+        real=factors(RealFactors, np.float64),
+        pair=factors(ComplexFactors, np.complex128),
+    )
+
+
 def newton_tables(
-    place: Index, state: int, states: int, rows: int, plan: TangentPlan, corners: Sequence[float] = ()
+    place: Index,
+    state: int,
+    states: int,
+    rows: int,
+    plan: TangentPlan,
+    corners: Sequence[float] = (),
+    *,
+    shifted: bool = False,
 ) -> Newton:
-    """For `place` of the velocities, entries of y, states of forces, constraint rows, the derivatives planned and corners [s]."""
+    """For `place` of the velocities, entries of y, states of forces, constraint rows, the derivatives planned and corners [s]; with room
+    for `Shifted` where a method asks for it."""
     n, factor = len(place), plan.factor
     size = factor.size
     dense = factor.fill > MOSTLY_FULL
@@ -105,4 +146,5 @@ def newton_tables(
         kept=np.zeros(4),
         settings=np.zeros(2),
         level=np.zeros(1, dtype=np.uint32),
+        shifted=shifted_tables(plan, n, state) if shifted else shifted_tables(EMPTY, 0, 0),
     )

@@ -1,0 +1,213 @@
+"""Radau IIA with three stages, of order 5, for stiff machines (Hairer, Wanner 1996, "Solving Ordinary Differential Equations II", §IV.8).
+
+The error is estimated by the slope at the begin of the step, which the collocation polynomial does not know: γ₀ h (f(t, y) - u̇(t)), of
+order h⁴, smoothed by (1 - γ₀ h ∂f/∂y)⁻¹ for stiff entries. The estimate is that of order 3, the result that of order 5. The tolerance
+of a step falls with the power 4/5 of that of the run, then the error of the result falls with the tolerance itself.
+
+The same vector bends the polynomial to order 4 inside the step, which frames, events and the prediction of the next step make use of.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import entry, leaf
+from nivel.kernels.record import record_at
+from nivel.kernels.shifted_parts import keep_multipliers, solve_shifted_parts
+from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.march.corners import before, next_corner, pass_corner
+from nivel.march.dense import wanted
+from nivel.march.radau_constants import BEND, GAMMA
+from nivel.march.radau_stages import (
+    AGE,
+    CONTRACTION,
+    ERROR,
+    FOUND,
+    LAST,
+    LAST_ERROR,
+    LAST_STEP,
+    LEFT_OVER,
+    LONGEST,
+    MADE,
+    RATES,
+    REPEATED,
+    Z,
+    iterate,
+    make_factors,
+    predict,
+    write_polynomial,
+)
+from nivel.march.run import (
+    DENSE,
+    END,
+    EVALUATIONS,
+    POWERS,
+    REACHED,
+    RESTART,
+    STEP,
+    TIME,
+    TOLERANCE,
+    run_at,
+    step_signature,
+)
+from nivel.march.step_control import (
+    AFTER_FAILURE,
+    EXACT,
+    SAFETY,
+    enter,
+    factor_after_rejection,
+    is_fresh,
+    reach,
+    reject,
+    size,
+    too_small,
+    turned_too_far,
+)
+
+# of the error of one step with its estimate
+ORDER = 4.0
+# A step may err, by its estimate, by SHARE tolerance^(4/5); its stages are found to CLOSE of the tolerance.
+SHARE, CLOSE = 0.06, 0.01
+# Derivatives are found anew where a change is more than this share of the one before.
+GOOD = 0.02
+LEAST_CHANGE, MOST_CHANGE = 0.2, 8.0
+# A step whose iteration fails is halved; the steps after it grow to its length by this factor each.
+HALF, REGAIN = 0.5, 1.1
+# A step is kept, and its factors, where it might be longer by less than this.
+WORTH = 1.2
+
+
+@leaf
+def forget(run):
+    """No polynomial, no derivatives."""
+    numbers = run.numbers
+    numbers[MADE], numbers[FOUND], numbers[AGE], numbers[LEFT_OVER] = 0.0, 0.0, 0.0, 1.0
+    numbers[LAST_STEP], numbers[LAST_ERROR], numbers[LONGEST] = 0.0, 1.0, np.inf
+    run.counter[RESTART] = 0
+
+
+@leaf
+def smooth(machine, history, h, slope):
+    """ERROR := (1 - γ₀ h ∂f/∂y)⁻¹ γ₀ (h slope - d_1)."""
+    run, factors = run_at(history), record_at(machine).newton.shifted.real
+    for i in range(run.y.shape[0]):
+        factors.r[i] = (h * slope[i] - run.stages[RATES, i]) / GAMMA
+    solve_shifted_parts(machine, factors, h / GAMMA)
+    for i in range(run.y.shape[0]):
+        run.stages[ERROR, i] = factors.r[i]
+
+
+@leaf
+def estimate(evaluate, machine, history, h, tolerance):
+    """Fill ERROR and the rows of the polynomial; returns the error as a share of the allowed one. Where it is too large, stiff entries
+    and energies may be to blame that are far from what they settle to: they are looked at once more after they have."""
+    run = run_at(history)
+    write_polynomial(run)
+    smooth(machine, history, h, run.rate)
+    error = size(run, run.stages[ERROR]) / tolerance
+    if not error <= 1.0 and error < np.inf:
+        for i in range(run.y.shape[0]):
+            run.trial[i] = run.y[i] + run.stages[ERROR, i]
+        run.counter[EVALUATIONS] += 1
+        if evaluate(machine, run.clock[TIME], run.trial, run.scratch) == OK:
+            smooth(machine, history, h, run.scratch)
+            error = size(run, run.stages[ERROR]) / tolerance
+    return error
+
+
+@leaf
+def accept(run, h):
+    """The new state, and the polynomial of the step for what comes after it."""
+    stages = run.stages
+    for i in range(run.y.shape[0]):
+        bend = GAMMA * stages[ERROR, i]
+        for k in range(3):
+            stages[LAST + k, i] = stages[RATES + k, i] + BEND[k] * bend
+        stages[LAST + 3, i] = BEND[3] * bend
+        run.y[i] += stages[Z + 2, i]
+    run.numbers[LAST_STEP] = h
+    if wanted(run):
+        for k in range(4):
+            for i in range(run.y.shape[0]):
+                run.dense[k, i] = stages[LAST + k, i]
+        run.counter[DENSE], run.counter[POWERS] = 4, 1
+
+
+@leaf
+def next_step(run, h, error, last):
+    """The step after a step h of this error, before it one of length `last`: it follows the trend of the error (Gustafsson 1994)."""
+    numbers, error = run.numbers, max(error, 1e-10)
+    factor = SAFETY * error ** (-1.0 / ORDER)
+    if last > 0.0:
+        factor = min(factor, SAFETY * h / last * (numbers[LAST_ERROR] / (error * error)) ** (1.0 / ORDER))
+    factor = max(LEAST_CHANGE, min(1.0 if numbers[REPEATED] == 1.0 else MOST_CHANGE, factor))
+    numbers[LAST_ERROR] = max(error, 1e-2)
+    if numbers[CONTRACTION] > GOOD:
+        numbers[FOUND] = 0.0
+    elif 1.0 <= factor < WORTH:
+        factor = 1.0
+    return h * factor
+
+
+@leaf
+def attempt(evaluate, machine, history, h, end, tolerance):
+    """A status, the error of a step h to the time `end` as a share of the allowed one, and how much shorter the step has to be for no body
+    to turn too far. Its stages are in Z."""
+    run = run_at(history)
+    status = make_factors(machine, history, h)
+    if status != OK:
+        return status, 0.0, 1.0
+    predict(run, h)
+    status = iterate(evaluate, machine, history, h, end, max(CLOSE * run.clock[TOLERANCE], EXACT))
+    if status != OK:
+        return status, 0.0, 1.0
+    shorter = turned_too_far(machine, h)
+    return OK, estimate(evaluate, machine, history, h, tolerance), shorter
+
+
+@entry(step_signature)
+def radau(evaluate, machine, history):
+    """One accepted step."""
+    run = run_at(history)
+    numbers, tolerance = run.numbers, max(SHARE * run.clock[TOLERANCE] ** 0.8, EXACT)
+    keep_multipliers(machine)
+    enter(evaluate, machine, history, ORDER - 1.0, tolerance)
+    if is_fresh(run):
+        forget(run)
+    numbers[REPEATED] = 0.0
+    run.clock[STEP] = min(run.clock[STEP], numbers[LONGEST])
+    status, error = OK, 0.0
+    while True:
+        h = reach(run)
+        if h == 0.0:
+            return too_small(run, status, error)
+        corner, end, wish = next_corner(machine, run.clock[TIME], run.clock[REACHED]), run.clock[REACHED], h
+        if corner < np.inf:
+            # just beyond it, where functions are what follows, even those that are no number at the corner
+            end = before(corner)
+            run.clock[REACHED] = min(corner + (corner - end), run.clock[END])
+            h = run.clock[REACHED] - run.clock[TIME]
+        status, error, shorter = attempt(evaluate, machine, history, h, end, tolerance)
+        if status != OK:
+            if numbers[AGE] > 0.0 and numbers[FOUND] == 1.0:
+                # the same step with the derivatives of this state
+                numbers[FOUND] = 0.0
+                continue
+            numbers[FOUND] = 0.0
+            reject(run, h, HALF if status == NOT_CONVERGED else AFTER_FAILURE)
+            numbers[LONGEST] = run.clock[STEP]
+        elif error <= 1.0 and shorter == 1.0:
+            break
+        else:
+            reject(run, h, min(shorter, factor_after_rejection(OK, error, ORDER) if not error <= 1.0 else 1.0))
+        numbers[REPEATED] = 1.0
+    last = numbers[LAST_STEP]
+    accept(run, h)
+    numbers[AGE] += 1.0
+    numbers[LONGEST] *= REGAIN
+    run.clock[STEP] = next_step(run, h, error, last)
+    if corner < np.inf:
+        # what was before it says nothing about what comes
+        run.clock[STEP], run.counter[RESTART] = max(run.clock[STEP], wish), 1
+        return pass_corner(machine, history, run.clock[REACHED])
+    return OK

@@ -1,0 +1,201 @@
+"""The stages of Radau IIA by simplified Newton iteration, with the exact derivatives of the equations of motion.
+
+Derivatives are found at an accepted state and serve for steps of any size as long as the iteration contracts well; only the factors
+depend on the step. Energies are integrals of what the other entries do: nothing depends on them, so they follow one iteration behind,
+do not count for the contraction, and have to come to rest with the others.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import leaf
+from nivel.kernels.record import record_at
+from nivel.kernels.shifted_parts import factorise_shifted, find_parts, solve_shifted_parts
+from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.march.radau_constants import GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
+from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, TIME, run_at
+
+# Rows of run.stages: Z_i; ω₁, Re ω₂, Im ω₂; rates at the stages; d_1 … d_4 of the last accepted step; estimated error; d_1 … d_3 of this
+# step are made in the rows of the rates.
+Z, OMEGA, RATES, LAST, ERROR = 0, 3, 6, 9, 13
+# Entries of run.numbers: the step that the factors are for (0: none), whether there are derivatives, steps since they were found,
+# the share of a change that is left after it (an estimate), the largest contraction of the last step; the last step (0: none), its error,
+# whether this step was rejected, the longest step for which the iteration may converge.
+MADE, FOUND, AGE, LEFT_OVER, CONTRACTION, LAST_STEP, LAST_ERROR, REPEATED, LONGEST = 0, 1, 2, 3, 4, 5, 6, 7, 8
+NUMBERS = 9
+
+MOST = 10
+# The iteration has failed where a change is this share of the one before. The first one may be larger: where a stiff spring turns, the
+# matrix is far from normal, and what is predicted too long comes out sideways before it contracts.
+SLOWEST, SIDEWAYS = 0.9, 100.0
+# what is left is taken for no less than this share of a change
+SANGUINE = 1e-3
+FORGET = 0.8
+
+
+@leaf
+def make_factors(machine, history, h):
+    """Derivatives where there are none, and factors for the step h. Returns a status."""
+    run, shifted = run_at(history), record_at(machine).newton.shifted
+    status = OK
+    if run.numbers[FOUND] == 0.0:
+        status = find_parts(machine, run.clock[TIME], run.y, run.rate)
+        run.counter[FACTORISATIONS] += 1
+        if status != OK:
+            return status
+        run.numbers[FOUND], run.numbers[AGE], run.numbers[MADE] = 1.0, 0.0, 0.0
+    if run.numbers[MADE] != h:
+        status = factorise_shifted(machine, shifted.real, h / GAMMA)
+        if status == OK:
+            status = factorise_shifted(machine, shifted.pair, h / MU)
+        run.numbers[MADE] = h if status == OK else 0.0
+    return status
+
+
+@leaf
+def predict(run, h):
+    """Z and ω of the polynomial of the last step, which goes on."""
+    stages, last = run.stages, run.numbers[LAST_STEP]
+    if last == 0.0:
+        for i in range(run.y.shape[0]):
+            for m in range(6):
+                stages[m, i] = 0.0
+        return
+    ratio = h / last
+    for i in range(run.y.shape[0]):
+        d1, d2, d3, d4 = stages[LAST, i], stages[LAST + 1, i], stages[LAST + 2, i], stages[LAST + 3, i]
+        end = d1 + d2 + d3 + d4
+        for m in range(3):
+            theta = 1.0 + ratio * C[m]
+            stages[m, i] = theta * (d1 + theta * (d2 + theta * (d3 + theta * d4))) - end
+    write_omega(run)
+
+
+@leaf
+def write_omega(run):
+    """ω of Z."""
+    stages = run.stages
+    for i in range(run.y.shape[0]):
+        z0, z1, z2 = stages[Z, i], stages[Z + 1, i], stages[Z + 2, i]
+        omega = LEFT_PAIR[0] * z0 + LEFT_PAIR[1] * z1 + LEFT_PAIR[2] * z2
+        stages[OMEGA, i] = LEFT[0] * z0 + LEFT[1] * z1 + LEFT[2] * z2
+        stages[OMEGA + 1, i], stages[OMEGA + 2, i] = omega.real, omega.imag
+
+
+@leaf
+def evaluate_rates(evaluate, machine, history, h, end):
+    """Rates at the stages, the last of them at the time `end`. Returns a status."""
+    run = run_at(history)
+    for m in range(3):
+        for i in range(run.y.shape[0]):
+            run.trial[i] = run.y[i] + run.stages[Z + m, i]
+        t = run.clock[TIME] + C[m] * h if m < 2 else end
+        status = evaluate(machine, t, run.trial, run.stages[RATES + m])
+        run.counter[EVALUATIONS] += 1
+        if status != OK:
+            return status
+    return OK
+
+
+@leaf
+def find_changes(machine, history, h):
+    """The changes of ω into the right sides of the two systems."""
+    run, shifted = run_at(history), record_at(machine).newton.shifted
+    stages, real, pair = run.stages, shifted.real.r, shifted.pair.r
+    s, z = h / GAMMA, h / MU
+    for i in range(run.y.shape[0]):
+        f0, f1, f2 = stages[RATES, i], stages[RATES + 1, i], stages[RATES + 2, i]
+        real[i] = s * (LEFT[0] * f0 + LEFT[1] * f1 + LEFT[2] * f2) - stages[OMEGA, i]
+        slope = LEFT_PAIR[0] * f0 + LEFT_PAIR[1] * f1 + LEFT_PAIR[2] * f2
+        pair[i] = z * slope - complex(stages[OMEGA + 1, i], stages[OMEGA + 2, i])
+    solve_shifted_parts(machine, shifted.real, s)
+    solve_shifted_parts(machine, shifted.pair, z)
+
+
+@leaf
+def take_changes(machine, history):
+    """Add the changes to ω and Z. Returns the largest one as a share of the scales, of the motion and of the energies, and its place."""
+    run, shifted = run_at(history), record_at(machine).newton.shifted
+    stages, real, pair = run.stages, shifted.real.r, shifted.pair.r
+    largest, energies, worst = 0.0, 0.0, 0
+    for i in range(run.y.shape[0]):
+        stages[OMEGA, i] += real[i]
+        stages[OMEGA + 1, i] += pair[i].real
+        stages[OMEGA + 2, i] += pair[i].imag
+        change = 0.0
+        for m in range(3):
+            moved = RIGHT[m] * real[i] + 2.0 * (RIGHT_PAIR[m] * pair[i]).real
+            stages[Z + m, i] += moved
+            change = max(change, np.abs(moved))
+        share = change / run.scale[i] + (real[i] - real[i])
+        if i >= run.y.shape[0] - 2:
+            energies = max(energies, share)
+        elif not share <= largest:
+            largest, worst = share, i
+            if np.isnan(share):
+                break
+    return largest, energies, worst
+
+
+@leaf
+def unknown_at(newton, place, positions):
+    """Number of the unknown that moves entry `place` of y."""
+    if place >= positions:
+        return place - positions
+    found = 0
+    for k in range(newton.place.shape[0]):
+        first, axis = np.int64(newton.place[k, 0]), newton.place[k, 1]
+        if place == first or (axis == 0 and first <= place < first + 4):
+            found = k
+    return found
+
+
+@leaf
+def fails(k, contraction, change):
+    """Whether iteration k, with this contraction and a change so many times what may be left, will not come to an end."""
+    if not contraction < SLOWEST:
+        return k > 1 or not contraction < SIDEWAYS
+    return contraction ** (MOST - 1 - k) / (1.0 - contraction) * change > 1.0
+
+
+@leaf
+def iterate(evaluate, machine, history, h, end, close):
+    """Z of the step h to the time `end`, until what is left to change is `close`. Returns a status; where the iteration fails, the unknown
+    that changes most is left in control.failure."""
+    run, record = run_at(history), record_at(machine)
+    numbers, last, contraction, worst = run.numbers, np.inf, 0.0, 0
+    # what was seen steps ago counts less and less: towards 1, which asks for a second iteration
+    left = numbers[LEFT_OVER] ** FORGET
+    for k in range(MOST):
+        status = evaluate_rates(evaluate, machine, history, h, end)
+        run.counter[ITERATIONS] += 1
+        if status != OK:
+            return status
+        find_changes(machine, history, h)
+        change, energies, worst = take_changes(machine, history)
+        if k > 0:
+            now = change / last if last > 0.0 else 0.0
+            contraction = np.sqrt(now * contraction) if k > 1 and contraction < 1.0 else now
+            numbers[CONTRACTION] = contraction
+            left = contraction / (1.0 - contraction) if contraction < 1.0 else np.inf
+        if not change < np.inf or (k > 0 and change > close and fails(k, contraction, change / close)):
+            break
+        if max(change, energies) * min(left, 1.0) <= close:
+            numbers[LEFT_OVER] = max(left, SANGUINE)
+            return OK
+        last = change
+    positions = np.int64(run.y.shape[0]) - record.newton.place.shape[0] - record.newton.state.shape[0] - 2
+    record.control.failure[0] = unknown_at(record.newton, worst, positions)
+    numbers[LEFT_OVER] = 1.0
+    return NOT_CONVERGED
+
+
+@leaf
+def write_polynomial(run):
+    """d_1 … d_3 of this step in the rows of the rates."""
+    stages = run.stages
+    for i in range(run.y.shape[0]):
+        z0, z1, z2 = stages[Z, i], stages[Z + 1, i], stages[Z + 2, i]
+        for k in range(3):
+            stages[RATES + k, i] = POWERS[k, 0] * z0 + POWERS[k, 1] * z1 + POWERS[k, 2] * z2

@@ -359,9 +359,9 @@ def test_stabilisations(stabilisation):
 @pytest.mark.parametrize(
     ("settings", "reason"),
     [
-        ({"formulation": "lagrange"}, "exact derivatives are those of newton-euler"),
-        ({"coordinates": "independent"}, "need multipliers"),
-        ({"stabilisation": "baumgarte", "baumgarte": {"alpha": 20, "beta": 20}}, "know of no feedback"),
+        ({"formulation": "lagrange"}, "take newton-euler"),
+        ({"coordinates": "independent"}, "take absolute or relative"),
+        ({"stabilisation": "baumgarte", "baumgarte": {"alpha": 20, "beta": 20}}, "without its feedback"),
     ],
 )
 def test_what_has_no_exact_derivatives_is_refused(settings, reason):

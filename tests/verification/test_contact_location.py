@@ -72,8 +72,8 @@ def test_location_needs_far_fewer_evaluations_for_the_same_error(integrator, mon
     evaluations, error = run(1e-8)
     watch = dynamics._watch
 
-    def unfollowed(system, facts):
-        watch(system, facts)
+    def unfollowed(system, *, chosen):
+        watch(system, chosen=chosen)
         system.record.watched.followed[:] = 0
         return len(system.record.watched.event)
 

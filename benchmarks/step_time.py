@@ -38,7 +38,7 @@ METHODS = (
     ("independent", "newton-euler", ("none",)),
 )
 IMPLICIT_METHODS = (
-    ("relative", "newton-euler", ("direct", "geometric", "none")),
+    ("relative", "newton-euler", ("direct", "geometric")),
     ("absolute", "newton-euler", ("direct", "geometric")),
 )
 PEER_SOLVERS = ("generalised-alpha", "trapezoidal")

@@ -1,7 +1,7 @@
 """The four ways a function of nivel is compiled.
 
 leaf     small arithmetic; LLVM decides about inlining.
-stage    a part of one evaluation; always inlined, because a call would copy the descriptors of every array of the record.
+stage    a part of one evaluation; always inlined, so that what one part has read of the record serves the next (a quarter of a step).
 entry    what Python or another entry calls: an explicit signature, cached on disk, without the interpreter lock.
 family   what is called by its address: forces, and hooks that only some machines have.
 

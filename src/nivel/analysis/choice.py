@@ -35,7 +35,8 @@ def choose_coordinates(machine: MachineRecord) -> str:
         return "absolute"
     if settings.cut:
         return "relative"
-    if INTEGRATORS[settings.integrator].residual and len(machine.bodies) > MOST_DENSE:
+    facts = INTEGRATORS[settings.integrator]
+    if facts.whole or (facts.residual and len(machine.bodies) > MOST_DENSE):
         return "absolute"
     return "relative" if _relative_cost(machine) < _absolute_cost(machine) else "absolute"
 

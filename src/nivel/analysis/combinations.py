@@ -61,6 +61,8 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
         )
         message = f"'{settings.formulation}' does not go with {name}, which {why}: take newton-euler, whose motion is the same"
         faults.append(_fault("formulation", message))
+    if facts.whole:
+        return faults + _refuse_beside_whole_steps(settings, coordinates)
     if coordinates == "independent":
         why = (
             ", which has the exact tangents of absolute and relative ones"
@@ -80,6 +82,24 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
         )
         faults.append(_fault("stabilisation", message))
     if facts.implicit and settings.corrector.iteration == "functional":
+        message = f"'functional' does not go with {name}, which takes Newton's method with exact tangents: leave `iteration` out"
+        faults.append(_fault("corrector.iteration", message))
+    return faults
+
+
+def _refuse_beside_whole_steps(settings: SimulationSettings, coordinates: str) -> list[Fault]:
+    """What does not go with an integrator that balances momenta over a whole step."""
+    name, faults = f"`integrator: {settings.integrator}`", []
+    if coordinates != "absolute":
+        message = f"'{coordinates}' does not go with {name}, which balances the momenta of each body: take absolute"
+        faults.append(_fault("coordinates", message))
+    if settings.stabilisation != "none":
+        message = (
+            f"'{settings.stabilisation}' does not go with {name}: it closes the positions itself, and a change of velocities after a step "
+            f"would take the energy that it keeps: take none"
+        )
+        faults.append(_fault("stabilisation", message))
+    if settings.corrector.iteration == "functional":
         message = f"'functional' does not go with {name}, which takes Newton's method with exact tangents: leave `iteration` out"
         faults.append(_fault("corrector.iteration", message))
     return faults

@@ -62,14 +62,17 @@ def compile_path(
             listener.say(f"compiling {what} ({place}; only the first run does this)")
         import_module(module)
     if integrator in INTEGRATORS and INTEGRATORS[integrator].residual and path[0] in RESIDUALS:
-        _compile_derivatives(RESIDUALS[path[0]], [module for module, _ in parts], listener)
+        _compile_derivatives(
+            INTEGRATORS[integrator].whole or RESIDUALS[path[0]], [module for module, _ in parts], listener
+        )
     return perf_counter() - begin
 
 
 def complex_modules() -> list[str]:
     """Modules of families that exact derivatives may need on complex numbers."""
     families = dict.fromkeys(family for kind in FORCES.values() for family in kind.families)
-    return [*RESIDUALS.values(), MEASURE, GIVEN_FRICTION, *(f"nivel.kernels.forces.{family}" for family in families)]
+    residuals = [*RESIDUALS.values(), *(facts.whole for facts in INTEGRATORS.values() if facts.whole)]
+    return [*residuals, MEASURE, GIVEN_FRICTION, *(f"nivel.kernels.forces.{family}" for family in families)]
 
 
 def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener) -> None:

@@ -15,7 +15,8 @@ from nivel.analysis.choice import choose_cut
 from nivel.analysis.combinations import refuse_combinations
 from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
-from nivel.analysis.implicit import equip
+from nivel.analysis.ground import touches_ground
+from nivel.analysis.implicit import Wanted, equip
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
 from nivel.analysis.mobility import bound_pivots
@@ -72,7 +73,7 @@ from nivel.march.run import (
 )
 from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import FORMULATIONS, path_of
+from nivel.motion.catalogue import FORMULATIONS, RESIDUALS, path_of
 from nivel.results.occurrence import Occurrence
 from nivel.system.partition import forget
 from nivel.system.system import Array, System
@@ -147,7 +148,9 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     integrator = INTEGRATORS[machine.simulation.integrator]
     if integrator.residual:
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
-        prepared = equip(prepared, y, coordinates, corners(machine), shifted=integrator.shifted)
+        free = not touches_ground(machine, prepared.system) if integrator.whole else None
+        module = integrator.whole or RESIDUALS[coordinates]
+        prepared = equip(prepared, y, coordinates, Wanted(module, corners(machine), integrator.shifted, free))
     return Prepared(prepared, y, absolute, assembly, redundancy, len(machine.drivers))
 
 

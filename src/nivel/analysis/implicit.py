@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from importlib import import_module
 from itertools import combinations
 from typing import Any
@@ -26,25 +25,40 @@ from nivel.system.tangent_plan import plan_tangent
 Index = NDArray[np.integer]
 
 
-def equip(
-    motion: MotionEquations, y: Array, coordinates: str, corners: Sequence[float] = (), *, shifted: bool = False
-) -> MotionEquations:
+@dataclass(frozen=True)
+class Wanted:
+    """What a method asks of a residual.
+
+    module : where it is. corners : times [s] at which functions of time have corners. shifted : with room for systems of shifted matrices,
+    see `nivel.kernels.shifted_parts`. free : whether nothing joins the machine to the ground, for a residual over a whole step.
+    """
+
+    module: str
+    corners: tuple[float, ...] = ()
+    shifted: bool = False
+    free: bool | None = None
+
+
+def equip(motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted | None = None) -> MotionEquations:
     """The same equations, with the residual of implicit methods, its derivatives, and the record of its complex twin.
 
-    corners : times [s] at which functions of time have corners. shifted : with room for systems of shifted matrices, see
-    `nivel.kernels.shifted_parts`. Of redundant constraints those rows stay that say nothing new at the state y of the start: with the
-    others the matrix would be singular.
+    Without `wanted`, the residual at a time. Of redundant constraints those rows stay that say something new at the state y of the start:
+    with the others the matrix would be singular.
     """
+    instant = Wanted(RESIDUALS[coordinates])
+    wanted = wanted or instant
     rows = len(motion.system.record.saddle.row)
-    whole = _with_rows(motion, y, coordinates, corners, np.arange(rows), shifted)
+    whole = _with_rows(motion, y, coordinates, wanted, np.arange(rows))
     rank = int(motion.system.record.control.rank[0])
     if rank == rows:
         return whole
+    if wanted.free is not None:
+        whole = _with_rows(motion, y, coordinates, instant, np.arange(rows))
     residual = whole.system.record.residual
     residual.y[:] = y
     _, tangent = find_tangent(whole, 0.0, 1.0, 1.0, 1.0)
     kept = _independent(tangent[len(tangent) - rows :, : len(residual.vdot)], rank)
-    return _with_rows(motion, y, coordinates, corners, kept, shifted)
+    return _with_rows(motion, y, coordinates, wanted, kept)
 
 
 def _independent(C_q: Array, rank: int) -> Index:
@@ -56,9 +70,7 @@ def _independent(C_q: Array, rank: int) -> Index:
     return np.sort(order[:rank])
 
 
-def _with_rows(
-    motion: MotionEquations, y: Array, coordinates: str, corners: Sequence[float], kept: Index, shifted: bool
-) -> MotionEquations:
+def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted, kept: Index) -> MotionEquations:
     """With the rows `kept` of those of the saddle."""
     system = motion.system
     record, positions = system.record, system.positions
@@ -70,11 +82,13 @@ def _with_rows(
     part[:, 0] = renumbered[part[:, 0]]
     part = np.ascontiguousarray(part[part[:, 0] != NONE])
     row = np.ascontiguousarray(record.saddle.row[kept])
-    residual = residual_tables(system.body_count, len(y), velocities, states, row, part)
-    plan = plan_tangent(*_groups(system, velocities, row, part, coordinates), mirrored=not len(system.frictions))
+    residual = residual_tables(system.body_count, len(y), velocities, states, row, part, free=wanted.free)
+    # over a whole step the forces of joints act at the mean place, C is that of the end
+    mirrored = wanted.free is None and not len(system.frictions)
+    plan = plan_tangent(*_groups(system, velocities, row, part, coordinates), mirrored=mirrored)
     place = places(system.map, velocities, positions)
-    newton = newton_tables(place, len(y), states, len(row), plan, corners, shifted=shifted)
-    family = import_module(RESIDUALS[coordinates]).residual
+    newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, shifted=wanted.shifted)
+    family = import_module(wanted.module).residual
     hooks = record.hooks._replace(address=record.hooks.address.copy())
     record = record._replace(residual=residual, newton=newton, hooks=hooks)
     hooks.address[RESIDUAL] = family.address

@@ -11,6 +11,15 @@ from nivel.kernels.arrays import A1, C1, C2, F1, F2, U1, U2, W1, W2
 from nivel.kernels.sparse_lu import SparseLU
 
 
+class Interval(NamedTuple):
+    """What residuals over a whole step know of it; see `nivel.motion.energy_momentum_residual`. Without numbers for other methods."""
+
+    numbers: F1  # (4,) step [s], elastic energy at its start [J], least motion in it [J], 1 where the machine touches no ground
+    start: F2  # (B, 9) centre of mass [m], its velocity, angular momentum about it at the start, global axes
+    # work
+    state: W1  # (S + 2,) mean states of forces
+
+
 class Residual(NamedTuple):
     """The equations of motion as a residual; see `nivel.kernels.residual`. Without numbers for explicit methods."""
 
@@ -24,6 +33,7 @@ class Residual(NamedTuple):
     value: W1  # (n + S + 3 K,) M v̇ + C_qᵀ λ - Q, rates of the states of forces, then C, Ċ and C̈
     acceleration: W2  # (B+1, 6) (α, R̈) of the bodies, global axes
     wrench: W2  # (B+1, 6) (moment about the frame origin, force) that their joints have to transmit
+    interval: Interval
 
 
 class RealFactors(NamedTuple):

@@ -17,7 +17,7 @@ Integrator = Literal[
     "abm1", "abm2", "abm3", "abm4", "abm5",
     "gear1", "gear2", "gear3", "gear4",
     "dopri5", "dop853", "adams", "gear",
-    "newmark", "hht", "generalised-alpha",
+    "newmark", "hht", "generalised-alpha", "energy-momentum",
     "bdf", "ros2", "radau",
 ]  # fmt: skip
 # those of them that choose their steps, and those that do so with `step_control: error`

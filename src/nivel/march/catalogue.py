@@ -15,7 +15,8 @@ class IntegratorFacts:
     chooses_steps : controls its error; either : does so on request. implicit : iterates a corrector, by Newton's method on request.
     residual : needs the equations of motion as a residual, with exact tangents, and iterates by Newton's method alone; it solves them for
     accelerations and multipliers, or with `rates` for the rates of the state;
-    shifted : it also solves systems with complex shares of a step.
+    shifted : it also solves systems with complex shares of a step. whole : module of its residual, one over a whole step in absolute
+    coordinates; empty: that at a time.
     """
 
     module: str
@@ -29,6 +30,7 @@ class IntegratorFacts:
     either: bool = False
     rates: bool = False
     shifted: bool = False
+    whole: str = ""
 
 
 _ADAMS, _MOULTON, _GEAR = "nivel.march.adams", "nivel.march.moulton", "nivel.march.gear"
@@ -51,6 +53,15 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
         name: IntegratorFacts("nivel.march.alpha", "alpha", 7, 2, 8, implicit=True, residual=True, either=True)
         for name in ("newmark", "hht", "generalised-alpha")
     },
+    "energy-momentum": IntegratorFacts(
+        "nivel.march.energy_momentum",
+        "energy_momentum",
+        0,
+        2,
+        implicit=True,
+        residual=True,
+        whole="nivel.motion.energy_momentum_residual",
+    ),
     "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 32, 5, 66, chooses_steps=True, implicit=True),
     "bdf": IntegratorFacts(
         "nivel.march.variable_bdf", "bdf", 32, 5, 66, chooses_steps=True, implicit=True, residual=True, rates=True

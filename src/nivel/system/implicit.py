@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.implicit_record import ComplexFactors, Newton, RealFactors, Residual, Shifted
+from nivel.kernels.implicit_record import ComplexFactors, Interval, Newton, RealFactors, Residual, Shifted
 from nivel.kernels.record import NONE, Record
 from nivel.system.system import StateMap
 from nivel.system.tables import index_array
@@ -30,9 +30,15 @@ def no_newton() -> Newton:
     return newton_tables(index_array([], 2), 0, 0, 0, EMPTY)
 
 
-def residual_tables(bodies: int, state: int, velocities: int, states: int, row: Index, part: Index) -> Residual:
-    """For so many bodies, entries of y, velocities and states of forces. row, part : as in `Residual`."""
+def residual_tables(
+    bodies: int, state: int, velocities: int, states: int, row: Index, part: Index, *, free: bool | None = None
+) -> Residual:
+    """For so many bodies, entries of y, velocities and states of forces. row, part : as in `Residual`.
+
+    free : whether nothing joins the machine to the ground, for residuals over a whole step; None for all others.
+    """
     rows = len(row)
+    whole = free is not None
     return Residual(
         row=row,
         part=part,
@@ -42,6 +48,11 @@ def residual_tables(bodies: int, state: int, velocities: int, states: int, row: 
         value=np.zeros(velocities + states + 3 * rows),
         acceleration=np.zeros((bodies + 1, 6)),
         wrench=np.zeros((bodies + 1, 6)),
+        interval=Interval(
+            numbers=np.array([0.0, 0.0, 0.0, float(bool(free))]),
+            start=np.zeros((bodies if whole else 0, 9)),
+            state=np.zeros(states + 2 if whole else 0),
+        ),
     )
 
 

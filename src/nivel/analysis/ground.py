@@ -1,0 +1,19 @@
+"""Whether a machine is joined to the ground, or flies freely."""
+
+from __future__ import annotations
+
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.record import GROUND
+from nivel.system.states.relative import bodies_of
+from nivel.system.system import System
+
+
+def touches_ground(machine: MachineRecord, system: System) -> bool:
+    """Whether a joint, a driver of a marker or a force joins a body to the ground."""
+    joined = {body for joint in machine.joints for body in bodies_of(machine, joint)}
+    for driver in machine.drivers:
+        if driver.marker is not None:
+            seen = driver.reference
+            joined |= {machine.marker_named[name].body for name in (driver.marker, seen) if name is not None}
+            joined |= {GROUND} if seen is None else set()
+    return GROUND in joined or any(system.body_count in bodies for bodies in system.coupled)

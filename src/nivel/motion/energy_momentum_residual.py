@@ -1,0 +1,197 @@
+"""The equations of motion over one whole step, in absolute coordinates, so that energy and momenta are kept.
+
+For every body, with the mean velocities u = (c₁ - c₀)/h of its centre of mass and ω = A Θ/h, where A₁ = A₀ cay Θ (Simo, Wong 1991):
+
+    m (ċ₁ - ċ₀)/h = F        (π₁ - π₀)/h = T        ċ₁ = 2 u - ċ₀        ω̄₁ = 2 Θ/h - ω̄₀        π = A J̄ ω̄
+
+so the change of its kinetic energy is h (F · u + T · ω) exactly. F and T, of the applied forces and of the joints, are those at the mean
+place, with the axes ½ (A₀ + A₁). A point of the body moves there by h (Ṙ + ω × Ā s) exactly; so constraints that are products of
+positions and axes do no work, forces between two bodies have one lever arm, and momenta are kept.
+
+Elastic forces at the mean place do almost the work that their energy loses. The rest is done by a force along the mean motion, in the
+metric of the masses (Gonzalez 1996); in a machine that touches no ground along that part of it which carries no momentum. Its factor
+is a sum over the whole machine of the size of the step squared, so it stays out of the derivatives: it is made of real parts.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.analytic import real
+from nivel.kernels.compile import stage
+from nivel.kernels.hook import apply_forces, family
+from nivel.kernels.locked_motion import internal_motion, locked_motion
+from nivel.kernels.record import record_at
+from nivel.kernels.residual import load_multipliers
+from nivel.kernels.rigid import load_weight
+from nivel.kernels.spatial import cross, dot, multiply
+from nivel.kernels.status import OK
+from nivel.motion.newton_euler import read_markers, read_state
+
+# entries of Interval.numbers
+STEP, STORED, LEAST, FREE = 0, 1, 2, 3
+
+
+@stage
+def begin_interval(machine, h, length):
+    """Note what the step of size h begins with, from the bodies of the state last evaluated. length : of the machine [m]."""
+    record = record_at(machine)
+    bodies, interval = record.bodies, record.residual.interval
+    total = 0.0
+    for b in range(bodies.mass.shape[0]):
+        A, J, w, c, start = bodies.A[b], bodies.inertia_b[b], bodies.omega[b], bodies.c[b], interval.start[b]
+        turning = cross(w, c)
+        for i in range(3):
+            start[i] = bodies.R[b, i] + c[i]
+            start[3 + i] = bodies.Rdot[b, i] + turning[i]
+        w_b = dot(A[:, 0], w), dot(A[:, 1], w), dot(A[:, 2], w)
+        momentum = dot(J[0], w_b), dot(J[1], w_b), dot(J[2], w_b)
+        for i in range(3):
+            start[6 + i] = dot(A[i], momentum)
+        total += bodies.mass[b]
+    interval.numbers[STEP], interval.numbers[STORED] = h, record.control.stored[0]
+    # motions of less than this share of the machine in a step do no work that could be missed
+    interval.numbers[LEAST] = total * (1e-7 * length / h) ** 2
+
+
+@stage
+def change_momentum(machine, b, h):
+    """Bring body b from the end of the step to its mean place and mean velocities; its velocities at the end are written into the state,
+    the change of its momenta per second into `residual.acceleration` (angular about the centre of mass; linear)."""
+    record = record_at(machine)
+    bodies, own = record.bodies, record.residual
+    A, J, c, start, y, base = (
+        bodies.A[b],
+        bodies.inertia_b[b],
+        bodies.c[b],
+        own.interval.start[b],
+        own.y,
+        record.newton.base,
+    )
+    q, count = 7 * b, bodies.mass.shape[0]
+    v = 7 * count + 6 * b
+    e, f = base[q + 3 : q + 7], y[q + 3 : q + 7]
+    # k = Θ/2 of A₀ᵀ A₁
+    p0 = e[0] * f[0] + e[1] * f[1] + e[2] * f[2] + e[3] * f[3]
+    k = (
+        (e[0] * f[1] - f[0] * e[1] - e[2] * f[3] + e[3] * f[2]) / p0,
+        (e[0] * f[2] - f[0] * e[2] - e[3] * f[1] + e[1] * f[3]) / p0,
+        (e[0] * f[3] - f[0] * e[3] - e[1] * f[2] + e[2] * f[1]) / p0,
+    )
+    w_b = 4.0 * k[0] / h - base[v + 3], 4.0 * k[1] / h - base[v + 4], 4.0 * k[2] / h - base[v + 5]
+    w = dot(A[0], w_b), dot(A[1], w_b), dot(A[2], w_b)
+    momentum, turning, x = (dot(J[0], w_b), dot(J[1], w_b), dot(J[2], w_b)), cross(w, c), own.acceleration[b]
+    for i in range(3):
+        u = (bodies.R[b, i] + c[i] - start[i]) / h
+        y[v + i], y[v + 3 + i] = 2.0 * u - start[3 + i] - turning[i], w_b[i]
+        x[i] = (dot(A[i], momentum) - start[6 + i]) / h
+        x[3 + i] = bodies.mass[b] * 2.0 * (u - start[3 + i]) / h
+    share = 1.0 / (1.0 + dot(k, k))
+    for i in range(3):
+        # Ā = A₁ (1 + k̃)⁻¹
+        row = A[i, 0], A[i, 1], A[i, 2]
+        across, along = cross(k, row), dot(k, row)
+        for j in range(3):
+            A[i, j] = share * (row[j] + across[j] + along * k[j])
+        bodies.Rdot[b, i] = (y[q + i] - base[q + i]) / h
+        bodies.R[b, i] = 0.5 * (y[q + i] + base[q + i])
+        bodies.omega_b[b, i] = 2.0 * k[i] / h
+    for i in range(4):
+        # the signs of the Euler parameters at both ends are those of one turn
+        bodies.theta[b, i] = 0.5 * (e[i] + f[i])
+    multiply(A, bodies.centre_b[b], c)
+    multiply(A, bodies.omega_b[b], bodies.omega[b])
+
+
+@stage
+def missing_power(machine, stored):
+    """What all wrenches do less per second than the energies ask for: elastic energy lost, work brought in, less what is dissipated.
+
+    The weight does exactly the work that it should. stored : elastic energy at the end of the step [J].
+    """
+    record = record_at(machine)
+    bodies, control, numbers = record.bodies, record.control, record.residual.interval.numbers
+    power = (numbers[STORED] - stored) / numbers[STEP] + real(control.power[0]) - real(control.power[1])
+    g = bodies.gravity
+    for b in range(bodies.mass.shape[0]):
+        F, V, w = bodies.wrench[b], bodies.Rdot[b], bodies.omega[b]
+        turning = cross(w, bodies.c[b])
+        for i in range(3):
+            power -= real(F[i]) * real(V[i]) + real(F[3 + i]) * real(w[i])
+            power += bodies.mass[b] * g[i] * (real(V[i]) + real(turning[i]))
+    return power
+
+
+@stage
+def push(machine, stored):
+    """Add the force along the mean motion that does the work which is missing. stored : see `missing_power`."""
+    record = record_at(machine)
+    bodies, numbers = record.bodies, record.residual.interval.numbers
+    locked = locked_motion(bodies) if numbers[FREE] == 1.0 else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    twice_kinetic = 0.0
+    for b in range(bodies.mass.shape[0]):
+        u, w, p, n = internal_motion(bodies, b, locked)
+        twice_kinetic += dot(u, p) + dot(w, n)
+    if not twice_kinetic > numbers[LEAST]:
+        return
+    factor = missing_power(machine, stored) / twice_kinetic
+    for b in range(bodies.mass.shape[0]):
+        _, _, p, n = internal_motion(bodies, b, locked)
+        F, c = bodies.wrench[b], bodies.c[b]
+        moment = cross((real(c[0]), real(c[1]), real(c[2])), p)
+        for i in range(3):
+            F[i] += factor * p[i]
+            F[3 + i] += factor * (n[i] + moment[i])
+
+
+@stage
+def mean_forces(machine, t):
+    """Wrenches of all applied forces and of the joints at the mean place, where the bodies are. Returns a status."""
+    record = record_at(machine)
+    own, newton = record.residual, record.newton
+    states, first = newton.state.shape[0], np.int64(own.y.shape[0]) - newton.state.shape[0] - 2
+    for i in range(states):
+        own.interval.state[i] = 0.5 * (newton.base[first + i] + own.y[first + i])
+    status = read_markers(machine, t)
+    if status == OK:
+        load_weight(record.bodies)
+        status = apply_forces(machine, t, own.interval.state)
+    if status == OK:
+        status = load_multipliers(machine, t)
+    return status
+
+
+@family
+def residual(machine, job, t):
+    """Fill `residual.value` for the state `residual.y` at the end t of a step, whose start is `newton.base` and `residual.interval`, and
+    for multipliers that hold over the step; complete the velocities of that state.
+
+    Of the constraints only C, at the end, has a meaning.
+    """
+    record = record_at(machine)
+    bodies, own, constraints = record.bodies, record.residual, record.constraints
+    h, count, rows = own.interval.numbers[STEP], bodies.mass.shape[0], own.row.shape[0]
+    status = read_state(machine, t, own.y)
+    if status == OK:
+        status = apply_forces(machine, t, own.y)
+    if status != OK:
+        return status
+    stored, first = real(record.control.stored[0]), 6 * count + record.elements.state_rate.shape[0]
+    for k in range(rows):
+        own.value[first + k] = constraints.C[own.row[k]]
+    for b in range(count):
+        change_momentum(machine, b, h)
+    status = mean_forces(machine, t - 0.5 * h)
+    if status != OK:
+        return status
+    push(machine, stored)
+    for b in range(count):
+        A, F, c, x = bodies.A[b], bodies.wrench[b], bodies.c[b], own.acceleration[b]
+        lever = cross(c, x[3:6])
+        moment = x[0] + lever[0] - F[3], x[1] + lever[1] - F[4], x[2] + lever[2] - F[5]
+        for i in range(3):
+            own.value[6 * b + i] = x[3 + i] - F[i]
+            own.value[6 * b + 3 + i] = A[0, i] * moment[0] + A[1, i] * moment[1] + A[2, i] * moment[2]
+    for i in range(record.elements.state_rate.shape[0]):
+        own.value[6 * count + i] = record.elements.state_rate[i]
+    return OK

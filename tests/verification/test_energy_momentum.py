@@ -77,6 +77,23 @@ def test_other_methods_do_not():
     assert span(angular) > 1e-5 * np.abs(angular).max()
 
 
+def test_two_point_masses_on_a_spring():
+    """They turn about each other; about their line nothing has any inertia."""
+    bodies = (
+        Body(name="a", mass=1.0, point_mass=True, velocity=(0.0, 1.0, 0.2)),
+        Body(name="b", mass=2.0, point_mass=True, position=(0.5, 0.0, 0.0), velocity=(0.3, -0.5, 0.0)),
+    )
+    ends = Marker(body="a"), Marker(body="b")
+    forces = (SpringDamper(name="spring", markers=ends, stiffness=50.0, free_length=0.4),)
+    machine = MachineRecord(name="two", bodies=bodies, forces=forces)
+    r = run(machine, **METHOD, step=1e-2, duration=5.0, output_interval=0.05)
+    mass = np.array([1.0, 2.0])[:, None]
+    angular = np.sum(np.cross(r.position, mass * r.velocity), axis=1)
+    assert np.abs(r.energy_error).max() < 1e-9 * r.kinetic_energy.max()
+    assert span(angular) < 1e-10 * np.abs(angular).max()
+    assert np.all(r.angular_velocity == 0.0)
+
+
 def test_in_gravity_a_flying_machine_falls_and_keeps_its_energy():
     machine = flying(gravity=(0.0, -9.81, 0.0))
     r = run(machine, **METHOD, step=5e-3, duration=1.0, output_interval=0.05)

@@ -83,6 +83,8 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     part = np.ascontiguousarray(part[part[:, 0] != NONE])
     row = np.ascontiguousarray(record.saddle.row[kept])
     residual = residual_tables(system.body_count, len(y), velocities, states, row, part, free=wanted.free)
+    if wanted.free is not None:
+        residual.interval.solid[system.point_masses] = 0.0
     # over a whole step the forces of joints act at the mean place, C is that of the end
     mirrored = wanted.free is None and not len(system.frictions)
     plan = plan_tangent(*_groups(system, velocities, row, part, coordinates), mirrored=mirrored)

@@ -16,6 +16,7 @@ class Interval(NamedTuple):
 
     numbers: F1  # (4,) step [s], elastic energy at its start [J], least motion in it [J], 1 where the machine touches no ground
     start: F2  # (B, 9) centre of mass [m], its velocity, angular momentum about it at the start, global axes
+    solid: F1  # (B,) 1, or 0 for a point mass, whose inertia stands for none
     # work
     state: W1  # (S + 2,) mean states of forces
 

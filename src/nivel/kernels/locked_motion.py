@@ -9,10 +9,13 @@ from nivel.kernels.analytic import real
 from nivel.kernels.compile import stage
 from nivel.kernels.spatial import cross, dot
 
+# Of the trace of the inertia: enough for what lies on a line, about which nothing turns, to be turned about it by nothing.
+LEAST_INERTIA = 1e-14
+
 
 @stage
-def inertial_moment(bodies, b, w):
-    """A J̄ Aᵀ w [kg m²/s] of body b."""
+def inertial_moment(bodies, solid, b, w):
+    """A J̄ Aᵀ w [kg m²/s] of body b; zero for a point mass."""
     A, J = bodies.A[b], bodies.inertia_b[b]
     x = (
         real(A[0, 0]) * w[0] + real(A[1, 0]) * w[1] + real(A[2, 0]) * w[2],
@@ -21,9 +24,9 @@ def inertial_moment(bodies, b, w):
     )
     m = dot(J[0], x), dot(J[1], x), dot(J[2], x)
     return (
-        real(A[0, 0]) * m[0] + real(A[0, 1]) * m[1] + real(A[0, 2]) * m[2],
-        real(A[1, 0]) * m[0] + real(A[1, 1]) * m[1] + real(A[1, 2]) * m[2],
-        real(A[2, 0]) * m[0] + real(A[2, 1]) * m[1] + real(A[2, 2]) * m[2],
+        solid[b] * (real(A[0, 0]) * m[0] + real(A[0, 1]) * m[1] + real(A[0, 2]) * m[2]),
+        solid[b] * (real(A[1, 0]) * m[0] + real(A[1, 1]) * m[1] + real(A[1, 2]) * m[2]),
+        solid[b] * (real(A[2, 0]) * m[0] + real(A[2, 1]) * m[1] + real(A[2, 2]) * m[2]),
     )
 
 
@@ -42,7 +45,7 @@ def centre_and_velocity(bodies, b):
 
 
 @stage
-def locked_motion(bodies):
+def locked_motion(bodies, solid):
     """(x, y, z) of the centre of mass of all bodies, its velocity, and the angular velocity with which all bodies together, locked, would
     have the angular momentum that they have."""
     mass, xx, xy, xz = 0.0, 0.0, 0.0, 0.0
@@ -60,11 +63,13 @@ def locked_motion(bodies):
         m = bodies.mass[b]
         x, u, w = centre_and_velocity(bodies, b)
         d, s = (x[0] - c[0], x[1] - c[1], x[2] - c[2]), (u[0] - v[0], u[1] - v[1], u[2] - v[2])
-        p = _add(p, _column(bodies, b, m, d, (1.0, 0.0, 0.0)))
-        q = _add(q, _column(bodies, b, m, d, (0.0, 1.0, 0.0)))
-        r = _add(r, _column(bodies, b, m, d, (0.0, 0.0, 1.0)))
+        p = _add(p, _column(bodies, solid, b, m, d, (1.0, 0.0, 0.0)))
+        q = _add(q, _column(bodies, solid, b, m, d, (0.0, 1.0, 0.0)))
+        r = _add(r, _column(bodies, solid, b, m, d, (0.0, 0.0, 1.0)))
         swing = cross(d, s)
-        h = _add(h, _add((m * swing[0], m * swing[1], m * swing[2]), inertial_moment(bodies, b, w)))
+        h = _add(h, _add((m * swing[0], m * swing[1], m * swing[2]), inertial_moment(bodies, solid, b, w)))
+    least = LEAST_INERTIA * (p[0] + q[1] + r[2])
+    p, q, r = (p[0] + least, p[1], p[2]), (q[0], q[1] + least, q[2]), (r[0], r[1], r[2] + least)
     determinant = dot(p, cross(q, r))
     return (
         *c,
@@ -81,14 +86,14 @@ def _add(a, b):
 
 
 @stage
-def _column(bodies, b, m, d, e):
+def _column(bodies, solid, b, m, d, e):
     """Angular momentum of body b about a point d before its centre, per rad/s about the axis e through that point."""
     swing = cross(d, cross(e, d))
-    return _add((m * swing[0], m * swing[1], m * swing[2]), inertial_moment(bodies, b, e))
+    return _add((m * swing[0], m * swing[1], m * swing[2]), inertial_moment(bodies, solid, b, e))
 
 
 @stage
-def internal_motion(bodies, b, locked):
+def internal_motion(bodies, solid, b, locked):
     """Velocity of the centre of mass and angular velocity of body b without the `locked` motion (nine zeros: all of it), with the linear
     momentum and the angular momentum about the centre of mass that belong to them."""
     x, u, w = centre_and_velocity(bodies, b)
@@ -97,4 +102,4 @@ def internal_motion(bodies, b, locked):
     own = u[0] - locked[3] - across[0], u[1] - locked[4] - across[1], u[2] - locked[5] - across[2]
     spin = w[0] - turn[0], w[1] - turn[1], w[2] - turn[2]
     m = bodies.mass[b]
-    return own, spin, (m * own[0], m * own[1], m * own[2]), inertial_moment(bodies, b, spin)
+    return own, spin, (m * own[0], m * own[1], m * own[2]), inertial_moment(bodies, solid, b, spin)

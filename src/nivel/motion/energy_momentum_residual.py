@@ -126,17 +126,17 @@ def missing_power(machine, stored):
 def push(machine, stored):
     """Add the force along the mean motion that does the work which is missing. stored : see `missing_power`."""
     record = record_at(machine)
-    bodies, numbers = record.bodies, record.residual.interval.numbers
-    locked = locked_motion(bodies) if numbers[FREE] == 1.0 else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    bodies, numbers, solid = record.bodies, record.residual.interval.numbers, record.residual.interval.solid
+    locked = locked_motion(bodies, solid) if numbers[FREE] == 1.0 else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     twice_kinetic = 0.0
     for b in range(bodies.mass.shape[0]):
-        u, w, p, n = internal_motion(bodies, b, locked)
+        u, w, p, n = internal_motion(bodies, solid, b, locked)
         twice_kinetic += dot(u, p) + dot(w, n)
     if not twice_kinetic > numbers[LEAST]:
         return
     factor = missing_power(machine, stored) / twice_kinetic
     for b in range(bodies.mass.shape[0]):
-        _, _, p, n = internal_motion(bodies, b, locked)
+        _, _, p, n = internal_motion(bodies, solid, b, locked)
         F, c = bodies.wrench[b], bodies.c[b]
         moment = cross((real(c[0]), real(c[1]), real(c[2])), p)
         for i in range(3):

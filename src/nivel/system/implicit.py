@@ -51,6 +51,7 @@ def residual_tables(
         interval=Interval(
             numbers=np.array([0.0, 0.0, 0.0, float(bool(free))]),
             start=np.zeros((bodies if whole else 0, 9)),
+            solid=np.ones(bodies if whole else 0),
             state=np.zeros(states + 2 if whole else 0),
         ),
     )

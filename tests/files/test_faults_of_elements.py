@@ -92,7 +92,6 @@ FAULTS = {
         "drivers.lift",
         "needs a `coordinate`",
     ),
-    "straight table drives": (", interpolation: cubic", "", 0, "drivers.place.value", "cubic"),
     "driver of unknown marker": (
         "{marker: rim, along",
         "{marker: rin, along",

@@ -41,7 +41,6 @@ def test_what_drives_is_smooth():
         ({"marker": "tip", "along": "x", "value": "1 rad"}, "a length (m) was expected"),
         ({"marker": "tip", "about": "z", "value": "1 m"}, "an angle (rad) was expected"),
         ({"coordinate": "h.angle", "value": "abs(time)"}, "has corners; a driver must be smooth"),
-        ({"coordinate": "h.angle", "value": Table((0, 1), (0, 1))}, "a table of straight lines has corners"),
         ({"coordinate": "h.angle", "value": "2*k.angle"}, "drivers.d.value"),
         ({"coordinate": "h.angle", "marker": "tip", "value": 1}, "drivers.d.marker: `marker` must not be given"),
         ({"coordinate": "h.angle", "relative_to": "tip", "value": 1}, "drivers.d.relative_to: `relative_to` must not"),

@@ -116,7 +116,6 @@ def test_expressions_are_read_and_written(field, text, written):
         ("angle", "3 m*time", "is a length (m); an angle (rad) was expected"),
         ("angle", "3 Hz*time^2", "an angle (rad) was expected"),
         ("motion", "3 kg*time", "an angle (rad) or a length (m) was expected"),
-        ("angle", {"times": [0, 1], "values": [0, 1]}, "has corners; a driver needs `interpolation: cubic`"),
         ("angle", cubic(of="hinge.angle", points=[0, 1, 3, 4], times=None), "write `points`"),
         (
             "angle",
@@ -282,5 +281,5 @@ def test_the_schema_tells_drivers_from_forces():
     tables = [form for form in force["anyOf"] if "values" in form.get("properties", {})]
     assert [form["required"] for form in tables] == [["times", "values"], ["of", "points", "values"]]
     (table,) = [form for form in angle["anyOf"] if "values" in form.get("properties", {})]
-    assert table["properties"]["interpolation"] == {"enum": ["cubic"]}
-    assert "interpolation" in table["required"]
+    assert table["properties"]["interpolation"] == {"enum": ["linear", "cubic"]}
+    assert "of" not in table["required"]

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.optimize import root_scalar
 
+from nivel.kernels.function import NEAR
 from nivel.machine.arithmetic import TIME, Call, ExpressionError, Negative, Node, Operation, evaluate, signals
 from nivel.machine.expression import Expression
 from nivel.machine.machine_record import MachineRecord
@@ -26,9 +27,14 @@ def corners(machine: MachineRecord) -> tuple[float, ...]:
     found: set[float] = set()
     for part in (*machine.drivers, *machine.forces):
         for function in _functions(part):
-            times = _of_table(function) if isinstance(function, Table) else _of_expression(function, end)
-            found |= {time for time in times if 0.0 < time < end}
+            found |= set(corners_of(function, end))
     return tuple(sorted(found))
+
+
+def corners_of(function: Table | Expression, end: float) -> list[float]:
+    """Corners of a function of time after the begin of a run, up to its `end` [s]; those of a table ascending."""
+    times = _of_table(function) if isinstance(function, Table) else _of_expression(function, end)
+    return [time for time in times if 0.0 < time <= end * (1.0 + NEAR)]
 
 
 def _functions(part: Record) -> Iterator[Table | Expression]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nivel.analysis.corners import corners_of
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.redundancy import Redundancy
 from nivel.errors import Fault, ModelError
@@ -9,6 +10,7 @@ from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Contact, Friction, Stop
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
+from nivel.machine.settings import SimulationSettings
 from nivel.machine.table import Table
 from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.system.laws import false_derivative
@@ -99,28 +101,41 @@ def refuse_conserved_drivers(machine: MachineRecord) -> None:
 
 
 def refuse_rough_motions(machine: MachineRecord) -> None:
-    """Tables of drivers that end on the way, or begin later than the run: the speed would jump there. Laws whose derivatives are not
-    those of what they return."""
+    """Tables of drivers whose speed jumps, for integrators that would lose the jump within a step. Laws whose derivatives are not those of
+    what they return."""
     faults = []
-    end = machine.simulation.duration
+    settings = machine.simulation
     for driver in machine.drivers:
-        table = driver.value
-        if isinstance(table, PythonLaw) and (wrong := false_derivative(table, end)):
+        table, message = driver.value, ""
+        if isinstance(table, PythonLaw) and (wrong := false_derivative(table, settings.duration)):
             message = (
                 f"the law `{table.function}` must return value, rate and acceleration that belong together: {wrong}"
             )
-            faults.append(Fault("", 0, 0, f"drivers.{driver.name}.value", message))
-        if not isinstance(table, Table):
-            continue
-        first, last = table.times[0], table.times[-1]
-        if first > 0.0 or last < end * (1.0 - 1e-12):
-            message = (
-                f"the table holds from {first:.6g} to {last:.6g} s and the run lasts from 0 to {end:.6g} s: beyond its ends the speed "
-                f"would jump to zero; add points, or run for {last:.6g} s"
-            )
+        elif isinstance(table, Table) and not INTEGRATORS[settings.integrator].jumps:
+            message = _jump_of(table, settings)
+        if message:
             faults.append(Fault("", 0, 0, f"drivers.{driver.name}.value", message))
     if faults:
         raise ModelError(faults)
+
+
+def _jump_of(table: Table, settings: SimulationSettings) -> str:
+    """What is wrong with a table of a driver for an integrator that does not stop where its speed jumps; empty: nothing."""
+    end, first, last = settings.duration, table.times[0], table.times[-1]
+    lost = (
+        f"{settings.integrator} would lose the jump within a step: take `integrator: newmark`, hht or generalised-alpha, whose steps end "
+        f"there and begin with the new speed"
+    )
+    if first > 0.0 or table.ends_before(end):
+        return (
+            f"the table holds from {first:.6g} to {last:.6g} s and the run lasts from 0 to {end:.6g} s: beyond its ends the speed jumps to "
+            f"zero, and {lost}; or add points, or run for {last:.6g} s"
+        )
+    times = [time for time in corners_of(table, end) if time < last]
+    if table.interpolation == "linear" and times:
+        named = ", ".join(f"{time:.6g}" for time in times[:3]) + (", …" if len(times) > 3 else "")
+        return f"the speed of straight lines jumps at {named} s, and {lost}; or take `interpolation: cubic`, which has no corners"
+    return ""
 
 
 def refuse_uncertain_loads(machine: MachineRecord, redundancy: Redundancy) -> None:

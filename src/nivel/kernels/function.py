@@ -11,6 +11,8 @@ from nivel.kernels.analytic import real
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.record import record_at
 
+# A table is past a knot where its argument comes within this share of it: times of steps are products and sums.
+NEAR = 16.0 * 2.220446049250313e-16
 # kinds of functions; a held table keeps its end values outside, an extended one its end pieces
 CONSTANT, TABLE_HELD, TABLE_EXTENDED, COMPILED = 0, 1, 2, 3
 # kinds of signals: index and component say of what
@@ -35,15 +37,17 @@ def call_law(typingctx, address, arguments, first):
 
 @leaf
 def knot_before(functions, k, x):
-    """The knot of table k whose polynomial holds at x: the last one before it, the first where there is none."""
+    """The knot of table k whose polynomial holds at x: the last one at or before it, the first where there is none. The last knot of all
+    belongs to the polynomial before it, which is what a run that ends there ends with."""
     low, last = np.int64(functions.table[k, 0]), np.int64(functions.table[k, 1]) - 1
     knots, x = functions.knots, real(x)
-    if x > knots[last]:
+    near = NEAR * np.abs(x)
+    if x > knots[last] + near:
         return last
     high = last
     while high - low > 1:
         middle = (low + high) // 2
-        if knots[middle] <= x:
+        if knots[middle] <= x + near:
             low = middle
         else:
             high = middle
@@ -56,7 +60,7 @@ def table_value(functions, k, x):
     knot = knot_before(functions, k, x)
     c = functions.coefficients[knot]
     s = x - functions.knots[knot]
-    if real(s) < 0.0 and functions.kind[k] == TABLE_HELD:
+    if real(s) < -NEAR * np.abs(real(x)) and functions.kind[k] == TABLE_HELD:
         return c[0], 0.0, 0.0
     value = c[0] + s * (c[1] + s * (c[2] + s * c[3]))
     return value, c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]), 2.0 * c[2] + 6.0 * s * c[3]

@@ -28,7 +28,7 @@ class Driver(Checked):
         default=None, description="axis of `relative_to` about which the marker is turned, x axis from x axis"
     )
     relative_to: Name | None = Field(default=None, description="marker from which it is measured; default `ground`")
-    value: CoordinateMotion = Field(description="length or angle, a smooth function of time")
+    value: CoordinateMotion = Field(description="length or angle, a function of time")
 
     @property
     def kind(self) -> Kind | None:

@@ -87,6 +87,10 @@ class Table:
         """The path of the signal that the table depends on; none where it depends on time."""
         return () if self.of == TIME else (self.of,)
 
+    def ends_before(self, time: float) -> bool:
+        """Whether the last point lies before `time` [s], by more than round-off."""
+        return self.times[-1] < time * (1.0 - 1e-12)
+
     def written(self) -> dict[str, Any]:
         """The table as a mapping of a machine file."""
         of = {} if self.of == TIME else {"of": self.of}

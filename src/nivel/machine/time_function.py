@@ -42,7 +42,7 @@ def read_time_function(
     """`value` as something that varies, of a quantity of `kind`, in SI.
 
     local : symbols that have a meaning in this field, of LOCAL_SYMBOLS
-    smooth : a motion of a driver is asked for: a function of time only, with two derivatives
+    smooth : a motion of a driver is asked for: a function of time only, with two derivatives between its corners
 
     Raises ExpressionError, FaultyParameterError; for a table or a law a ValidationError with the places of its faults.
     """
@@ -92,7 +92,7 @@ def _check_kind_of_varying(tree: Node, text: str, kind: Kind) -> None:
 
 
 def check_smooth(function: TimeFunction) -> None:
-    """Refuse what cannot drive: what depends on more than time, or has corners.
+    """Refuse what cannot drive: what depends on more than time, or is an expression with corners.
 
     Raises ExpressionError.
     """
@@ -101,8 +101,6 @@ def check_smooth(function: TimeFunction) -> None:
             derivative(derivative(function.tree))
         case Table() | PythonLaw() if function.signals:
             raise ExpressionError(f"a driver depends on `time` alone, not on `{function.signals[0]}`")
-        case Table(interpolation="linear"):
-            raise ExpressionError("a table of straight lines has corners; a driver needs `interpolation: cubic`")
 
 
 def signals_of(function: TimeFunction) -> tuple[str, ...]:
@@ -154,7 +152,7 @@ def varying(kind: Kind, local: Collection[str] = (), *, smooth: bool = False) ->
 
     kind : a key of KINDS, or several of which one must fit, or ANY
     local : symbols that have a meaning in this field, of LOCAL_SYMBOLS
-    smooth : a motion of a driver: a function of time only, with two derivatives
+    smooth : a motion of a driver: a function of time only, with two derivatives between its corners
     """
     return Varying(kind, tuple(local), smooth)
 
@@ -177,19 +175,19 @@ _LAW: Final = {
 }
 
 
-def _table_schemas(smooth: bool) -> list[dict[str, Any]]:
+def _table_schemas(motion: bool) -> list[dict[str, Any]]:
     """The forms of a table: of time, and where that is allowed of a signal."""
-    interpolation = {"enum": ["cubic"] if smooth else list(INTERPOLATIONS)}
+    interpolation = {"enum": list(INTERPOLATIONS)}
     of_time = {"of": {"const": "time"}, "times": _COLUMN}, ["times", "values"]
     of_signal = {"of": _TEXT, "points": _COLUMN}, ["of", "points", "values"]
     return [
         {
             "type": "object",
             "properties": {**columns, "values": _COLUMN, "interpolation": interpolation},
-            "required": [*required, "interpolation"] if smooth else required,
+            "required": required,
             "additionalProperties": False,
         }
-        for columns, required in ([of_time] if smooth else [of_time, of_signal])
+        for columns, required in ([of_time] if motion else [of_time, of_signal])
     ]
 
 

@@ -14,12 +14,14 @@ from nivel.kernels.compile import entry, leaf, stage
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 from nivel.march.corners import before, next_corner, pass_corner
+from nivel.march.dense import cubic, wanted
 from nivel.march.residual_newton import TOLERANCE as NEWTON_TOLERANCE
 from nivel.march.residual_newton import iterate
 from nivel.march.run import (
     ALL_STEPS,
     END,
     EVALUATIONS,
+    LENGTH,
     REACHED,
     RESTART,
     START,
@@ -88,16 +90,21 @@ def start(evaluate, machine, history, t, h):
 def refresh(machine, run):
     """As stabilised index 2, take accelerations, rates and multipliers of the accepted state from its evaluation by the loop.
 
-    In a step only the mean of the multipliers at both ends counts for an undamped method: what it got wrong once would alternate for ever.
+    In a step only the mean of the accelerations at both ends counts for an undamped method: what it got wrong once would alternate for
+    ever. a becomes what `keep_step` would have made of these accelerations.
     """
     record = record_at(machine)
     newton, residual = record.newton, record.residual
     n, states = residual.vdot.shape[0], newton.state.shape[0]
     positions = np.int64(run.y.shape[0]) - n - states - 2
+    c, stages, rate = run.numbers, run.stages, run.rate
+    share, share_x = (1.0 - c[ALPHA_F]) / (1.0 - c[ALPHA_M]), (1.0 - c[DELTA_F]) / (1.0 - c[DELTA_M])
     for k in range(n):
-        run.stages[VDOT, k] = run.rate[positions + k]
+        stages[A, k] += share * (rate[positions + k] - stages[VDOT, k])
+        stages[VDOT, k] = rate[positions + k]
     for k in range(states):
-        run.stages[XDOT, k] = run.rate[positions + n + k]
+        stages[W, k] += share_x * (rate[positions + n + k] - stages[XDOT, k])
+        stages[XDOT, k] = rate[positions + n + k]
     for k in range(residual.row.shape[0]):
         newton.lam[k] = record.constraints.lam[residual.row[k]]
 
@@ -182,6 +189,20 @@ def keep_step(machine, run, h):
 
 
 @leaf
+def end_at_corner(evaluate, machine, history, t):
+    """Let what is inside the step end before the corner at time t, where it ends the step, and the state be beyond it. Returns a status."""
+    run, clock = run_at(history), run_at(history).clock
+    status = OK
+    inside = run.event_values.shape[1] > 0 or (run.counter[ALL_STEPS] == 0 and wanted(run))
+    if t == clock[REACHED] and inside:
+        status = evaluate(machine, before(t), run.y, run.scratch)
+        run.counter[EVALUATIONS] += 1
+        clock[LENGTH] = t - clock[TIME]
+        cubic(run, run.rate, run.scratch)
+    return pass_corner(machine, history, t) if status == OK else status
+
+
+@leaf
 def fixed_step(evaluate, machine, history):
     """From clock[TIME] to clock[REACHED], in parts between the corners on the way. Returns a status."""
     run = run_at(history)
@@ -203,7 +224,7 @@ def fixed_step(evaluate, machine, history):
         keep_step(machine, run, h)
         t = end
         if corner <= target:
-            status = pass_corner(machine, history, t)
+            status = end_at_corner(evaluate, machine, history, t)
             run.numbers[LAST_STEP] = 0.0
         if status != OK or t >= target:
             break
@@ -264,8 +285,9 @@ def controlled_step(evaluate, machine, history):
         t = clock[TIME]
         corner = next_corner(machine, t, clock[REACHED])
         if corner < np.inf:
-            clock[REACHED] = corner
-            h = corner - t
+            # a corner may lie beyond what it is taken for by round-off
+            clock[REACHED] = min(corner, clock[REACHED])
+            h = clock[REACHED] - t
         if fresh:
             start(evaluate, machine, history, t, h)
         elif newton.level[0] == 2:
@@ -285,7 +307,7 @@ def controlled_step(evaluate, machine, history):
     keep_step(machine, run, h)
     growth = SAFETY * max(error, 1e-4) ** -0.5
     if corner < np.inf:
-        status = pass_corner(machine, history, corner)
+        status = end_at_corner(evaluate, machine, history, clock[REACHED])
         run.counter[RESTART] = 1
     elif growth >= WORTH:
         clock[STEP] = h * min(growth, MOST_CHANGE)

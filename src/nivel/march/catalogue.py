@@ -16,7 +16,7 @@ class IntegratorFacts:
     residual : needs the equations of motion as a residual, with exact tangents, and iterates by Newton's method alone; it solves them for
     accelerations and multipliers, or with `rates` for the rates of the state;
     shifted : it also solves systems with complex shares of a step. whole : module of its residual, one over a whole step in absolute
-    coordinates; empty: that at a time.
+    coordinates; empty: that at a time. jumps : it ends its steps where speeds of drivers jump, and lets them.
     """
 
     module: str
@@ -31,6 +31,7 @@ class IntegratorFacts:
     rates: bool = False
     shifted: bool = False
     whole: str = ""
+    jumps: bool = False
 
 
 _ADAMS, _MOULTON, _GEAR = "nivel.march.adams", "nivel.march.moulton", "nivel.march.gear"
@@ -50,7 +51,9 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     "dop853": IntegratorFacts("nivel.march.dop853", "dop853", 16, 8, numbers=2, chooses_steps=True),
     "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 32, 12, 66, chooses_steps=True, implicit=True),
     **{
-        name: IntegratorFacts("nivel.march.alpha", "alpha", 7, 2, 8, implicit=True, residual=True, either=True)
+        name: IntegratorFacts(
+            "nivel.march.alpha", "alpha", 7, 2, 8, implicit=True, residual=True, either=True, jumps=True
+        )
         for name in ("newmark", "hht", "generalised-alpha")
     },
     "energy-momentum": IntegratorFacts(

@@ -9,13 +9,13 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf, stage
+from nivel.kernels.function import NEAR
 from nivel.kernels.hook import call_hook
 from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import RESIDUAL, record_at
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import POSITIONS, differentiate
 from nivel.march.run import run_at
-from nivel.march.step_control import ROUND_OFF
 
 # [s] steps for which stiffness and damping are nothing beside the mass
 INSTANT = 1e-12
@@ -27,7 +27,7 @@ SMOOTH = 1e-9
 def next_corner(machine, t, target):
     """The first corner after t and not after `target`; infinity where there is none. Corners within the round-off of t are behind it."""
     corners = record_at(machine).newton.corners
-    near = 16.0 * ROUND_OFF * max(np.abs(t), np.abs(target))
+    near = NEAR * max(np.abs(t), np.abs(target))
     for k in range(corners.shape[0]):
         if corners[k] > t + near:
             return corners[k] if corners[k] <= target + near else np.inf
@@ -36,8 +36,8 @@ def next_corner(machine, t, target):
 
 @leaf
 def before(t):
-    """A time before t by a few units in its last place: functions that have a corner at t still are what they were."""
-    return t - 8.0 * ROUND_OFF * np.abs(t)
+    """A time before t by some units in its last place: functions that have a corner at t still are what they were."""
+    return t - 2.0 * NEAR * np.abs(t)
 
 
 @stage

@@ -130,7 +130,7 @@ class Draft:
         def find(path: str) -> Signal:
             return local[path] if local is not None and path in local else self.signal(path)
 
-        return self.functions.add(value, find, motion=motion)
+        return self.functions.add(value, find, motion=motion, end=self.machine.simulation.duration)
 
     def signal(self, path: str) -> Signal:
         """The signal that a symbol of the machine stands for; a coordinate among them is measured from now on."""

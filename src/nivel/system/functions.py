@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
@@ -35,8 +36,8 @@ class FunctionTable:
     argument: list[tuple[int, int, int, int]] = field(default_factory=list)
     arguments: list[float] = field(default_factory=list)
 
-    def add(self, function: TimeFunction, find: Find, *, motion: bool = False) -> int:
-        """Index of a new function; `find` gives the signal of a path. motion : its derivatives are needed.
+    def add(self, function: TimeFunction, find: Find, *, motion: bool = False, end: float = math.inf) -> int:
+        """Index of a new function; `find` gives the signal of a path. motion : its derivatives are needed, up to the `end` of the run [s].
 
         Raises ModelError where a law cannot be compiled.
         """
@@ -44,8 +45,11 @@ class FunctionTable:
             case Table():
                 pieces = function.coefficients()
                 last = [float(function.values[-1]), 0.0, 0.0, 0.0]
-                rows = [*pieces.tolist(), last]
-                return self._append(TABLE_HELD, [function.of], find, table=(function.times, rows))
+                times, rows = list(function.times), [*pieces.tolist(), last]
+                if motion and function.ends_before(end):
+                    # at its end it has the rate of what follows, as at every other point
+                    times, rows = [*times, math.inf], [*rows, last]
+                return self._append(TABLE_HELD, [function.of], find, table=(times, rows))
             case Expression():
                 signals = list(dict.fromkeys([TIME_SYMBOL, *function.signals]))
                 address = motion_address(function) if motion else expression_address(function, signals)

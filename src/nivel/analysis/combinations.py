@@ -30,7 +30,7 @@ def refuse_combinations(settings: SimulationSettings, coordinates: str) -> list[
         faults.append(_fault("stabilisation", message))
     if coordinates == "independent":
         faults += _refuse_feedback(formulation, stabilisation)
-    faults += _refuse_residual(settings, coordinates) + _refuse_step_control(settings)
+    faults += _refuse_residual(settings, coordinates) + _refuse_step_control(settings) + _refuse_matrix(settings)
     return faults + _refuse_chosen_steps(settings)
 
 
@@ -103,6 +103,25 @@ def _refuse_beside_whole_steps(settings: SimulationSettings, coordinates: str) -
         message = f"'functional' does not go with {name}, which takes Newton's method with exact tangents: leave `iteration` out"
         faults.append(_fault("corrector.iteration", message))
     return faults
+
+
+def _refuse_matrix(settings: SimulationSettings) -> list[Fault]:
+    """Newton's matrix made anew for every iteration, where the method has another use for it, or none."""
+    facts = INTEGRATORS.get(settings.integrator)
+    if settings.corrector.matrix != "full" or facts is None or (facts.residual and not facts.rates):
+        return []
+    if not (facts.implicit or facts.residual):
+        return []  # no corrector at all
+    why = "solves with one exact matrix a step and does not iterate"
+    if facts.chooses_steps:
+        why = "chooses steps and orders by what its matrix has cost so far"
+    elif facts.implicit:
+        why = "makes its matrix by differences, anew where the iteration slows down"
+    message = (
+        f"'full' does not go with `integrator: {settings.integrator}`, which {why}: take newmark, hht or generalised-alpha, or leave "
+        f"`matrix` out"
+    )
+    return [_fault("corrector.matrix", message)]
 
 
 def _refuse_step_control(settings: SimulationSettings) -> list[Fault]:

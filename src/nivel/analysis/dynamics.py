@@ -259,7 +259,8 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     forget(record.partition)
     record.newton.kept[:] = 0.0
     if settings.corrector is not None:
-        record.newton.settings[:] = settings.corrector.tolerance, settings.corrector.most_iterations
+        record.newton.settings[:2] = settings.corrector.tolerance, settings.corrector.most_iterations
+        record.newton.settings[2] = settings.corrector.matrix == "full"
     if len(record.newton.level):
         record.newton.level[0] = 3 if settings.stabilisation == "none" else 2
     record.coordinates.reference[:] = prepared.assembly.reference

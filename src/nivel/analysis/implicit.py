@@ -23,6 +23,9 @@ from nivel.system.system import Array, System
 from nivel.system.tangent_plan import plan_tangent
 
 Index = NDArray[np.integer]
+# Units in the last place by which the position of a point may be wrong for every body on the way to it: a product of two rotations (3
+# products, 2 sums), a rotation from its coordinate (2), a turned arm (3) and its sum with the position (1) make 11 half units.
+ROUNDINGS = 6.0
 
 
 @dataclass(frozen=True)
@@ -90,6 +93,7 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     plan = plan_tangent(*_groups(system, velocities, row, part, coordinates), mirrored=mirrored)
     place = places(system.map, velocities, positions)
     newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, shifted=wanted.shifted)
+    newton.settings[3] = ROUNDINGS * _longest_chain(record)
     family = import_module(wanted.module).residual
     hooks = record.hooks._replace(address=record.hooks.address.copy())
     record = record._replace(residual=residual, newton=newton, hooks=hooks)
@@ -99,6 +103,14 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     twin = _twin(record)
     newton.address[:] = twin.address, family.complex_address
     return MotionEquations(replace(system, record=record), motion.kernels, twin)
+
+
+def _longest_chain(record: Record) -> int:
+    """Bodies on the longest way from the ground along the tree; 1 where bodies have coordinates of their own."""
+    depth: dict[int, int] = {}
+    for child, parent in record.tree.node[:, :2].tolist():
+        depth[child] = depth.get(parent, 0) + 1
+    return max(depth.values(), default=1)
 
 
 def _groups(

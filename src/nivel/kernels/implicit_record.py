@@ -116,6 +116,8 @@ class Newton(NamedTuple):
     lam_before: F1  # (K,) those of the state before
     corners: F1  # [s] times at which functions of time have corners, ascending
     kept: F1  # (4,) cq, cv, cx that the factors are for (0: none), contraction seen with them
-    settings: F1  # (2,) tolerance of a change as a share of the scales, most iterations
+    # (4,) tolerance of a change as a share of the scales, most iterations, whether each iteration gets a new matrix; roundings between the
+    # ground and a constraint, in units in the last place
+    settings: F1
     level: U1  # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction
     shifted: Shifted

@@ -57,11 +57,13 @@ class Corrector(Record):
 
     Without `iteration`, as suits the method: newton where it has exact tangents, functional otherwise.
     Methods that choose their steps iterate as exactly as the `tolerance` of the run asks for, four times at most.
+    `matrix` says when newmark, hht and generalised-alpha make Newton's matrix anew: kept as long as it serves, or full, every iteration.
     """
 
     iteration: Literal["functional", "newton"] | None = None
     tolerance: Tolerance = 1e-10
     most_iterations: Annotated[int, Field(ge=1, le=1000)] = 50
+    matrix: Literal["kept", "full"] = Field(default="kept", description="of newmark, hht and generalised-alpha")
 
 
 class Newmark(Record):

@@ -90,8 +90,8 @@ def start(evaluate, machine, history, t, h):
 def refresh(machine, run):
     """As stabilised index 2, take accelerations, rates and multipliers of the accepted state from its evaluation by the loop.
 
-    In a step only the mean of the accelerations at both ends counts for an undamped method: what it got wrong once would alternate for
-    ever. a becomes what `keep_step` would have made of these accelerations.
+    In a step only the mean of the accelerations at both ends counts for an undamped method: what it got wrong once along the constraints
+    would alternate for ever. a becomes what `keep_step` would have made of these accelerations.
     """
     record = record_at(machine)
     newton, residual = record.newton, record.residual
@@ -294,7 +294,7 @@ def controlled_step(evaluate, machine, history):
             refresh(machine, run)
         allowed = max(SHARE * clock[TOLERANCE] * h / span, EXACT)
         end = before(clock[REACHED]) if corner < np.inf else clock[REACHED]
-        status = attempt(machine, history, h, end, min(newton.settings[NEWTON_TOLERANCE], CLOSE * allowed))
+        status = attempt(machine, history, h, end, min(newton.settings[NEWTON_TOLERANCE], max(CLOSE * allowed, EXACT)))
         if status == OK:
             error = error_of_step(run, residual, newton, h) / allowed
             shorter = turned_too_far(machine, h)

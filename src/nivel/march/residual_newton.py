@@ -8,10 +8,14 @@ With index 3 the multipliers close the positions. With index 2 they close the ve
 (M + cv D + cq K)⁻¹ C_qᵀ, so that stiff springs are not stretched by it (the stabilised form of Gear, Gupta, Leimkuhler 1985).
 
 Policy: a matrix is kept, also from step to step, as long as the step is the same and the iterations that it still asks for are cheaper than
-a new one, which takes about two of them for every evaluation on complex numbers; then it is made anew at the iterate. A change larger
-than the one before by GROWTH is taken back by halves (natural monotonicity test, Deuflhard 2004). The iteration ends where the
-contraction seen so far puts the next change below the tolerance; all changes are shares of the scales of the positions and velocities
-that they move, so neither units nor the step decide.
+a new one, which takes about two of them for every evaluation on complex numbers; then it is made anew at the iterate. On request it is
+made anew for every iteration. A change larger than the one before by GROWTH is taken back by halves (natural monotonicity test, Deuflhard
+2004). The iteration ends where the contraction seen so far puts the next change below the tolerance; all changes are shares of the scales
+of the positions and velocities that they move, so neither units nor the step decide.
+
+With index 3 velocities are as exact as positions over the step, and positions are known to their round-off. Where changes stop getting
+smaller, with a matrix that is known to be a good one, a change is the distance to the solution; it is accepted where the round-off of the
+constraints explains all of it, unknown by unknown (`is_round_off`).
 """
 
 from __future__ import annotations
@@ -26,6 +30,7 @@ from nivel.kernels.spatial import dot
 from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.tangent import POSITIONS, differentiate, inverse_tangent
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
+from nivel.march.step_control import ROUND_OFF
 
 GROWTH = 2.0
 # Iterations that a new matrix costs, for each evaluation on complex numbers, and at most.
@@ -36,7 +41,9 @@ LEAST_SHARE = 0.02
 # the contraction of a new matrix is taken for no better than this
 SANGUINE = 0.05
 CQ, CV, CX, CONTRACTION = 0, 1, 2, 3
-TOLERANCE, MOST = 0, 1
+TOLERANCE, MOST, FULL, ROUNDINGS = 0, 1, 2, 3
+# Changes that contract by less have stopped getting smaller; a matrix with which they once contracted by as much is a good one.
+STALLED, GOOD = 0.5, 0.1
 
 
 @leaf
@@ -189,6 +196,38 @@ def find_change(machine, cq, cv):
 
 
 @stage
+def is_round_off(machine, scale, cq, cv, cx, tolerance):
+    """Whether the change in newton.before, of index 3, is no larger than the tolerance and what round-off does to the unknowns.
+
+    A position q is known to ε |q|, a constraint to ε (r s + Σ |C_q| |q|): s is its scale, r the roundings in units in the last place on the
+    way from the ground to it. What the latter does to the unknowns is found by the matrix, row by row. Overwrites `b` and `last`.
+    """
+    record = record_at(machine)
+    newton, residual, constraints = record.newton, record.residual, record.constraints
+    b, floor, place = newton.b, newton.last, newton.place
+    n, states = residual.vdot.shape[0], newton.state.shape[0]
+    first, positions = n + states, scale.shape[0] - n - states - 2
+    for i in range(b.shape[0]):
+        floor[i] = ROUND_OFF * max(scale[place[i, 0]], np.abs(residual.y[place[i, 0]])) / cq if i < n else 0.0
+    for k in range(residual.row.shape[0]):
+        known = newton.settings[ROUNDINGS] * constraints.scale[residual.row[k]]
+        for p in range(newton.row_start[first + k], newton.row_start[first + k + 1]):
+            if newton.column[p] < n:
+                at = place[newton.column[p], 0]
+                known += np.abs(newton.value[p]) * max(scale[at], np.abs(residual.y[at]))
+        b[:] = 0.0
+        b[first + k] = ROUND_OFF * known / cq
+        solve(machine)
+        for i in range(b.shape[0]):
+            floor[i] += np.abs(b[i])
+    for i in range(first):
+        moves = max(cv / scale[positions + i], cq / scale[place[i, 0]]) if i < n else cx / scale[positions + i]
+        if not (np.abs(newton.before[i]) - floor[i]) * moves <= tolerance:
+            return False
+    return True
+
+
+@stage
 def is_finite(value):
     """Whether all entries are numbers; a difference of infinities is none either. Derivatives of other ones would be stale."""
     total = 0.0
@@ -212,7 +251,8 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
     """
     run, record = run_at(history), record_at(machine)
     newton, counter = record.newton, run.counter
-    stale, last, share = False, np.inf, 1.0
+    full = newton.settings[FULL] == 1.0
+    stale, last, share, best = full, np.inf, 1.0, np.inf
     for _ in range(np.int64(newton.settings[MOST])):
         set_state(machine, cq, cv, cx)
         status = call_hook(machine, RESIDUAL, 0, t)
@@ -226,7 +266,7 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
                 status = factorise(machine)
             counter[FACTORISATIONS] += 1
             newton.kept[CQ], newton.kept[CV], newton.kept[CX], newton.kept[CONTRACTION] = cq, cv, cx, SANGUINE
-            stale = False
+            stale, best = False, 0.0
         if status != OK:
             newton.kept[CQ] = 0.0
             return status
@@ -241,12 +281,18 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
         share = 1.0
         take_change(newton, record.residual, newton.b, newton.moved, share)
         keep_change(newton)
-        if size <= tolerance or (contraction < 1.0 and contraction / (1.0 - contraction) * size <= tolerance):
+        done = size <= tolerance or (contraction < 1.0 and contraction / (1.0 - contraction) * size <= tolerance)
+        if not done and last < np.inf:
+            best = min(best, contraction)
+            if newton.level[0] == 3 and contraction > STALLED and best <= GOOD:
+                done = is_round_off(machine, run.scale, cq, cv, cx, tolerance)
+        if done:
             set_state(machine, cq, cv, cx)
             return OK
+        stale = full
         if last < np.inf:
             newton.kept[CONTRACTION] = max(contraction, 0.1 * SANGUINE)
-            stale = is_worth_a_new_one(newton, contraction, size, tolerance)
+            stale = full or is_worth_a_new_one(newton, contraction, size, tolerance)
         last = size
     newton.kept[CQ] = 0.0
     return NOT_CONVERGED

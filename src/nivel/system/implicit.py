@@ -156,7 +156,7 @@ def newton_tables(
         lam_before=np.zeros(rows),
         corners=np.array(corners, dtype=float),
         kept=np.zeros(4),
-        settings=np.zeros(2),
+        settings=np.zeros(4),
         level=np.zeros(1, dtype=np.uint32),
         shifted=shifted_tables(plan, n, state) if shifted else shifted_tables(EMPTY, 0, 0),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -35,3 +35,18 @@ def progress_listener(quiet: bool) -> Iterator[Listener]:
             bar.update(task, completed=time, reached=f"t = {time:.3f} s")
 
         yield Listener(stage, progress)
+
+
+@contextmanager
+def progress_stage(quiet: bool) -> Iterator[Callable[[str, float], None]]:
+    """Hears what begins and which share of all is done, from 0 to 1: says nothing where `quiet`, else a progress bar."""
+    if quiet:
+        yield lambda _text, _share: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("starting", total=1.0)
+        yield lambda text, share: bar.update(task, description=text, completed=share)

@@ -86,6 +86,7 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "torque": ("a torque", "N*m", dimension(kg=1, m=2, s=-2)),
     "area": ("an area", "m^2", dimension(m=2)),
     "volume": ("a volume", "m^3", dimension(m=3)),
+    "second moment of area": ("a second moment of area", "m^4", dimension(m=4)),
     "pressure": ("a pressure", "Pa", dimension(kg=1, m=-1, s=-2)),
     "power": ("a power", "W", dimension(kg=1, m=2, s=-3)),
     "stiffness": ("a stiffness", "N/m", dimension(kg=1, s=-2)),

@@ -1,0 +1,127 @@
+"""`nivel reduce MODEL`: a finite-element model becomes a flexible body, and a report says what it is worth."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from nivel.cli.options import file_argument, override_option, quiet_option
+from nivel.cli.progress import progress_stage
+
+if TYPE_CHECKING:
+    from nivel.flexible.findings import Findings
+    from nivel.flexible.reduce import Reduction
+
+SHOWN = 15  # modes in the table of the terminal
+
+
+@click.command(short_help="Make a flexible body of a finite-element model.")
+@file_argument("model")
+@override_option
+@click.option(
+    "--out",
+    "-o",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Body file; default: the name of the model with .nc, here.",
+)
+@click.option("--report", type=click.Path(dir_okay=False, path_type=Path), help="HTML page; default: beside the body file.")
+@click.option("--no-report", is_flag=True, help="Write no HTML page.")
+@click.option(
+    "--vtk", type=click.Path(dir_okay=False, path_type=Path), help="Also write the modes for ParaView: .pvd, with .vtu beside it."
+)
+@click.option("--force", is_flag=True, help="Replace existing files.")
+@quiet_option
+@click.option("--json", "as_json", is_flag=True, help="Print what was found as JSON on standard output.")
+def command(
+    model: str,
+    overrides: dict[str, str],
+    out: Path | None,
+    report: Path | None,
+    no_report: bool,
+    vtk: Path | None,
+    force: bool,
+    quiet: bool,
+    as_json: bool,
+) -> None:
+    """Reduce the finite-element model of the model file MODEL to a flexible body: Craig–Bampton modes, inertia invariants, modal
+    stresses.
+
+    MODEL says where the model comes from, its interfaces, and how it is reduced. Exit code 0 done, 2 the input is at fault, 3 the
+    computation failed, 130 interrupted.
+    """
+    # more threads make the small dense products of sparse factors slower; this must be set before NumPy is loaded
+    for variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(variable, "1")
+    from nivel.errors import ModelError
+    from nivel.files.sources import read_text
+    from nivel.flexible.body_file import write_body
+    from nivel.flexible.model_file import read_model
+    from nivel.flexible.reduce import reduce_model
+
+    if no_report and report is not None:
+        raise ModelError(f"--no-report and --report {report} contradict each other: take one of them away")
+    located = read_model(model, overrides=overrides)
+    target = out or Path(f"{located.record.name}.nc")
+    page = None if no_report else report or target.with_suffix(".html")
+    _refuse_to_replace(target, page, vtk, force, Path(model))
+    with progress_stage(quiet) as stage:
+        reduction = reduce_model(located, stage=stage)
+        write_body(reduction.body, target, findings=reduction.findings.as_data(), model=read_text(model))
+        if page is not None:
+            from nivel.report.reduction_page import write_reduction
+
+            stage("writing the report", 1.0)
+            write_reduction(reduction.body, reduction.findings, page, force=force)
+        if vtk is not None:
+            from nivel.flexible.vtk import write_modes
+
+            write_modes(reduction.body, vtk)
+    if as_json:
+        click.echo(json.dumps(reduction.findings.as_data(), indent=2))
+    if not quiet:
+        _say(reduction, target, page)
+
+
+def _refuse_to_replace(target: Path, page: Path | None, vtk: Path | None, force: bool, model: Path) -> None:
+    from nivel.errors import ModelError
+    from nivel.results.target import check_folder, check_target
+
+    if page == target:
+        raise ModelError(f"{target}: the body is a NetCDF file and the report would be written over it; use a name ending in .nc")
+    for path, what in ((target, "body file"), (page, "report"), (vtk, "VTK file")):
+        if path is not None:
+            check_folder(path, what)
+            check_target(path, what, force=force, sources=[model])
+
+
+def _say(reduction: Reduction, target: Path, page: Path | None) -> None:
+    from rich.console import Console
+
+    console = Console(stderr=True, highlight=False)
+    body, findings = reduction.body, reduction.findings
+    size = f"{findings.freedoms} freedoms, {findings.nodes} nodes"
+    console.print(f"[bold]{body.name}[/bold]: {size} → {len(body.eigenvalues)} modes", markup=True)
+    centre = ", ".join(f"{x:.5g}" for x in findings.centre_of_mass)
+    moments = ", ".join(f"{x:.5g}" for x in findings.principal_inertia)
+    console.print(f"mass {findings.mass:.6g} kg, centre of mass ({centre}) m, principal inertia ({moments}) kg m²")
+    console.print(_table(findings))
+    for line in (*findings.notes, *findings.statements):
+        console.print(f"  ● {line}", markup=False)
+    console.print(f"body: {target}" + (f"\nreport: {page}" if page is not None else ""), soft_wrap=True)
+
+
+def _table(findings: Findings):
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False)
+    for heading in ("mode", "whole model [Hz]", "reduced [Hz]", "error", "MAC"):
+        table.add_column(heading, justify="right")
+    for k, (full, reduced, error) in enumerate(zip(findings.full, findings.reduced, findings.errors, strict=False)):
+        if k >= SHOWN:
+            break
+        table.add_row(str(k + 1), f"{full:.5g}", f"{reduced:.5g}", f"{100 * error:+.3g} %", f"{findings.mac[k][k]:.3f}")
+    return table

@@ -1,0 +1,135 @@
+"""What a flexible body can do: the displacements that span its reduced model, each method a function.
+
+Every basis also spans the rigid motions or is combined with them by the reduction, which takes them out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg as la
+import scipy.sparse as sp
+
+from nivel.flexible.factor import Factor, Whole, lowest_modes
+from nivel.flexible.free_body import FreeBody
+from nivel.flexible.model import Array
+
+LIMIT_START = 16  # modes that are computed first where a frequency is the limit
+
+
+@dataclass(frozen=True)
+class ModeCount:
+    """How many normal modes: `count` of them, or all `up_to` a frequency [Hz], or both (whatever is less)."""
+
+    count: int | None = None
+    up_to: float | None = None
+
+
+@dataclass(frozen=True)
+class Basis:
+    """`vectors` (N, k), and how many of them are normal modes; their frequencies [Hz], of the body as it was held."""
+
+    vectors: Array
+    normal: int
+    frequencies: Array
+
+
+def craig_bampton(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
+    """Correction modes of the `boundary` freedoms and fixed-interface normal modes. Rantalainen 2007, eqs (3.28)–(3.31).
+
+    Where the boundary does not stop every rigid motion, the rest of them are zero-frequency normal modes of the body
+    held there. They are not computed: the reduction knows the rigid motions. The boundary is then held with some more
+    freedoms for the correction modes, which changes these by rigid motions only.
+    """
+    held = _with_pins(body, boundary)
+    inner = np.setdiff1d(np.arange(body.model.count), boundary)
+    corrections, factor, free = _correction_modes(body, boundary, held)
+    if len(held) == len(boundary):
+        found = _chosen(modes, lambda n: lowest_modes(*_within(body, inner), n, factor.solve))
+    else:
+        rigid = _rigid_within(body, boundary, inner)
+        K, M = _within(body, inner)
+        position = np.searchsorted(inner, free)
+
+        def solve(load: Array) -> Array:
+            balanced = load - M @ (rigid @ (rigid.T @ load))
+            moved = np.zeros_like(load)
+            moved[position] = factor.solve(balanced[position])
+            return moved - rigid @ (rigid.T @ (M @ moved))
+
+        found = _chosen(modes, lambda n: lowest_modes(K, M, n, solve, rigid))
+    values, inside = found
+    normal = np.zeros((body.model.count, len(values)))
+    normal[inner] = inside
+    return Basis(np.hstack([corrections, normal]), len(values), np.sqrt(values) / (2.0 * np.pi))
+
+
+def free_interface(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
+    """Free–free normal modes and attachment modes of the residual flexibility for unit loads on the `boundary` freedoms.
+
+    Rubin 1975 (AIAA J. 13): with the mass of the residual modes, which MacNeal 1971 neglects.
+    """
+    values, normal = _chosen(modes, body.elastic_modes)
+    loads = np.zeros((body.model.count, len(boundary)))
+    loads[boundary, np.arange(len(boundary))] = 1.0
+    flexible = body.elastic_solution(loads)
+    residual = flexible - normal @ ((normal.T @ loads) / values[:, None])
+    return Basis(np.hstack([residual, normal]), len(values), np.sqrt(values) / (2.0 * np.pi))
+
+
+def normal_only(body: FreeBody, modes: ModeCount) -> Basis:
+    """Free–free normal modes alone."""
+    values, normal = _chosen(modes, body.elastic_modes)
+    return Basis(normal, len(values), np.sqrt(values) / (2.0 * np.pi))
+
+
+def _chosen(modes: ModeCount, compute: Callable[[int], tuple[Array, Array]]) -> tuple[Array, Array]:
+    """As many modes as are wanted."""
+    if modes.up_to is None:
+        return compute(modes.count or 0)
+    limit = (2.0 * np.pi * modes.up_to) ** 2
+    most = np.inf if modes.count is None else modes.count
+    count = int(min(LIMIT_START, most))
+    while True:
+        values, vectors = compute(count)
+        if len(values) < count or count >= most or (len(values) and values[-1] > limit):
+            keep = int(np.count_nonzero(values <= limit))
+            return values[:keep], vectors[:, :keep]
+        count = int(min(2 * count, most))
+
+
+def _with_pins(body: FreeBody, boundary: Whole) -> Whole:
+    """The boundary freedoms and, where these leave rigid motions, the fewest others that stop them."""
+    R = body.model.rigid_modes(body.model.position.mean(axis=0))
+    R = R / np.abs(R).max(axis=0)
+    left = la.null_space(R[boundary], rcond=1e-9) if len(boundary) else np.eye(6)
+    if left.shape[1] == 0:
+        return boundary
+    _, _, order = la.qr((R @ left).T, mode="economic", pivoting=True)
+    return np.concatenate([boundary, order[: left.shape[1]]])
+
+
+def _rigid_within(body: FreeBody, boundary: Whole, inner: Whole) -> Array:
+    """(I, k) M-orthonormal rigid motions that do not move the boundary."""
+    R = body.rigid
+    left = la.null_space(R[boundary], rcond=1e-9) if len(boundary) else np.eye(6)
+    motions = (R @ left)[inner]
+    gram = motions.T @ (body.M[inner][:, inner] @ motions)
+    return la.solve_triangular(la.cholesky(gram, lower=True), motions.T, lower=True).T
+
+
+def _within(body: FreeBody, inner: Whole) -> tuple[sp.csc_array, sp.csc_array]:
+    return sp.csc_array(body.K[inner][:, inner]), sp.csc_array(body.M[inner][:, inner])
+
+
+def _correction_modes(body: FreeBody, boundary: Whole, held: Whole) -> tuple[Array, Factor, Whole]:
+    """(N, b) static displacement for unit motion of each boundary freedom; the factor of the rest, and that rest."""
+    free = np.setdiff1d(np.arange(body.model.count), held)
+    factor = Factor(sp.csc_array(body.K[free][:, free]))
+    out = np.zeros((body.model.count, len(boundary)))
+    out[boundary, np.arange(len(boundary))] = 1.0
+    if len(boundary):
+        out[free] = -factor.solve(body.K[free][:, boundary].toarray())
+    return out, factor, free

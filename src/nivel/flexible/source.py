@@ -1,0 +1,28 @@
+"""The finite-element model that a model file describes, from whatever source."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from nivel.flexible.frame_source import frame_model
+from nivel.flexible.model import FiniteElementModel
+from nivel.flexible.model_file import Located
+from nivel.flexible.selection import NodeSets
+
+Stage = Callable[[str, float], None]
+
+
+def source_model(located: Located, say: Stage) -> tuple[FiniteElementModel, NodeSets]:
+    """The model before its interfaces are tied, and its node sets. `say` hears what begins, with shares from 0 to 1.
+
+    Raises ModelError.
+    """
+    if located.record.frame is not None:
+        return frame_model(located), {}
+    if located.record.solid is not None:
+        from nivel.flexible.solid_source import solid_model
+
+        return solid_model(located, say)
+    from nivel.flexible.foreign.source import matrix_model
+
+    return matrix_model(located)

@@ -1,0 +1,98 @@
+"""Geometric stiffness: how the stress of a moving body stiffens or softens it.
+
+A body in motion is stressed by its own inertia forces -ρ (a + α̃ x + ω̃ ω̃ x), a = Aᵀ (R̈ - g), and by what acts on its
+interfaces. Each unit load case gives a static stress, and this a geometric stiffness matrix K_g that is projected on the
+modes: K_g(t) = Σ a_i K_i + Σ α_i K_i + Σ ω_i ω_j K_ij + Σ F_k K_k (Wallrapp & Schwertassek 1991, Int. J. Numer. Meth. Eng. 32).
+
+One load case alone is not in equilibrium, so all are solved with the body held at the same place, the interface
+`support` or six freedoms; in the sum the reactions there vanish, whatever the place. Loads on the support itself cause
+no stress, so a pendulum held at its hinge needs no interface loads.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+
+from nivel.flexible.factor import Factor, Whole
+from nivel.flexible.free_body import FreeBody
+from nivel.flexible.model import Array
+
+PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))  # ω_i ω_j of the centrifugal terms
+CASES = ("acceleration", "angular_acceleration", "centrifugal")
+
+
+def stiffening(body: FreeBody, modes: Array, support: Whole, loaded: dict[str, Whole]) -> dict[str, Array]:
+    """Geometric stiffness projected on `modes` (N, n), by the name of its cause.
+
+    support : independent freedoms that are held, at least six that stop rigid motion.
+    loaded : independent freedoms of other interfaces by name; `interface.NAME` is (k, n, n) for unit forces [1/N] and
+    torques on them.
+    returns `acceleration` (3, n, n) per m/s², `angular_acceleration` (3, n, n) per rad/s², `centrifugal` (6, n, n) per
+    rad²/s² for x², y², z², xy, yz, zx; all symmetric, K_g on the side of the stiffness: force -K_g q.
+    """
+    free = np.setdiff1d(np.arange(body.model.count), support)
+    factor = Factor(sp.csc_array(body.K[free][:, free]))
+    loads = {**inertia_loads(body), **{f"interface.{name}": _units(body, rows) for name, rows in loaded.items()}}
+    out = {}
+    for name, load in loads.items():
+        moved = np.zeros_like(load)
+        moved[free] = factor.solve(load[free])
+        out[name] = np.array([_projected(body, modes, moved[:, k]) for k in range(load.shape[1])])
+    return out
+
+
+def inertia_loads(body: FreeBody) -> dict[str, Array]:
+    """(N, k) nodal forces -M a of unit accelerations of the undeformed body, by the names of CASES."""
+    model = body.model
+    R = model.rigid_modes()
+    fields = []
+    for i, j in PAIRS:
+        e = np.eye(3)
+        # ω × (ω × x) for ω_i ω_j: the symmetric part, twice it for i ≠ j, since the product stands once in the sum
+        turned = [np.cross(e[a], np.cross(e[b], model.position)) for a, b in {(i, j), (j, i)}]
+        fields.append(_nodal(body, sum(turned)))
+    return {
+        "acceleration": -(body.M @ R[:, :3]),
+        "angular_acceleration": -(body.M @ R[:, 3:]),
+        "centrifugal": -(body.M @ np.stack(fields, axis=1)),
+    }
+
+
+def _nodal(body: FreeBody, field: Array) -> Array:
+    """(N,) the field (n, 3), linear in x, as displacements of the nodes and turns by half its curl."""
+    model = body.model
+    full = np.zeros(model.expansion.shape[0])
+    values = np.hstack([field, np.zeros_like(field)])
+    x = model.position - model.position.mean(axis=0)
+    gradient = np.linalg.lstsq(np.hstack([x, np.ones((len(x), 1))]), field, rcond=None)[0][:3]  # [b, a] ∂f_a/∂x_b
+    values[:, 3] = 0.5 * (gradient[1, 2] - gradient[2, 1])
+    values[:, 4] = 0.5 * (gradient[2, 0] - gradient[0, 2])
+    values[:, 5] = 0.5 * (gradient[0, 1] - gradient[1, 0])
+    has = model.freedoms >= 0
+    full[model.freedoms[has]] = values[has]
+    return full[model.independent]
+
+
+def _units(body: FreeBody, rows: Whole) -> Array:
+    loads = np.zeros((body.model.count, len(rows)))
+    loads[rows, np.arange(len(rows))] = 1.0
+    return loads
+
+
+def _projected(body: FreeBody, modes: Array, moved: Array) -> Array:
+    """(n, n) the geometric stiffness of the stress of the displacement (N,)."""
+    assert body.model.elements is not None
+    matrix = body.model.elements.geometric_stiffness(body.model.expansion @ moved)
+    full = body.model.expansion @ modes
+    out = full.T @ (_padded(matrix, len(full)) @ full)
+    return 0.5 * (out + out.T)
+
+
+def _padded(matrix: sp.csr_array, size: int) -> sp.csr_array:
+    """The matrix with empty rows for reference nodes, which come last."""
+    if matrix.shape[0] == size:
+        return matrix
+    coo = matrix.tocoo()
+    return sp.csr_array((coo.data, coo.coords), shape=(size, size))
+

@@ -28,10 +28,14 @@ SHOWN = 15  # modes in the table of the terminal
     type=click.Path(dir_okay=False, path_type=Path),
     help="Body file; default: the name of the model with .nc, here.",
 )
-@click.option("--report", type=click.Path(dir_okay=False, path_type=Path), help="HTML page; default: beside the body file.")
+@click.option(
+    "--report", type=click.Path(dir_okay=False, path_type=Path), help="HTML page; default: beside the body file."
+)
 @click.option("--no-report", is_flag=True, help="Write no HTML page.")
 @click.option(
-    "--vtk", type=click.Path(dir_okay=False, path_type=Path), help="Also write the modes for ParaView: .pvd, with .vtu beside it."
+    "--vtk",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Also write the modes for ParaView: .pvd, with .vtu beside it.",
 )
 @click.option("--force", is_flag=True, help="Replace existing files.")
 @quiet_option
@@ -91,7 +95,9 @@ def _refuse_to_replace(target: Path, page: Path | None, vtk: Path | None, force:
     from nivel.results.target import check_folder, check_target
 
     if page == target:
-        raise ModelError(f"{target}: the body is a NetCDF file and the report would be written over it; use a name ending in .nc")
+        raise ModelError(
+            f"{target}: the body is a NetCDF file and the report would be written over it; use a name ending in .nc"
+        )
     for path, what in ((target, "body file"), (page, "report"), (vtk, "VTK file")):
         if path is not None:
             check_folder(path, what)
@@ -107,10 +113,12 @@ def _say(reduction: Reduction, target: Path, page: Path | None) -> None:
     console.print(f"[bold]{body.name}[/bold]: {size} → {len(body.eigenvalues)} modes", markup=True)
     centre = ", ".join(f"{x:.5g}" for x in findings.centre_of_mass)
     moments = ", ".join(f"{x:.5g}" for x in findings.principal_inertia)
-    console.print(f"mass {findings.mass:.6g} kg, centre of mass ({centre}) m, principal inertia ({moments}) kg m²")
+    console.print(
+        f"mass {findings.mass:.6g} kg, centre of mass ({centre}) m, principal inertia ({moments}) kg m²", soft_wrap=True
+    )
     console.print(_table(findings))
     for line in (*findings.notes, *findings.statements):
-        console.print(f"  ● {line}", markup=False)
+        console.print(f"  ● {line}", markup=False, soft_wrap=True)
     console.print(f"body: {target}" + (f"\nreport: {page}" if page is not None else ""), soft_wrap=True)
 
 
@@ -123,5 +131,7 @@ def _table(findings: Findings):
     for k, (full, reduced, error) in enumerate(zip(findings.full, findings.reduced, findings.errors, strict=False)):
         if k >= SHOWN:
             break
-        table.add_row(str(k + 1), f"{full:.5g}", f"{reduced:.5g}", f"{100 * error:+.3g} %", f"{findings.mac[k][k]:.3f}")
+        partner = findings.partners[k]
+        like = f"{findings.mac[k][partner]:.3f}" + (f" (mode {partner + 1})" if partner != k else "")
+        table.add_row(str(k + 1), f"{full:.5g}", f"{reduced:.5g}", f"{100 * error:+.3g} %", like)
     return table

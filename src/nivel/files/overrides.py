@@ -24,8 +24,10 @@ def in_order(overrides: Mapping[str, object]) -> tuple[dict[str, object], dict[s
     return groups[0], groups[1], groups[2]
 
 
-def override(tree: Tree, overrides: Mapping[str, object]) -> None:
-    """Put `overrides` into `tree`: path with dots → value, texts as they would stand in the file.
+def override(
+    tree: Tree, overrides: Mapping[str, object], *, words: tuple[str, ...] = (*TOP_WORDS, *FILE_WORDS)
+) -> None:
+    """Put `overrides` into `tree`: path with dots → value, texts as they would stand in the file. `words`: its sections.
 
     What is about an element of an assembly's part is left in `tree.for_parts`. Faults go to `tree.faults`.
     """
@@ -34,7 +36,7 @@ def override(tree: Tree, overrides: Mapping[str, object]) -> None:
             steps = [step.strip() for step in path.split(".")]
             assembly = _assembly(tree, steps)
             if assembly is None:
-                _set(tree, path, steps, read_value(value) if isinstance(value, str) else deepcopy(value))
+                _set(tree, path, steps, read_value(value) if isinstance(value, str) else deepcopy(value), words)
             else:
                 name, inner = assembly
                 tree.for_parts.setdefault(name, {})[inner] = value
@@ -66,10 +68,9 @@ def prefix_of(name: str, given: Any) -> str:
     return prefix if isinstance(prefix, str) else f"{name}_"
 
 
-def _set(tree: Tree, dotted: str, steps: list[str], value: Any) -> None:
+def _set(tree: Tree, dotted: str, steps: list[str], value: Any, words: tuple[str, ...]) -> None:
     if not all(steps):
         raise ModelError(f"`{dotted}` is not a path such as `bodies.crank.mass` or `simulation.step`")
-    words = (*TOP_WORDS, *FILE_WORDS)
     if steps[0] not in words:
         raise ModelError(unknown_word(steps[0], words, "section"))
     if not isinstance(tree.data, dict):

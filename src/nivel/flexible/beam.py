@@ -47,7 +47,9 @@ class Beam:
     def _flexibility(self, second: float, shear_area: float) -> float:
         if not self.shear or np.isinf(shear_area):
             return 0.0
-        return 12.0 * self.material.youngs_modulus * second / (self.material.shear_modulus * shear_area * self.length**2)
+        return (
+            12.0 * self.material.youngs_modulus * second / (self.material.shear_modulus * shear_area * self.length**2)
+        )
 
 
 def stiffness(beam: Beam) -> Array:

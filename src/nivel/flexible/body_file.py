@@ -39,7 +39,9 @@ STIFFENING_DIMS: Final = {"acceleration": "xyz", "angular_acceleration": "xyz", 
 STIFFENING_UNITS: Final = {"acceleration": "1/m", "angular_acceleration": "1", "centrifugal": "1"}
 
 
-def write_body(body: ReducedBody, path: str | Path, *, findings: Mapping[str, Any] | None = None, model: str = "") -> None:
+def write_body(
+    body: ReducedBody, path: str | Path, *, findings: Mapping[str, Any] | None = None, model: str = ""
+) -> None:
     """Write `body` to `path`, replacing what is there. `findings` and the text of the `model` file are kept beside it.
 
     Raises ModelError where the file cannot be written.
@@ -148,7 +150,9 @@ def _write_stress(out: _Writer, stress: StressModes) -> None:
     dims = ("station", "stress_component", "mode")
     out.put("stress_mode", stress.modes, dims, "Pa kg^-0.5 m^-1", "stress for a modal coordinate of one")
     if stress.strain is not None:
-        out.put("strain_mode", stress.strain, dims, "kg^-0.5 m^-1", "strain for a modal coordinate of one, shear as gamma")
+        out.put(
+            "strain_mode", stress.strain, dims, "kg^-0.5 m^-1", "strain for a modal coordinate of one, shear as gamma"
+        )
     if stress.labels:
         out.names("station_label", stress.labels)
 
@@ -189,7 +193,9 @@ def _check_kind(file: h5py.File, path: str | Path) -> None:
     if file.attrs.get("kind") != KIND:
         raise ModelError(f"{path} is no body file of nivel; `nivel reduce MODEL -o body.nc` makes one")
     if file.attrs.get("format") != FORMAT:
-        raise ModelError(f"{path} has format {file.attrs.get('format')}, this nivel reads {FORMAT}: reduce the model again")
+        raise ModelError(
+            f"{path} has format {file.attrs.get('format')}, this nivel reads {FORMAT}: reduce the model again"
+        )
 
 
 def _read(file: h5py.File) -> ReducedBody:

@@ -52,9 +52,13 @@ def _unconnected(model: FiniteElementModel) -> str:
     if number == 1:
         return ""
     sizes = np.bincount(part)
-    unused = [p for p in range(number) if sizes[p] == 1 and model.stiffness[[p], [p]].sum() == 0.0] if number < 50 else []
+    unused = (
+        [p for p in range(number) if sizes[p] == 1 and model.stiffness[[p], [p]].sum() == 0.0] if number < 50 else []
+    )
     order = [p for p in np.argsort(sizes)[::-1] if p not in unused]
-    texts = [f"{sizes[p]} freedoms around node {_node_of(model, int(np.flatnonzero(part == p)[0]))}" for p in order[:SHOWN]]
+    texts = [
+        f"{sizes[p]} freedoms around node {_node_of(model, int(np.flatnonzero(part == p)[0]))}" for p in order[:SHOWN]
+    ]
     more = f" and {number - SHOWN} more" if number > SHOWN else ""
     return (
         f"the model falls into {number} parts that no stiffness joins: {'; '.join(texts)}{more}. Merge coincident nodes, tie the "

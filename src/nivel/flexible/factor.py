@@ -90,7 +90,9 @@ def _soft_motion(matrix: sp.csc_array) -> Array:
     return motion
 
 
-def lowest_modes(K: sp.csc_array, M: sp.csc_array, count: int, solve: Solve, rigid: Array | None = None) -> tuple[Array, Array]:
+def lowest_modes(
+    K: sp.csc_array, M: sp.csc_array, count: int, solve: Solve, rigid: Array | None = None
+) -> tuple[Array, Array]:
     """The `count` lowest eigenvalues [1/s²] and M-orthonormal modes (N, count) of K φ = ω² M φ.
 
     solve : K⁻¹. rigid : (N, 6) M-orthonormal rigid modes of a K that is singular for them; they are left out, and `solve`

@@ -18,6 +18,7 @@ from nivel.flexible.ties import Attachment
 MOST: Final = 40  # modes of the whole model that are computed for comparison
 DEFLECTION: Final = 0.01  # of the size of the body: for what neglected invariants would cost
 TURN: Final = 0.05  # [rad] or so much turn of a node, whatever is less
+EQUAL: Final = 1e-4  # frequencies that differ relatively by less are taken as equal
 ILL: Final = 1e10  # condition of the basis from which on it is told
 
 
@@ -53,6 +54,11 @@ class Findings:
     notes: list[str]
 
     @property
+    def partners(self) -> list[int]:
+        """The reduced mode, from 0, that is most alike each mode of the whole model."""
+        return [max(range(len(row)), key=row.__getitem__) for row in self.mac]
+
+    @property
     def errors(self) -> list[float]:
         """Relative error of the reduced frequencies."""
         return [r / f - 1.0 for f, r in zip(self.full, self.reduced, strict=False)]
@@ -73,7 +79,7 @@ def findings_of(
     values, whole = body.elastic_modes(min(MOST, len(found.eigenvalues)))
     reduced = np.sqrt(np.maximum(found.eigenvalues, 0.0)) / (2.0 * np.pi)
     full = np.sqrt(values) / (2.0 * np.pi)
-    shapes = (whole.T @ (body.M @ found.modes)) ** 2
+    shapes = likeness(whole.T @ (body.M @ found.modes), full)
     return Findings(
         freedoms=model.count,
         nodes=len(model.position),
@@ -95,6 +101,25 @@ def findings_of(
         statements=_statements(full, reduced, found),
         notes=list(model.notes),
     )
+
+
+def likeness(products: Array, full: Array) -> Array:
+    """MAC from the products wholeᵀ M reduced of orthonormal modes, (f, r). Modes of the whole model with equal frequencies `full`
+    are any mixture of each other: they are mixed so that they fit the reduced ones.
+    """
+    products = products.copy()
+    start = 0
+    while start < len(full):
+        stop = start + 1
+        while stop < len(full) and full[stop] < full[start] * (1.0 + EQUAL):
+            stop += 1
+        if stop - start > 1:
+            block = products[start:stop]
+            nearest = np.sort(np.argsort(-(block**2).sum(axis=0))[: stop - start])
+            left, _, right = np.linalg.svd(block[:, nearest])
+            products[start:stop] = (left @ right).T @ block
+        start = stop
+    return products**2
 
 
 def _axes(body: FreeBody, each: Attachment) -> list[str]:
@@ -155,5 +180,3 @@ def _statements(full: Array, reduced: Array, found: Orthonormal) -> list[str]:
         limit = f", up to {full[until - 1]:.4g} Hz" if until else ""
         out.append(f"The first {until} of {count} frequencies are within 1 % of those of the whole model{limit}.")
     return out
-
-

@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
 from nivel.flexible.beam import Beam, end_stress, geometric_stiffness, mass_points, stiffness
 from nivel.flexible.mass import PointMass
@@ -174,5 +173,3 @@ class BeamElements:
             tension = beam.material.youngs_modulus * beam.section.area * (u[6] - u[0]) / beam.length
             local.append(tension * geometric_stiffness(beam))
         return self.summed(local)
-
-

@@ -28,7 +28,9 @@ def frame_model(located: Located) -> FiniteElementModel:
         first, last = (names[node] for node in beam.nodes)
         start, span = mesh.position[first], mesh.position[last] - mesh.position[first]
         up = None if beam.up is None else np.array(beam.up)
-        if up is not None and np.linalg.norm(np.cross(up, span)) < 1e-9 * np.linalg.norm(span) * max(np.linalg.norm(up), 1e-300):
+        if up is not None and np.linalg.norm(np.cross(up, span)) < 1e-9 * np.linalg.norm(span) * max(
+            np.linalg.norm(up), 1e-300
+        ):
             faults.append(located.fault(("frame", "beams", name, "up"), "`up` must not be along the beam, nor zero"))
             continue
         material = record.materials[beam.material]

@@ -105,5 +105,3 @@ def _from_table(body: FreeBody, path: Path) -> list[Array]:
                 raise ValueError(f"line {line}: there is no node {node}")
             motions.setdefault(mode, np.zeros((len(at), 6)))[at[node]] = values
     return [motions[mode] for mode in sorted(motions)]
-
-

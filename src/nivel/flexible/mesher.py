@@ -60,7 +60,9 @@ def meshed(solid: Solid, step_file: Path | None) -> SolidMesh:
             raise ModelError(f"{what} cannot be made: {error}") from None
         if len(volumes) != 1:
             what = f"falls into {len(volumes)} pieces" if volumes else "has no volume"
-            raise ModelError(f"the solid {what}; one connected solid was expected. Let the parts overlap or touch in a face")
+            raise ModelError(
+                f"the solid {what}; one connected solid was expected. Let the parts overlap or touch in a face"
+            )
         volume = float(gmsh.model.occ.getMass(3, volumes[0][1]))
         return SolidMesh(*_meshed(gmsh, solid.element_size), volume)
 

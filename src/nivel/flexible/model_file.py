@@ -16,8 +16,10 @@ from nivel.flexible.records import ModelRecord
 from nivel.machine.arithmetic import Parameters
 from nivel.machine.parameters import resolve
 from nivel.machine.quantity import FAULT, shown
+from nivel.machine.record import field_words
 
 FORMAT: Final = 1
+TOP_WORDS: Final = ("format", "parameters", *field_words(ModelRecord))
 
 
 class Located:
@@ -53,8 +55,10 @@ def parse_model(text: str, file: str = "model.yaml", *, overrides: Mapping[str, 
     tree = read_tree(text, file)
     if not isinstance(tree.data, dict):
         what = "the file is empty" if tree.data is None else f"got {shown(tree.data)}"
-        raise ModelError([*tree.faults, Fault(file, 1, 1, "", f"a mapping with `format: {FORMAT}` was expected; {what}")])
-    override(tree, overrides or {})
+        raise ModelError(
+            [*tree.faults, Fault(file, 1, 1, "", f"a mapping with `format: {FORMAT}` was expected; {what}")]
+        )
+    override(tree, overrides or {}, words=TOP_WORDS)
     _check_format(tree)
     parameters = _parameters(tree)
     data = {"name": FilePath(file).stem or "body", **tree.data}
@@ -77,7 +81,9 @@ def _check_format(tree: Tree) -> None:
         return
     given = tree.data.pop("format")
     if given != FORMAT or isinstance(given, bool):
-        raise ModelError([*tree.faults, tree.fault(("format",), f"this nivel reads format {FORMAT}, not {shown(given)}")])
+        raise ModelError(
+            [*tree.faults, tree.fault(("format",), f"this nivel reads format {FORMAT}, not {shown(given)}")]
+        )
 
 
 def _parameters(tree: Tree) -> Parameters:
@@ -96,9 +102,9 @@ def _in_file(data: Any, location: tuple[int | str, ...]) -> Path:
     """A place in the record as one in the file: what pydantic puts in for the kinds of a union is left out."""
     path: list[int | str] = []
     for step in location:
-        if isinstance(data, dict) and step in data:
-            data = data[step]
-        elif isinstance(data, list) and isinstance(step, int) and step < len(data):
+        if (isinstance(data, dict) and step in data) or (
+            isinstance(data, list) and isinstance(step, int) and step < len(data)
+        ):
             data = data[step]
         elif step is not location[-1] or not isinstance(step, str) or step[:1].isupper() or "[" in step:
             continue

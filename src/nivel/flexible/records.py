@@ -171,7 +171,9 @@ class Reduction(Checked):
             yield Problem(("held",), f"six freedoms were expected, got {len(self.held)}")
         for at, text in enumerate(self.held):
             if text.rpartition(".")[2] not in HELD or not text.rpartition(".")[0]:
-                yield Problem(("held", at), f"an interface and a direction, such as `root.x`, was expected, got `{text}`")
+                yield Problem(
+                    ("held", at), f"an interface and a direction, such as `root.x`, was expected, got `{text}`"
+                )
 
 
 class Recovery(Checked):

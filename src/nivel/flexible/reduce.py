@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 
@@ -41,9 +40,7 @@ class Reduction:
     findings: Findings
 
 
-def reduce(
-    path: str | Path, *, overrides: Mapping[str, object] | None = None, stage: Stage | None = None
-) -> Reduction:
+def reduce(path: str | Path, *, overrides: Mapping[str, object] | None = None, stage: Stage | None = None) -> Reduction:
     """The reduced body of the model file at `path`. `stage` hears what begins and how much is done, from 0 to 1.
 
     Raises ModelError.
@@ -100,7 +97,9 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
     say("removing rigid motions", 0.65)
     found = orthonormal(body, basis.vectors)
     if not len(found.eigenvalues):
-        raise ModelError(located.fault(("reduction", "modes"), "no mode is left: ask for normal modes, or name interfaces"))
+        raise ModelError(
+            located.fault(("reduction", "modes"), "no mode is left: ask for normal modes, or name interfaces")
+        )
     modes, eigenvalues, held = _with_reference(body, found, attachments, located)
     say("computing the modes of the whole model for comparison", 0.7)
     findings = findings_of(body, attachments, boundary, basis, found, modes)
@@ -161,7 +160,9 @@ def _with_reference(
         name, _, axis = text.rpartition(".")
         row = model.freedoms[node_of[name], AXES.index(axis)]
         if row < 0:
-            message = f"the node of `{name}` has no freedom `{axis}`; tie a surface to a reference node, which has all six"
+            message = (
+                f"the node of `{name}` has no freedom `{axis}`; tie a surface to a reference node, which has all six"
+            )
             faults.append(located.fault(("reduction", "held" if reduction.held else "reference"), message))
         rows.append(row)
     if faults:

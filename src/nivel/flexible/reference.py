@@ -63,7 +63,9 @@ def kinetic_energy(invariants: Invariants, A: Array, q: Array, v: Array) -> floa
 def gravity_force(invariants: Invariants, A: Array, q: Array, gravity: Array) -> Array:
     """(6 + n,) of the acceleration of free fall, (3,) [m/s²] global axes."""
     g_b = A.T @ gravity
-    return np.concatenate([invariants.I1 * gravity, tilde(invariants.I2 + invariants.I3 @ q) @ g_b, invariants.I3.T @ g_b])
+    return np.concatenate(
+        [invariants.I1 * gravity, tilde(invariants.I2 + invariants.I3 @ q) @ g_b, invariants.I3.T @ g_b]
+    )
 
 
 def point_force(A: Array, position_b: Array, phi: Array, psi: Array, q: Array, force: Array, torque: Array) -> Array:

@@ -56,7 +56,9 @@ def _round(a: float, b: float, shear: float) -> Section:
     area, second = np.pi * (a**2 - b**2), np.pi / 4.0 * (a**4 - b**4)
     turn = 2.0 * np.pi * np.arange(8) / 8
     fibres = a * np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    return Section(area, second, second, 2.0 * second, shear * area, shear * area, fibres, _around(fibres, 2.0 * second))
+    return Section(
+        area, second, second, 2.0 * second, shear * area, shear * area, fibres, _around(fibres, 2.0 * second)
+    )
 
 
 def _around(fibres: Array, polar: float) -> Array:

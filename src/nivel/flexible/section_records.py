@@ -54,7 +54,9 @@ class Tube(Checked):
 
     def problems(self) -> Iterator[Problem]:
         if self.inner_radius >= self.outer_radius:
-            sizes = f"`inner_radius` {self.inner_radius:g} m must be smaller than `outer_radius` {self.outer_radius:g} m"
+            sizes = (
+                f"`inner_radius` {self.inner_radius:g} m must be smaller than `outer_radius` {self.outer_radius:g} m"
+            )
             yield Problem(("inner_radius",), sizes)
 
 

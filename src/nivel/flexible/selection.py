@@ -65,7 +65,11 @@ def _by_word(model: FiniteElementModel, word: str | int) -> Whole | str:
 
 
 def _no_nodes(model: FiniteElementModel, missing: list[int]) -> str:
-    what = f"there is no node {missing[0]}" if len(missing) == 1 else f"there are no nodes {', '.join(map(str, missing[:8]))}"
+    what = (
+        f"there is no node {missing[0]}"
+        if len(missing) == 1
+        else f"there are no nodes {', '.join(map(str, missing[:8]))}"
+    )
     return f"{what}; the {len(model.node_ids)} nodes have numbers from {model.node_ids.min()} to {model.node_ids.max()}"
 
 

@@ -18,7 +18,8 @@ from nivel.flexible.section_records import Material
 from nivel.flexible.selection import NodeSets
 from nivel.flexible.tetrahedra import Tetrahedra, inverted, surface
 
-EXACT = 4  # degree of the polynomials that are integrated exactly: products of two quadratic shape functions
+# degree of the polynomials that are integrated exactly: products of two shape functions, and of their derivatives
+MASS_DEGREE, STIFFNESS_DEGREE = 4, 2
 
 
 def solid_model(located: Located, say: Callable[[str, float], None]) -> tuple[FiniteElementModel, NodeSets]:
@@ -34,7 +35,9 @@ def solid_model(located: Located, say: Callable[[str, float], None]) -> tuple[Fi
         mesh = meshed(solid, None if solid.file is None else located.beside(solid.file))
     except ModelError as error:
         place = ("solid", "file") if solid.file is not None else ("solid",)
-        raise ModelError([located.fault(place, each.message, at_key=place == ("solid",)) for each in error.faults]) from None
+        raise ModelError(
+            [located.fault(place, each.message, at_key=place == ("solid",)) for each in error.faults]
+        ) from None
     say(f"assembling {len(mesh.nodes)} tetrahedra", 0.4)
     return assembled(located.record.name, mesh, located.record.materials[solid.material]), {}
 
@@ -43,7 +46,9 @@ def assembled(name: str, mesh: SolidMesh, material: Material) -> FiniteElementMo
     """The model of a mesh. Raises ModelError where an element is turned inside out."""
     bad = inverted(mesh.nodes, mesh.position)
     if len(bad):
-        raise ModelError(f"{len(bad)} of {len(mesh.nodes)} elements are turned inside out: {_numbers(bad)}; mesh finer around curves")
+        raise ModelError(
+            f"{len(bad)} of {len(mesh.nodes)} elements are turned inside out: {_numbers(bad)}; mesh finer around curves"
+        )
     stiffness, mass = matrices(mesh, material)
     freedoms = np.arange(3 * len(mesh.position)).reshape(-1, 3)
     has_turns = np.full((len(mesh.position), 3), -1)
@@ -77,14 +82,17 @@ def matrices(mesh: SolidMesh, material: Material) -> tuple[sp.csc_array, sp.csr_
     from skfem.models.poisson import mass as mass_form
 
     grid = from_meshio(meshio.Mesh(mesh.position, [("tetra10", mesh.nodes)]))
-    vector = skfem.Basis(grid, skfem.ElementVector(skfem.ElementTetP2()), intorder=EXACT)
-    scalar = skfem.Basis(grid, skfem.ElementTetP2(), intorder=EXACT)
+    vector = skfem.Basis(grid, skfem.ElementVector(skfem.ElementTetP2()), intorder=STIFFNESS_DEGREE)
+    scalar = skfem.Basis(grid, skfem.ElementTetP2(), intorder=MASS_DEGREE)
     K = linear_elasticity(*lame_parameters(material.youngs_modulus, material.poisson_ratio)).assemble(vector)
     m = mass_form.assemble(scalar) * material.density
     node = _nodes_of(scalar.doflocs.T, mesh.position)
     order = np.empty(3 * len(node), dtype=np.int64)
     for axis in range(3):
-        for ours, theirs in ((scalar.nodal_dofs[0], vector.nodal_dofs[axis]), (scalar.edge_dofs[0], vector.edge_dofs[axis])):
+        for ours, theirs in (
+            (scalar.nodal_dofs[0], vector.nodal_dofs[axis]),
+            (scalar.edge_dofs[0], vector.edge_dofs[axis]),
+        ):
             order[3 * node[ours] + axis] = theirs
     back = np.argsort(node)
     return sp.csc_array(sp.csr_array(K)[order][:, order]), sp.csr_array(sp.csr_array(m)[back][:, back])

@@ -95,4 +95,3 @@ def _padded(matrix: sp.csr_array, size: int) -> sp.csr_array:
         return matrix
     coo = matrix.tocoo()
     return sp.csr_array((coo.data, coo.coords), shape=(size, size))
-

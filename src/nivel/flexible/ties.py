@@ -12,6 +12,7 @@ import scipy.sparse as sp
 from nivel.errors import Fault, ModelError
 from nivel.flexible.model import Array, FiniteElementModel, Whole, numbered
 from nivel.flexible.model_file import Located
+from nivel.flexible.records import InterfaceRecord
 from nivel.flexible.rigid_modes import rigid_modes
 from nivel.flexible.selection import NodeSets, chosen_nodes
 
@@ -56,7 +57,7 @@ def with_interfaces(
         if record.node is not None:
             attachments.append(Attachment(name, int(nodes[0]), np.zeros(0, dtype=np.int64)))
             continue
-        at = model.position[nodes].mean(axis=0) if record.at is None else np.array(record.at)
+        at = _middle(model, nodes, record) if record.at is None else np.array(record.at)
         problem = _too_few(model, nodes, record.tie, at)
         if problem:
             faults.append(located.fault(("interfaces", name), problem))
@@ -67,6 +68,23 @@ def with_interfaces(
         raise ModelError(faults)
     ties = {each.name: located.record.interfaces[each.name].tie for each in attachments if len(each.tied)}
     return _tied(model, attachments, references, ties), tuple(attachments)
+
+
+def _middle(model: FiniteElementModel, nodes: Whole, record: InterfaceRecord) -> Array:
+    """(3,) [m] where a reference node is if nothing else is said: on the axis of a cylinder, in the centroid of the faces of other
+    surfaces, and in the mean of nodes that have no faces.
+    """
+    x = model.position[nodes]
+    if record.cylinder is not None:
+        axis = np.array(record.cylinder.axis) / np.linalg.norm(record.cylinder.axis)
+        along = (x - record.cylinder.point) @ axis
+        return np.array(record.cylinder.point) + 0.5 * (along.min() + along.max()) * axis
+    faces = model.triangles[np.isin(model.triangles, nodes).all(axis=1)] if len(model.triangles) else model.triangles
+    corners = model.position[faces]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    if not area.sum() > 0.0:
+        return x.mean(axis=0)
+    return area @ corners.mean(axis=1) / area.sum()
 
 
 def _too_few(model: FiniteElementModel, nodes: Whole, tie: str, at: Array) -> str:
@@ -130,7 +148,9 @@ def _expansion(total: int, dependent: dict[int, tuple[Whole, Array]]) -> sp.csr_
 def _rigid_rows(position: Array, freedoms: Whole, each: Attachment) -> dict[int, tuple[Whole, Array]]:
     """Every freedom of the tied nodes from the six of the reference node."""
     reference = freedoms[each.node]
-    R = rigid_modes(position[each.tied], _compact(freedoms[each.tied]), int((freedoms[each.tied] >= 0).sum()), position[each.node])
+    R = rigid_modes(
+        position[each.tied], _compact(freedoms[each.tied]), int((freedoms[each.tied] >= 0).sum()), position[each.node]
+    )
     rows = freedoms[each.tied][freedoms[each.tied] >= 0]
     return {int(row): (reference[R[k] != 0.0], R[k][R[k] != 0.0]) for k, row in enumerate(rows)}
 

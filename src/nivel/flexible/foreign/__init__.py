@@ -1,0 +1,1 @@
+"""Matrices and meshes of other programs."""

@@ -1,0 +1,87 @@
+"""A matrix as another program wrote it: numbers, and which node and direction every row is, if the file says so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+Whole = NDArray[np.int64]
+Label = tuple[int, int]  # node, direction 1 … 6
+
+
+class FormatError(ValueError):
+    """The file is not what it should be; the message says where and why."""
+
+    def __init__(self, message: str, line: int = 0) -> None:
+        self.line = line
+        super().__init__(f"line {line}: {message}" if line else message)
+
+
+@dataclass(frozen=True)
+class FileMatrix:
+    """`matrix` (N, N); `labels`: node and direction (1 … 6) of each row, or None where the file does not say."""
+
+    matrix: sp.csc_array
+    labels: tuple[Label, ...] | None = None
+
+    def ordered(self, labels: Sequence[Label]) -> sp.csc_array:
+        """The matrix with rows in the order of `labels`; rows that it lacks are zero."""
+        if self.labels is None:
+            return self.matrix
+        place = {label: k for k, label in enumerate(self.labels)}
+        at = np.array([place.get(label, -1) for label in labels], dtype=np.int64)
+        has = np.flatnonzero(at >= 0)
+        pick = sp.csr_array((np.ones(len(has)), (has, at[has])), shape=(len(labels), len(place)))
+        return sp.csc_array(pick @ self.matrix @ pick.T)
+
+
+def from_triplets(
+    rows: Whole, columns: Whole, values: NDArray[np.float64], size: int, *, triangle: bool | None = None
+) -> sp.csc_array:
+    """The matrix of triplets (from 0). triangle : whether the file has one triangle of a symmetric matrix; None: it has
+    where all entries are on one side of the diagonal.
+    """
+    if triangle is None:
+        triangle = bool(np.all(rows >= columns) or np.all(rows <= columns))
+    if triangle:
+        off = rows != columns
+        rows, columns, values = (
+            np.concatenate([rows, columns[off]]),
+            np.concatenate([columns, rows[off]]),
+            np.concatenate([values, values[off]]),
+        )
+    return sp.csc_array((values, (rows, columns)), shape=(size, size))
+
+
+def from_labelled(
+    rows: Sequence[Label], columns: Sequence[Label], values: Sequence[float], *, triangle: bool | None = None
+) -> FileMatrix:
+    """The matrix of entries whose rows and columns are labels, which become its rows in ascending order."""
+    labels = tuple(sorted({*rows, *columns}))
+    place = {label: k for k, label in enumerate(labels)}
+    i, j = (np.array([place[label] for label in side], dtype=np.int64) for side in (rows, columns))
+    return FileMatrix(from_triplets(i, j, np.array(values, dtype=float), len(labels), triangle=triangle), labels)
+
+
+def text_lines(path: Path) -> Iterator[tuple[int, str]]:
+    """Numbered lines of a text file without their ends. Bytes that are no UTF-8 (titles) are passed over."""
+    with path.open(encoding="utf-8", errors="replace") as file:
+        for number, line in enumerate(file, start=1):
+            yield number, line.rstrip("\r\n")
+
+
+def fortran_number(text: str) -> float:
+    """A number as Nastran and Fortran write it: ``1.5``, ``1.5D+06``, ``1.5+6``. Raises ValueError."""
+    text = text.strip().replace("D", "E").replace("d", "E")
+    try:
+        return float(text)
+    except ValueError:
+        at = max(text.rfind("+"), text.rfind("-"))
+        if at > 0:
+            return float(f"{text[:at]}E{text[at:]}")
+        raise

@@ -1,0 +1,162 @@
+"""Nodes, and where there are any elements and node sets, from files of other programs."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.flexible.foreign.matrix import FormatError, text_lines
+from nivel.flexible.foreign.nastran import read_grids, table
+
+Array = NDArray[np.float64]
+Whole = NDArray[np.int64]
+
+TETRAHEDRA: Final = {"C3D4": 4, "C3D10": 10, "C3D10M": 10, "C3D10MH": 10, "C3D10T": 10, "C3D4T": 4}
+NODES: Final = {"C3D8": 8, "C3D8R": 8, "C3D8I": 8, "C3D20": 20, "C3D20R": 20, "C3D6": 6, "C3D15": 15, **TETRAHEDRA}
+
+
+@dataclass
+class Mesh:
+    """Numbers (n,) and places (n, 3) of nodes; node sets by name; `elements` (e, 4 or 10) numbers of nodes of tetrahedra.
+
+    only_tetrahedra : whether there are no other elements. young, poisson, density : of the only material, or None.
+    """
+
+    numbers: Whole
+    places: Array
+    sets: dict[str, list[int]] = field(default_factory=dict)
+    elements: list[list[int]] = field(default_factory=list)
+    only_tetrahedra: bool = True
+    materials: int = 0
+    young: float | None = None
+    poisson: float | None = None
+    density: float | None = None
+
+
+def read_mesh(path: Path) -> Mesh:
+    """The mesh in an Abaqus or CalculiX input file (.inp), Nastran bulk data (.bdf, .dat, .nas, .pch) or a table of nodes.
+
+    A table (.csv) has the columns id, x, y, z. Raises FormatError.
+    """
+    suffix = path.suffix.lower()
+    if suffix == ".inp":
+        mesh = _Input(path).mesh()
+    elif suffix in (".bdf", ".dat", ".nas", ".pch", ".blk"):
+        mesh = Mesh(*table(*read_grids(path)))
+    else:
+        mesh = Mesh(*_table(path))
+    if not len(mesh.numbers):
+        raise FormatError("there are no nodes in this file")
+    unique, counts = np.unique(mesh.numbers, return_counts=True)
+    if counts.max() > 1:
+        raise FormatError(f"node {unique[np.argmax(counts)]} stands {counts.max()} times in this file")
+    order = np.argsort(mesh.numbers)
+    mesh.numbers, mesh.places = mesh.numbers[order], mesh.places[order]
+    return mesh
+
+
+def _table(path: Path) -> tuple[Whole, Array]:
+    numbers, places = [], []
+    with path.open(encoding="utf-8", newline="") as file:
+        for line, row in enumerate(csv.DictReader(file, skipinitialspace=True), start=2):
+            try:
+                numbers.append(int(row["id"]))
+                places.append([float(row[axis]) for axis in "xyz"])
+            except (KeyError, TypeError, ValueError):
+                raise FormatError("the columns id, x, y, z were expected", line) from None
+    return table(numbers, places)
+
+
+class _Input:
+    """Reads the keywords *NODE, *ELEMENT, *NSET, *ELASTIC and *DENSITY; others are passed over."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.numbers: list[int] = []
+        self.places: list[list[float]] = []
+        self.sets: dict[str, list[int]] = {}
+        self.elements: list[list[int]] = []
+        self.others = False
+        self.materials = 0
+        self.values: dict[str, list[float]] = {}
+        self.pending: list[int] = []
+
+    def mesh(self) -> Mesh:
+        keyword, options = "", {}
+        for number, text in text_lines(self.path):
+            line = text.strip()
+            if not line or line.startswith("**"):
+                continue
+            if line.startswith("*"):
+                keyword, options = _keyword(line)
+                self.pending = []
+                self._begin(keyword, options, number)
+                continue
+            try:
+                self._data(keyword, options, [part.strip() for part in line.split(",")])
+            except ValueError:
+                raise FormatError(f"this line of *{keyword} cannot be read: `{line[:60]}`", number) from None
+        young, poisson = ([*self.values.get("ELASTIC", []), None, None])[:2]
+        density = ([*self.values.get("DENSITY", []), None])[0]
+        return Mesh(
+            *table(self.numbers, self.places),
+            self.sets,
+            self.elements,
+            not self.others,
+            self.materials,
+            young,
+            poisson,
+            density,
+        )
+
+    def _begin(self, keyword: str, options: dict[str, str], line: int) -> None:
+        if keyword == "INCLUDE":
+            raise FormatError("*INCLUDE is not followed; write the mesh into one file", line)
+        if keyword == "INSTANCE" or (keyword == "NODE" and options.get("SYSTEM")):
+            raise FormatError(f"*{keyword} moves nodes; write a flat input file without parts and instances", line)
+        self.materials += keyword == "MATERIAL"
+        if keyword == "ELEMENT" and options.get("TYPE", "").upper() not in TETRAHEDRA:
+            self.others = True
+
+    def _data(self, keyword: str, options: dict[str, str], parts: list[str]) -> None:
+        match keyword:
+            case "NODE":
+                self.numbers.append(int(parts[0]))
+                self.places.append([float(part) if part else 0.0 for part in [*parts[1:4], "", "", ""][:3]])
+                if "NSET" in options:
+                    self.sets.setdefault(options["NSET"], []).append(int(parts[0]))
+            case "ELEMENT" if options.get("TYPE", "").upper() in TETRAHEDRA:
+                self._element(TETRAHEDRA[options["TYPE"].upper()], parts)
+            case "NSET":
+                self._set(options, [part for part in parts if part])
+            case "ELASTIC" | "DENSITY" if keyword not in self.values:
+                self.values[keyword] = [float(part) for part in parts if part]
+
+    def _element(self, count: int, parts: list[str]) -> None:
+        self.pending += [int(part) for part in parts if part]
+        if len(self.pending) > count:
+            self.elements.append(self.pending[1 : count + 1])
+            self.pending = []
+
+    def _set(self, options: dict[str, str], parts: list[str]) -> None:
+        members = self.sets.setdefault(options.get("NSET", ""), [])
+        if "GENERATE" in options:
+            first, last, step = [int(part) for part in [*parts, "1"][:3]]
+            members += range(first, last + 1, step)
+            return
+        for part in parts:
+            members += [int(part)] if part.isdecimal() else self.sets.get(part, [])
+
+
+def _keyword(line: str) -> tuple[str, dict[str, str]]:
+    parts = [part.strip() for part in line[1:].split(",")]
+    options = {}
+    for part in parts[1:]:
+        name, _, value = part.partition("=")
+        options[name.strip().upper()] = value.strip()
+    return parts[0].upper(), options

@@ -1,0 +1,277 @@
+"""Finite-element models of other programs, from their matrices and nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from nivel.errors import Fault, ModelError
+from nivel.flexible.checks import unsymmetric
+from nivel.flexible.foreign.matrix import FileMatrix, FormatError, Label
+from nivel.flexible.foreign.mesh import Mesh, read_mesh
+from nivel.flexible.foreign.nastran import read_dmig
+from nivel.flexible.foreign.op4 import read_op4
+from nivel.flexible.foreign.triplet_files import read_abaqus, read_calculix, read_freedoms, read_matrix_market
+from nivel.flexible.mass import from_matrix
+from nivel.flexible.model import Array, FiniteElementModel, Whole
+from nivel.flexible.model_file import Located
+from nivel.flexible.records import LENGTHS, MASSES, Matrices
+from nivel.flexible.section_records import Material
+from nivel.flexible.selection import NodeSets
+from nivel.flexible.tetrahedra import Tetrahedra, inverted, surface
+
+HELD = 1e30  # a diagonal element from which on a row is one of a support (Abaqus writes 1e36)
+STIFFNESS_NAMES, MASS_NAMES = ("KAAX", "KAA", "KGG", "KXX"), ("MAAX", "MAA", "MGG", "MXX")
+
+
+@dataclass(frozen=True)
+class _Read:
+    stiffness: FileMatrix
+    mass: FileMatrix
+    labels: tuple[Label, ...]
+
+
+def matrix_model(located: Located) -> tuple[FiniteElementModel, NodeSets]:
+    """The model of the `matrices` of a model file in SI units, and its node sets.
+
+    Raises ModelError.
+    """
+    given = located.record.matrices
+    assert given is not None
+    mesh = _opened(located, "nodes", given.nodes, read_mesh)
+    read = _matrices(located, given, mesh)
+    _check_nodes(located, mesh, read)
+    length, mass = LENGTHS[given.units.length], MASSES[given.units.mass]
+    return _model(located, given, mesh, read, length, mass)
+
+
+def _opened(located: Located, key: str, name: str, reader: Callable[[Path], Any]) -> Any:
+    """What `reader` makes of the file under `key`. Raises ModelError."""
+    path = located.beside(name)
+    place = ("matrices", key)
+    if not path.is_file():
+        raise ModelError(located.fault(place, f"there is no file `{path}`"))
+    try:
+        return reader(path)
+    except FormatError as error:
+        raise ModelError(
+            Fault(str(path), error.line, 1, f"matrices.{key}", str(error).removeprefix(f"line {error.line}: "))
+        ) from None
+    except OSError as error:
+        raise ModelError(located.fault(place, f"`{path}` cannot be read: {error.strerror}")) from None
+
+
+def _matrices(located: Located, given: Matrices, mesh: Mesh) -> _Read:
+    freedoms = None if given.freedoms is None else _opened(located, "freedoms", given.freedoms, read_freedoms)
+    match given.format:
+        case "nastran" | "op4":
+            reader = read_dmig if given.format == "nastran" else read_op4
+            stiffness = _named(located, given, "stiffness", reader)
+            mass = _named(located, given, "mass", reader)
+        case "abaqus" | "matrix-market":
+            reader = read_abaqus if given.format == "abaqus" else read_matrix_market
+            stiffness = _opened(located, "stiffness", given.stiffness, reader)
+            mass = _opened(located, "mass", _mass_file(located, given), reader)
+        case "calculix":
+            if freedoms is None:
+                raise ModelError(
+                    located.fault(("matrices",), "CalculiX matrices need their `freedoms`, the .dof file", at_key=True)
+                )
+            stiffness = _opened(located, "stiffness", given.stiffness, lambda path: read_calculix(path, freedoms))
+            mass = _opened(located, "mass", _mass_file(located, given), lambda path: read_calculix(path, freedoms))
+    if stiffness.labels is not None:
+        labels = tuple(sorted({*stiffness.labels, *(mass.labels or ())}))
+        return _Read(stiffness, mass, labels)
+    labels = freedoms or _by_counting(located, stiffness.matrix.shape[0], mesh)
+    for key, each in (("stiffness", stiffness), ("mass", mass)):
+        if each.matrix.shape[0] != len(labels):
+            message = f"the matrix has {each.matrix.shape[0]} rows, and there are {len(labels)} freedoms"
+            raise ModelError(located.fault(("matrices", key), message))
+    return _Read(FileMatrix(stiffness.matrix, labels), FileMatrix(mass.matrix, labels), labels)
+
+
+def _mass_file(located: Located, given: Matrices) -> str:
+    if given.mass is None:
+        raise ModelError(located.fault(("matrices",), "`mass` is missing: the file of the mass matrix", at_key=True))
+    return given.mass
+
+
+def _named(located: Located, given: Matrices, key: str, reader: Callable[[Path], dict[str, FileMatrix]]) -> FileMatrix:
+    """A matrix of a file that may have several: the one that is named, or one with a usual name."""
+    own_file = key == "mass" and given.mass is not None
+    found = _opened(
+        located,
+        key if own_file or key == "stiffness" else "stiffness",
+        given.mass if own_file else given.stiffness,
+        reader,
+    )  # type: ignore[arg-type]
+    wanted = given.stiffness_name if key == "stiffness" else given.mass_name
+    if wanted is not None:
+        if wanted.upper() not in found:
+            message = f"there is no matrix `{wanted}`; there {'is' if len(found) == 1 else 'are'} {', '.join(found)}"
+            raise ModelError(located.fault(("matrices", f"{key}_name"), message))
+        return found[wanted.upper()]
+    usual = [name for name in (STIFFNESS_NAMES if key == "stiffness" else MASS_NAMES) if name in found]
+    if usual or (len(found) == 1 and (own_file or given.mass is not None)):
+        return found[usual[0] if usual else next(iter(found))]
+    message = f"which of the matrices {', '.join(found)} is the {key}? Give `{key}_name`"
+    raise ModelError(located.fault(("matrices",), message, at_key=True))
+
+
+def _by_counting(located: Located, rows: int, mesh: Mesh) -> tuple[Label, ...]:
+    """Freedoms node by node in ascending order of their numbers, three or six each."""
+    nodes = len(mesh.numbers)
+    if rows not in (3 * nodes, 6 * nodes):
+        message = f"the matrix has {rows} rows; {nodes} nodes have {3 * nodes} freedoms, or {6 * nodes} with turns"
+        raise ModelError(
+            located.fault(("matrices",), f"{message}{_hole(mesh.numbers)}; give a table of `freedoms`", at_key=True)
+        )
+    return tuple((int(node), axis) for node in mesh.numbers for axis in range(1, rows // nodes + 1))
+
+
+def _hole(numbers: Whole) -> str:
+    """Where the numbering of nodes has a hole."""
+    gaps = np.flatnonzero(np.diff(numbers) > 1)
+    if not len(gaps):
+        return ""
+    before = int(numbers[gaps[0]])
+    more = f" and {len(gaps) - 1} more" if len(gaps) > 1 else ""
+    return f"; the numbers of the nodes have a hole after {before} (the next is {int(numbers[gaps[0] + 1])}){more}"
+
+
+def _check_nodes(located: Located, mesh: Mesh, read: _Read) -> None:
+    """Refuse rows and elements of nodes that do not exist, and directions that are none. Raises ModelError."""
+    known = set(mesh.numbers.tolist())
+    missing = sorted({node for node, _ in read.labels} - known)
+    faults = []
+    if missing:
+        names = ", ".join(map(str, missing[:8])) + (" …" if len(missing) > 8 else "")
+        message = f"the matrices have rows of nodes that are not among the {len(known)} nodes here: {names}{_hole(mesh.numbers)}"
+        faults.append(
+            located.fault(("matrices", "nodes"), f"{message}; take the mesh that the matrices were made with")
+        )
+    unknown = sorted({node for element in mesh.elements for node in element} - known)
+    if unknown:
+        names = ", ".join(map(str, unknown[:8]))
+        message = f"elements of the mesh have nodes that do not exist: {names}{_hole(mesh.numbers)}"
+        faults.append(located.fault(("matrices", "nodes"), f"{message}; write the mesh again, with all its nodes"))
+    if faults:
+        raise ModelError(faults)
+
+
+def _model(
+    located: Located, given: Matrices, mesh: Mesh, read: _Read, length: float, mass_unit: float
+) -> tuple[FiniteElementModel, NodeSets]:
+    used = sorted({node for node, _ in read.labels})
+    place = {node: k for k, node in enumerate(used)}
+    freedoms = np.full((len(used), 6), -1, dtype=np.int64)
+    for row, (node, axis) in enumerate(read.labels):
+        freedoms[place[node], axis - 1] = row
+    position = mesh.places[np.searchsorted(mesh.numbers, used)] * length
+    scale = _row_lengths(read.labels, length)
+    # K in N/m for translations: mass/s²; a turn brings a length
+    K = scale @ read.stiffness.ordered(read.labels) @ scale * mass_unit
+    M = scale @ read.mass.ordered(read.labels) @ scale * mass_unit
+    _check_matrices(located, sp.csc_array(K), sp.csc_array(M), read.labels)
+    dropped = len(mesh.numbers) - len(used)
+    notes = (f"{dropped} nodes of the mesh have no rows in the matrices and were left out",) if dropped else ()
+    sets = {
+        name: np.array(sorted({place[node] for node in members if node in place}), dtype=np.int64)
+        for name, members in mesh.sets.items()
+    }
+    elements, triangles, solids, more = _elements(located, mesh, place, freedoms, position, length, mass_unit)
+    model = FiniteElementModel(
+        name=located.record.name,
+        node_ids=np.array(used, dtype=np.int64),
+        position=position,
+        freedoms=freedoms,
+        stiffness=sp.csc_array(K),
+        mass=from_matrix(position, freedoms, sp.csc_array(M)),
+        expansion=sp.csr_array(sp.eye_array(len(read.labels))),
+        elements=elements,
+        triangles=triangles,
+        solids=solids,
+        volume=None if elements is None else float(elements.volumes.sum()),
+        notes=(*notes, *more),
+    )
+    return model, sets
+
+
+def _row_lengths(labels: tuple[Label, ...], length: float) -> sp.dia_array:
+    """Diagonal: the unit of length for rows of turns, one for translations; forces are mass × length / s² on both sides."""
+    return sp.diags_array(np.where(np.array([axis for _, axis in labels]) > 3, length, 1.0))
+
+
+def _check_matrices(located: Located, K: sp.csc_array, M: sp.csc_array, labels: tuple[Label, ...]) -> None:
+    faults = []
+    for key, matrix in (("stiffness", K), ("mass", M)):
+        if not np.all(np.isfinite(matrix.data)):
+            faults.append(located.fault(("matrices", key), f"the {key} matrix has entries that are not finite numbers"))
+            continue
+        problem = unsymmetric(matrix, key)
+        if problem:
+            faults.append(located.fault(("matrices", key), problem))
+    held = np.flatnonzero(np.abs(K.diagonal()) > HELD)
+    if len(held):
+        node, axis = labels[held[0]]
+        message = f"{len(held)} rows are held by boundary conditions (node {node}, direction {axis}, for one: {K.diagonal()[held[0]]:.3g})"
+        faults.append(
+            located.fault(("matrices", "stiffness"), f"{message}; remove all supports before the matrices are written")
+        )
+    if faults:
+        raise ModelError(faults)
+
+
+def _elements(
+    located: Located,
+    mesh: Mesh,
+    place: dict[int, int],
+    freedoms: Whole,
+    position: Array,
+    length: float,
+    mass_unit: float,
+) -> tuple[Tetrahedra | None, Whole, Whole, tuple[str, ...]]:
+    """Stress of meshes of tetrahedra of one material; faces for pictures; what is left out, in words."""
+    none = np.zeros((0, 3), dtype=np.int64), np.zeros((0, 4), dtype=np.int64)
+    sizes = {len(element) for element in mesh.elements}
+    if len(sizes) != 1 or not all(node in place for element in mesh.elements for node in element):
+        why = (
+            ("stress is not known: the mesh has no tetrahedra of one kind",)
+            if mesh.elements or not mesh.only_tetrahedra
+            else ()
+        )
+        return None, *none, why
+    nodes = np.array([[place[node] for node in element] for element in mesh.elements], dtype=np.int64)
+    bad = inverted(nodes, position)
+    if len(bad):
+        message = (
+            f"{len(bad)} of {len(nodes)} elements are turned inside out (the first is number {bad[0] + 1} of the file)"
+        )
+        raise ModelError(
+            located.fault(("matrices", "nodes"), f"{message}: their nodes are in another order, or a node was moved")
+        )
+    triangles, solids = surface(nodes), nodes
+    if (
+        not mesh.only_tetrahedra
+        or mesh.materials != 1
+        or mesh.young is None
+        or mesh.poisson is None
+        or np.any(freedoms[:, :3] < 0)
+    ):
+        return (
+            None,
+            triangles,
+            solids,
+            ("stress is not known: it needs a mesh of tetrahedra alone, of one elastic material",),
+        )
+    pressure = mass_unit / length  # mass / (length s²)
+    density = (mesh.density or 1.0) * mass_unit / length**3
+    material = Material.model_construct(
+        youngs_modulus=mesh.young * pressure, poisson_ratio=mesh.poisson, density=density
+    )
+    return Tetrahedra(nodes, freedoms[:, :3], position, material), triangles, solids, ()

@@ -11,9 +11,10 @@ import numpy as np
 from nivel.errors import ModelError
 from nivel.flexible.bases import Basis
 from nivel.flexible.free_body import FreeBody
-from nivel.flexible.model import Array
+from nivel.flexible.invariants import LEVI_CIVITA
+from nivel.flexible.model import AXES, Array, FiniteElementModel, Whole
 from nivel.flexible.model_file import Located
-from nivel.flexible.place_expression import PLACES, PlaceError, place_function
+from nivel.flexible.place_expression import PlaceError, PlaceFunction, place_function
 
 STEP: Final = 1e-6  # of the size of the body: differences for the turn of nodes
 
@@ -21,8 +22,7 @@ STEP: Final = 1e-6  # of the size of the body: differences for the turn of nodes
 def given_modes(body: FreeBody, located: Located) -> Basis:
     """The basis of the shapes of a model file, (N, k); orthonormalised later like any other.
 
-    Expressions are of the undeformed place x, y, z [m]. Nodes with turns get half the curl of the displacement, by
-    central differences. A table (.csv) has the columns node, mode, x, y, z and, if nodes turn, rx, ry, rz; `.npy` is an
+    Expressions are of the undeformed place x, y, z [m]; turns that are not given follow from them by central differences. A table (.csv) has the columns node, mode, x, y, z and, if nodes turn, rx, ry, rz; `.npy` is an
     array (modes, nodes, 3 or 6) in the order of the nodes.
 
     Raises ModelError.
@@ -45,15 +45,16 @@ def given_modes(body: FreeBody, located: Located) -> Basis:
 def _from_expressions(body: FreeBody, located: Located) -> list[Array]:
     motions, faults = [], []
     for at, shape in enumerate(located.record.reduction.shapes):
-        functions = []
-        for axis in PLACES:
+        functions: list[PlaceFunction | None] = []
+        for axis in AXES:
             try:
-                functions.append(place_function(getattr(shape, axis), located.parameters))
+                given = getattr(shape, axis)
+                functions.append(None if given is None else place_function(given, located.parameters))
             except PlaceError as error:
                 faults.append(located.fault(("reduction", "shapes", at, axis), str(error)))
-        if len(functions) == 3:
+        if len(functions) == 6:
             try:
-                motions.append(_motion(body.model.position, functions, STEP * body.model.size))
+                motions.append(_motion(body.model, functions))
             except PlaceError as error:
                 faults.append(located.fault(("reduction", "shapes", at), str(error)))
     if faults:
@@ -61,15 +62,39 @@ def _from_expressions(body: FreeBody, located: Located) -> list[Array]:
     return motions
 
 
-def _motion(position: Array, functions: list, step: float) -> Array:
-    """(n, 6) displacement and half its curl."""
+def _motion(model: FiniteElementModel, functions: list[PlaceFunction | None]) -> Array:
+    """(n, 6) displacement and turn at the nodes.
+
+    A turn that is not given is half the curl of the displacement. At nodes of beams, for which the displacement is that of the
+    line, only its part along the beam is; across it the turn is t × ∂u/∂s, so that sections stay perpendicular.
+    """
+    position, step = model.position, STEP * model.size
 
     def field(x: Array) -> Array:
-        return np.stack([np.broadcast_to(f(*x.T), len(x)) for f in functions], axis=1)
+        return np.stack([f(*x.T) for f in functions[:3] if f is not None], axis=1)
 
-    slope = [(field(position + step * e) - field(position - step * e)) / (2.0 * step) for e in np.eye(3)]
-    curl = [slope[1][:, 2] - slope[2][:, 1], slope[2][:, 0] - slope[0][:, 2], slope[0][:, 1] - slope[1][:, 0]]
-    return np.hstack([field(position), 0.5 * np.stack(curl, axis=1)])
+    slope = np.stack([(field(position + step * e) - field(position - step * e)) / (2.0 * step) for e in np.eye(3)], axis=1)
+    turn = 0.5 * np.einsum("abc,nbc->na", LEVI_CIVITA, slope)  # slope[n, b, c] is ∂u_c/∂x_b
+    tangents, beams = _tangents(model)
+    if len(beams):
+        bent = np.cross(tangents, np.einsum("nb,nbc->nc", tangents, slope[beams]))
+        turn[beams] = bent + np.einsum("na,nb,nb->na", tangents, tangents, turn[beams])
+    for axis, function in enumerate(functions[3:]):
+        if function is not None:
+            turn[:, axis] = function(*position.T)
+    return np.hstack([field(position), turn])
+
+
+def _tangents(model: FiniteElementModel) -> tuple[Array, Whole]:
+    """(k, 3) unit directions of the beams at the nodes (k,) of lines: the mean where several meet."""
+    total = np.zeros_like(model.position)
+    for i, j in model.lines:
+        along = model.position[j] - model.position[i]
+        for node in (i, j):
+            total[node] += along * (1.0 if along @ total[node] >= 0.0 else -1.0)
+    size = np.linalg.norm(total, axis=1)
+    beams = np.flatnonzero(size > 0.0)
+    return total[beams] / size[beams][:, None], beams
 
 
 def _from_file(body: FreeBody, located: Located, name: str) -> list[Array]:

@@ -146,11 +146,17 @@ def _modes(value: Any) -> Any:
 
 
 class ShapeFunction(Checked):
-    """An assumed mode: displacement of the point x, y, z [m] as expressions of these; a missing one is zero."""
+    """An assumed mode: displacement of the point x, y, z [m] as expressions of these; a missing one is zero.
+
+    rx, ry, rz : turn of nodes that have one [rad]; a missing one follows from the displacement.
+    """
 
     x: str | float = 0.0
     y: str | float = 0.0
     z: str | float = 0.0
+    rx: str | float | None = None
+    ry: str | float | None = None
+    rz: str | float | None = None
 
 
 class Reduction(Checked):

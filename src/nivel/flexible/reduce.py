@@ -72,7 +72,9 @@ def _check(model: FiniteElementModel, located: Located) -> None:
     if found:
         raise ModelError([_fault(located, text) for text in found])
     mass = float(np.trace(model.rigid_modes()[:, :3].T @ (model.mass.matrix @ model.rigid_modes()[:, :3]))) / 3.0
-    problem = checks.mass_problem(mass, located.record.expected_mass, model.volume, model.size)
+    alone = located.record.frame is None or not located.record.frame.masses
+    volume = model.volume if alone else None
+    problem = checks.mass_problem(mass, located.record.expected_mass, volume, model.size)
     if problem:
         given = located.record.expected_mass is not None
         raise ModelError(located.fault(("expected_mass",), problem) if given else _fault(located, problem))

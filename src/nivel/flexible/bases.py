@@ -14,6 +14,7 @@ import scipy.sparse as sp
 
 from nivel.flexible.factor import Factor, Whole, lowest_modes
 from nivel.flexible.free_body import FreeBody
+from nivel.flexible.inertia_loads import inertia_loads
 from nivel.flexible.model import Array
 
 LIMIT_START = 16  # modes that are computed first where a frequency is the limit
@@ -64,6 +65,19 @@ def craig_bampton(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
     normal = np.zeros((body.model.count, len(values)))
     normal[inner] = inside
     return Basis(np.hstack([corrections, normal]), len(values), np.sqrt(values) / (2.0 * np.pi))
+
+
+def inertia_modes(body: FreeBody, boundary: Whole) -> Array:
+    """(N, 12) static displacement under the inertia forces of unit accelerations and spins, with the boundary held.
+
+    With these in the basis, the reduced body answers exactly to its own inertia while it moves steadily.
+    """
+    held = _with_pins(body, boundary)
+    free = np.setdiff1d(np.arange(body.model.count), held)
+    loads = np.hstack(list(inertia_loads(body).values()))
+    out = np.zeros_like(loads)
+    out[free] = Factor(sp.csc_array(body.K[free][:, free])).solve(loads[free])
+    return out
 
 
 def free_interface(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:

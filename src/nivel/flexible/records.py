@@ -168,6 +168,9 @@ class Reduction(Checked):
     mass: Literal["consistent", "lumped"] = "consistent"
     reference: str = Field(default="mean-axis", description="mean-axis, or the interface with which the frame moves")
     held: tuple[str, ...] = Field(default=(), description="six freedoms `interface.x` … `interface.rz` instead")
+    inertia_modes: bool = Field(
+        default=False, description="whether static answers to its own inertia (accelerations, spinning) are added to the modes"
+    )
     stiffening: bool = Field(default=False, description="whether geometric stiffness is computed")
 
     def problems(self) -> Iterator[Problem]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.flexible import checks
-from nivel.flexible.bases import Basis, ModeCount, craig_bampton, free_interface, normal_only
+from nivel.flexible.bases import Basis, ModeCount, craig_bampton, free_interface, inertia_modes, normal_only
 from nivel.flexible.body import Interface, ReducedBody, StressModes
 from nivel.flexible.factor import NoStiffnessError, Whole
 from nivel.flexible.findings import Findings, findings_of
@@ -141,11 +141,14 @@ def _basis(body: FreeBody, boundary: Whole, located: Located) -> Basis:
     modes = ModeCount(reduction.modes.count, reduction.modes.up_to)
     match reduction.method:
         case "craig-bampton":
-            return craig_bampton(body, boundary, modes)
+            basis = craig_bampton(body, boundary, modes)
         case "free-interface":
-            return free_interface(body, boundary, modes)
+            basis = free_interface(body, boundary, modes)
         case "normal-modes":
-            return normal_only(body, modes)
+            basis = normal_only(body, modes)
+    if not reduction.inertia_modes:
+        return basis
+    return replace(basis, vectors=np.hstack([inertia_modes(body, boundary), basis.vectors]))
 
 
 def _with_reference(

@@ -16,11 +16,8 @@ import scipy.sparse as sp
 
 from nivel.flexible.factor import Factor, Whole
 from nivel.flexible.free_body import FreeBody
+from nivel.flexible.inertia_loads import inertia_loads
 from nivel.flexible.model import Array
-
-PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))  # ω_i ω_j of the centrifugal terms
-CASES = ("acceleration", "angular_acceleration", "centrifugal")
-
 
 def stiffening(body: FreeBody, modes: Array, support: Whole, loaded: dict[str, Whole]) -> dict[str, Array]:
     """Geometric stiffness projected on `modes` (N, n), by the name of its cause.
@@ -40,38 +37,6 @@ def stiffening(body: FreeBody, modes: Array, support: Whole, loaded: dict[str, W
         moved[free] = factor.solve(load[free])
         out[name] = np.array([_projected(body, modes, moved[:, k]) for k in range(load.shape[1])])
     return out
-
-
-def inertia_loads(body: FreeBody) -> dict[str, Array]:
-    """(N, k) nodal forces -M a of unit accelerations of the undeformed body, by the names of CASES."""
-    model = body.model
-    R = model.rigid_modes()
-    fields = []
-    for i, j in PAIRS:
-        e = np.eye(3)
-        # ω × (ω × x) for ω_i ω_j: the symmetric part, twice it for i ≠ j, since the product stands once in the sum
-        turned = [np.cross(e[a], np.cross(e[b], model.position)) for a, b in {(i, j), (j, i)}]
-        fields.append(_nodal(body, sum(turned)))
-    return {
-        "acceleration": -(body.M @ R[:, :3]),
-        "angular_acceleration": -(body.M @ R[:, 3:]),
-        "centrifugal": -(body.M @ np.stack(fields, axis=1)),
-    }
-
-
-def _nodal(body: FreeBody, field: Array) -> Array:
-    """(N,) the field (n, 3), linear in x, as displacements of the nodes and turns by half its curl."""
-    model = body.model
-    full = np.zeros(model.expansion.shape[0])
-    values = np.hstack([field, np.zeros_like(field)])
-    x = model.position - model.position.mean(axis=0)
-    gradient = np.linalg.lstsq(np.hstack([x, np.ones((len(x), 1))]), field, rcond=None)[0][:3]  # [b, a] ∂f_a/∂x_b
-    values[:, 3] = 0.5 * (gradient[1, 2] - gradient[2, 1])
-    values[:, 4] = 0.5 * (gradient[2, 0] - gradient[0, 2])
-    values[:, 5] = 0.5 * (gradient[0, 1] - gradient[1, 0])
-    has = model.freedoms >= 0
-    full[model.freedoms[has]] = values[has]
-    return full[model.independent]
 
 
 def _units(body: FreeBody, rows: Whole) -> Array:

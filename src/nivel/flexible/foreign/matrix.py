@@ -44,10 +44,11 @@ def from_triplets(
     rows: Whole, columns: Whole, values: NDArray[np.float64], size: int, *, triangle: bool | None = None
 ) -> sp.csc_array:
     """The matrix of triplets (from 0). triangle : whether the file has one triangle of a symmetric matrix; None: it has
-    where all entries are on one side of the diagonal.
+    where no entry off the diagonal has a mirror image.
     """
     if triangle is None:
-        triangle = bool(np.all(rows >= columns) or np.all(rows <= columns))
+        off = rows != columns
+        triangle = not np.isin(rows[off] * size + columns[off], columns[off] * size + rows[off]).any()
     if triangle:
         off = rows != columns
         rows, columns, values = (

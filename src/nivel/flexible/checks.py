@@ -47,18 +47,17 @@ def problems(model: FiniteElementModel) -> list[str]:
 
 
 def _unconnected(model: FiniteElementModel) -> str:
-    """Parts between which there is no stiffness."""
-    number, part = connected_components(model.stiffness, directed=False)
+    """Parts between which there is no stiffness. The freedoms of a node belong together."""
+    nodes, axes = np.nonzero(model.freedoms >= 0)
+    rows = (np.ones(len(nodes)), (nodes, model.freedoms[nodes, axes]))
+    share = sp.csr_array(rows, shape=(len(model.position), model.expansion.shape[0])) @ abs(model.expansion)
+    number, part = connected_components(share @ abs(model.stiffness) @ share.T, directed=False)
     if number == 1:
         return ""
     sizes = np.bincount(part)
-    unused = (
-        [p for p in range(number) if sizes[p] == 1 and model.stiffness[[p], [p]].sum() == 0.0] if number < 50 else []
-    )
-    order = [p for p in np.argsort(sizes)[::-1] if p not in unused]
-    texts = [
-        f"{sizes[p]} freedoms around node {_node_of(model, int(np.flatnonzero(part == p)[0]))}" for p in order[:SHOWN]
-    ]
+    order = np.argsort(sizes)[::-1]
+    firsts = [model.node_ids[np.flatnonzero(part == p)[0]] for p in order[:SHOWN]]
+    texts = [f"{sizes[p]} node{'s' if sizes[p] > 1 else ''} from node {first}" for p, first in zip(order, firsts, strict=False)]
     more = f" and {number - SHOWN} more" if number > SHOWN else ""
     return (
         f"the model falls into {number} parts that no stiffness joins: {'; '.join(texts)}{more}. Merge coincident nodes, tie the "

@@ -131,17 +131,20 @@ class InterfaceRecord(Checked):
 
 
 class Modes(Checked):
-    """How many normal modes: a count, or all up to a frequency."""
+    """How many normal modes: a count, or all up to a frequency; `given`: none, the user gives the shapes."""
 
     count: Count | None = None
     up_to: Frequency | None = None
+    given: bool = False
 
     def problems(self) -> Iterator[Problem]:
-        if self.count is None and self.up_to is None:
+        if self.count is None and self.up_to is None and not self.given:
             yield Problem((), "`count` or `up_to` (a frequency) was expected")
 
 
 def _modes(value: Any) -> Any:
+    if value == "given":
+        return {"given": True}
     return {"count": value} if isinstance(value, int) and not isinstance(value, bool) else value
 
 
@@ -162,7 +165,7 @@ class ShapeFunction(Checked):
 class Reduction(Checked):
     """How the model becomes a flexible body."""
 
-    modes: Annotated[Modes | Literal["given"], BeforeValidator(_modes)] = Modes(count=10)
+    modes: Annotated[Modes, BeforeValidator(_modes)] = Modes(count=10)
     method: Literal["craig-bampton", "free-interface", "normal-modes"] = "craig-bampton"
     shapes: tuple[ShapeFunction, ...] | FileName = Field(default=(), description="of `modes: given`")
     mass: Literal["consistent", "lumped"] = "consistent"
@@ -174,7 +177,7 @@ class Reduction(Checked):
     stiffening: bool = Field(default=False, description="whether geometric stiffness is computed")
 
     def problems(self) -> Iterator[Problem]:
-        if (self.modes == "given") != bool(self.shapes):
+        if self.modes.given != bool(self.shapes):
             yield Problem(("shapes",), "`modes: given` and `shapes` belong together")
         if self.held and len(self.held) != 6:
             yield Problem(("held",), f"six freedoms were expected, got {len(self.held)}")

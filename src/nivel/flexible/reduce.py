@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 
@@ -24,6 +25,8 @@ from nivel.flexible.orthonormal import Orthonormal, held_at, orthonormal
 from nivel.flexible.source import source_model
 from nivel.flexible.stiffening import stiffening
 from nivel.flexible.ties import Attachment, with_interfaces
+
+NO_MODE: Final = "no mode is left: ask for normal modes, or name interfaces"
 
 Stage = Callable[[str, float], None]
 
@@ -96,12 +99,12 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
     boundary = np.concatenate([_rows(model, each.node) for each in attachments]) if attachments else np.zeros(0, int)
     say("computing normal and correction modes", 0.45)
     basis = _basis(body, boundary, located)
+    if not basis.vectors.shape[1]:
+        raise ModelError(located.fault(("reduction", "modes"), NO_MODE))
     say("removing rigid motions", 0.65)
     found = orthonormal(body, basis.vectors)
     if not len(found.eigenvalues):
-        raise ModelError(
-            located.fault(("reduction", "modes"), "no mode is left: ask for normal modes, or name interfaces")
-        )
+        raise ModelError(located.fault(("reduction", "modes"), NO_MODE))
     modes, eigenvalues, held = _with_reference(body, found, attachments, located)
     say("computing the modes of the whole model for comparison", 0.7)
     findings = findings_of(body, attachments, boundary, basis, found, modes)
@@ -136,7 +139,7 @@ def _rows(model: FiniteElementModel, node: int) -> Whole:
 
 def _basis(body: FreeBody, boundary: Whole, located: Located) -> Basis:
     reduction = located.record.reduction
-    if reduction.modes == "given":
+    if reduction.modes.given:
         return given_modes(body, located)
     modes = ModeCount(reduction.modes.count, reduction.modes.up_to)
     match reduction.method:

@@ -29,7 +29,8 @@ def solid_model(located: Located, say: Callable[[str, float], None]) -> tuple[Fi
     """
     solid = located.record.solid
     assert solid is not None
-    needed("skfem", "a `solid`")
+    for library in ("gmsh", "skfem", "meshio"):
+        needed(library, "a `solid`")
     say("meshing the solid", 0.0)
     try:
         mesh = meshed(solid, None if solid.file is None else located.beside(solid.file))

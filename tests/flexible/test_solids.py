@@ -1,5 +1,8 @@
 """Solids meshed with tetrahedra: mass, inertia, stress and frequencies against closed forms."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from models import STEEL, bar, block, reduced
@@ -213,17 +216,26 @@ def test_parts_that_do_not_touch_are_refused():
         reduced(text)
 
 
-def test_step_file_gives_the_body_of_its_shape(tmp_path):
-    import gmsh
+STEP = """
+import gmsh, sys
+gmsh.initialize(interruptible=False)
+gmsh.option.setNumber("General.Terminal", 0)
+gmsh.model.occ.addBox(0, 0, 0, 300, 100, 50)
+gmsh.model.occ.synchronize()
+gmsh.write(sys.argv[1])
+"""
 
-    gmsh.initialize(interruptible=False)
-    gmsh.option.setNumber("General.Terminal", 0)
-    gmsh.model.add("step")
-    gmsh.model.occ.addBox(0, 0, 0, 300, 100, 50)  # STEP is in mm
-    gmsh.model.occ.synchronize()
-    gmsh.write(str(tmp_path / "part.step"))
-    gmsh.finalize()
+
+def test_step_file_gives_the_body_of_its_shape(tmp_path):
+    """STEP files are in millimetres. Written by another process: the unit of the CAD kernel is one for a whole process."""
+    subprocess.run([sys.executable, "-c", STEP, str(tmp_path / "part.step")], check=True, capture_output=True)
     text = f"format: 1\nmaterials: {{{STEEL}}}\nsolid: {{file: part.step, material: steel, element_size: 60 mm}}\nreduction: {{modes: 3}}"
     body, _ = reduced(text, tmp_path)
     assert body.mass == pytest.approx(RHO * 0.3 * 0.1 * 0.05)
     np.testing.assert_allclose(body.centre_of_mass, [0.15, 0.05, 0.025], atol=1e-9)
+
+
+def test_mesh_that_would_fill_the_memory_is_refused():
+    text = block(size=0.06).replace("element_size: 0.06", "element_size: 0.1 mm")
+    with pytest.raises(ModelError, match=r"would make 8e\+10 elements; give a larger"):
+        reduced(text)

@@ -17,6 +17,7 @@ from nivel.flexible.solid_records import BoxPart, ConePart, CylinderPart, Part, 
 
 TETRAHEDRON_10: Final = 11  # gmsh's number of the element type
 TO_VTK: Final = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]  # gmsh has the edges 23 and 13 the other way round
+MOST: Final = 2e6  # elements: more would fill the memory
 AROUND: Final = 12  # elements around a circle at least
 
 
@@ -64,6 +65,12 @@ def meshed(solid: Solid, step_file: Path | None) -> SolidMesh:
                 f"the solid {what}; one connected solid was expected. Let the parts overlap or touch in a face"
             )
         volume = float(gmsh.model.occ.getMass(3, volumes[0][1]))
+        count = 8.0 * volume / solid.element_size**3  # tetrahedra of this edge in so much space
+        if count > MOST:
+            raise ModelError(
+                f"a volume of {volume:.3g} m^3 and elements of {solid.element_size:.3g} m would make {count:.2g} elements; "
+                "give a larger `element_size`, or look for a slip of a unit"
+            )
         return SolidMesh(*_meshed(gmsh, solid.element_size), volume)
 
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import scipy.io
 import scipy.sparse as sp
-from models import bar, block, reduced
 
+from models import bar, block, reduced
 from nivel.errors import ModelError
 from nivel.flexible.foreign.matrix import FormatError, fortran_number
 from nivel.flexible.foreign.mesh import read_mesh
@@ -50,14 +50,28 @@ def same_body(folder, beam, matrices, **options):
 
 
 def write_nodes(folder, beam, scale=1.0):
-    rows = [f"{n}, {x[0] * scale!r}, {x[1] * scale!r}, {x[2] * scale!r}" for n, x in zip(NUMBERS, beam[0].position, strict=True)]
-    (folder / "nodes.csv").write_text("id, x, y, z\n" + "\n".join(rows).replace("np.float64(", "").replace(")", "") + "\n")
+    rows = [
+        f"{n}, {x[0] * scale!r}, {x[1] * scale!r}, {x[2] * scale!r}"
+        for n, x in zip(NUMBERS, beam[0].position, strict=True)
+    ]
+    (folder / "nodes.csv").write_text(
+        "id, x, y, z\n" + "\n".join(rows).replace("np.float64(", "").replace(")", "") + "\n"
+    )
 
 
 def write_inp(folder, beam):
     lines = ["*HEADING", "a beam", "** comment", "*NODE, NSET=ALL"]
     lines += [f"{n}, {x[0]:.16g}, {x[1]:.16g}, {x[2]:.16g}" for n, x in zip(NUMBERS, beam[0].position, strict=True)]
-    lines += ["*NSET, NSET=ENDS", "10, 12", "*NSET, NSET=RANGE, GENERATE", "40, 41, 1", "*ELEMENT, TYPE=B31, ELSET=E", "1, 10, 5", "*STEP", "*END STEP"]
+    lines += [
+        "*NSET, NSET=ENDS",
+        "10, 12",
+        "*NSET, NSET=RANGE, GENERATE",
+        "40, 41, 1",
+        "*ELEMENT, TYPE=B31, ELSET=E",
+        "1, 10, 5",
+        "*STEP",
+        "*END STEP",
+    ]
     (folder / "mesh.inp").write_text("\n".join(lines))
 
 
@@ -161,7 +175,9 @@ def _written(path, text):
     return path
 
 
-@pytest.mark.parametrize(("text", "value"), [("1.5", 1.5), ("1.5D+06", 1.5e6), ("1.5+6", 1.5e6), ("-2.-3", -2e-3), ("-1.5E2", -150)])
+@pytest.mark.parametrize(
+    ("text", "value"), [("1.5", 1.5), ("1.5D+06", 1.5e6), ("1.5+6", 1.5e6), ("-2.-3", -2e-3), ("-1.5E2", -150)]
+)
 def test_numbers_of_nastran(text, value):
     assert fortran_number(text) == value
 
@@ -199,7 +215,9 @@ def op4_binary(name, matrix, *, sparse, big=False, order="<"):
         rows = np.flatnonzero(matrix[:, j])
         if not sparse:
             part = matrix[rows[0] : rows[-1] + 1, j]
-            out += record(struct.pack(f"{order}3i", j + 1, rows[0] + 1, 2 * len(part)) + part.astype(f"{order}f8").tobytes())
+            out += record(
+                struct.pack(f"{order}3i", j + 1, rows[0] + 1, 2 * len(part)) + part.astype(f"{order}f8").tobytes()
+            )
             continue
         body = b""
         for each in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1):
@@ -212,7 +230,9 @@ def op4_binary(name, matrix, *, sparse, big=False, order="<"):
 
 @pytest.mark.parametrize("sparse", [False, True])
 def test_op4_text(beam, tmp_path, sparse):
-    path = _written(tmp_path / "m.op4", op4_text("KAA", beam[1], sparse=sparse) + op4_text("MAA", beam[2], sparse=sparse))
+    path = _written(
+        tmp_path / "m.op4", op4_text("KAA", beam[1], sparse=sparse) + op4_text("MAA", beam[2], sparse=sparse)
+    )
     found = read_op4(path)
     for name, matrix in zip(("KAA", "MAA"), beam[1:], strict=True):
         np.testing.assert_array_equal(found[name].matrix.toarray(), matrix)
@@ -222,7 +242,8 @@ def test_op4_text(beam, tmp_path, sparse):
 @pytest.mark.parametrize(("sparse", "big"), [(False, False), (True, False), (True, True)])
 def test_op4_binary(beam, tmp_path, sparse, big, order):
     content = b"".join(
-        op4_binary(name, matrix, sparse=sparse, big=big, order=order) for name, matrix in zip(("KAA", "MAA"), beam[1:], strict=True)
+        op4_binary(name, matrix, sparse=sparse, big=big, order=order)
+        for name, matrix in zip(("KAA", "MAA"), beam[1:], strict=True)
     )
     (tmp_path / "m.op4").write_bytes(content)
     for name, matrix in zip(("KAA", "MAA"), beam[1:], strict=True):
@@ -261,7 +282,10 @@ def solid(tmp_path_factory):
         (folder / f"job.{suffix}").write_text("\n".join(lines))
     ids = np.arange(len(model.position)) + 101
     (folder / "job.dof").write_text("\n".join(f"{n}.{a}" for n in ids for a in (1, 2, 3)))
-    lines = ["*NODE", *(f"{n}, {x[0]:.12g}, {x[1]:.12g}, {x[2]:.12g}" for n, x in zip(ids, model.position * 1e3, strict=True))]
+    lines = [
+        "*NODE",
+        *(f"{n}, {x[0]:.12g}, {x[1]:.12g}, {x[2]:.12g}" for n, x in zip(ids, model.position * 1e3, strict=True)),
+    ]
     lines.append("*ELEMENT, TYPE=C3D10, ELSET=ALL")
     lines += [f"{e + 1}, " + ", ".join(map(str, ids[nodes])) for e, nodes in enumerate(model.solids)]
     root = ids[np.abs(model.position[:, 0]) < 1e-9]
@@ -306,7 +330,12 @@ def changed(solid, folder, name, change):
 
 
 def test_hole_in_the_numbering_is_named(solid, tmp_path):
-    folder = changed(solid, tmp_path, "mesh.inp", lambda text: "\n".join(line for line in text.splitlines() if not line.startswith("120, ")))
+    folder = changed(
+        solid,
+        tmp_path,
+        "mesh.inp",
+        lambda text: "\n".join(line for line in text.splitlines() if not line.startswith("120, ")),
+    )
     message = fault_of(folder)
     assert "120" in message
     assert "hole after 119 (the next is 121)" in message
@@ -337,11 +366,14 @@ def test_matrix_that_is_not_symmetric_is_refused(beam, tmp_path):
 @pytest.mark.parametrize(("factor", "words"), [(1e9, "too large"), (1e-9, "too small")])
 def test_mass_off_by_a_billion_is_named(solid, tmp_path, factor, words):
     def scaled(text):
-        return "\n".join(f"{line.rsplit(' ', 1)[0]} {float(line.rsplit(' ', 1)[1]) * factor:.16e}" for line in text.splitlines())
+        return "\n".join(
+            f"{line.rsplit(' ', 1)[0]} {float(line.rsplit(' ', 1)[1]) * factor:.16e}" for line in text.splitlines()
+        )
 
     message = fault_of(changed(solid, tmp_path, "job.mas", scaled))
     assert "do not fit together" in message
-    assert words in message and "1e9" in message
+    assert words in message
+    assert "1e9" in message
     assert "units:" in message
 
 
@@ -364,7 +396,9 @@ def test_supports_are_named(beam, tmp_path):
             scipy.io.mmwrite(tmp_path / f"{name}.mtx", sp.coo_array(matrix), symmetry="symmetric")
         write_nodes(tmp_path, beam)
         (tmp_path / "rows.csv").write_text("node,direction\n" + "".join(f"{n},{a}\n" for n, a in labels()))
-        message = fault_of(tmp_path, "format: matrix-market, stiffness: k.mtx, mass: m.mtx, nodes: nodes.csv, freedoms: rows.csv")
+        message = fault_of(
+            tmp_path, "format: matrix-market, stiffness: k.mtx, mass: m.mtx, nodes: nodes.csv, freedoms: rows.csv"
+        )
         assert text in message
         assert "10" in message
 
@@ -404,16 +438,21 @@ def test_missing_files_and_names(beam, tmp_path, solid):
     (tmp_path / "model.pch").write_text(dmig("KXX", beam[1], wide=False) + dmig("OTHER", beam[2], wide=False))
     (tmp_path / "nodes.bdf").write_text(bulk(beam))
     assert "Give `mass_name`" in fault_of(tmp_path, "format: nastran, stiffness: model.pch, nodes: nodes.bdf")
-    assert "there are KXX, OTHER" in fault_of(tmp_path, "format: nastran, stiffness: model.pch, nodes: nodes.bdf, mass_name: MXX")
+    assert "there are KXX, OTHER" in fault_of(
+        tmp_path, "format: nastran, stiffness: model.pch, nodes: nodes.bdf, mass_name: MXX"
+    )
 
 
 def test_interface_on_a_node_set_that_does_not_exist(solid):
     assert "did you mean `ROOT`?" in fault_of(solid, interfaces="root: {set: ROOTS}")
     message = fault_of(solid, interfaces="root: {node: 7}")
-    assert "no node 7" in message and "from 101 to" in message
+    assert "no node 7" in message
+    assert "from 101 to" in message
 
 
-@pytest.mark.parametrize("content", [b"", b"hello", b"\x18\x00\x00\x00", b"       3       3       6       2KAA     1P,3E23.16\n"])
+@pytest.mark.parametrize(
+    "content", [b"", b"hello", b"\x18\x00\x00\x00", b"       3       3       6       2KAA     1P,3E23.16\n"]
+)
 def test_what_is_no_op4_file(tmp_path, content):
     (tmp_path / "m.op4").write_bytes(content)
     with pytest.raises(FormatError):
@@ -421,7 +460,9 @@ def test_what_is_no_op4_file(tmp_path, content):
 
 
 def test_complex_and_mixed_files(tmp_path):
-    path = _written(tmp_path / "m.pch", "DMIG    KAAX           0       6       3       0\nDMIG,KAAX,1,1,,1,1,2.0,0.0\n")
+    path = _written(
+        tmp_path / "m.pch", "DMIG    KAAX           0       6       3       0\nDMIG,KAAX,1,1,,1,1,2.0,0.0\n"
+    )
     with pytest.raises(FormatError, match=r"line 1: .*complex"):
         read_dmig(path)
     path = _written(tmp_path / "m.mtx", "1 1 2.0\n1,1,2,2,3.0\n")

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from models import bar, block
 
+from models import bar, block
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.invariants import invariants, of_points, tilde
 from nivel.flexible.mass import PointMass, lumped
@@ -91,9 +91,7 @@ def test_quadratic_velocity_vector_is_the_derivative_of_the_kinetic_energy(case,
         return with_euler_parameters(mass_matrix(its, rotation(place[3:7]), place[7:]), place[3:7])
 
     step = 1e-30
-    slope = [
-        0.5 * (speed @ matrix(place + 1j * step * direction) @ speed).imag / step for direction in np.eye(7 + n)
-    ]
+    slope = [0.5 * (speed @ matrix(place + 1j * step * direction) @ speed).imag / step for direction in np.eye(7 + n)]
     expected = np.array(slope) - (matrix(place + 1j * step * speed).imag / step) @ speed
     G = transformation(theta)
     got = quadratic_velocity(its, rotation(theta), G @ rate, q, qdot)
@@ -139,7 +137,9 @@ def test_invariants_of_combined_modes_are_those_of_the_combination(case, rng):
 
 def test_invariants_of_two_points_by_hand():
     """Masses 2 and 3 kg at ±x, a mode that moves the first along y: the sums written out."""
-    its = of_points(np.array([[1.0, 0, 0], [-1.0, 0, 0]]), np.array([[[0.0], [1.0], [0.0]], np.zeros((3, 1))]), np.array([2.0, 3.0]))
+    its = of_points(
+        np.array([[1.0, 0, 0], [-1.0, 0, 0]]), np.array([[[0.0], [1.0], [0.0]], np.zeros((3, 1))]), np.array([2.0, 3.0])
+    )
     assert its.I1 == 5.0
     np.testing.assert_array_equal(its.I2, [-1, 0, 0])
     np.testing.assert_array_equal(its.I3[:, 0], [0, 2, 0])

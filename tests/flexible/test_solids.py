@@ -5,8 +5,8 @@ import sys
 
 import numpy as np
 import pytest
-from models import STEEL, bar, block, reduced
 
+from models import STEEL, bar, block, reduced
 from nivel.errors import ModelError
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.inertia_loads import inertia_loads
@@ -47,7 +47,12 @@ SHAPES = {
         [0.2, 0, 0],
         np.array([0.1**2 / 2, 0.1**2 / 4 + 0.4**2 / 12, 0.1**2 / 4 + 0.4**2 / 12]),
     ),
-    "sphere": ("[{type: sphere, centre: [1, 0, 0], radius: 0.1}]", 4 / 3 * np.pi * 1e-3, [1, 0, 0], np.full(3, 0.4 * 0.01)),
+    "sphere": (
+        "[{type: sphere, centre: [1, 0, 0], radius: 0.1}]",
+        4 / 3 * np.pi * 1e-3,
+        [1, 0, 0],
+        np.full(3, 0.4 * 0.01),
+    ),
     "tube": (
         "[{type: cylinder, from: [0, 0, 0], to: [0.4, 0, 0], radius: 0.1}, "
         "{type: cylinder, from: [-1, 0, 0], to: [1, 0, 0], radius: 0.08, cut: true}]",
@@ -81,23 +86,25 @@ def test_mass_and_inertia_of_a_mesh_are_those_of_the_shape(name):
 def test_frequencies_of_a_slender_block_are_those_of_a_timoshenko_beam():
     """The same bar of beam elements, free: bending, twisting and stretching within 0.6 %."""
     solid, _ = reduced(block(size=0.035, reduction="modes: 9, method: normal-modes"))
-    beam, _ = reduced(bar(length=1.0, width=SIDE, height=SIDE, elements=24, theory="timoshenko", interfaces="", reduction="modes: 9"))
+    beam, _ = reduced(
+        bar(length=1.0, width=SIDE, height=SIDE, elements=24, theory="timoshenko", interfaces="", reduction="modes: 9")
+    )
     np.testing.assert_allclose(np.sort(solid.frequencies)[:7], np.sort(beam.frequencies)[:7], rtol=6e-3)
 
 
 def test_static_deflection_and_stress_of_a_cantilever(cantilever):
     """δ = F L³/3EI + F L/κGA; σ = F (L - x) c / I at half the length, away from the clamp: within 2 %."""
-    F, I = 1000.0, SIDE**4 / 12
+    F, second = 1000.0, SIDE**4 / 12
     tip = cantilever.interface("tip")
     q = tip.phi.T @ [0, 0, F] / cantilever.eigenvalues
     shear = F / (10 * 1.3 / (12 + 11 * 0.3) * E / 2.6 * SIDE**2)
-    assert (tip.phi @ q)[2] == pytest.approx(F / (3 * E * I) + shear, rel=0.02)
-    assert (tip.psi @ q)[1] == pytest.approx(-F / (2 * E * I), rel=0.02)
+    assert (tip.phi @ q)[2] == pytest.approx(F / (3 * E * second) + shear, rel=0.02)
+    assert (tip.psi @ q)[1] == pytest.approx(-F / (2 * E * second), rel=0.02)
     place = cantilever.position[cantilever.stress.station_node]
     values = stress(cantilever, q)[0]
     top = np.flatnonzero((abs(place[:, 2] - SIDE / 2) < 1e-9) & (abs(place[:, 0] - 0.5) < 0.25))
     assert len(top) > 20
-    expected = -F * (1 - place[top, 0]) * SIDE / 2 / I
+    expected = -F * (1 - place[top, 0]) * SIDE / 2 / second
     np.testing.assert_allclose(values[top, 0], expected, atol=0.02 * np.abs(expected).max())
     assert np.median(np.abs(values[top, 0] / expected - 1)) < 0.01
 
@@ -108,7 +115,10 @@ def test_stress_of_a_rotating_bar(cantilever):
 
     omega = np.array([0, 0, 100.0])
     n = len(cantilever.eigenvalues)
-    q = quadratic_velocity(cantilever.invariants, np.eye(3), omega, np.zeros(n), np.zeros(n))[6:] / cantilever.eigenvalues
+    q = (
+        quadratic_velocity(cantilever.invariants, np.eye(3), omega, np.zeros(n), np.zeros(n))[6:]
+        / cantilever.eigenvalues
+    )
     place = cantilever.position[cantilever.stress.station_node]
     values = stress(cantilever, q)[0]
     inside = np.flatnonzero((place[:, 0] > 0.15) & (place[:, 0] < 0.9))
@@ -144,7 +154,16 @@ def test_strain_energy_of_stresses_is_that_of_the_stiffness(rng):
     D = elasticity(elements.material)
     for gradients, volume in elements.points:
         g = np.einsum("enb,ena->eab", gradients, nodes)
-        e = np.stack([g[:, 0, 0], g[:, 1, 1], g[:, 2, 2], g[:, 0, 1] + g[:, 1, 0], g[:, 1, 2] + g[:, 2, 1], g[:, 2, 0] + g[:, 0, 2]])
+        e = np.stack(
+            [
+                g[:, 0, 0],
+                g[:, 1, 1],
+                g[:, 2, 2],
+                g[:, 0, 1] + g[:, 1, 0],
+                g[:, 1, 2] + g[:, 2, 1],
+                g[:, 2, 0] + g[:, 0, 2],
+            ]
+        )
         energy += 0.5 * np.einsum("e,ae,ab,be->", volume, e, D, e)
     assert energy == pytest.approx(0.5 * (u.T @ (model.stiffness @ u)).item(), rel=1e-10)
 
@@ -157,15 +176,21 @@ def test_linear_displacements_give_exact_stress_and_turn():
     lame, mu = E * 0.3 / (1.3 * 0.4), E / 2.6
     sigma = lame * np.trace(G) * np.eye(3) + mu * (G + G.T)
     expected = [sigma[0, 0], sigma[1, 1], sigma[2, 2], sigma[0, 1], sigma[1, 2], sigma[2, 0]]
-    np.testing.assert_allclose(model.elements.stress(u)[:, :, 0], np.tile(expected, (len(model.position), 1)), rtol=1e-8)
+    np.testing.assert_allclose(
+        model.elements.stress(u)[:, :, 0], np.tile(expected, (len(model.position), 1)), rtol=1e-8
+    )
     curl = [G[2, 1] - G[1, 2], G[0, 2] - G[2, 0], G[1, 0] - G[0, 1]]
-    np.testing.assert_allclose(model.elements.turn(u)[:, :, 0], np.tile(np.array(curl) / 2, (len(model.position), 1)), rtol=1e-8)
+    np.testing.assert_allclose(
+        model.elements.turn(u)[:, :, 0], np.tile(np.array(curl) / 2, (len(model.position), 1)), rtol=1e-8
+    )
 
 
 @pytest.mark.parametrize("tie", ["rigid", "average"])
 def test_tied_surface_carries_force_and_torque(tie):
     """Equilibrium: the load on a reference node is that on the body, whatever the tie; rigid motions stay rigid."""
-    model = assembled(block(length=0.4, size=0.1, interfaces=f"tip: {{plane: {{point: [0.4, 0, 0], normal: [1, 0, 0]}}, tie: {tie}}}"))
+    model = assembled(
+        block(length=0.4, size=0.1, interfaces=f"tip: {{plane: {{point: [0.4, 0, 0], normal: [1, 0, 0]}}, tie: {tie}}}")
+    )
     node = model.names["tip"]
     R = model.rigid_modes()
     motion = model.node_motion(R)
@@ -179,7 +204,11 @@ def test_tied_surface_carries_force_and_torque(tie):
 def test_average_tie_is_softer_than_a_rigid_one():
     """A rigid face keeps its shape: frequencies of the body with rigid ends are higher."""
     both = [
-        reduced(block(interfaces=f"root: {{plane: {{point: [0, 0, 0], normal: [1, 0, 0]}}, tie: {tie}}}", reduction="modes: 3"))[1].full
+        reduced(
+            block(
+                interfaces=f"root: {{plane: {{point: [0, 0, 0], normal: [1, 0, 0]}}, tie: {tie}}}", reduction="modes: 3"
+            )
+        )[1].full
         for tie in ("average", "rigid")
     ]
     assert np.all(np.array(both[1][:4]) > np.array(both[0][:4]) * (1 - 1e-9))

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from models import bar, block, reduced
 
+from models import bar, block, reduced
 from nivel.flexible.reference import quadratic_velocity, stiffening
 
 L, B, H, E, RHO = 2.0, 0.02, 0.03, 210e9, 7850.0
@@ -92,7 +92,15 @@ def test_solid_and_beam_agree():
     root = "root: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}"
     solid, _ = reduced(block(interfaces=root, reduction="modes: 8, reference: root, stiffening: true"))
     beam, _ = reduced(
-        bar(length=1.0, width=0.1, height=0.1, elements=12, theory="timoshenko", interfaces="root: {node: root}", reduction="modes: 8, reference: root, stiffening: true")
+        bar(
+            length=1.0,
+            width=0.1,
+            height=0.1,
+            elements=12,
+            theory="timoshenko",
+            interfaces="root: {node: root}",
+            reduction="modes: 8, reference: root, stiffening: true",
+        )
     )
     gains = []
     for body in (solid, beam):

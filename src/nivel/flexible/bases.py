@@ -12,10 +12,11 @@ import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
 
-from nivel.flexible.factor import Factor, Whole, lowest_modes
+from nivel.flexible.factor import Factor, Whole, lowest_modes, pivots
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.inertia_loads import inertia_loads
 from nivel.flexible.model import Array
+from nivel.flexible.sparse import Sparse
 
 LIMIT_START = 16  # modes that are computed first where a frequency is the limit
 
@@ -121,8 +122,7 @@ def _with_pins(body: FreeBody, boundary: Whole) -> Whole:
     left = la.null_space(R[boundary], rcond=1e-9) if len(boundary) else np.eye(6)
     if left.shape[1] == 0:
         return boundary
-    _, _, order = la.qr((R @ left).T, mode="economic", pivoting=True)
-    return np.concatenate([boundary, order[: left.shape[1]]])
+    return np.concatenate([boundary, pivots((R @ left).T)[: left.shape[1]]])
 
 
 def _rigid_within(body: FreeBody, boundary: Whole, inner: Whole) -> Array:
@@ -134,7 +134,7 @@ def _rigid_within(body: FreeBody, boundary: Whole, inner: Whole) -> Array:
     return la.solve_triangular(la.cholesky(gram, lower=True), motions.T, lower=True).T
 
 
-def _within(body: FreeBody, inner: Whole) -> tuple[sp.csc_array, sp.csc_array]:
+def _within(body: FreeBody, inner: Whole) -> tuple[Sparse, sp.csc_array]:
     return sp.csc_array(body.K[inner][:, inner]), sp.csc_array(body.M[inner][:, inner])
 
 

@@ -198,7 +198,7 @@ def _check_kind(file: h5py.File, path: str | Path) -> None:
         )
 
 
-def _read(file: h5py.File) -> ReducedBody:
+def _read(file: Any) -> ReducedBody:
     def array(name: str) -> Any:
         return file[name][()]
 

@@ -10,7 +10,8 @@ from scipy.sparse.csgraph import connected_components
 
 from nivel.flexible.factor import NoStiffnessError
 from nivel.flexible.free_body import FreeBody
-from nivel.flexible.model import AXES, Array, FiniteElementModel
+from nivel.flexible.model import AXES, Array, FiniteElementModel, Whole
+from nivel.flexible.sparse import Sparse
 
 SYMMETRIC: Final = 1e-8  # unsymmetric part as a share of the largest element
 GROUNDED: Final = 1e-6  # force of a rigid motion as a share of what stiffness could give
@@ -19,7 +20,7 @@ LIGHTEST, DENSEST = 0.01, 1e5  # [kg/m^3]
 SHOWN: Final = 6  # nodes that a message names
 
 
-def unsymmetric(matrix: sp.csc_array, what: str) -> str:
+def unsymmetric(matrix: Sparse, what: str) -> str:
     """Why `matrix` is not symmetric; empty where it is."""
     difference = sp.coo_array(matrix - matrix.T)
     scale = np.abs(matrix.data).max() if matrix.nnz else 1.0
@@ -34,7 +35,7 @@ def unsymmetric(matrix: sp.csc_array, what: str) -> str:
     )
 
 
-def _one_triangle(matrix: sp.csc_array) -> bool:
+def _one_triangle(matrix: Sparse) -> bool:
     return sp.tril(matrix, -1).nnz == 0 or sp.triu(matrix, 1).nnz == 0
 
 
@@ -57,7 +58,10 @@ def _unconnected(model: FiniteElementModel) -> str:
     sizes = np.bincount(part)
     order = np.argsort(sizes)[::-1]
     firsts = [model.node_ids[np.flatnonzero(part == p)[0]] for p in order[:SHOWN]]
-    texts = [f"{sizes[p]} node{'s' if sizes[p] > 1 else ''} from node {first}" for p, first in zip(order, firsts, strict=False)]
+    texts = [
+        f"{sizes[p]} node{'s' if sizes[p] > 1 else ''} from node {first}"
+        for p, first in zip(order, firsts, strict=False)
+    ]
     more = f" and {number - SHOWN} more" if number > SHOWN else ""
     return (
         f"the model falls into {number} parts that no stiffness joins: {'; '.join(texts)}{more}. Merge coincident nodes, tie the "
@@ -106,7 +110,7 @@ def _grounded(model: FiniteElementModel) -> str:
     return (
         f"the stiffness matrix holds the body to the ground: a rigid motion {motions[worst]} causes a force at node {where}, "
         f"{share[worst]:.2g} of what its stiffness could give. Remove supports, springs to ground and boundary conditions in the "
-        "finite-element program; interfaces are held by joints later. If there are none, coordinates and matrix have different units or axes"
+        "finite-element program; interfaces are held by joints later. If there are none, coordinates and matrix differ in units or axes"
     )
 
 
@@ -187,7 +191,7 @@ def _power(ratio: float) -> str:
     return f", about 1e{exponent}: {meaning}; check `units`, and the units of densities"
 
 
-def mechanism(body: FreeBody, error: NoStiffnessError, rows: Array | None = None) -> str:
+def mechanism(body: FreeBody, error: NoStiffnessError, rows: Whole | None = None) -> str:
     """Which nodes can move although no rigid motion is left."""
     motion = np.zeros(body.model.count)
     motion[body.free if rows is None else rows] = error.motion
@@ -198,5 +202,5 @@ def mechanism(body: FreeBody, error: NoStiffnessError, rows: Array | None = None
     texts = [f"{body.model.node_ids[node]} ({AXES[int(np.argmax(np.abs(moved[node])))]})" for node in nodes]
     return (
         f"the stiffness is singular beyond the six rigid motions: a mechanism is left in which node{'s' if len(texts) > 1 else ''} "
-        f"{', '.join(texts)} move{'' if len(texts) > 1 else 's'} most. Join what is loose, remove hinges, or remove freedoms without stiffness"
+        f"{', '.join(texts)} move{'' if len(texts) > 1 else 's'} most. Join what is loose, remove hinges and freedoms without stiffness"
     )

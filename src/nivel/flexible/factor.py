@@ -7,7 +7,7 @@ about two seconds, against fifteen with the ordering that SuperLU takes by itsel
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import scipy.linalg as la
@@ -16,6 +16,7 @@ import scipy.sparse.linalg as spl
 from numpy.typing import NDArray
 
 from nivel.errors import SolveError
+from nivel.flexible.sparse import Sparse
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
@@ -23,6 +24,7 @@ Solve = Callable[[Array], Array]
 
 DENSE: Final = 400  # freedoms up to which modes are computed with full matrices
 NO_STIFFNESS: Final = 3e-14  # a pivot below this share of its diagonal element is what round-off left of zero
+TOLERANCE: Final[Any] = 1e-10  # of eigenvalues, relative
 BLOCK: Final = 16  # right-hand sides at once
 
 
@@ -37,7 +39,7 @@ class NoStiffnessError(Exception):
 class Factor:
     """The factor of a symmetric positive definite matrix (N, N)."""
 
-    def __init__(self, matrix: sp.csc_array) -> None:
+    def __init__(self, matrix: Sparse) -> None:
         """Raises NoStiffnessError where the matrix is singular."""
         self.matrix = matrix
         self._lu = None
@@ -66,7 +68,7 @@ class Factor:
         return np.hstack([self._lu.solve(np.asfortranarray(part)) for part in parts])
 
 
-def _decomposed(matrix: sp.csc_array):
+def _decomposed(matrix: Sparse):
     try:
         return spl.splu(
             sp.csc_matrix(matrix),
@@ -78,7 +80,7 @@ def _decomposed(matrix: sp.csc_array):
         return None
 
 
-def _soft_motion(matrix: sp.csc_array) -> Array:
+def _soft_motion(matrix: Sparse) -> Array:
     """(N,) the motion that costs least energy, by inverse iteration on the matrix with a little added to its diagonal."""
     diagonal = np.abs(matrix.diagonal())
     added = np.where(diagonal > 0.0, diagonal, diagonal.max() or 1.0)
@@ -90,9 +92,7 @@ def _soft_motion(matrix: sp.csc_array) -> Array:
     return motion
 
 
-def lowest_modes(
-    K: sp.csc_array, M: sp.csc_array, count: int, solve: Solve, rigid: Array | None = None
-) -> tuple[Array, Array]:
+def lowest_modes(K: Sparse, M: Sparse, count: int, solve: Solve, rigid: Array | None = None) -> tuple[Array, Array]:
     """The `count` lowest eigenvalues [1/s²] and M-orthonormal modes (N, count) of K φ = ω² M φ.
 
     solve : K⁻¹. rigid : (N, 6) M-orthonormal rigid modes of a K that is singular for them; they are left out, and `solve`
@@ -105,17 +105,17 @@ def lowest_modes(
         return np.zeros(0), np.zeros((size, 0))
     if size <= DENSE or 3 * count > size:
         return _dense_modes(K, M, count, rigid)
-    operator = spl.LinearOperator((size, size), matvec=solve, dtype=float)
+    operator: Any = spl.LinearOperator((size, size), matvec=solve, dtype=float)  # type: ignore[call-arg]
     start = solve(np.random.default_rng(2).normal(size=size))
     try:
-        values, vectors = spl.eigsh(K, k=count, M=M, sigma=0.0, OPinv=operator, v0=start, tol=1e-10)
+        values, vectors = spl.eigsh(K, k=count, M=M, sigma=0.0, OPinv=operator, v0=start, tol=TOLERANCE)
     except spl.ArpackNoConvergence as error:
         raise SolveError(f"{count} modes were not found: {error}", time=0.0, advice="ask for fewer modes") from None
     order = np.argsort(values)
     return values[order], vectors[:, order]
 
 
-def _dense_modes(K: sp.csc_array, M: sp.csc_array, count: int, rigid: Array | None) -> tuple[Array, Array]:
+def _dense_modes(K: Sparse, M: Sparse, count: int, rigid: Array | None) -> tuple[Array, Array]:
     full_K, full_M = K.toarray(), M.toarray()
     basis = np.eye(len(full_K)) if rigid is None else la.null_space((full_M @ rigid).T)
     small_K, small_M = basis.T @ full_K @ basis, basis.T @ full_M @ basis
@@ -134,5 +134,10 @@ def _symmetric(matrix: Array) -> Array:
 def determinate(rigid: Array) -> Whole:
     """(6,) rows of rigid modes (N, 6) that, held, stop every rigid motion: far apart, by pivoted QR."""
     scaled = rigid / np.abs(rigid).max(axis=0)
-    _, _, order = la.qr(scaled.T, mode="economic", pivoting=True)
-    return np.sort(order[: rigid.shape[1]])
+    return np.sort(pivots(scaled.T)[: rigid.shape[1]])
+
+
+def pivots(matrix: Array) -> Whole:
+    """(n,) columns of (m, n) in the order in which QR with pivoting takes them: the first m are as independent as can be."""
+    order: Any = la.qr(matrix, mode="r", pivoting=True)[-1]
+    return np.asarray(order, dtype=np.int64)

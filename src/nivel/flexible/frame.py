@@ -12,6 +12,7 @@ import scipy.sparse as sp
 from nivel.flexible.beam import Beam, end_stress, geometric_stiffness, mass_points, stiffness
 from nivel.flexible.mass import PointMass
 from nivel.flexible.model import Array, FiniteElementModel, Whole, numbered
+from nivel.flexible.sparse import Sparse
 
 
 @dataclass
@@ -115,7 +116,7 @@ class BeamElements:
         """(12, 12) local from global freedoms."""
         return np.kron(np.eye(4), self.axes[e])
 
-    def summed(self, local: list[Array]) -> sp.csr_array:
+    def summed(self, local: list[Array]) -> Sparse:
         """(F, F) sum of local (12, 12) matrices."""
         blocks = np.array([T.T @ block @ T for block, T in ((b, self.turning(e)) for e, b in enumerate(local))])
         columns = np.array(self.columns)
@@ -123,8 +124,7 @@ class BeamElements:
         count = int(self.freedoms.max()) + 1
         return sp.csr_array((blocks.ravel(), (rows, np.tile(columns, (1, 12)).ravel())), shape=(count, count))
 
-    @cached_property
-    def stations(self) -> Whole:
+    def station_nodes(self) -> Whole:
         return np.array(
             [
                 node
@@ -134,8 +134,7 @@ class BeamElements:
             ]
         )
 
-    @cached_property
-    def labels(self) -> tuple[str, ...]:
+    def station_labels(self) -> tuple[str, ...]:
         """``main, y 0.05 z 0.1``: the beam and the fibre."""
         return tuple(
             f"{self.names[e]}, y {y:.4g} z {z:.4g}"
@@ -165,7 +164,7 @@ class BeamElements:
             at += count
         return np.concatenate(parts)
 
-    def geometric_stiffness(self, displacement: Array) -> sp.csr_array:
+    def geometric_stiffness(self, displacement: Array) -> Sparse:
         """Of the tension of each beam; its bending moments and torque are left out."""
         local = []
         for e, beam in enumerate(self.beams):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from nivel.errors import ModelError
@@ -38,14 +40,13 @@ def frame_model(located: Located) -> FiniteElementModel:
         between = [mesh.node(start + k / beam.elements * span) for k in range(1, beam.elements)]
         chain = [first, *between, last]
         length = float(np.linalg.norm(span)) / beam.elements
-        for i, j in zip(chain[:-1], chain[1:], strict=True):
+        for i, j in pairwise(chain):
             mesh.ends.append((i, j))
             mesh.beams.append(Beam(length, section, material, frame.theory == "timoshenko"))
             mesh.axes.append(local_axes(span, up))
             mesh.names.append(name)
-    for name in frame.nodes:
-        if name not in used:
-            faults.append(located.fault(("frame", "nodes", name), "no beam ends at this node: remove it, or join it"))
+    lost = "no beam ends at this node: remove it, or join it"
+    faults += [located.fault(("frame", "nodes", name), lost) for name in frame.nodes if name not in used]
     if faults:
         raise ModelError(faults)
     masses: dict[int, float] = {}

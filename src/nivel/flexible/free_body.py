@@ -11,6 +11,7 @@ import scipy.sparse as sp
 
 from nivel.flexible.factor import Factor, Whole, determinate, lowest_modes
 from nivel.flexible.model import Array, FiniteElementModel
+from nivel.flexible.sparse import Sparse
 
 
 @dataclass(frozen=True)
@@ -22,8 +23,8 @@ class FreeBody:
     """
 
     model: FiniteElementModel
-    K: sp.csc_array
-    M: sp.csc_array
+    K: Sparse
+    M: Sparse
 
     @classmethod
     def of(cls, model: FiniteElementModel) -> FreeBody:

@@ -22,8 +22,9 @@ STEP: Final = 1e-6  # of the size of the body: differences for the turn of nodes
 def given_modes(body: FreeBody, located: Located) -> Basis:
     """The basis of the shapes of a model file, (N, k); orthonormalised later like any other.
 
-    Expressions are of the undeformed place x, y, z [m]; turns that are not given follow from them by central differences. A table (.csv) has the columns node, mode, x, y, z and, if nodes turn, rx, ry, rz; `.npy` is an
-    array (modes, nodes, 3 or 6) in the order of the nodes.
+    Expressions are of the undeformed place x, y, z [m]; turns that are not given follow from them by central differences.
+    A table (.csv) has the columns node, mode, x, y, z and, if nodes turn, rx, ry, rz; `.npy` is an array
+    (modes, nodes, 3 or 6) in the order of the nodes.
 
     Raises ModelError.
     """
@@ -73,7 +74,9 @@ def _motion(model: FiniteElementModel, functions: list[PlaceFunction | None]) ->
     def field(x: Array) -> Array:
         return np.stack([f(*x.T) for f in functions[:3] if f is not None], axis=1)
 
-    slope = np.stack([(field(position + step * e) - field(position - step * e)) / (2.0 * step) for e in np.eye(3)], axis=1)
+    slope = np.stack(
+        [(field(position + step * e) - field(position - step * e)) / (2.0 * step) for e in np.eye(3)], axis=1
+    )
     turn = 0.5 * np.einsum("abc,nbc->na", LEVI_CIVITA, slope)  # slope[n, b, c] is ∂u_c/∂x_b
     tangents, beams = _tangents(model)
     if len(beams):

@@ -21,7 +21,7 @@ def inertia_loads(body: FreeBody) -> dict[str, Array]:
         e = np.eye(3)
         # ω × (ω × x) for ω_i ω_j: the symmetric part, twice it for i ≠ j, since the product stands once in the sum
         turned = [np.cross(e[a], np.cross(e[b], model.position)) for a, b in {(i, j), (j, i)}]
-        fields.append(_nodal(body, sum(turned)))
+        fields.append(_nodal(body, np.sum(turned, axis=0)))
     return {
         "acceleration": -(body.M @ R[:, :3]),
         "angular_acceleration": -(body.M @ R[:, 3:]),

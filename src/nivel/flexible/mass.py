@@ -13,6 +13,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from nivel.flexible.sparse import Sparse
+
 Array = NDArray[np.float64]
 
 
@@ -31,16 +33,16 @@ class PointMass:
     """
 
     position: Array
-    shape: sp.csr_array
-    weight: sp.csr_array
+    shape: Sparse
+    weight: Sparse
 
     @property
-    def matrix(self) -> sp.csc_array:
+    def matrix(self) -> Sparse:
         """(N, N) [kg, kg m, kg m²]"""
         weight = sp.csr_array(sp.kron(self.weight, sp.eye_array(3)))
         return sp.csc_array(self.shape.T @ weight @ self.shape)
 
-    def transformed(self, transformation: sp.csr_array) -> PointMass:
+    def transformed(self, transformation: Sparse) -> PointMass:
         """The same with freedoms q, where those of now are `transformation` q."""
         return replace(self, shape=sp.csr_array(self.shape @ transformation))
 
@@ -60,17 +62,17 @@ class MatrixMass:
 
     position: Array
     freedoms: NDArray[np.int64]
-    full: sp.csc_array
-    transformation: sp.csr_array | None = None
+    full: Sparse
+    transformation: Sparse | None = None
 
     @property
-    def matrix(self) -> sp.csc_array:
+    def matrix(self) -> Sparse:
         """(N', N')"""
         if self.transformation is None:
             return self.full
         return sp.csc_array(self.transformation.T @ self.full @ self.transformation)
 
-    def transformed(self, transformation: sp.csr_array) -> MatrixMass:
+    def transformed(self, transformation: Sparse) -> MatrixMass:
         """The same with freedoms q, where those of now are `transformation` q."""
         before = self.transformation
         return replace(self, transformation=transformation if before is None else sp.csr_array(before @ transformation))
@@ -79,7 +81,7 @@ class MatrixMass:
 Mass = PointMass | MatrixMass
 
 
-def from_matrix(position: Array, freedoms: NDArray[np.int64], matrix: sp.csc_array) -> Mass:
+def from_matrix(position: Array, freedoms: NDArray[np.int64], matrix: Sparse) -> Mass:
     """A PointMass where `matrix` is one: x, y and z of nodes have the same mass and nothing couples them; else a MatrixMass."""
     if np.any(freedoms[:, 3:] >= 0) or np.any(freedoms[:, :3] < 0):
         return MatrixMass(position, freedoms, matrix)
@@ -94,7 +96,7 @@ def from_matrix(position: Array, freedoms: NDArray[np.int64], matrix: sp.csc_arr
     return PointMass(position, at_nodes(freedoms, matrix.shape[0]), scalar)
 
 
-def at_nodes(freedoms: NDArray[np.int64], count: int) -> sp.csr_array:
+def at_nodes(freedoms: NDArray[np.int64], count: int) -> Sparse:
     """(3 n, count): the displacements of the nodes as points; a direction without a freedom does not move."""
     rows = np.flatnonzero(freedoms[:, :3].ravel() >= 0)
     columns = freedoms[:, :3].ravel()[rows]
@@ -121,7 +123,7 @@ def lumped(mass: Mass) -> PointMass:
     return point if mass.transformation is None else point.transformed(mass.transformation)
 
 
-def scalar_part(mass: MatrixMass) -> sp.csr_array:
+def scalar_part(mass: MatrixMass) -> Sparse:
     """(n, n) [kg] mean of the x, y and z parts of the translational mass of nodes."""
     selection = [
         sp.csr_array(

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from nivel.flexible.mass import Mass
 from nivel.flexible.rigid_modes import rigid_modes
+from nivel.flexible.sparse import Sparse
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
@@ -22,13 +22,11 @@ AXES = ("x", "y", "z", "rx", "ry", "rz")
 class Elements(Protocol):
     """Elements whose stress is known. Displacements are (F, n): of all freedoms of the nodes, n fields at once."""
 
-    @property
-    def stations(self) -> Whole:
+    def station_nodes(self) -> Whole:
         """(s,) the node at which each stress station is."""
         ...
 
-    @property
-    def labels(self) -> tuple[str, ...]:
+    def station_labels(self) -> tuple[str, ...]:
         """What tells the stations at one node apart; empty where there is one at each node."""
         ...
 
@@ -40,7 +38,7 @@ class Elements(Protocol):
         """(s, 6, n) strain in the same order; shear as γ = 2 ε."""
         ...
 
-    def geometric_stiffness(self, displacement: Array) -> sp.csr_array:
+    def geometric_stiffness(self, displacement: Array) -> Sparse:
         """(F, F) [N/m] of the stress that the displacement (F,) causes."""
         ...
 
@@ -62,9 +60,9 @@ class FiniteElementModel:
     node_ids: Whole
     position: Array
     freedoms: Whole
-    stiffness: sp.csc_array
+    stiffness: Sparse
     mass: Mass
-    expansion: sp.csr_array
+    expansion: Sparse
     names: Mapping[str, int] = field(default_factory=dict)
     elements: Elements | None = None
     triangles: Whole = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int64))

@@ -98,14 +98,13 @@ def _parameters(tree: Tree) -> Parameters:
     return values
 
 
-def _in_file(data: Any, location: tuple[int | str, ...]) -> Path:
+def _in_file(content: Any, location: tuple[int | str, ...]) -> Path:
     """A place in the record as one in the file: what pydantic puts in for the kinds of a union is left out."""
     path: list[int | str] = []
+    data: Any = content
     for step in location:
-        if (isinstance(data, dict) and step in data) or (
-            isinstance(data, list) and isinstance(step, int) and step < len(data)
-        ):
-            data = data[step]
+        if (isinstance(data, dict) and step in data) or (isinstance(data, list) and step in range(len(data))):
+            data = data[step]  # type: ignore[index, call-overload]
         elif step is not location[-1] or not isinstance(step, str) or step[:1].isupper() or "[" in step:
             continue
         path.append(step)

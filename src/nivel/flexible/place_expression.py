@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from nivel.flexible.model import Array
-from nivel.machine.arithmetic import ExpressionError, FaultyParameterError, Parameters, bind, evaluate, varies
+from nivel.machine.arithmetic import ExpressionError, FaultyParameterError, Parameters, bind, evaluate
 from nivel.machine.grammar import parse
 
 PLACES: Final = ("x", "y", "z")
@@ -29,13 +29,10 @@ def place_function(given: str | float, parameters: Parameters) -> PlaceFunction:
         return lambda x, _y, _z: np.full(len(x), float(given))
     try:
         tree = bind(parse(given), parameters, PLACES)
-        if varies(tree):
-            evaluate(tree, values=dict.fromkeys(PLACES, 0.0))
     except FaultyParameterError:
         raise PlaceError("a parameter in it is at fault") from None
     except ExpressionError as error:
-        if str(error) != "division by zero":
-            raise PlaceError(f"`{given}`: {error}") from None
+        raise PlaceError(f"`{given}`: {error}") from None
 
     def function(x: Array, y: Array, z: Array) -> Array:
         try:

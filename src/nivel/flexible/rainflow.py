@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-class Cycle(NamedTuple):
+@dataclass(frozen=True, order=True)
+class Cycle:
     """A counted cycle: its `range` and `mean` in the unit of the history, and `count`, 1 or ½."""
 
     range: float
@@ -47,7 +49,7 @@ def rainflow(history: Array) -> list[Cycle]:
             else:
                 cycles.append(_cycle(points[-3], points[-2], 1.0))
                 del points[-3:-1]
-    cycles += [_cycle(a, b, 0.5) for a, b in zip(points[:-1], points[1:], strict=True)]
+    cycles += [_cycle(a, b, 0.5) for a, b in pairwise(points)]
     return cycles
 
 

@@ -56,7 +56,7 @@ class Frame(Checked):
     theory: Literal["timoshenko", "euler-bernoulli"] = "timoshenko"
     nodes: dict[Name, Position]
     beams: dict[Name, BeamRecord]
-    masses: dict[Name, PointMassRecord] = {}
+    masses: dict[Name, PointMassRecord] = Field(default={})
 
 
 class Units(Checked):
@@ -172,7 +172,8 @@ class Reduction(Checked):
     reference: str = Field(default="mean-axis", description="mean-axis, or the interface with which the frame moves")
     held: tuple[str, ...] = Field(default=(), description="six freedoms `interface.x` … `interface.rz` instead")
     inertia_modes: bool = Field(
-        default=False, description="whether static answers to its own inertia (accelerations, spinning) are added to the modes"
+        default=False,
+        description="whether static answers to its own inertia (accelerations, spinning) are added to the modes",
     )
     stiffening: bool = Field(default=False, description="whether geometric stiffness is computed")
 
@@ -201,12 +202,12 @@ class ModelRecord(Checked):
 
     name: Title
     description: str = ""
-    materials: dict[Name, Material] = {}
-    sections: dict[Name, SectionRecord] = {}
+    materials: dict[Name, Material] = Field(default={})
+    sections: dict[Name, SectionRecord] = Field(default={})
     frame: Frame | None = None
     solid: Solid | None = None
     matrices: Matrices | None = None
-    interfaces: dict[Name, InterfaceRecord] = {}
+    interfaces: dict[Name, InterfaceRecord] = Field(default={})
     reduction: Reduction = Reduction()
     recovery: Recovery = Recovery()
     expected_mass: Mass | None = Field(default=None, description="what the body should weigh, to check the units")

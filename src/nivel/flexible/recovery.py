@@ -101,7 +101,8 @@ def von_mises(stress: Array) -> Array:
 
 def principal(stress: Array) -> Array:
     """(…, 3) [Pa] principal stresses of stresses (…, 6), ascending."""
-    return np.linalg.eigvalsh(stress[..., [0, 3, 5, 3, 1, 4, 5, 4, 2]].reshape(*stress.shape[:-1], 3, 3))
+    full = stress[..., [0, 3, 5, 3, 1, 4, 5, 4, 2]].reshape(*stress.shape[:-1], 3, 3)
+    return np.linalg.eigvalsh(full).astype(np.float64)
 
 
 def signed_principal(stress: Array) -> Array:

@@ -211,7 +211,7 @@ def _stress(model: FiniteElementModel, modes: Array, located: Located) -> Stress
     recovery = located.record.recovery
     if model.elements is None or not recovery.stress:
         return None
-    stations = model.elements.stations
+    stations = model.elements.station_nodes()
     keep = np.arange(len(stations))
     if not isinstance(recovery.nodes, str):
         missing = [node for node in recovery.nodes if node not in set(model.node_ids.tolist())]
@@ -220,7 +220,7 @@ def _stress(model: FiniteElementModel, modes: Array, located: Located) -> Stress
             raise ModelError(located.fault(("recovery", "nodes"), message))
         keep = np.flatnonzero(np.isin(model.node_ids[stations], recovery.nodes))
     full = model.expansion @ modes
-    labels = model.elements.labels
+    labels = model.elements.station_labels()
     return StressModes(
         station_node=stations[keep],
         labels=tuple(labels[k] for k in keep) if labels else (),

@@ -57,7 +57,7 @@ def quadratic_velocity(invariants: Invariants, A: Array, omega_b: Array, q: Arra
 
 def kinetic_energy(invariants: Invariants, A: Array, q: Array, v: Array) -> float:
     """[J]"""
-    return 0.5 * v @ mass_matrix(invariants, A, q) @ v
+    return float(0.5 * v @ mass_matrix(invariants, A, q) @ v)
 
 
 def gravity_force(invariants: Invariants, A: Array, q: Array, gravity: Array) -> Array:

@@ -120,5 +120,5 @@ def _i(record: IBeam) -> Section:
 def _values(record: Values) -> Section:
     y, z = record.stress_y or 0.0, record.stress_z or 0.0
     fibres = np.array([[y, z], [-y, z], [-y, -z], [y, -z]]) if y or z else np.zeros((1, 2))
-    shear = [np.inf if each is None else each for each in (record.shear_area_y, record.shear_area_z)]
-    return Section(record.area, record.iy, record.iz, record.torsion, *shear, fibres, np.zeros_like(fibres))
+    shear_y, shear_z = (np.inf if each is None else each for each in (record.shear_area_y, record.shear_area_z))
+    return Section(record.area, record.iy, record.iz, record.torsion, shear_y, shear_z, fibres, np.zeros_like(fibres))

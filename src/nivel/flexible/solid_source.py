@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from nivel.errors import ModelError
 from nivel.flexible.extras import needed
@@ -16,6 +17,7 @@ from nivel.flexible.model import Array, FiniteElementModel, Whole
 from nivel.flexible.model_file import Located
 from nivel.flexible.section_records import Material
 from nivel.flexible.selection import NodeSets
+from nivel.flexible.sparse import Sparse
 from nivel.flexible.tetrahedra import Tetrahedra, inverted, surface
 
 # degree of the polynomials that are integrated exactly: products of two shape functions, and of their derivatives
@@ -74,7 +76,7 @@ def _numbers(elements: Whole) -> str:
     return shown if len(elements) <= 6 else f"{shown}, …"
 
 
-def matrices(mesh: SolidMesh, material: Material) -> tuple[sp.csc_array, sp.csr_array]:
+def matrices(mesh: SolidMesh, material: Material) -> tuple[Sparse, sp.csr_array]:
     """Stiffness (3 n, 3 n) [N/m], node by node x, y, z, and scalar mass (n, n) [kg], by scikit-fem."""
     import meshio
     import skfem
@@ -83,8 +85,8 @@ def matrices(mesh: SolidMesh, material: Material) -> tuple[sp.csc_array, sp.csr_
     from skfem.models.poisson import mass as mass_form
 
     grid = from_meshio(meshio.Mesh(mesh.position, [("tetra10", mesh.nodes)]))
-    vector = skfem.Basis(grid, skfem.ElementVector(skfem.ElementTetP2()), intorder=STIFFNESS_DEGREE)
-    scalar = skfem.Basis(grid, skfem.ElementTetP2(), intorder=MASS_DEGREE)
+    vector: Any = skfem.Basis(grid, skfem.ElementVector(skfem.ElementTetP2()), intorder=STIFFNESS_DEGREE)
+    scalar: Any = skfem.Basis(grid, skfem.ElementTetP2(), intorder=MASS_DEGREE)
     K = linear_elasticity(*lame_parameters(material.youngs_modulus, material.poisson_ratio)).assemble(vector)
     m = mass_form.assemble(scalar) * material.density
     node = _nodes_of(scalar.doflocs.T, mesh.position)
@@ -96,12 +98,15 @@ def matrices(mesh: SolidMesh, material: Material) -> tuple[sp.csc_array, sp.csr_
         ):
             order[3 * node[ours] + axis] = theirs
     back = np.argsort(node)
-    return sp.csc_array(sp.csr_array(K)[order][:, order]), sp.csr_array(sp.csr_array(m)[back][:, back])
+    stiffness: Sparse = sp.csr_array(K)
+    scalar_mass: Sparse = sp.csr_array(m)
+    return sp.csc_array(stiffness[order][:, order]), sp.csr_array(scalar_mass[back][:, back])
 
 
 def _nodes_of(places: Array, position: Array) -> Whole:
     """(n,) the node at each place."""
-    distance, node = cKDTree(position).query(places)
+    found: Any = KDTree(position).query(places)
+    distance, node = found
     if distance.max() > 1e-6 * np.ptp(position, axis=0).max() or len(np.unique(node)) != len(node):
         raise ModelError("the mesh has nodes that coincide, or elements whose edges are not shared: merge them first")
     return node

@@ -18,6 +18,8 @@ from nivel.flexible.factor import Factor, Whole
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.inertia_loads import inertia_loads
 from nivel.flexible.model import Array
+from nivel.flexible.sparse import Sparse
+
 
 def stiffening(body: FreeBody, modes: Array, support: Whole, loaded: dict[str, Whole]) -> dict[str, Array]:
     """Geometric stiffness projected on `modes` (N, n), by the name of its cause.
@@ -54,7 +56,7 @@ def _projected(body: FreeBody, modes: Array, moved: Array) -> Array:
     return 0.5 * (out + out.T)
 
 
-def _padded(matrix: sp.csr_array, size: int) -> sp.csr_array:
+def _padded(matrix: Sparse, size: int) -> Sparse:
     """The matrix with empty rows for reference nodes, which come last."""
     if matrix.shape[0] == size:
         return matrix

@@ -15,6 +15,7 @@ import scipy.sparse as sp
 
 from nivel.flexible.model import Array, Whole
 from nivel.flexible.section_records import Material
+from nivel.flexible.sparse import Sparse
 
 EDGES: Final = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))
 FACES: Final = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))  # outwards
@@ -54,8 +55,10 @@ class Tetrahedra:
     position: Array
     material: Material
 
-    @property
-    def labels(self) -> tuple[str, ...]:
+    def station_nodes(self) -> Whole:
+        return self.stations
+
+    def station_labels(self) -> tuple[str, ...]:
         """One station at each node."""
         return ()
 
@@ -92,7 +95,7 @@ class Tetrahedra:
         return np.hstack([np.ones((10, 1)), places]) @ np.linalg.inv(np.hstack([np.ones((4, 1)), GAUSS]))
 
     @cached_property
-    def _averaging(self) -> sp.csr_array:
+    def _averaging(self) -> Sparse:
         """(stations, e nodes) mean over the elements around a node, by their volumes."""
         count = self.nodes.shape[1]
         rows = np.searchsorted(self.stations, self.nodes.ravel())
@@ -127,7 +130,7 @@ class Tetrahedra:
         )
         return out
 
-    def geometric_stiffness(self, displacement: Array) -> sp.csr_array:
+    def geometric_stiffness(self, displacement: Array) -> Sparse:
         """∫ ∇N_a · σ ∇N_b dV on x, y and z alike. Zienkiewicz & Taylor 2000, The Finite Element Method, vol. 2."""
         u = displacement[self.freedoms[self.nodes]]
         D = elasticity(self.material)

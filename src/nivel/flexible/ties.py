@@ -10,11 +10,13 @@ import scipy.linalg as la
 import scipy.sparse as sp
 
 from nivel.errors import Fault, ModelError
+from nivel.flexible.factor import pivots
 from nivel.flexible.model import Array, FiniteElementModel, Whole, numbered
 from nivel.flexible.model_file import Located
 from nivel.flexible.records import InterfaceRecord
 from nivel.flexible.rigid_modes import rigid_modes
 from nivel.flexible.selection import NodeSets, chosen_nodes
+from nivel.flexible.sparse import Sparse
 
 FLAT: Final = 1e-9  # the nodes of a surface must spread in two directions at least by this share of its size
 
@@ -131,7 +133,7 @@ def _tied(
     )
 
 
-def _expansion(total: int, dependent: dict[int, tuple[Whole, Array]]) -> sp.csr_array:
+def _expansion(total: int, dependent: dict[int, tuple[Whole, Array]]) -> Sparse:
     """(total, N) all freedoms from those that are not dependent."""
     kept = np.setdiff1d(np.arange(total), np.array(sorted(dependent), dtype=np.int64))
     column = np.full(total, -1)
@@ -165,8 +167,8 @@ def _average_rows(position: Array, freedoms: Whole, each: Attachment) -> dict[in
     surface[:, 3:] = -1
     rows = surface[surface >= 0]
     R = rigid_modes(position[each.tied], _compact(surface), len(rows), position[each.node])
-    W = la.pinv(R)
-    _, _, order = la.qr(W * np.abs(R).max(axis=0)[:, None], mode="economic", pivoting=True)
+    W = np.linalg.pinv(R)
+    order = pivots(W * np.abs(R).max(axis=0)[:, None])
     taken, others = order[:6], np.sort(order[6:])
     inverse = la.inv(W[:, taken])
     columns = np.concatenate([freedoms[each.node], rows[others]])

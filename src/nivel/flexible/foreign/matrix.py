@@ -10,6 +10,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from nivel.flexible.sparse import Sparse
+
 Whole = NDArray[np.int64]
 Label = tuple[int, int]  # node, direction 1 … 6
 
@@ -26,10 +28,10 @@ class FormatError(ValueError):
 class FileMatrix:
     """`matrix` (N, N); `labels`: node and direction (1 … 6) of each row, or None where the file does not say."""
 
-    matrix: sp.csc_array
+    matrix: Sparse
     labels: tuple[Label, ...] | None = None
 
-    def ordered(self, labels: Sequence[Label]) -> sp.csc_array:
+    def ordered(self, labels: Sequence[Label]) -> Sparse:
         """The matrix with rows in the order of `labels`; rows that it lacks are zero."""
         if self.labels is None:
             return self.matrix
@@ -42,7 +44,7 @@ class FileMatrix:
 
 def from_triplets(
     rows: Whole, columns: Whole, values: NDArray[np.float64], size: int, *, triangle: bool | None = None
-) -> sp.csc_array:
+) -> Sparse:
     """The matrix of triplets (from 0). triangle : whether the file has one triangle of a symmetric matrix; None: it has
     where no entry off the diagonal has a mirror image.
     """

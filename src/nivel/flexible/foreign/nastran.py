@@ -86,16 +86,13 @@ def read_grids(path: Path) -> tuple[list[int], list[list[float]]]:
     for line, fields in entries(path):
         if fields[0].upper() != "GRID":
             continue
+        _, number, frame, x, y, z, moved = [*fields, *[""] * 7][:7]
+        if frame not in ("", "0") or moved not in ("", "0"):
+            message = f"GRID {number} is in a local coordinate system; write all points in the basic system"
+            raise FormatError(message, line)
         try:
-            fields = [*fields, *[""] * 8]
-            if fields[2] not in ("", "0") or fields[6] not in ("", "0"):
-                raise FormatError(
-                    f"GRID {fields[1]} is in a local coordinate system; write all points in the basic system", line
-                )
-            numbers.append(int(fields[1]))
-            places.append([fortran_number(each) if each else 0.0 for each in fields[3:6]])
-        except FormatError:
-            raise
+            numbers.append(int(number))
+            places.append([fortran_number(each) if each else 0.0 for each in (x, y, z)])
         except ValueError as error:
             raise FormatError(f"this GRID entry cannot be read: {error}", line) from None
     return numbers, places

@@ -23,6 +23,7 @@ from nivel.flexible.model_file import Located
 from nivel.flexible.records import LENGTHS, MASSES, Matrices
 from nivel.flexible.section_records import Material
 from nivel.flexible.selection import NodeSets
+from nivel.flexible.sparse import Sparse
 from nivel.flexible.tetrahedra import Tetrahedra, inverted, surface
 
 HELD = 1e30  # a diagonal element from which on a row is one of a support (Abaqus writes 1e36)
@@ -103,13 +104,9 @@ def _mass_file(located: Located, given: Matrices) -> str:
 
 def _named(located: Located, given: Matrices, key: str, reader: Callable[[Path], dict[str, FileMatrix]]) -> FileMatrix:
     """A matrix of a file that may have several: the one that is named, or one with a usual name."""
-    own_file = key == "mass" and given.mass is not None
-    found = _opened(
-        located,
-        key if own_file or key == "stiffness" else "stiffness",
-        given.mass if own_file else given.stiffness,
-        reader,
-    )  # type: ignore[arg-type]
+    own_file = given.mass if key == "mass" else None
+    place = "mass" if own_file is not None else "stiffness"
+    found = _opened(located, place, own_file or given.stiffness, reader)
     wanted = given.stiffness_name if key == "stiffness" else given.mass_name
     if wanted is not None:
         if wanted.upper() not in found:
@@ -117,7 +114,7 @@ def _named(located: Located, given: Matrices, key: str, reader: Callable[[Path],
             raise ModelError(located.fault(("matrices", f"{key}_name"), message))
         return found[wanted.upper()]
     usual = [name for name in (STIFFNESS_NAMES if key == "stiffness" else MASS_NAMES) if name in found]
-    if usual or (len(found) == 1 and (own_file or given.mass is not None)):
+    if usual or (len(found) == 1 and given.mass is not None):
         return found[usual[0] if usual else next(iter(found))]
     message = f"which of the matrices {', '.join(found)} is the {key}? Give `{key}_name`"
     raise ModelError(located.fault(("matrices",), message, at_key=True))
@@ -202,12 +199,12 @@ def _model(
     return model, sets
 
 
-def _row_lengths(labels: tuple[Label, ...], length: float) -> sp.dia_array:
+def _row_lengths(labels: tuple[Label, ...], length: float) -> Sparse:
     """Diagonal: the unit of length for rows of turns, one for translations; forces are mass × length / s² on both sides."""
     return sp.diags_array(np.where(np.array([axis for _, axis in labels]) > 3, length, 1.0))
 
 
-def _check_matrices(located: Located, K: sp.csc_array, M: sp.csc_array, labels: tuple[Label, ...]) -> None:
+def _check_matrices(located: Located, K: Sparse, M: Sparse, labels: tuple[Label, ...]) -> None:
     faults = []
     for key, matrix in (("stiffness", K), ("mass", M)):
         if not np.all(np.isfinite(matrix.data)):

@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
-from nivel.flexible.foreign.matrix import FileMatrix, FormatError, Label, from_labelled, from_triplets, text_lines
+from nivel.flexible.foreign.matrix import (
+    FileMatrix,
+    FormatError,
+    Label,
+    fortran_number,
+    from_labelled,
+    from_triplets,
+    text_lines,
+)
 
 WORDS: Final = {"x": 1, "y": 2, "z": 3, "rx": 4, "ry": 5, "rz": 6, **{str(k): k for k in range(1, 7)}}
 
@@ -26,13 +34,14 @@ def read_abaqus(path: Path) -> FileMatrix:
         if not text or text.startswith(("*", "#")):
             continue
         parts = text.replace(",", " ").split()
+        wrong = f"five entries (or three) were expected, got `{text[:60]}`"
+        if len(parts) not in (3, 5) or (rows and len(parts) - 1 != len(rows[0])):
+            raise FormatError(wrong, number)
         try:
-            if len(parts) not in (3, 5) or (rows and len(parts) - 1 != len(rows[0])):
-                raise ValueError
             rows.append(tuple(int(part) for part in parts[:-1]))
-            values.append(float(parts[-1].replace("D", "E").replace("d", "E")))
+            values.append(fortran_number(parts[-1]))
         except ValueError:
-            raise FormatError(f"five entries (or three) were expected, got `{text[:60]}`", number) from None
+            raise FormatError(wrong, number) from None
     if not rows:
         raise FormatError("there is no matrix in this file")
     if len(rows[0]) == 4:
@@ -111,7 +120,7 @@ def read_matrix_market(path: Path) -> FileMatrix:
     from scipy.io import mmread
 
     try:
-        matrix = sp.csc_array(mmread(path))
+        matrix: Any = sp.csc_array(mmread(path))
     except (ValueError, OverflowError) as error:
         raise FormatError(f"this is no Matrix Market file: {error}") from None
     if np.iscomplexobj(matrix.data):

@@ -6,8 +6,8 @@ from dataclasses import fields
 import numpy as np
 import pytest
 import xarray as xr
-from models import bar, block, reduced
 
+from models import bar, block, reduced
 from nivel.errors import ModelError
 from nivel.flexible.body_file import read_body, read_findings, write_body
 from nivel.flexible.invariants import UNITS

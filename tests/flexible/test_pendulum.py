@@ -13,7 +13,13 @@ HIGHEST, STEP = 200.0, 5e-4  # [Hz], [s] of Runge and Kutta's method: ω h < 0.7
 GRAVITY = np.array([0, -9.81, 0])
 # tip (x, y) [m] of a bar of 16 cable elements of the absolute nodal coordinate formulation, steps of 0.125 ms
 TIMES = [0.25, 0.5, 1.0, 1.5, 2.0]
-TIPS = [(1.948097, -0.452638), (1.253915, -1.558090), (-1.764028, -0.942432), (-1.995952, -0.127006), (-0.384017, -1.962786)]
+TIPS = [
+    (1.948097, -0.452638),
+    (1.253915, -1.558090),
+    (-1.764028, -0.942432),
+    (-1.995952, -0.127006),
+    (-0.384017, -1.962786),
+]
 
 
 def swing(body, *, stiffened):

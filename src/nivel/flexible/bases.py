@@ -12,6 +12,7 @@ import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
 
+from nivel.errors import ModelError
 from nivel.flexible.factor import Factor, Whole, lowest_modes, pivots
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.inertia_loads import inertia_loads
@@ -19,6 +20,8 @@ from nivel.flexible.model import Array
 from nivel.flexible.sparse import Sparse
 
 LIMIT_START = 16  # modes that are computed first where a frequency is the limit
+MOST_MODES = 1000
+MOST_BOUNDARY = 1200  # interface freedoms: each makes a correction mode
 
 
 @dataclass(frozen=True)
@@ -31,11 +34,14 @@ class ModeCount:
 
 @dataclass(frozen=True)
 class Basis:
-    """`vectors` (N, k), and how many of them are normal modes; their frequencies [Hz], of the body as it was held."""
+    """`vectors` (N, k): `extra` ones that may depend on the others, interface modes, and `normal` modes at the end with their
+    `frequencies` [Hz], of the body as it was held.
+    """
 
     vectors: Array
     normal: int
     frequencies: Array
+    extra: int = 0
 
 
 def craig_bampton(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
@@ -45,6 +51,11 @@ def craig_bampton(body: FreeBody, boundary: Whole, modes: ModeCount) -> Basis:
     held there. They are not computed: the reduction knows the rigid motions. The boundary is then held with some more
     freedoms for the correction modes, which changes these by rigid motions only.
     """
+    if len(boundary) > MOST_BOUNDARY:
+        raise ModelError(
+            f"the interfaces have {len(boundary)} freedoms, and each makes a mode; "
+            f"{MOST_BOUNDARY} are allowed. Tie surfaces to reference nodes"
+        )
     held = _with_pins(body, boundary)
     inner = np.setdiff1d(np.arange(body.model.count), boundary)
     corrections, factor, free = _correction_modes(body, boundary, held)
@@ -112,6 +123,10 @@ def _chosen(modes: ModeCount, compute: Callable[[int], tuple[Array, Array]]) -> 
         if len(values) < count or count >= most or (len(values) and values[-1] > limit):
             keep = int(np.count_nonzero(values <= limit))
             return values[:keep], vectors[:, :keep]
+        if count >= MOST_MODES:
+            raise ModelError(
+                f"more than {MOST_MODES} normal modes lie below {modes.up_to:g} Hz; lower `reduction.modes.up_to`, or limit the `count`"
+            )
         count = int(min(2 * count, most))
 
 

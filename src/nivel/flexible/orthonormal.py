@@ -12,7 +12,8 @@ from nivel.flexible.free_body import FreeBody
 from nivel.flexible.model import Array
 
 DEPENDENT: Final = 1e-12  # share of the largest: directions of the scaled mass matrix below it are none
-RIGID_SHARE: Final = 1e-5  # a squared frequency below this share of the seventh's belongs to a rigid motion
+NOTHING: Final = 1e-22  # share of a vector's mass: what round-off leaves of a rigid motion that was taken out
+RIGID: Final = 1e-6  # a mode whose mass is that of a rigid motion but for this share is one
 
 
 @dataclass(frozen=True)
@@ -31,29 +32,35 @@ class Orthonormal:
     dependent: int
 
 
-def orthonormal(body: FreeBody, basis: Array) -> Orthonormal:
+def orthonormal(body: FreeBody, basis: Array, extra: int = 0) -> Orthonormal:
     """The modes of the reduced model, without rigid motions: those of a mean-axis frame. Eqs (3.32)–(3.36).
 
     The rigid motions are known from the nodes, so they are taken out of the basis itself; the reduced eigenproblem would
     give them frequencies of round-off, which are told for comparison. The basis then has up to six vectors too many.
+    The first `extra` vectors may depend on the others; they do not count for the condition.
     """
-    rigid_frequencies, condition = _as_given(body, basis)
+    rigid_frequencies, condition = _as_given(body, basis[:, extra:])
     R = body.rigid
+    weight = np.einsum("ij,ij->j", basis, body.M @ basis)
+    basis = basis[:, weight > 0.0] / np.sqrt(weight[weight > 0.0])
     elastic = basis - R @ (R.T @ (body.M @ basis))
-    scale = np.sqrt(np.maximum(np.einsum("ij,ij->j", basis, body.M @ basis), 1e-300))
-    elastic = elastic / scale
     mass = elastic.T @ (body.M @ elastic)
     values, vectors = la.eigh(0.5 * (mass + mass.T))
-    keep = values > DEPENDENT * values[-1]
+    keep = values > max(DEPENDENT * values.max(initial=0.0), NOTHING)
     spanned = elastic @ (vectors[:, keep] / np.sqrt(values[keep]))
     stiffness = spanned.T @ (body.K @ spanned)
-    eigenvalues, turned = la.eigh(0.5 * (stiffness + stiffness.T))
-    missing = int(np.count_nonzero(~keep)) - len(rigid_frequencies)
+    eigenvalues, turned = (
+        la.eigh(0.5 * (stiffness + stiffness.T)) if spanned.shape[1] else (np.zeros(0), np.zeros((0, 0)))
+    )
+    missing = int(np.count_nonzero(~keep)) - len(rigid_frequencies) - extra
     return Orthonormal(spanned @ turned, eigenvalues, rigid_frequencies, condition, max(missing, 0))
 
 
 def _as_given(body: FreeBody, basis: Array) -> tuple[Array, float]:
-    """Frequencies [Hz] of the rigid motions in the reduced model as it is, and the condition of its scaled mass matrix."""
+    """Frequencies [Hz] of the rigid motions in the reduced model as it is, and the condition of its scaled mass matrix.
+
+    A mode of the reduced model is a rigid motion where its mass is that of its share of the rigid modes.
+    """
     if basis.shape[1] == 0:
         return np.zeros(0), 1.0
     M, K = basis.T @ (body.M @ basis), basis.T @ (body.K @ basis)
@@ -64,10 +71,9 @@ def _as_given(body: FreeBody, basis: Array) -> tuple[Array, float]:
     keep = values > DEPENDENT * values[-1]
     T = vectors[:, keep] / np.sqrt(values[keep])
     reduced = T.T @ K @ T
-    eigenvalues = la.eigvalsh(0.5 * (reduced + reduced.T))
-    below = eigenvalues[:6]
-    reference = eigenvalues[6] if len(eigenvalues) > 6 else np.inf
-    rigid = below[np.abs(below) < RIGID_SHARE * reference] if np.isfinite(reference) else below
+    eigenvalues, turned = la.eigh(0.5 * (reduced + reduced.T))
+    shares = (body.rigid.T @ (body.M @ ((basis / scale) @ (T @ turned)))) ** 2
+    rigid = eigenvalues[shares.sum(axis=0) > 1.0 - RIGID]
     return np.sqrt(np.abs(rigid)) / (2.0 * np.pi), condition
 
 

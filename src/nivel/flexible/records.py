@@ -33,6 +33,12 @@ def _text(value: Any) -> str:
 FileName = Annotated[str, BeforeValidator(_text)]
 
 
+def _node(value: Any) -> Any:
+    if isinstance(value, bool) or not isinstance(value, str | int | None):
+        raise fault(f"the name or the number of a node was expected, got {shown(value)}")
+    return value
+
+
 class BeamRecord(Checked):
     """A straight beam between two nodes, divided into equal elements."""
 
@@ -85,6 +91,10 @@ class Plane(Checked):
     point: Position
     normal: Direction
 
+    def problems(self) -> Iterator[Problem]:
+        if not any(self.normal):
+            yield Problem(("normal",), "a direction was expected, got a vector of length zero")
+
 
 class CylinderSurface(Checked):
     """The nodes on a cylinder, over its whole length or between two distances along the axis from the point."""
@@ -93,6 +103,10 @@ class CylinderSurface(Checked):
     axis: Direction
     radius: PositiveLength
     between: tuple[Length, Length] | None = None
+
+    def problems(self) -> Iterator[Problem]:
+        if not any(self.axis):
+            yield Problem(("axis",), "a direction was expected, got a vector of length zero")
 
 
 class BoxRegion(Checked):
@@ -105,7 +119,9 @@ class BoxRegion(Checked):
 class InterfaceRecord(Checked):
     """Where the body is held or loaded: a node, or a set of nodes tied to a reference node."""
 
-    node: str | int | None = Field(default=None, description="name or number of a node")
+    node: Annotated[str | int | None, BeforeValidator(_node)] = Field(
+        default=None, description="name or number of a node"
+    )
     nodes: tuple[int, ...] | None = Field(default=None, description="numbers of nodes that are tied")
     set: str | None = Field(default=None, description="name of a node set in the mesh, whose nodes are tied")
     plane: Plane | None = None

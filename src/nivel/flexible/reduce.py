@@ -26,7 +26,7 @@ from nivel.flexible.source import source_model
 from nivel.flexible.stiffening import stiffening
 from nivel.flexible.ties import Attachment, with_interfaces
 
-NO_MODE: Final = "no mode is left: ask for normal modes, or name interfaces"
+NO_MODE: Final = "no mode is left but rigid motions: ask for normal modes, name interfaces, or give other shapes"
 
 Stage = Callable[[str, float], None]
 
@@ -102,7 +102,7 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
     if not basis.vectors.shape[1]:
         raise ModelError(located.fault(("reduction", "modes"), NO_MODE))
     say("removing rigid motions", 0.65)
-    found = orthonormal(body, basis.vectors)
+    found = orthonormal(body, basis.vectors, basis.extra)
     if not len(found.eigenvalues):
         raise ModelError(located.fault(("reduction", "modes"), NO_MODE))
     modes, eigenvalues, held = _with_reference(body, found, attachments, located)
@@ -151,7 +151,8 @@ def _basis(body: FreeBody, boundary: Whole, located: Located) -> Basis:
             basis = normal_only(body, modes)
     if not reduction.inertia_modes:
         return basis
-    return replace(basis, vectors=np.hstack([inertia_modes(body, boundary), basis.vectors]))
+    own = inertia_modes(body, boundary)
+    return replace(basis, vectors=np.hstack([own, basis.vectors]), extra=own.shape[1])
 
 
 def _with_reference(

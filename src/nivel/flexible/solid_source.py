@@ -53,6 +53,8 @@ def assembled(name: str, mesh: SolidMesh, material: Material) -> FiniteElementMo
             f"{len(bad)} of {len(mesh.nodes)} elements are turned inside out: {_numbers(bad)}; mesh finer around curves"
         )
     stiffness, mass = matrices(mesh, material)
+    exact = material.density * mesh.volume
+    note = f"The mesh weighs {mass.sum():.6g} kg, the shape itself {exact:.6g} kg ({100 * (mass.sum() / exact - 1):+.2g} %)."
     freedoms = np.arange(3 * len(mesh.position)).reshape(-1, 3)
     has_turns = np.full((len(mesh.position), 3), -1)
     all_freedoms = np.hstack([freedoms, has_turns])
@@ -68,6 +70,7 @@ def assembled(name: str, mesh: SolidMesh, material: Material) -> FiniteElementMo
         triangles=surface(mesh.nodes),
         solids=mesh.nodes,
         volume=mesh.volume,
+        notes=(note,),
     )
 
 

@@ -94,9 +94,7 @@ def _too_few(model: FiniteElementModel, nodes: Whole, tie: str, at: Array) -> st
     x = model.position[nodes] - model.position[nodes].mean(axis=0)
     spread = la.svdvals(x) if len(nodes) > 1 else np.zeros(3)
     turns = bool(np.all(model.freedoms[nodes, 3:] >= 0))
-    if len(nodes) > 1 and (turns or (len(spread) > 1 and spread[1] > FLAT * model.size)):
-        return ""
-    if turns and tie == "rigid":
+    if (turns and tie == "rigid") or (len(nodes) > 1 and spread[1] > FLAT * model.size):
         return ""
     return (
         f"the {len(nodes)} nodes of this interface lie on a line and cannot hold a turn of the reference node; take a surface, "

@@ -168,5 +168,5 @@ def _inertia(findings: Findings) -> list[tuple[str, str]]:
         ("principal inertia about it", f"({vector(findings.principal_inertia)}) kg m²"),
     ]
     if findings.volume is not None:
-        rows.append(("volume, mean density", f"{findings.volume:.6g} m³, {findings.mass / findings.volume:.6g} kg/m³"))
+        rows.append(("volume of the material", f"{findings.volume:.6g} m³"))
     return rows

@@ -90,6 +90,10 @@ reduction: {modes: -1, method: guyan, referenc: root}
             ("interfaces: {root: {node: root}, tip: {node: tip}}\nreduction: {modes: 8}", "reduction: {modes: 0}"),
             "no mode is left",
         ),
+        (("modes: 8", "modes: given, shapes: [{z: x}]"), "no mode is left but rigid motions"),
+        (("{node: tip}", "{node: true}"), "name or the number of a node"),
+        (("{node: tip}", "{box: {from: [1, 0, 0], to: [2, 0, 0]}, tie: average}"), "lie on a line"),
+        (("{node: tip}", "{plane: {point: [2, 0, 0], normal: [0, 0, 0]}}"), "length zero"),
         (("reduction:", "recovery: {nodes: [1, 77]}\nreduction:"), "there is no node 77"),
         (("reduction:", "expected_mass: 9 t\nreduction:"), "0.00105 times as much, about 1e-3"),
         (
@@ -215,3 +219,8 @@ def test_overrides_go_before_the_file():
     assert located.record.sections["bar"].height == pytest.approx(0.04)
     with pytest.raises(ModelError, match="the section `secions` is not known; did you mean `sections`"):
         parse_model(bar(), overrides={"secions.bar.height": 1})
+
+
+def test_limit_that_takes_in_too_many_modes():
+    text = bar(elements=200, reduction="modes: {up_to: 1e12 Hz}")
+    assert "more than 1000 normal modes lie below" in message_of(text)

@@ -40,6 +40,20 @@ def test_body_is_read_back_as_it_was(beam, tmp_path):
     assert read_findings(tmp_path / "body.nc")["errors"] == findings.errors
 
 
+def test_body_with_fewer_modes_is_that_of_these_modes(beam):
+    """Everything that depends on modes has the same columns; I9 and I5 those of both their indices."""
+    body = beam[0]
+    few = body.keeping(np.array([4, 1]))
+    np.testing.assert_array_equal(few.frequencies, body.frequencies[[4, 1]])
+    np.testing.assert_allclose(few.invariants.I3, body.invariants.I3[:, [4, 1]])
+    np.testing.assert_allclose(few.invariants.I5[0, :, 1], body.invariants.I5[4, :, 1])
+    np.testing.assert_allclose(few.invariants.I9[1, 0], body.invariants.I9[1, 4])
+    np.testing.assert_array_equal(few.interface("tip").psi, body.interface("tip").psi[:, [4, 1]])
+    np.testing.assert_array_equal(few.stress.modes, body.stress.modes[:, :, [4, 1]])
+    np.testing.assert_array_equal(few.stiffening["centrifugal"][2, 0, 1], body.stiffening["centrifugal"][2, 4, 1])
+    assert few.modes.shape[2] == 2
+
+
 def test_solid_is_read_back(tmp_path):
     pytest.importorskip("gmsh")
     body, _ = reduced(block(length=0.3, size=0.1, reduction="modes: 3"))

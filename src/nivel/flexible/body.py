@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,6 +112,25 @@ class ReducedBody:
         """(3, 3) [kg m²] of the undeformed body about its centre of mass, body axes."""
         c = self.centre_of_mass
         return self.invariants.I7 - self.mass * ((c @ c) * np.eye(3) - np.outer(c, c))
+
+    def keeping(self, modes: Whole) -> ReducedBody:
+        """The body with these of its modes only, places from 0."""
+        take = np.asarray(modes, dtype=np.int64)
+        change = np.eye(len(self.eigenvalues))[:, take]
+        stress = self.stress
+        if stress is not None:
+            strain = None if stress.strain is None else stress.strain[:, :, take]
+            stress = replace(stress, modes=stress.modes[:, :, take], strain=strain)
+        return replace(
+            self,
+            eigenvalues=self.eigenvalues[take],
+            invariants=self.invariants.of_modes(change),
+            interfaces=tuple(replace(each, phi=each.phi[:, take], psi=each.psi[:, take]) for each in self.interfaces),
+            modes=self.modes[:, :, take],
+            mode_names=tuple(self.mode_names[k] for k in take) if self.mode_names else (),
+            stress=stress,
+            stiffening={name: each[:, take][:, :, take] for name, each in self.stiffening.items()},
+        )
 
     def interface(self, name: str) -> Interface:
         """The interface of this name. Raises KeyError."""

@@ -36,7 +36,7 @@ def choose_coordinates(machine: MachineRecord) -> str:
     if settings.cut:
         return "relative"
     facts = INTEGRATORS[settings.integrator]
-    if facts.whole or (facts.residual and len(machine.bodies) > MOST_DENSE):
+    if machine.is_flexible or facts.whole or (facts.residual and len(machine.bodies) > MOST_DENSE):
         return "absolute"
     return "relative" if _relative_cost(machine) < _absolute_cost(machine) else "absolute"
 

@@ -46,9 +46,10 @@ def compile_path(
     chosen = chooses(integrator, machine.simulation.step_control)
     parts = [("nivel.kernels.observe", "output"), *_rare_parts(machine, chosen)]
     parts.insert(0, (ASSEMBLY, "the equations of motion, newton-euler"))
-    if (facts := path_of(*path)) is not None:
+    if (facts := path_of(*path, flexible=machine.is_flexible)) is not None:
         if facts.module != ASSEMBLY:
-            parts.insert(1, (facts.module, f"the equations of motion, {path[1]} in {path[0]} coordinates"))
+            bending = ", with flexible bodies" if machine.is_flexible else ""
+            parts.insert(1, (facts.module, f"the equations of motion, {path[1]} in {path[0]} coordinates{bending}"))
         corrects = stabilisation in STABILISATIONS and STABILISATIONS[stabilisation].CORRECTS
         if corrects and facts.correction != facts.module:
             parts.append((facts.correction, "the direct correction"))

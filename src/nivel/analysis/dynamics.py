@@ -26,7 +26,9 @@ from nivel.analysis.redundancy import Redundancy, analyse
 from nivel.analysis.refusals import (
     refuse_conserved_drivers,
     refuse_deep_starts,
+    refuse_for_flexible,
     refuse_implicit_stiction,
+    refuse_redundant_flexible,
     refuse_rough_motions,
     refuse_uncertain_loads,
     refuse_unsettled_multipliers,
@@ -73,7 +75,7 @@ from nivel.march.run import (
 )
 from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import FORMULATIONS, RESIDUALS, path_of
+from nivel.motion.catalogue import FORMULATIONS, RESIDUALS, PathFacts, path_of
 from nivel.results.occurrence import Occurrence
 from nivel.system.partition import forget
 from nivel.system.system import Array, System
@@ -88,9 +90,10 @@ STICK_STEPS = 2.0
 
 @dataclass(frozen=True)
 class Prepared:
-    """A machine ready to run: its equations and its state at the start in the coordinates of the run, both again in absolute ones as
-    assembled, its redundancy, the number of its drivers."""
+    """A machine ready to run: where its equations are, these and its state at the start in the coordinates of the run, both again in
+    absolute ones as assembled, its redundancy, the number of its drivers."""
 
+    path: PathFacts
     motion: MotionEquations
     start: Array
     absolute: MotionEquations
@@ -120,6 +123,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
 
     Raises ModelError where it cannot be closed, starts in a singular position, or has friction of no certain load.
     """
+    refuse_for_flexible(machine, formulation, coordinates)
     motion = equations(machine)
     assembly = assemble(machine, motion)
     redundancy = analyse(motion, 0.0, assembly.y)
@@ -131,10 +135,11 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     refuse_conserved_drivers(machine)
     refuse_implicit_stiction(machine)
     refuse_rough_motions(machine)
+    refuse_redundant_flexible(machine, redundancy)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
     absolute = MotionEquations(motion.system.known_rank(rank), motion.kernels)
     refuse_deep_starts(machine, absolute, assembly.y)
-    facts = path_of(coordinates, formulation, machine.simulation.rotations)
+    facts = path_of(coordinates, formulation, machine.simulation.rotations, flexible=machine.is_flexible)
     if facts is None:
         raise ModelError(refuse_combinations(machine.simulation.replace(formulation=formulation), coordinates))
     motion.system.record.coordinates.reference[:] = assembly.reference
@@ -151,7 +156,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         free = not touches_ground(machine, prepared.system) if integrator.whole else None
         module = integrator.whole or RESIDUALS[coordinates]
         prepared = equip(prepared, y, coordinates, Wanted(module, corners(machine), integrator.shifted, free))
-    return Prepared(prepared, y, absolute, assembly, redundancy, len(machine.drivers))
+    return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers))
 
 
 def march(
@@ -173,9 +178,8 @@ def march(
     system.record.control.stabilise[:] = stabilisation.coefficients(settings.step, alpha, beta)
     if settings.penalty is not None:
         system.record.control.stabilise[:2] = feedback(settings.penalty, settings.step, stabilisation.CORRECTS)
-    kernels, path = prepared.motion.kernels, path_of(settings.coordinates, settings.formulation, settings.rotations)
-    assert path is not None
-    correct = import_module(path.correction).correct if stabilisation.CORRECTS else kernels.keep
+    kernels = prepared.motion.kernels
+    correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.keep
     facts = INTEGRATORS[settings.integrator]
     step = getattr(import_module(facts.module), facts.function)
     advance = import_module("nivel.march.loop").advance

@@ -138,6 +138,35 @@ def _jump_of(table: Table, settings: SimulationSettings) -> str:
     return ""
 
 
+def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: str) -> None:
+    """Methods that do not know flexible bodies."""
+    if not machine.is_flexible:
+        return
+    faults = []
+    names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
+    if coordinates != "absolute":
+        faults.append(("coordinates", f"'{coordinates}' does not go with flexible bodies ({names}): take absolute"))
+    if formulation != "newton-euler":
+        faults.append(("formulation", f"'{formulation}' does not go with flexible bodies ({names}): take newton-euler"))
+    if INTEGRATORS[machine.simulation.integrator].residual:
+        message = (
+            f"'{machine.simulation.integrator}' does not go with flexible bodies ({names}): take rk4, dopri5 or gear"
+        )
+        faults.append(("integrator", message))
+    if faults:
+        raise ModelError([Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults])
+
+
+def refuse_redundant_flexible(machine: MachineRecord, redundancy: Redundancy) -> None:
+    """Redundant joints of rigid bodies, which may be none of flexible ones: how many are left is not known."""
+    if machine.is_flexible and redundancy.redundant_rows:
+        message = (
+            f"{', '.join(redundancy.redundant_rows)} would be redundant if all bodies were rigid, and some are flexible: replace joints "
+            f"until nothing is redundant"
+        )
+        raise ModelError(Fault("", 0, 0, "joints", message))
+
+
 def refuse_uncertain_loads(machine: MachineRecord, redundancy: Redundancy) -> None:
     """Friction whose normal load is a reaction that the equations do not determine: the motion would be one of many."""
     faults = []

@@ -21,11 +21,11 @@ def command(quiet: bool) -> None:
     from nivel.kernels import cache
     from nivel.kernels.hook import compile_on_complex_numbers
     from nivel.march.catalogue import INTEGRATORS
-    from nivel.motion.catalogue import PATHS
+    from nivel.motion.catalogue import FLOATING, PATHS
 
     console = Console(stderr=True, highlight=False, quiet=quiet)
     modules = ["nivel.kernels.observe", "nivel.march.loop"]
-    modules += [module for facts in PATHS.values() for module in (facts.module, facts.correction)]
+    modules += [module for facts in (*PATHS.values(), FLOATING) for module in (facts.module, facts.correction)]
     modules += [facts.module for facts in INTEGRATORS.values()]
     modules += rare_modules()
     total = time.perf_counter()

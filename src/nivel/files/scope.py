@@ -15,6 +15,7 @@ from pydantic import ValidationError
 
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, given_parameters, made_by, read_assembly
+from nivel.files.body_files import place_body_files
 from nivel.files.include import include
 from nivel.files.mass_file import read_mass_properties
 from nivel.files.outline import as_part, check_sections, check_start, section_of
@@ -51,6 +52,7 @@ def read_scope(
     override(tree, of_masses)
     check_sections(tree)
     read_mass_properties(tree, sources)
+    place_body_files(tree)
     override(tree, others)
     check_sections(tree)
     if user is not None:

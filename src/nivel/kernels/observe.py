@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import entry, stage
+from nivel.kernels.energy import energies
 from nivel.kernels.hook import ACCEPTED, SHOWN, call_hook
 from nivel.kernels.record import COMPLETE, MEASURE, NONE, SENSE, observe_signature, record_at
-from nivel.kernels.rigid import kinetic_energy, potential_energy
 
 
 @stage
@@ -107,11 +107,7 @@ def observe(machine, t, y, frame):
         frame[at + rows + row] = constraints.Cdot[row]
         frame[at + 2 * rows + row] = constraints.lam[row]
     at += 3 * rows
-    kinetic, potential = 0.0, 0.0
-    for b in range(nb):
-        kinetic += kinetic_energy(bodies, b)
-        potential += potential_energy(bodies, b)
-    potential += control.stored[0]
+    kinetic, potential = energies(machine)
     control.energy[0], control.energy[1] = kinetic, potential
     external, dissipated = y[y.shape[0] - 2], y[y.shape[0] - 1]
     frame[at], frame[at + 1], frame[at + 2], frame[at + 3] = kinetic, potential, external, dissipated

@@ -1,4 +1,4 @@
-"""A rigid body, or a point mass, in words."""
+"""A rigid or flexible body, or a point mass, in words."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pydantic import Field
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import PositiveNumber, Truth
+from nivel.machine.flexibility import FlexibleBody
 from nivel.machine.inertia import InertiaTensor, impossible, mass_properties, volume
 from nivel.machine.orientation import Orientation
 from nivel.machine.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector
@@ -25,13 +26,15 @@ _OF_A_RIGID_BODY: Final = (
     "angular_velocity",
     "angular_velocity_body",
     "density",
+    "flexible",
 )
 
 
 class Body(Checked):
     """A rigid body. Its frame may be anywhere; the centre of mass is given in it.
 
-    It has mass and inertia, or a shape and a density, or a shape and a mass. A point mass has a mass alone.
+    It has mass and inertia, or a shape and a density, or a shape and a mass. A point mass has a mass alone, a flexible body the file of
+    its modes.
     """
 
     collection: ClassVar[str] = "bodies"
@@ -55,6 +58,9 @@ class Body(Checked):
     angular_velocity_body: AngularVelocityVector | None = Field(default=None, description="body axes")
     shape: Shape | None = None
     density: Density | None = None
+    flexible: FlexibleBody | None = Field(
+        default=None, description="modes by which it bends; its mass is in their file"
+    )
     point_mass: Truth = Field(default=False, description="a mass at a point, which does not turn")
     hold: Truth = Field(default=False, description="the assembly does not move it")
     assembly_weight: PositiveNumber = Field(default=1.0, description="how unwilling it is to be moved by the assembly")
@@ -65,7 +71,10 @@ class Body(Checked):
         if self.point_mass:
             yield from self._problems_of_point_mass()
             return
-        yield from self._problems_of_inertia()
+        if self.flexible is not None:
+            yield from self._problems_of_flexible()
+        else:
+            yield from self._problems_of_inertia()
         if self.angular_velocity is not None and self.angular_velocity_body is not None:
             yield Problem((), "give `angular_velocity` (global axes) or `angular_velocity_body` (body axes), not both")
         if self.shape is not None and not isinstance(self.shape, Sphere) and self.shape.from_ is not None:
@@ -86,6 +95,13 @@ class Body(Checked):
             yield Problem(("shape",), f"a point mass is drawn as a sphere, not as a {self.shape.type}")
         elif self.shape is not None and self.shape.centre is not None and any(self.shape.centre):
             yield Problem(("shape", "centre"), "the sphere of a point mass has its centre at the mass")
+
+    def _problems_of_flexible(self) -> Iterator[Problem]:
+        for name in ("mass", "centre_of_mass", "inertia", "density"):
+            if getattr(self, name) is not None:
+                yield superfluous(name, "is known from the file of the flexible body and must not be given")
+        if self.inertia_about == "origin":
+            yield superfluous("inertia_about", "does not belong to a flexible body, whose inertia is in its file")
 
     def _problems_of_inertia(self) -> Iterator[Problem]:
         if self.density is not None:

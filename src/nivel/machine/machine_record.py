@@ -97,5 +97,10 @@ class MachineRecord(Checked):
             raise ValidationError.from_exception_data(cls.__name__, lines)
         return record
 
+    @property
+    def is_flexible(self) -> bool:
+        """Whether a body of it bends."""
+        return any(body.flexible is not None for body in self.bodies)
+
     def problems(self) -> Iterator[Problem]:
         yield from problems_of_points(self)

@@ -9,8 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf
+from nivel.kernels.energy import energies
 from nivel.kernels.record import record_at
-from nivel.kernels.rigid import kinetic_energy, potential_energy, turn_to_body_axes
+from nivel.kernels.rigid import turn_to_body_axes
 from nivel.kernels.status import OK
 from nivel.march.run import EVALUATIONS, TIME, UNCONSERVED, run_at
 
@@ -24,11 +25,9 @@ def conserve(evaluate, machine, history):
     run = run_at(history)
     record = record_at(machine)
     bodies, y = record.bodies, run.y
-    kinetic, potential = 0.0, record.control.stored[0]
     for b in range(bodies.mass.shape[0]):
         turn_to_body_axes(bodies, b)
-        kinetic += kinetic_energy(bodies, b)
-        potential += potential_energy(bodies, b)
+    kinetic, potential = energies(machine)
     last = y.shape[0] - 1
     missing = record.control.energy[2] + y[last - 1] - y[last] - potential - kinetic
     if missing == 0.0:

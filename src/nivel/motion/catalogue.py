@@ -39,6 +39,11 @@ _ANGLES, _VECTOR = (
     for kind in ("euler_angles", "rotation_vector")
 )
 
+# of machines with flexible bodies, in absolute coordinates
+FLOATING = PathFacts(
+    "nivel.motion.floating_frame", "nivel.motion.floating_frame_correction", "nivel.system.states.floating"
+)
+
 # coordinates, velocities and rotations → equations; penalty methods share those of newton-euler
 PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "newton-euler", "euler-parameters"): _ABSOLUTE,
@@ -62,7 +67,9 @@ FORMULATIONS: dict[str, FormulationFacts] = {
 }
 
 
-def path_of(coordinates: str, formulation: str, rotations: str) -> PathFacts | None:
-    """The equations of these methods, or None where the combination has no meaning."""
+def path_of(coordinates: str, formulation: str, rotations: str, *, flexible: bool = False) -> PathFacts | None:
+    """The equations of these methods, or None where the combination has no meaning. flexible : for machines with flexible bodies."""
+    if flexible:
+        return FLOATING if (coordinates, formulation) == ("absolute", "newton-euler") else None
     velocities = "lagrange" if formulation == "lagrange" else "newton-euler"
     return PATHS.get((coordinates, velocities, rotations))

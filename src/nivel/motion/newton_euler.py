@@ -73,6 +73,8 @@ def whiten_rows(machine):
             B[2, j] = K[2, 0] * A[j, 0] + K[2, 1] * A[j, 1] + K[2, 2] * A[j, 2]
     for k in range(saddle.block.shape[0]):
         part, marker, b = saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
+        if b >= bodies.mass.shape[0]:
+            continue  # of the modes of a flexible body
         f0, f1, f2 = J[part, 0], J[part, 1], J[part, 2]
         u0 = markers.u[marker, 0] - bodies.c[b, 0]
         u1 = markers.u[marker, 1] - bodies.c[b, 1]

@@ -37,6 +37,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.placement import initial_velocity, placement
 from nivel.system.draft import Draft, located
 from nivel.system.elimination import plan
+from nivel.system.flexible import flexible_mass, no_flexible
 from nivel.system.forces import FORCES, family_addresses
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.layout import frame_layout
@@ -101,6 +102,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
             saddle=saddle,
             tree=empty_tree(constraints),
             frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
+            flexible=no_flexible(),
             partition=no_partition(),
             residual=no_residual(),
             newton=no_newton(),
@@ -128,6 +130,7 @@ def build(machine: MachineRecord, equations: Equations) -> System:
         row_units=tuple(units),
         coordinate_units=tuple(coordinate_units(name) for name in draft.joint_coordinates),
         point_masses=np.array([body.point_mass for body in machine.bodies], dtype=bool),
+        frame_markers=frozenset(draft.frame_markers),
         as_placed=np.array([given is None for given in rows.given], dtype=bool),
         size=size,
         start=np.zeros(0),
@@ -264,7 +267,7 @@ def _control(rows: int) -> Control:
 
 def _bodies(machine: MachineRecord, size: float) -> Bodies:
     count = len(machine.bodies)
-    properties = [mass_properties(body) for body in machine.bodies]
+    properties = [mass_properties(body) if body.flexible is None else flexible_mass(body) for body in machine.bodies]
     mass = np.array([p.mass for p in properties], dtype=float)
     centre = np.array([p.centre_of_mass for p in properties], dtype=float).reshape(count, 3)
     inertia = np.array([p.inertia for p in properties], dtype=float).reshape(count, 3, 3)

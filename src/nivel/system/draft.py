@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
@@ -95,6 +95,11 @@ class Draft:
             self._frames[body] = self.place((body, np.zeros(3), np.eye(3)))
         self._note(self._frames[body])
         return self._frames[body]
+
+    @property
+    def frame_markers(self) -> Iterable[int]:
+        """The markers that are frames of bodies."""
+        return self._frames.values()
 
     def marker_or_ground(self, name: str | None) -> int:
         """Index of the marker called `name`; without one, the global frame."""

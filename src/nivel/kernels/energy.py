@@ -1,0 +1,23 @@
+"""Kinetic and potential energy of all bodies and springs in the state last evaluated."""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import stage
+from nivel.kernels.floating_frame import flexible_kinetic_energy
+from nivel.kernels.record import record_at
+from nivel.kernels.rigid import kinetic_energy, potential_energy
+
+
+@stage
+def energies(machine):
+    """(kinetic, potential) [J]; ω̄ of the bodies has to be known."""
+    record = record_at(machine)
+    bodies, flexible = record.bodies, record.flexible
+    kinetic, potential = 0.0, record.control.stored[0]
+    for b in range(bodies.mass.shape[0]):
+        kinetic += kinetic_energy(bodies, b)
+        potential += potential_energy(bodies, b)
+    for f in range(flexible.body.shape[0]):
+        # in place of what it would be if it were rigid
+        kinetic += flexible_kinetic_energy(bodies, flexible, f) - kinetic_energy(bodies, flexible.body[f])
+    return kinetic, potential

@@ -1,0 +1,111 @@
+"""Absolute coordinates with flexible bodies: Newton–Euler equations, and modes of flexible bodies in floating frames.
+
+State y = (R, θ of every body; p; Ṙ, ω̄ of every body; ṗ; states of forces; work, dissipated energy).
+"""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import entry, stage
+from nivel.kernels.floating_frame import (
+    accelerate_frames,
+    add_bias,
+    bend,
+    gather,
+    unwhiten_flexible,
+    whiten_flexible_forces,
+    whiten_flexible_rows,
+)
+from nivel.kernels.hook import apply_forces, finish_forces
+from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.rigid import load_weight, place_body
+from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.saddle import factorise_rows, multipliers
+from nivel.kernels.spatial import multiply
+from nivel.kernels.status import OK
+from nivel.motion.newton_euler import WIDTH, normalise, read_markers, unwhiten, whiten_forces, whiten_rows
+
+
+@stage
+def read_flexible_state(machine, t, y):
+    """Poses and velocities of bodies, frames at interfaces and markers, and all constraint rows. Returns a status."""
+    record = record_at(machine)
+    bodies, own = record.bodies, record.flexible
+    nb, modes = bodies.mass.shape[0], own.p.shape[0]
+    first = 7 * nb + modes
+    for b in range(nb):
+        place_body(bodies, b, y[7 * b : 7 * b + 7])
+        v = first + 6 * b
+        for i in range(3):
+            bodies.Rdot[b, i] = y[v + i]
+            bodies.omega_b[b, i] = y[v + 3 + i]
+        multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
+    for j in range(modes):
+        own.p[j], own.pdot[j] = y[7 * nb + j], y[first + 6 * nb + j]
+    bend(machine)
+    status = read_markers(machine, t)
+    add_bias(machine)
+    return status
+
+
+@stage
+def whiten_all_rows(machine):
+    """W = C_q L⁻ᵀ of rigid and flexible bodies."""
+    whiten_rows(machine)
+    whiten_flexible_rows(machine)
+
+
+@stage
+def unwhiten_all(machine):
+    """Accelerations of all bodies and modes from z; also their changes in a correction."""
+    record = record_at(machine)
+    for b in range(record.bodies.mass.shape[0]):
+        if record.flexible.rigid[b] == 1:
+            unwhiten(record.bodies, record.saddle, b)
+    unwhiten_flexible(machine)
+
+
+@entry(evaluate_signature)
+def evaluate(machine, t, y, ydot):
+    """ẏ. Leaves everything else in the record."""
+    record = record_at(machine)
+    bodies, own = record.bodies, record.flexible
+    status = read_flexible_state(machine, t, y)
+    if status != OK:
+        return status
+    load_weight(bodies)
+    status = apply_forces(machine, t, y)
+    if status != OK:
+        return status
+    gather(machine)
+    whiten_all_rows(machine)
+    status = factorise_rows(machine, WIDTH)
+    if status != OK:
+        return status
+    whiten_forces(machine)
+    whiten_flexible_forces(machine)
+    status = multipliers(machine, WIDTH)
+    if status == OK:
+        status = finish_forces(machine, t, ydot)
+    if status != OK:
+        return status
+    unwhiten_all(machine)
+    accelerate_frames(machine)
+    nb, modes = bodies.mass.shape[0], own.p.shape[0]
+    first = 7 * nb + modes
+    for b in range(nb):
+        q, v = 7 * b, first + 6 * b
+        rates_of_parameters(bodies.theta[b], bodies.omega_b[b], ydot[q + 3 : q + 7])
+        for i in range(3):
+            ydot[q + i] = bodies.Rdot[b, i]
+            ydot[v + i] = bodies.Rddot[b, i]
+            ydot[v + 3 + i] = bodies.alpha_b[b, i]
+    for j in range(modes):
+        ydot[7 * nb + j], ydot[first + 6 * nb + j] = own.pdot[j], own.pddot[j]
+    return OK
+
+
+@entry(correct_signature)
+def keep(machine, t, y):
+    """No correction; |θ| is brought back to one, which moves nothing because A is taken of θ/|θ|."""
+    normalise(machine, y)
+    return OK

@@ -1,0 +1,171 @@
+"""q = (R, θ of every body, p), v = (Ṙ, ω̄ of every body, ṗ): with the modes of flexible bodies, which start undeformed.
+
+A machine is assembled with its flexible bodies rigid. Here their markers move to frames at the interfaces, which are bodies behind the
+ground, and every block of C_q of such a marker gets further ones for the modes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from nivel.errors import Fault, ModelError
+from nivel.kernels.record import NONE, Bodies, Record, Saddle
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings import SimulationSettings
+from nivel.system.elimination import plan
+from nivel.system.flexible import Bending, Frame, bending_bodies, first_modal_rows, flexible_tables
+from nivel.system.system import Array, StateMap, System
+from nivel.system.tables import index_array
+
+Blocks = list[tuple[int, int, int, int]]
+
+
+# A marker belongs to an interface this near, as a share of the extent of the body.
+NEAR = 1e-4
+
+
+def arrange(
+    machine: MachineRecord, absolute: System, y: Array, rank: int, settings: SimulationSettings
+) -> tuple[System, Array]:
+    """The machine with modes, undeformed at the start.
+
+    Raises ModelError naming every marker of a flexible body that is at no interface of it.
+    """
+    del settings
+    bending = bending_bodies(machine)
+    return with_modes(absolute, y, rank, bending, _carried(absolute, machine, bending))
+
+
+def _carried(absolute: System, machine: MachineRecord, bending: Sequence[Bending]) -> dict[int, tuple[int, int]]:
+    """Flexible body and interface of every marker that is at one."""
+    markers, found, faults = absolute.record.markers, {}, []
+    for f, each in enumerate(bending):
+        reduced, name = each.reduced, machine.bodies[each.body].name
+        extent = float(np.ptp(reduced.position, axis=0).max(initial=0.0))
+        places = np.array([interface.position for interface in reduced.interfaces]).reshape(-1, 3)
+        for marker in np.flatnonzero(markers.body == each.body).tolist():
+            if marker in absolute.frame_markers:
+                continue
+            distance = np.linalg.norm(places - markers.position_b[marker], axis=1)
+            nearest = int(np.argmin(distance)) if len(distance) else 0
+            if len(distance) and distance[nearest] <= NEAR * extent:
+                found[marker] = (f, nearest)
+                continue
+            x, y, z = (f"{value:.6g}" for value in markers.position_b[marker])
+            there = ", ".join(
+                f"{interface.name} at ({', '.join(f'{value:.6g}' for value in interface.position)})"
+                for interface in reduced.interfaces
+            )
+            message = (
+                f"something acts at ({x}, {y}, {z}) m in its axes, where it has no interface; they are {there or 'none'}: move "
+                f"it there, or add an interface to the model and reduce it again"
+            )
+            faults.append(Fault("", 0, 0, f"bodies.{name}.flexible", message))
+    if faults:
+        raise ModelError(faults)
+    return found
+
+
+def with_modes(
+    absolute: System, y: Array, rank: int, bending: Sequence[Bending], carried: dict[int, tuple[int, int]]
+) -> tuple[System, Array]:
+    """The system with the bodies that are `bending`, and its state for y of the rigid one.
+
+    carried : markers at interfaces: (number of the flexible body, number of the interface).
+    """
+    old, count = absolute.record, absolute.body_count
+    places = sorted(set(carried.values()))
+    frames = [Frame(*place) for place in places]
+    markers = old.markers._replace(body=old.markers.body.copy(), position_b=old.markers.position_b.copy())
+    for marker, place in carried.items():
+        k = places.index(place)
+        markers.body[marker] = count + 1 + k
+        markers.position_b[marker] -= bending[place[0]].reduced.interfaces[place[1]].position
+    at = {marker: places.index(place) for marker, place in carried.items()}
+    saddle, block = _saddle(old, count, bending, at)
+    flexible = flexible_tables(count, bending, frames, block)
+    record = old._replace(
+        markers=markers, bodies=_with_frames(old.bodies, len(frames)), saddle=saddle, flexible=flexible
+    )
+    record = record._replace(
+        frames=record.frames._replace(
+            R=record.bodies.R, theta=record.bodies.theta, Rdot=record.bodies.Rdot, Rddot=record.bodies.Rddot
+        )
+    )
+    modes = len(flexible.p)
+    names = [
+        f"{absolute.bodies[each.body]}.{name or k + 1}"
+        for each in bending
+        for k, name in enumerate(each.reduced.mode_names or [""] * len(each.reduced.eigenvalues))
+    ]
+    system = replace(absolute, record=record, state_map=_map(absolute, modes), start=np.zeros(0), modes=tuple(names))
+    start = np.concatenate(
+        [y[: 7 * count], np.zeros(modes), y[7 * count : 13 * count], np.zeros(modes), y[13 * count :]]
+    )
+    return system.known_rank(rank), start
+
+
+def _with_frames(bodies: Bodies, frames: int) -> Bodies:
+    """With work arrays for frames behind the ground."""
+
+    def longer(array: Array) -> Array:
+        return np.concatenate([array, np.repeat(array[-1:], frames, axis=0)])
+
+    names = ("R", "theta", "A", "Rdot", "omega", "omega_b", "c", "wrench", "Rddot", "alpha_b")
+    return bodies._replace(**{name: longer(getattr(bodies, name)) for name in names})
+
+
+def _saddle(old: Record, count: int, bending: Sequence[Bending], at: dict[int, int]) -> tuple[Saddle, Blocks]:
+    """The saddle with blocks for the modes, and `Flexible.block`."""
+    flexible_of = {each.body: f for f, each in enumerate(bending)}
+    first = first_modal_rows(count, bending)
+    own = int(old.saddle.blocks[0])
+    rows: Blocks = []
+    table: Blocks = []
+    kept = 0
+    for group in (old.saddle.block[:own].tolist(), old.saddle.block[own:].tolist()):
+        for row, part, marker, body in group:
+            rows.append((row, part, marker, body))
+            if body not in flexible_of:
+                continue
+            f = flexible_of[body]
+            table.append((len(rows) - 1, at.get(marker, NONE), f, len(rows)))
+            if marker in at:
+                rows += [(row, part, marker, int(first[f]) + k) for k in range(int(first[f + 1] - first[f]))]
+        kept = kept or len(rows)
+    if not old.saddle.block[:own].size:
+        kept = 0
+    block = index_array(rows, 4)
+    groups = [list(range(a, b)) for a, b in old.joints.rows.tolist() if b > a]
+    named = {row for group in groups for row in group}
+    groups += [[row] for row in range(len(old.saddle.row)) if row not in named]
+    elimination = plan(groups, block[:kept, 0].tolist(), block[:kept, 3].tolist())
+    saddle = old.saddle._replace(
+        block=block,
+        blocks=np.array([kept], dtype=np.uint32),
+        **vars(elimination),
+        W=np.zeros((len(block), 6)),
+        z=np.zeros((int(first[-1]), 6)),
+        S=np.zeros(len(elimination.S_row)),
+        L=np.zeros(len(elimination.L_row)),
+    )
+    return saddle, table
+
+
+def _map(absolute: System, modes: int) -> StateMap:
+    """What the entries of y are."""
+    old, count = absolute.map, absolute.body_count
+    first = 7 * count + modes
+
+    def place(index: int) -> int:
+        return index if index < 7 * count else index + modes if index < 13 * count else index + 2 * modes
+
+    plain = [(place(q), place(v)) for q, v in old.plain.tolist()]
+    plain += [(7 * count + j, first + 6 * count + j) for j in range(modes)]
+    turns = [(place(q), place(v)) for q, v in old.turns.tolist()]
+    units = [*old.units[: 7 * count], *["kg^0.5 m"] * modes, *old.units[7 * count : 13 * count]]
+    units += [*["kg^0.5 m/s"] * modes, *old.units[13 * count :]]
+    return StateMap(index_array(plain, 2), index_array(turns, 2), tuple(units))

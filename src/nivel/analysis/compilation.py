@@ -12,7 +12,7 @@ from nivel.kernels import cache
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import RESIDUALS, path_of
+from nivel.motion.catalogue import FLOATING, PATHS, path_of
 from nivel.system.forces import FORCES
 
 # in these equations every machine is assembled
@@ -62,17 +62,17 @@ def compile_path(
             place = f"{missing.index((module, what)) + 1}/{len(missing)}"
             listener.say(f"compiling {what} ({place}; only the first run does this)")
         import_module(module)
-    if integrator in INTEGRATORS and INTEGRATORS[integrator].residual and path[0] in RESIDUALS:
-        _compile_derivatives(
-            INTEGRATORS[integrator].whole or RESIDUALS[path[0]], [module for module, _ in parts], listener
-        )
+    if integrator in INTEGRATORS and INTEGRATORS[integrator].residual and facts is not None and facts.residual:
+        residual = INTEGRATORS[integrator].whole or facts.residual
+        _compile_derivatives(residual, [module for module, _ in parts], listener)
     return perf_counter() - begin
 
 
 def complex_modules() -> list[str]:
     """Modules of families that exact derivatives may need on complex numbers."""
     families = dict.fromkeys(family for kind in FORCES.values() for family in kind.families)
-    residuals = [*RESIDUALS.values(), *(facts.whole for facts in INTEGRATORS.values() if facts.whole)]
+    residuals = [path.residual for path in (*PATHS.values(), FLOATING) if path.residual]
+    residuals += [facts.whole for facts in INTEGRATORS.values() if facts.whole]
     return [*residuals, MEASURE, GIVEN_FRICTION, *(f"nivel.kernels.forces.{family}" for family in families)]
 
 

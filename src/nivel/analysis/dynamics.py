@@ -75,7 +75,7 @@ from nivel.march.run import (
 )
 from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import FORMULATIONS, RESIDUALS, PathFacts, path_of
+from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.results.occurrence import Occurrence
 from nivel.system.partition import forget
 from nivel.system.system import Array, System
@@ -154,8 +154,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     if integrator.residual:
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
         free = not touches_ground(machine, prepared.system) if integrator.whole else None
-        module = integrator.whole or RESIDUALS[coordinates]
-        prepared = equip(prepared, y, coordinates, Wanted(module, corners(machine), integrator.shifted, free))
+        prepared = equip(prepared, y, coordinates, Wanted(integrator.whole, corners(machine), integrator.shifted, free))
     return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers))
 
 
@@ -331,6 +330,8 @@ def _scales(system: System, y: Array, duration: float) -> Array:
     )
     energy = max(*energies, 1e-300)
     floors = {"m": system.size, "1": 1.0, "m/s": system.size / duration, "1/s": 1.0 / duration}
+    # modes of unit modal mass move the body by about p/√mass
+    floors |= {"kg^0.5 m": mass**0.5 * system.size, "kg^0.5 m/s": mass**0.5 * system.size / duration}
     scale = np.array([floors.get(unit, 0.0) for unit in system.map.units])
     states = len(system.record.elements.state)
     scale[len(scale) - 2 - states : -2] = _deflections(system)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from importlib import import_module
 from itertools import combinations
@@ -16,7 +17,7 @@ from nivel.kernels.arrays import complex_twin
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES
 from nivel.kernels.record import GIVEN_FRICTION, MEASURE, NONE, RESIDUAL, Hooks, Record
-from nivel.motion.catalogue import RESIDUALS
+from nivel.motion.catalogue import path_of
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws import complex_address
 from nivel.system.system import Array, System
@@ -32,31 +33,33 @@ ROUNDINGS = 6.0
 class Wanted:
     """What a method asks of a residual.
 
-    module : where it is. corners : times [s] at which functions of time have corners. shifted : with room for systems of shifted matrices,
-    see `nivel.kernels.shifted_parts`. free : whether nothing joins the machine to the ground, for a residual over a whole step.
+    whole : module of one over a whole step; empty: that at a time. corners : times [s] at which functions of time have corners.
+    shifted : with room for systems of shifted matrices, see `nivel.kernels.shifted_parts`. free : whether nothing joins the machine to the
+    ground, for a residual over a whole step.
     """
 
-    module: str
+    whole: str = ""
     corners: tuple[float, ...] = ()
     shifted: bool = False
     free: bool | None = None
 
 
-def equip(motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted | None = None) -> MotionEquations:
+INSTANT = Wanted()
+
+
+def equip(motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted = INSTANT) -> MotionEquations:
     """The same equations, with the residual of implicit methods, its derivatives, and the record of its complex twin.
 
-    Without `wanted`, the residual at a time. Of redundant constraints those rows stay that say something new at the state y of the start:
+    Of redundant constraints those rows stay that say something new at the state y of the start:
     with the others the matrix would be singular.
     """
-    instant = Wanted(RESIDUALS[coordinates])
-    wanted = wanted or instant
     rows = len(motion.system.record.saddle.row)
     whole = _with_rows(motion, y, coordinates, wanted, np.arange(rows))
     rank = int(motion.system.record.control.rank[0])
     if rank == rows:
         return whole
-    if wanted.free is not None:
-        whole = _with_rows(motion, y, coordinates, instant, np.arange(rows))
+    if wanted.whole:
+        whole = _with_rows(motion, y, coordinates, INSTANT, np.arange(rows))
     residual = whole.system.record.residual
     residual.y[:] = y
     _, tangent = find_tangent(whole, 0.0, 1.0, 1.0, 1.0)
@@ -85,7 +88,7 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     part[:, 0] = renumbered[part[:, 0]]
     part = np.ascontiguousarray(part[part[:, 0] != NONE])
     row = np.ascontiguousarray(record.saddle.row[kept])
-    residual = residual_tables(system.body_count, len(y), velocities, states, row, part, free=wanted.free)
+    residual = residual_tables(len(record.bodies.wrench) - 1, len(y), velocities, states, row, part, free=wanted.free)
     if wanted.free is not None:
         residual.interval.solid[system.point_masses] = 0.0
     # over a whole step the forces of joints act at the mean place, C is that of the end
@@ -94,7 +97,10 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     place = places(system.map, velocities, positions)
     newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, shifted=wanted.shifted)
     newton.settings[3] = ROUNDINGS * _longest_chain(record)
-    family = import_module(wanted.module).residual
+    flexible = len(record.flexible.body) > 0
+    path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=flexible)
+    assert path is not None
+    family = import_module(wanted.whole or path.residual).residual
     hooks = record.hooks._replace(address=record.hooks.address.copy())
     record = record._replace(residual=residual, newton=newton, hooks=hooks)
     hooks.address[RESIDUAL] = family.address
@@ -116,36 +122,53 @@ def _longest_chain(record: Record) -> int:
 def _groups(
     system: System, velocities: int, row: Index, part: Index, coordinates: str
 ) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
-    """Sizes of the groups of unknowns, which are constraints, and which depend on each other: bodies (or all joint velocities as one),
-    states of forces, joints."""
+    """Sizes of the groups of unknowns, which are constraints, and which depend on each other: bodies, then modes of flexible ones (or all
+    joint velocities as one), states of forces, joints."""
     record = system.record
     states = len(record.elements.state)
     owners = [system.row_owner[k] for k in row]
     joints = list(dict.fromkeys(owners))
-    moving = system.body_count if coordinates == "absolute" else 1
-    per_joint = [owners.count(joint) for joint in joints]
-    sizes = [*([6] * moving if coordinates == "absolute" else [velocities]), *[1] * states, *per_joint]
-    constraint = [k >= moving + states for k in range(len(sizes))]
     if coordinates == "relative":
+        sizes = [velocities, *[1] * states, *(owners.count(joint) for joint in joints)]
+        constraint = [k > states for k in range(len(sizes))]
         return sizes, constraint, {(a, b) for b in range(len(sizes)) for a in range(b)}
+    count = system.body_count
+    modes = [int(last - first) for first, last in record.flexible.mode]
+    moving = count + len(modes)
+    sizes = [*[6] * count, *modes, *[1] * states, *(owners.count(joint) for joint in joints)]
+    constraint = [k >= moving + states for k in range(len(sizes))]
     number = {joint: moving + states + k for k, joint in enumerate(joints)}
-    couples = set()
+    couples = {(body, count + f) for f, body in enumerate(record.flexible.body.tolist())}
     bodies_of: dict[int, set[int]] = {}
     for k, _, _, body in part.tolist():
         bodies_of.setdefault(number[owners[k]], set()).add(body)
     for joint, bodies in bodies_of.items():
-        couples |= {(body, joint) for body in bodies} | set(combinations(sorted(bodies), 2))
+        moved = _moved_by(system, bodies)
+        couples |= {(body, joint) for body in moved} | set(combinations(sorted(moved), 2))
     for bodies in system.coupled:
-        couples |= set(combinations(sorted(bodies - {moving}), 2))
+        couples |= set(combinations(sorted(_moved_by(system, bodies)), 2))
     for bodies, state, joint in _frictions(system):
         depending = [*([moving + state] if state != NONE else []), *([number[joint]] if joint in number else [])]
-        couples |= {(body, group) for body in bodies for group in depending}
+        couples |= {(body, group) for body in _moved_by(system, bodies) for group in depending}
         couples |= set(combinations(depending, 2))
     return sizes, constraint, couples
 
 
+def _moved_by(system: System, bodies: Iterable[int]) -> set[int]:
+    """Groups of velocities that move these bodies, or frames at interfaces: of bodies, and behind them of the modes of flexible ones."""
+    flexible, count = system.record.flexible, system.body_count
+    flexible_of = {int(v): int(f) for f, v in flexible.frame} | {int(b): f for f, b in enumerate(flexible.body)}
+    groups: set[int] = set()
+    for body in bodies:
+        if body in flexible_of:
+            groups |= {int(flexible.body[flexible_of[body]]), count + flexible_of[body]}
+        elif body != count:
+            groups.add(body)
+    return groups
+
+
 def _frictions(system: System) -> list[tuple[set[int], int, str]]:
-    """Moving bodies, state or NONE, and the joint whose reaction is the load (empty: none), of each friction."""
+    """Bodies, state or NONE, and the joint whose reaction is the load (empty: none), of each friction."""
     if not system.frictions:
         return []
     record, columns = system.record, import_module("nivel.kernels.friction")
@@ -153,7 +176,7 @@ def _frictions(system: System) -> list[tuple[set[int], int, str]]:
     for index in record.friction.columns.tolist():
         ends = record.coordinates.what[index[columns.COORDINATE], 1:3]
         loading = index[columns.JOINT]
-        bodies = set(record.markers.body[ends].tolist()) - {system.body_count}
+        bodies = set(record.markers.body[ends].tolist())
         out.append((bodies, index[columns.STATE], "" if loading == NONE else system.joints[loading]))
     return out
 

@@ -148,9 +148,10 @@ def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: s
         faults.append(("coordinates", f"'{coordinates}' does not go with flexible bodies ({names}): take absolute"))
     if formulation != "newton-euler":
         faults.append(("formulation", f"'{formulation}' does not go with flexible bodies ({names}): take newton-euler"))
-    if INTEGRATORS[machine.simulation.integrator].residual:
+    if INTEGRATORS[machine.simulation.integrator].whole:
         message = (
-            f"'{machine.simulation.integrator}' does not go with flexible bodies ({names}): take rk4, dopri5 or gear"
+            f"'{machine.simulation.integrator}' does not go with flexible bodies ({names}): take generalised-alpha, whose "
+            f"`stabilisation: geometric` keeps the energy"
         )
         faults.append(("integrator", message))
     if faults:

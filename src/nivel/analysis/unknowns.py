@@ -16,6 +16,8 @@ def unknown_name(system: System, number: int) -> str:
         return f"the constraint {system.rows[record.residual.row[number - n - states]]}"
     if number >= n:
         return "the state of a friction"
+    if number >= 6 * system.body_count and system.modes:
+        return f"the mode {system.modes[number - 6 * system.body_count]}"
     if not len(record.tree.node):
         return f"{system.bodies[number // 6]}, {DIRECTIONS[number % 6]}"
     of_node = next(node for node in record.tree.node.tolist() if node[4] <= number < node[5])

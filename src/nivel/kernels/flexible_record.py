@@ -46,6 +46,7 @@ class Flexible(NamedTuple):
     static: W3  # (F, n, 3) (I8_j + I9_kj p_k) ω̄
     drift: W2  # (F, 3) and
     spin: W2  # (F, 3) momentum of the second order of the modal velocities
+    velocity_force: W2  # (F, 6) on the frame, axes of the body
     now: W3  # (N, 6, n) what a mode moves and turns the node by, deformed, axes of the body
     displacement: W3  # (N, 3, n) of the node by a mode, global axes
     turn: W3  # (N, 3, n) of its axes, global axes

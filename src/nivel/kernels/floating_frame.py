@@ -384,6 +384,60 @@ def unwhiten_flexible(machine):
 
 
 @stage
+def move_frames(machine):
+    """Accelerations of the frames at interfaces into `residual.acceleration` from those of their bodies and modes, less their bias."""
+    record = record_at(machine)
+    bodies, own, acceleration = record.bodies, record.flexible, record.residual.acceleration
+    for k in range(own.frame.shape[0]):
+        f, v = own.frame[k, 0], own.frame[k, 1]
+        x, out = acceleration[own.body[f]], acceleration[v]
+        first, n = modes_of(own, f)
+        across = cross(x, bodies.c[v])
+        for i in range(3):
+            out[i] = x[i] + dot_modes(own.turn[k, i], own.pddot, first, n)
+            out[3 + i] = x[3 + i] + across[i] + dot_modes(own.displacement[k, i], own.pddot, first, n)
+
+
+@stage
+def flexible_rows(machine):
+    """Rows of the residual of flexible bodies: M v̇ - Q_v - Q of their frames and modes."""
+    record = record_at(machine)
+    bodies, own, residual = record.bodies, record.flexible, record.residual
+    modal = 6 * np.int64(bodies.mass.shape[0])
+    for f in range(own.body.shape[0]):
+        b = own.body[f]
+        first, n = modes_of(own, f)
+        A, S, J, B, F, q = (
+            bodies.A[b],
+            own.first[f],
+            own.inertia[f],
+            own.coupling[f],
+            bodies.wrench[b],
+            own.velocity_force[f],
+        )
+        at = 6 * np.int64(b)
+        x, alpha = residual.vdot[at : at + 3], residual.vdot[at + 3 : at + 6]
+        a = dot(A[:, 0], x), dot(A[:, 1], x), dot(A[:, 2], x)
+        velocity_forces(bodies, own, f, q)
+        swing, heave = cross(alpha, S), cross(S, a)
+        for i in range(3):
+            q[i] = bodies.mass[b] * a[i] + swing[i] - q[i]
+            q[3 + i] = heave[i] + dot(J[i], alpha) - q[3 + i] - dot(A[:, i], F[3:6])
+        for j in range(n):
+            rate = own.pddot[first + j]
+            total = rate - own.Q[first + j]
+            for i in range(3):
+                total += B[i, j] * a[i] + B[3 + i, j] * alpha[i]
+                q[i] += B[i, j] * rate
+                q[3 + i] += B[3 + i, j] * rate
+            residual.value[modal + first + j] = total
+        multiply(A, q[:3], residual.value[at : at + 3])
+        for i in range(3):
+            residual.value[at + i] -= F[i]
+            residual.value[at + 3 + i] = q[3 + i]
+
+
+@stage
 def accelerate_frames(machine):
     """Accelerations of the frames at interfaces from those of their bodies and modes, for sensors."""
     record = record_at(machine)

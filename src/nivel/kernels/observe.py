@@ -113,3 +113,8 @@ def observe(machine, t, y, frame):
     frame[at], frame[at + 1], frame[at + 2], frame[at + 3] = kinetic, potential, external, dissipated
     frame[at + 4] = kinetic + potential - control.energy[2] - external + dissipated
     _outputs(machine, t, frame, at + 5)
+    flexible = record.flexible
+    modes = flexible.p.shape[0]
+    at = frame.shape[0] - 2 * modes
+    for j in range(modes):
+        frame[at + j], frame[at + modes + j] = flexible.p[j], flexible.pdot[j]

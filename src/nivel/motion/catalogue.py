@@ -11,11 +11,13 @@ class PathFacts:
 
     module : its `evaluate` and `keep`; correction : its `correct`, the direct correction; arrangement : a module of `nivel.system.states`
     that turns an assembled machine in absolute coordinates into the numbers and the state of this path.
+    residual : module of its residual for implicit methods, empty where there is none.
     """
 
     module: str
     correction: str
     arrangement: str
+    residual: str = ""
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,10 @@ class FormulationFacts:
 
 
 _ABSOLUTE = PathFacts(
-    "nivel.motion.newton_euler", "nivel.motion.newton_euler_correction", "nivel.system.states.absolute"
+    "nivel.motion.newton_euler",
+    "nivel.motion.newton_euler_correction",
+    "nivel.system.states.absolute",
+    "nivel.motion.newton_euler_residual",
 )
 _PARAMETERS = PathFacts("nivel.motion.lagrange", "nivel.motion.lagrange_correction", "nivel.system.states.parameters")
 _INDEPENDENT = PathFacts("nivel.motion.independent", "nivel.motion.independent", "nivel.system.states.independent")
@@ -41,7 +46,10 @@ _ANGLES, _VECTOR = (
 
 # of machines with flexible bodies, in absolute coordinates
 FLOATING = PathFacts(
-    "nivel.motion.floating_frame", "nivel.motion.floating_frame_correction", "nivel.system.states.floating"
+    "nivel.motion.floating_frame",
+    "nivel.motion.floating_frame_correction",
+    "nivel.system.states.floating",
+    "nivel.motion.floating_frame_residual",
 )
 
 # coordinates, velocities and rotations → equations; penalty methods share those of newton-euler
@@ -51,13 +59,13 @@ PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "lagrange", "euler-angles"): _ANGLES,
     ("absolute", "lagrange", "rotation-vector"): _VECTOR,
     ("relative", "newton-euler", "euler-parameters"): PathFacts(
-        "nivel.motion.relative", "nivel.motion.relative_correction", "nivel.system.states.relative"
+        "nivel.motion.relative",
+        "nivel.motion.relative_correction",
+        "nivel.system.states.relative",
+        "nivel.motion.relative_residual",
     ),
     ("independent", "newton-euler", "euler-parameters"): _INDEPENDENT,
 }
-
-# coordinates → the residual of newton-euler's equations, for implicit methods
-RESIDUALS = {"absolute": "nivel.motion.newton_euler_residual", "relative": "nivel.motion.relative_residual"}
 
 FORMULATIONS: dict[str, FormulationFacts] = {
     "newton-euler": FormulationFacts(),

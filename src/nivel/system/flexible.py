@@ -137,6 +137,7 @@ def flexible_tables(
         static=np.zeros((F, n, 3)),
         drift=np.zeros((F, 3)),
         spin=np.zeros((F, 3)),
+        velocity_force=np.zeros((F, 6)),
         now=np.zeros((N, 6, n)),
         displacement=np.zeros((N, 3, n)),
         turn=np.zeros((N, 3, n)),

@@ -90,3 +90,18 @@ def frame_layout(
         variables.append(Variable(name, dims, units, long_name, slice(start, stop)))
         start = stop
     return FrameLayout(start, tuple(variables), coordinates)
+
+
+def with_modal_coordinates(layout: FrameLayout, modes: Sequence[str]) -> FrameLayout:
+    """The layout with the coordinates and rates of these modes behind all else."""
+    count, first = len(modes), layout.width
+    named = (
+        ("modal_coordinate", "kg^0.5 m", "modal coordinate of a mode of unit modal mass"),
+        ("modal_rate", "kg^0.5 m/s", "rate of the modal coordinate"),
+    )
+    variables = tuple(
+        Variable(name, ("time", "mode"), units, text, slice(first + k * count, first + (k + 1) * count))
+        for k, (name, units, text) in enumerate(named)
+    )
+    coordinates = {**layout.coordinates, "mode": tuple(modes)}
+    return FrameLayout(first + 2 * count, layout.variables + variables, coordinates)

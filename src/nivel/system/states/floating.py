@@ -17,6 +17,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
 from nivel.system.elimination import plan
 from nivel.system.flexible import Bending, Frame, bending_bodies, first_modal_rows, flexible_tables
+from nivel.system.layout import with_modal_coordinates
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array
 
@@ -96,12 +97,17 @@ def with_modes(
         )
     )
     modes = len(flexible.p)
-    names = [
-        f"{absolute.bodies[each.body]}.{name or k + 1}"
-        for each in bending
-        for k, name in enumerate(each.reduced.mode_names or [""] * len(each.reduced.eigenvalues))
-    ]
-    system = replace(absolute, record=record, state_map=_map(absolute, modes), start=np.zeros(0), modes=tuple(names))
+    names = tuple(
+        f"{absolute.bodies[each.body]}.{k + 1}" for each in bending for k in range(len(each.reduced.eigenvalues))
+    )
+    system = replace(
+        absolute,
+        record=record,
+        layout=with_modal_coordinates(absolute.layout, names),
+        state_map=_map(absolute, modes),
+        start=np.zeros(0),
+        modes=names,
+    )
     start = np.concatenate(
         [y[: 7 * count], np.zeros(modes), y[7 * count : 13 * count], np.zeros(modes), y[13 * count :]]
     )

@@ -12,6 +12,7 @@ from nivel.analysis.dynamics import prepare
 from nivel.analysis.elements import coupling_in_words, driver_in_words, event_in_words, force_in_words, sensor_in_words
 from nivel.analysis.settings import RunSettings, complete
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.flexible import bending_bodies
 from nivel.system.joints import JOINTS
 from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System
@@ -35,7 +36,8 @@ class JointFacts:
 
 @dataclass(frozen=True)
 class BodyFacts:
-    """One body: mass [kg], principal inertias about the centre of mass [kg m²] (none of a point mass), assembled frame: position [m], turn.
+    """One body: mass [kg], principal inertias about the centre of mass [kg m²] (none of a point mass), assembled frame: position [m], turn;
+    the modes of a flexible one in words.
 
     The turn from the global axes is an angle [rad] about a unit axis.
     """
@@ -46,6 +48,7 @@ class BodyFacts:
     position: tuple[float, ...]
     axis: tuple[float, ...]
     angle: float
+    modes: str = ""
 
 
 @dataclass(frozen=True)
@@ -94,7 +97,8 @@ def _lines(facts: Check) -> Iterator[str]:
         )
         turned = f", turned {np.degrees(body.angle):.6g} deg about {_vector(body.axis)}" if body.angle > 1e-12 else ""
         place = f"frame at {_vector(body.position)} m{turned}"
-        yield f"  {body.name}: {body.mass:.6g} kg, {inertia}, {place}"
+        bends = f", flexible: {body.modes}" if body.modes else ""
+        yield f"  {body.name}: {body.mass:.6g} kg, {inertia}, {place}{bends}"
     if facts.joints:
         yield "joints (first body → second body)"
     for joint in facts.joints:
@@ -156,6 +160,7 @@ def check(machine: MachineRecord) -> Check:
     frame = np.zeros(system.layout.width)
     observe(prepared.absolute.handle.address, 0.0, assembly.y, frame)
     columns = next(v.columns for v in system.layout.variables if v.name == "joint_coordinate")
+    modes = _modes(machine)
     labels = system.layout.coordinates["joint_coordinate"]
     values = dict(zip(labels, zip(frame[columns].tolist(), system.coordinate_units, strict=True), strict=True))
     return Check(
@@ -168,6 +173,7 @@ def check(machine: MachineRecord) -> Check:
                 () if system.point_masses[k] else tuple(np.linalg.eigvalsh(record.bodies.inertia_b[k]).tolist()),
                 tuple(record.bodies.R[k].tolist()),
                 *_turn(record.bodies.theta[k]),
+                modes[k],
             )
             for k, name in enumerate(system.bodies)
         ),
@@ -193,6 +199,16 @@ def check(machine: MachineRecord) -> Check:
 def _cut(machine: MachineRecord) -> tuple[str, ...]:
     """Joints that stay constraints in relative coordinates."""
     return tuple(machine.joints[k].name for k in tree_of(machine, choose_cut(machine)).cut)
+
+
+def _modes(machine: MachineRecord) -> list[str]:
+    """The modes of each body in words, empty where it is rigid."""
+    out = [""] * len(machine.bodies)
+    for each in bending_bodies(machine):
+        frequencies = each.reduced.frequencies
+        span = f"{frequencies.min():.4g} to {frequencies.max():.4g} Hz" if len(frequencies) else "rigid"
+        out[each.body] = f"{len(frequencies)} modes, {span}"
+    return out
 
 
 def _turn(theta: Array) -> tuple[tuple[float, ...], float]:

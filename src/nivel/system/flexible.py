@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
@@ -73,25 +73,11 @@ def bending_bodies(machine: MachineRecord) -> tuple[Bending, ...]:
             message = f"{count} modes are asked for, {body.flexible.file} has {len(whole.eigenvalues)}"
             faults.append(Fault("", 0, 0, f"bodies.{body.name}.flexible.modes", message))
             continue
-        reduced = _lowest(whole, count)
+        reduced = whole.keeping(np.sort(np.argsort(whole.eigenvalues, kind="stable")[:count]))
         bending.append(Bending(k, reduced, 2.0 * body.flexible.damping_ratio * np.sqrt(reduced.eigenvalues)))
     if faults:
         raise ModelError(faults)
     return tuple(bending)
-
-
-def _lowest(whole: ReducedBody, count: int) -> ReducedBody:
-    """With its `count` lowest modes."""
-    kept = np.argsort(whole.eigenvalues, kind="stable")[:count]
-    change = np.eye(len(whole.eigenvalues))[:, kept]
-    return replace(
-        whole,
-        eigenvalues=whole.eigenvalues[kept],
-        invariants=whole.invariants.of_modes(change),
-        interfaces=tuple(replace(each, phi=each.phi[:, kept], psi=each.psi[:, kept]) for each in whole.interfaces),
-        modes=whole.modes[:, :, kept],
-        stiffening={cause: value[:, kept][:, :, kept] for cause, value in whole.stiffening.items()},
-    )
 
 
 def no_flexible() -> Flexible:

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import synthetic_run as pendulum
+from nivel.looks.solids import Ball, solid
+from nivel.looks.viewpoint import choose_view
 from nivel.report.frame import HEIGHTS, WIDTH
 from nivel.report.labels import Label, place
 from nivel.report.picture import machine_picture
-from nivel.report.solids import Ball, solid
-from nivel.report.view import choose_view
 
 X, Y, Z = np.eye(3)
 SHAPES = [

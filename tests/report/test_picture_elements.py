@@ -6,11 +6,11 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
+from nivel.looks.joints import LINKS, sliding_axes, turning_axes
 from nivel.machine.joint import JOINT_KINDS
 from nivel.report.force_drawing import planes
-from nivel.report.joint_drawing import sliding_axes, turning_axes
 from nivel.report.picture import machine_picture
-from nivel.report.symbols import LINKS, SIGNS, joint_icon, joint_sign
+from nivel.report.symbols import SIGNS, joint_icon, joint_sign
 
 AT_REST = np.array([[1.0, 0, 0, 0]])
 SVG = "{http://www.w3.org/2000/svg}"

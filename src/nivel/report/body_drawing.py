@@ -5,29 +5,30 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nivel.report.drawing import Array, Drawing, Pose, in_space
+from nivel.looks.links import link_ends
+from nivel.looks.poses import Array, Pose, in_space
+from nivel.looks.solids import Ball, Face, solid
+from nivel.report.drawing import Drawing
 from nivel.report.frame import Frame
 from nivel.report.labels import Label
 from nivel.report.shading import between, mixed, shaded
-from nivel.report.solids import Ball, Face, reach, solid
 from nivel.report.strokes import centre_of_mass_sign
 
 
 def draw_body(
-    drawing: Drawing, frame: Frame, body: dict[str, Any], held: Any, pose: Pose, colour: str, facets: int
+    drawing: Drawing, frame: Frame, body: dict[str, Any], held: Array, pose: Pose, colour: str, facets: int
 ) -> None:
     """Draw a body with its name; `held` are the points (n, 3) of its frame where joints and forces hold it."""
     centre = in_space(pose, body["centre_of_mass"])[0]
     x, y = frame.pixels(centre)
     drawing.labels.append(Label(body["name"], x, y, "body"))
-    joints = np.reshape(np.asarray(held, dtype=float), (-1, 3))
+    joints = held
     width = 6.6 * frame.sign
     if body.get("shape"):
         _draw_solid(drawing, frame, solid(body["shape"], facets), pose, colour)
         drawing.lines += [frame.pixels(np.stack([centre, joint])) for joint in in_space(pose, joints)]
-        joints, width = joints[_outside(body["shape"], joints)], 3.4 * frame.sign  # a shape need not reach its joints
+        joints, width = link_ends(body, joints), 3.4 * frame.sign  # a shape need not reach its joints
     else:
         drawing.signs.append(centre_of_mass_sign(x, y, frame.sign))
         drawing.points.append(np.array([x, y]))
@@ -40,14 +41,6 @@ def draw_body(
         drawing.parts.append((depth - 1e-9, f'<line {line} stroke="{dark}" stroke-width="{width + 2.4:.1f}"/>'))
         drawing.parts.append((depth, f'<line {line} stroke="{colour}" stroke-width="{width:.1f}"/>'))
         drawing.lines.append(frame.pixels(ends))
-
-
-def _outside(shape: dict[str, Any], points: Array) -> NDArray[np.bool_]:
-    """Which points (n, 3) of the body frame lie outside the box around the shape."""
-    extent = reach(shape)
-    slack = 1e-3 * np.ptp(extent, axis=0).max()
-    low, high = extent.min(axis=0) - slack, extent.max(axis=0) + slack
-    return np.any((points < low) | (points > high), axis=1)
 
 
 def _draw_solid(drawing: Drawing, frame: Frame, parts: list[Face] | Ball, pose: Pose, colour: str) -> None:

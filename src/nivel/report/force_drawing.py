@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from nivel.report.drawing import Array, Drawing, Pose, ends_in_space
+from nivel.looks.poses import Array, Pose, ends_in_space
+from nivel.report.drawing import Drawing
 from nivel.report.frame import Frame
 from nivel.report.labels import Label
 from nivel.report.strokes import coil_sign, dashed_sign, ground_sign, plane_sign, spring_sign
@@ -15,17 +16,6 @@ from nivel.report.symbols import END_ON
 
 FAR = 20.0  # a plane further away than this many lengths of the machine is left out
 HALF_PLANE = 34.0  # pixels of a plane to both sides of what touches it
-
-
-def attached(scene: dict[str, Any], body: str) -> list[list[float]]:
-    """Points of a body where forces hold it."""
-    return [
-        point
-        for force in scene.get("forces", [])
-        if force["type"] != "contact"
-        for name, point in zip(force["bodies"], force["points"], strict=True)
-        if name == body
-    ]
 
 
 def force_points(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.report.view import View
+from nivel.looks.viewpoint import View
 
 Array = NDArray[np.float64]
 

@@ -7,42 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from nivel.report.drawing import Array, Drawing, Pose, ends_in_space
+from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL, joint_axis
+from nivel.looks.poses import Pose, ends_in_space
+from nivel.report.drawing import Array, Drawing
 from nivel.report.frame import Frame
 from nivel.report.labels import Label
 from nivel.report.strokes import Point, ground_sign, plane_sign, rail_sign, rod_sign
-from nivel.report.symbols import END_ON, LINKS, PLANE_GAP, joint_sign
-
-# axes of a joint that turns about them only, or slides along them only: they say what is planar
-TURNING = ("revolute", "cylindrical", "planar", "revolute-spherical", "revolute-translational", "revolute-cylindrical")
-SLIDING = ("translational", "screw", "point-on-line")
-ON_RAIL = ("translational", "cylindrical", "screw")  # drawn where the moving body is
-ON_FIRST = ("planar", "point-on-line", "point-on-plane")  # a point of the second body on a line or plane of the first
-
-
-def turning_axes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
-    """(k, 3) axes that bodies turn about, global; a link between two hinges has two."""
-    axes = _axes(scene, poses, TURNING, "first")
-    return np.concatenate([axes, _axes(scene, poses, ("revolute-cylindrical",), "second")])
-
-
-def sliding_axes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
-    """(k, 3) axes that bodies slide along, global."""
-    return np.concatenate(
-        [_axes(scene, poses, SLIDING, "first"), _axes(scene, poses, ("revolute-translational",), "slot")]
-    )
-
-
-def _axes(scene: dict[str, Any], poses: dict[str, Pose], kinds: tuple[str, ...], which: str) -> Array:
-    found = [_axis(joint, poses, which) for joint in scene["joints"] if joint["type"] in kinds]
-    return np.reshape(np.array(found), (-1, 3))
-
-
-def _axis(joint: dict[str, Any], poses: dict[str, Pose], which: str) -> Array:
-    """(3,) global axis of the first or the second marker, or of the slot, where there is one."""
-    side = 0 if which == "first" else 1
-    local = joint.get("slot", joint["axes"][side]) if which == "slot" else joint["axes"][side]
-    return poses[joint["bodies"][side]][1] @ np.asarray(local, dtype=float)
+from nivel.report.symbols import END_ON, PLANE_GAP, joint_sign
 
 
 def draw_joint(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dict[str, Pose]) -> None:
@@ -65,7 +36,7 @@ def _draw_link(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses: dic
     drawing.lines.append(ends)
     for which, kind, body, end in zip(("first", "second"), LINKS[joint["type"]], joint["bodies"], ends, strict=True):
         x, y = _point(end)
-        axis = _on_screen(frame, _axis(joint, poses, which))
+        axis = _on_screen(frame, joint_axis(joint, poses, which))
         if body == "ground":
             _draw_ground(drawing, x, y, ground_sign(x, y, frame.sign))
         drawing.signs.append(joint_sign(kind, x, y, axis, 0.8 * frame.sign))
@@ -78,7 +49,7 @@ def _draw_at_point(drawing: Drawing, frame: Frame, joint: dict[str, Any], poses:
     kind, (first, second) = joint["type"], joint["bodies"]
     at_second = kind in ON_FIRST or (kind in ON_RAIL and second != "ground")
     x, y = _point(frame.pixels(ends_in_space(joint, poses)[int(at_second)]))
-    axis = _on_screen(frame, _axis(joint, poses, "slot" if "slot" in joint else "first"))
+    axis = _on_screen(frame, joint_axis(joint, poses, "slot" if "slot" in joint else "first"))
     if "ground" in (first, second):
         _draw_ground(drawing, x, y, _ground_of(joint, x, y, axis, frame.sign))
     drawing.signs.append(joint_sign(kind, x, y, axis, frame.sign))

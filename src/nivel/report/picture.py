@@ -7,16 +7,19 @@ from typing import Any
 
 import numpy as np
 
+from nivel.looks.colours import colour_of
+from nivel.looks.joints import ON_RAIL, sliding_axes, turning_axes
+from nivel.looks.links import held_points
+from nivel.looks.poses import Array, Pose, body_poses, in_space
+from nivel.looks.solids import FACETS, FEW_FACETS, reach
+from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
 from nivel.report.body_drawing import draw_body
-from nivel.report.drawing import Array, Drawing, Pose, body_poses, in_space
-from nivel.report.force_drawing import Plane, attached, draw_force, draw_plane, force_points, planes
+from nivel.report.drawing import Drawing
+from nivel.report.force_drawing import Plane, draw_force, draw_plane, force_points, planes
 from nivel.report.frame import WIDTH, Frame, fit
-from nivel.report.joint_drawing import ON_RAIL, draw_joint, sliding_axes, turning_axes
+from nivel.report.joint_drawing import draw_joint
 from nivel.report.labels import FONT, Label, place
-from nivel.report.shading import COLOURS
-from nivel.report.solids import FACETS, FEW_FACETS, reach
-from nivel.report.view import choose_view
 
 MANY_BODIES = 20
 ALONG = np.linspace(0.0, 1.0, 12)[None, :, None]  # where lines are probed
@@ -71,8 +74,7 @@ def _drawing(scene: dict[str, Any], poses: dict[str, Pose], frame: Frame, touche
     drawing = Drawing()
     facets = FACETS if len(scene["bodies"]) <= MANY_BODIES else FEW_FACETS
     for k, body in enumerate(scene["bodies"]):
-        held = [*body.get("points", []), *attached(scene, body["name"])]
-        draw_body(drawing, frame, body, held, poses[body["name"]], COLOURS[k % len(COLOURS)], facets)
+        draw_body(drawing, frame, body, held_points(scene, body), poses[body["name"]], colour_of(k), facets)
     for joint in sorted(scene["joints"], key=lambda joint: joint["type"] not in ON_RAIL):
         draw_joint(drawing, frame, joint, poses)
     for force in scene.get("forces", []):

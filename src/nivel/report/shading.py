@@ -1,16 +1,15 @@
-"""Colours of bodies, and how light falls on them."""
+"""How light falls on colours."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.report.view import View
+from nivel.looks.viewpoint import View
 
 Array = NDArray[np.float64]
 
 LIGHT = np.array([-0.45, 0.65, 0.61])  # where it comes from: right, up, towards the eye
-COLOURS = ("#5b86b4", "#cf7f4f", "#6fa17a", "#9274b0", "#c6a548", "#469c9f", "#bb6a86", "#7d8998")
 
 
 def shaded(colour: str, normal: Array, view: View) -> str:

@@ -122,13 +122,6 @@ SIGNS: dict[str, Callable[[bool], str]] = {
     "revolute-cylindrical": _rod(_HINGE, _SLEEVE),
     "revolute-translational": _pin_in_slot,
 }
-# of the links among them: the joints at their first and second end
-LINKS = {
-    "distance": ("spherical", "spherical"),
-    "spherical-spherical": ("spherical", "spherical"),
-    "revolute-spherical": ("revolute", "spherical"),
-    "revolute-cylindrical": ("revolute", "cylindrical"),
-}
 _ICON_AXES = {"planar": (0.0, -1.0), "point-on-plane": (0.0, -1.0)}  # on a level plane
 _ICON_END_ON = ("revolute", "spherical", "universal", "fixed")
 

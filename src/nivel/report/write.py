@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.looks.poses import upwards
 from nivel.report.panel import Group, Panel
 from nivel.report.panels import panels
 from nivel.report.peaks import peak_reactions
@@ -90,11 +91,9 @@ def _picture(result: Result, record: dict[str, Any]) -> str:
     """The machine in its first frame; up is against gravity, along the nearest axis."""
     if not len(result.time) or "position" not in result.variables:
         return ""
-    gravity = np.array(record.get("gravity") or [0.0, 0.0, 0.0], dtype=float)
-    axis = int(np.argmax(np.abs(gravity)))
-    up = -np.sign(gravity[axis]) * np.eye(3)[axis] if gravity.any() else np.array([0.0, 0.0, 1.0])
     first = slice(0, 1)
-    return machine_picture(result.scene, result.array("position", first)[0], result.array("orientation", first)[0], up)
+    position, orientation = result.array("position", first)[0], result.array("orientation", first)[0]
+    return machine_picture(result.scene, position, orientation, upwards(record.get("gravity")))
 
 
 def _data(result: Result, shown: list[Panel]) -> str:

@@ -44,12 +44,17 @@ def choose_view(points: Array, turning: Array, sliding: Array, up: Array = Z) ->
     normal, Y (Z for a normal along Y). Any other is seen from above at 28 degrees, from the side that keeps its points
     furthest apart.
     """
-    if len(turning) and abs(turning @ turning[0]).min() > ALIGNED and _is_flat(points, turning[0]):
-        normal = turning[0]
-        if np.all(np.abs(sliding @ normal) < 0.1):
-            return _head_on(normal, up)
+    if is_planar(points, turning, sliding):
+        return _head_on(turning[0], up)
     views = [_from_side(azimuth, up) for azimuth in AZIMUTHS]
     return max(views, key=lambda view: _clarity(view.on_screen(points)))
+
+
+def is_planar(points: Array, turning: Array, sliding: Array) -> bool:
+    """Whether a machine with these points and axes, as for `choose_view`, moves in one plane."""
+    if not len(turning) or abs(turning @ turning[0]).min() <= ALIGNED or not _is_flat(points, turning[0]):
+        return False
+    return bool(np.all(np.abs(sliding @ turning[0]) < 0.1))
 
 
 def _is_flat(points: Array, normal: Array) -> bool:

@@ -1,0 +1,42 @@
+"""Automatic shapes: a body is drawn as links from its centre of mass to where joints and forces hold it, unless its shape reaches there."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.looks.solids import reach
+
+Array = NDArray[np.float64]
+
+
+def held_points(scene: dict[str, Any], body: dict[str, Any]) -> Array:
+    """(n, 3) [m] points in the body's frame where joints and forces hold it."""
+    points = [*body.get("points", []), *attached(scene, body["name"])]
+    return np.reshape(np.asarray(points, dtype=float), (-1, 3))
+
+
+def attached(scene: dict[str, Any], body: str) -> list[list[float]]:
+    """Points of a body where forces hold it."""
+    return [
+        point
+        for force in scene.get("forces", [])
+        if force["type"] != "contact"
+        for name, point in zip(force["bodies"], force["points"], strict=True)
+        if name == body
+    ]
+
+
+def link_ends(body: dict[str, Any], held: Array) -> Array:
+    """(m, 3) [m] those of the points `held` (n, 3) to which links lead: all without a shape, else those that lie outside of it."""
+    return held[_outside(body["shape"], held)] if body.get("shape") else held
+
+
+def _outside(shape: dict[str, Any], points: Array) -> NDArray[np.bool_]:
+    """Which points (n, 3) of the body frame lie outside the box around the shape."""
+    extent = reach(shape)
+    slack = 1e-3 * np.ptp(extent, axis=0).max()
+    low, high = extent.min(axis=0) - slack, extent.max(axis=0) + slack
+    return np.any((points < low) | (points > high), axis=1)

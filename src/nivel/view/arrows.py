@@ -1,0 +1,205 @@
+"""Arrows: what joints carry, what forces, motors and drivers apply. For each a point, and its vector at every frame."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.looks.poses import rotation
+from nivel.view.records import Arrow, Triple
+from nivel.view.stage import Cast, triple
+
+Array = NDArray[np.float64]
+Read = Callable[[str], Array | None]  # a variable of the result by name (n, …), None where it has none
+
+# coordinates of joints along or about the z axis of the first marker
+ALONG_Z: Final = {"angle": "torque", "displacement": "force"}
+ON_COORDINATES: Final = ("motor", "joint-spring-damper", "stop", "friction")
+BETWEEN: Final = ("spring-damper", "pair-force")
+
+
+@dataclass(frozen=True)
+class Traced:
+    """An arrow and its vectors (n, 3), global axes [N or N m]."""
+
+    owner: str
+    source: Any
+    kind: Any
+    body: int
+    point: Triple
+    vectors: Array
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Poses at the frames: position (n, B, 3), rotation matrices A (n, B, 3, 3), time (n,)."""
+
+    position: Array
+    A: Array
+
+    @classmethod
+    def of(cls, position: Array, orientation: Array) -> Moments:
+        """position (n, B, 3), orientation (n, B, 4)."""
+        return cls(position, rotation(orientation))
+
+    def turned(self, body: int, vector: Any) -> Array:
+        """(n, 3) a vector of the body frame in global axes."""
+        vector = np.asarray(vector, dtype=float)
+        return np.tile(vector, (len(self.position), 1)) if body < 0 else self.A[:, body] @ vector
+
+    def point(self, body: int, point: Any) -> Array:
+        """(n, 3) a point of the body frame in space."""
+        return self.turned(body, point) + (0.0 if body < 0 else self.position[:, body])
+
+
+def arrows(cast: Cast, moments: Moments, read: Read) -> list[Traced]:
+    """All arrows that the result knows."""
+    return [*_reactions(cast, read), *_forces(cast, moments, read), *_drivers(cast, moments, read)]
+
+
+def _reactions(cast: Cast, read: Read) -> Iterator[Traced]:
+    for kind in ("force", "torque"):
+        values = read(f"joint_{kind}")
+        if values is None:
+            continue
+        for k, joint in enumerate(cast.joints):
+            # shown on the second body where the first is the ground: what the ground does to the machine
+            on_first = joint.bodies[0] >= 0
+            body, point = (joint.bodies[0], joint.points[0]) if on_first else (joint.bodies[1], joint.points[1])
+            vectors = values[:, k] if on_first else -values[:, k]
+            yield Traced(joint.name, "reaction", kind, body, point, vectors)
+
+
+def _forces(cast: Cast, moments: Moments, read: Read) -> Iterator[Traced]:
+    records = {force["name"]: force for force in cast.record.get("forces", [])}
+    for force in cast.forces:
+        record = records.get(force.name, {})
+        magnitude, power = read(f"force.{force.name}.magnitude"), read(f"force.{force.name}.power")
+        if magnitude is None or power is None:
+            continue
+        if force.kind in ("force", "torque"):
+            yield from _load(cast, moments, record, magnitude, power, read)
+        elif force.kind in BETWEEN and len(force.points) == 2:
+            apart = moments.point(force.bodies[1], force.points[1]) - moments.point(force.bodies[0], force.points[0])
+            rate = read(f"force.{force.name}.rate")
+            if rate is None:
+                continue
+            pulls = -_signed(magnitude, power, rate)[:, None] * _unit(
+                apart
+            )  # on the first body, positive where it pulls
+            for k, sign in ((0, 1.0), (1, -1.0)):
+                if force.bodies[k] >= 0:
+                    yield Traced(force.name, "applied", "force", force.bodies[k], force.points[k], sign * pulls)
+        elif force.kind == "contact" and force.axis is not None:
+            push = magnitude[:, None] * moments.turned(force.bodies[1], force.axis)
+            yield Traced(force.name, "applied", "force", force.bodies[0], force.points[0], push)
+        elif force.kind in ON_COORDINATES:
+            yield from _on_coordinate(cast, moments, record, read, _CoordinateEffort(force.name, magnitude, power))
+
+
+@dataclass(frozen=True)
+class _CoordinateEffort:
+    name: str
+    magnitude: Array
+    power: Array
+
+
+def _drivers(cast: Cast, moments: Moments, read: Read) -> Iterator[Traced]:
+    for driver in cast.record.get("drivers", []):
+        effort, power = read(f"driver.{driver['name']}.effort"), read(f"driver.{driver['name']}.power")
+        if effort is not None and power is not None:
+            yield from _on_coordinate(cast, moments, driver, read, _CoordinateEffort(driver["name"], effort, power))
+
+
+def _on_coordinate(
+    cast: Cast, moments: Moments, record: dict[str, Any], read: Read, effort: _CoordinateEffort
+) -> Iterator[Traced]:
+    """An effort on a joint coordinate along or about the joint's axis, shown on the second body."""
+    name = record.get("coordinate")
+    joint_name, _, coordinate = str(name).partition(".")
+    joint = next((each for each in cast.joints if each.name == joint_name), None)
+    rate = read(f"{name}.rate")
+    if joint is None or rate is None or coordinate not in ALONG_Z:
+        return
+    vectors = _signed(effort.magnitude, effort.power, rate)[:, None] * moments.turned(joint.bodies[0], joint.axes[0])
+    second = int(joint.bodies[1] >= 0)
+    vectors = vectors if second else -vectors
+    body, point = joint.bodies[second], joint.points[second]
+    yield Traced(effort.name, "applied", ALONG_Z[coordinate], body, point, vectors)
+
+
+def _load(
+    cast: Cast, moments: Moments, record: dict[str, Any], magnitude: Array, power: Array, read: Read
+) -> Iterator[Traced]:
+    """A force or torque on one body. Its direction is known where it is constant, or has one component only."""
+    place = _place(cast, record)
+    if place is None:
+        return
+    body, point = place
+    kind = record["type"]
+    components = list(record.get("vector", []))
+    constant = [isinstance(each, int | float) for each in components]
+    if all(constant):
+        direction, signed = np.array(components, dtype=float), None
+    elif sum(not (known and value == 0.0) for known, value in zip(constant, components, strict=True)) == 1:
+        direction, signed = np.array([0.0 if known else 1.0 for known in constant]), magnitude
+    else:
+        return
+    along = moments.turned(body if record.get("axes") == "body" else -1, direction)
+    if signed is None:
+        yield Traced(record["name"], "applied", kind, body, point, along)
+        return
+    velocity, turning = read("velocity"), read("angular_velocity")
+    if velocity is None or turning is None:
+        return
+    arm = moments.turned(body, point)
+    moving = turning[:, body] if kind == "torque" else velocity[:, body] + np.cross(turning[:, body], arm)
+    yield Traced(
+        record["name"], "applied", kind, body, point, _signed(signed, power, np.sum(moving * along, 1))[:, None] * along
+    )
+
+
+def _place(cast: Cast, record: dict[str, Any]) -> tuple[int, Triple] | None:
+    """Body and point of a load in the machine's record; a torque stands at the centre of mass."""
+    marker = record.get("marker")
+    if isinstance(marker, str):
+        marker = next((each for each in cast.record.get("markers", []) if each.get("name") == marker), None)
+    named = marker if isinstance(marker, dict) else record
+    body = cast.places.get(str(named.get("body")), -1)
+    if body < 0:
+        return None
+    point = cast.bodies[body].centre_of_mass if record.get("type") == "torque" else named.get("position") or (0, 0, 0)
+    return body, triple(point)
+
+
+def _signed(magnitude: Array, power: Array, rate: Array) -> Array:
+    """Size of `magnitude` with the sign of power/rate; where nothing moves, that of the moment before, or its own."""
+    sign = np.sign(power) * np.sign(rate)
+    known = np.flatnonzero(np.isfinite(sign) & (sign != 0.0))
+    if not len(known):
+        return magnitude
+    place = np.clip(np.searchsorted(known, np.arange(len(sign)), side="right") - 1, 0, None)
+    return np.abs(magnitude) * sign[known[place]]
+
+
+def _unit(vectors: Array) -> Array:
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0.0)
+
+
+def described(traced: list[Traced], first: int) -> list[Arrow]:
+    """Records of arrows whose vectors stand from place `first` on."""
+    return [
+        Arrow(each.owner, each.source, each.kind, each.body, each.point, first + k, _largest(each.vectors))
+        for k, each in enumerate(traced)
+    ]
+
+
+def _largest(vectors: Array) -> float:
+    lengths = np.linalg.norm(vectors, axis=-1)
+    lengths = lengths[np.isfinite(lengths)]
+    return float(lengths.max(initial=0.0))

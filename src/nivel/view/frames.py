@@ -1,0 +1,34 @@
+"""One moment as one packed array: positions and Euler parameters of all bodies, modal coordinates, vectors."""
+
+from __future__ import annotations
+
+import struct
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.view.records import FRAME, Layout
+
+Array = NDArray[np.float64]
+HEAD: Final = struct.Struct("<IId")  # what follows, number of the frame, its time
+
+
+def layout(bodies: int, modes: int = 0, vectors: int = 0) -> Layout:
+    """Places in the frames of a machine with so many bodies, modal coordinates and vectors."""
+    return Layout(bodies, modes, vectors, 7 * bodies + modes + 3 * vectors)
+
+
+def rows(position: Array, orientation: Array, modal: Array | None = None, vectors: Array | None = None) -> Array:
+    """(n, width) frames of position (n, B, 3), orientation (n, B, 4), modal coordinates (n, M), vectors (n, V, 3)."""
+    n = len(position)
+    parts = [np.concatenate([position, orientation], axis=-1).reshape(n, -1)]
+    parts += [] if modal is None else [modal.reshape(n, -1)]
+    parts += [] if vectors is None else [vectors.reshape(n, -1)]
+    return np.hstack(parts)
+
+
+def message(number: int, time: float, frame: Array) -> bytes:
+    """The binary message of a frame (width,)."""
+    with np.errstate(over="ignore"):  # beyond 32 bits: not drawn
+        return HEAD.pack(FRAME, number & 0xFFFFFFFF, time) + frame.astype("<f4").tobytes()

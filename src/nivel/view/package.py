@@ -1,0 +1,80 @@
+"""A package: records as JSON and their arrays, in one block of bytes.
+
+=======  ==================================================
+bytes    content
+=======  ==================================================
+0–3      ``NVL1``
+4–7      length of the JSON, little-endian
+8–       JSON in UTF-8, then spaces up to a multiple of 8
+then     arrays, each from a multiple of 8 on
+=======  ==================================================
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import struct
+import zlib
+from dataclasses import asdict
+from typing import Any, Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.view.records import Package, Packed
+
+MAGIC: Final = b"NVL1"
+LEVEL: Final = 9  # of compression: it is done once
+KINDS: Final[dict[str, str]] = {"f4": "<f4", "f8": "<f8", "u4": "<u4"}
+Kind = Literal["f4", "f8", "u4"]
+
+
+class Block:
+    """Arrays that are packed one after the other."""
+
+    def __init__(self) -> None:
+        self._parts: list[bytes] = []
+        self.size = 0
+
+    def add(self, values: NDArray[Any], kind: Kind = "f4") -> Packed:
+        """Put an array to the end; what is too large for 32 bits becomes infinite and is not drawn."""
+        with np.errstate(over="ignore"):
+            numbers = np.ascontiguousarray(values, dtype=KINDS[kind])
+        content = numbers.view(np.uint8).reshape(-1, numbers.itemsize).T.tobytes() if numbers.size else b""
+        packed = Packed(kind, list(numbers.shape), self.size)
+        self._parts.append(content + bytes(-len(content) % 8))
+        self.size += len(self._parts[-1])
+        return packed
+
+    def content(self) -> bytes:
+        """All of it."""
+        return b"".join(self._parts)
+
+
+def to_bytes(package: Package, block: Block) -> bytes:
+    """The package in the form above."""
+    text = json.dumps(asdict(package), separators=(",", ":"), allow_nan=False).encode()
+    text += b" " * (-len(text) % 8)
+    return MAGIC + struct.pack("<I", len(text)) + text + block.content()
+
+
+def from_bytes(content: bytes) -> tuple[dict[str, Any], bytes]:
+    """The JSON and the arrays of a package."""
+    if content[:4] != MAGIC:
+        raise ValueError("not a package")
+    (length,) = struct.unpack_from("<I", content, 4)
+    return json.loads(content[8 : 8 + length]), content[8 + length :]
+
+
+def unpacked(packed: dict[str, Any], arrays: bytes) -> NDArray[Any]:
+    """An array of a package, whose `Packed` is given as in its JSON."""
+    kind = np.dtype(KINDS[packed["kind"]])
+    count = int(np.prod(packed["shape"]))
+    raw = np.frombuffer(arrays, np.uint8, count * kind.itemsize, packed["start"])
+    return np.ascontiguousarray(raw.reshape(kind.itemsize, count).T).view(kind).reshape(packed["shape"])
+
+
+def compressed_text(content: bytes) -> str:
+    """Bytes as text for a page: deflated, then base64."""
+    return base64.b64encode(zlib.compress(content, LEVEL)).decode()

@@ -1,0 +1,176 @@
+"""The package of one result, or of two laid over each other."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import ModelError
+from nivel.results.result import Result
+from nivel.view import frames as frame_plan
+from nivel.view.arrows import Moments, arrows, described
+from nivel.view.columns import columns
+from nivel.view.extent import extent
+from nivel.view.package import Block, to_bytes
+from nivel.view.records import PROTOCOL, Moment, Motion, Package, Stage
+from nivel.view.stage import Cast, cast
+from nivel.view.violations import violation_vectors
+
+Array = NDArray[np.float64]
+MOST_MOMENTS: Final = 500  # events that are marked
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Bytes that a motion and its columns may take before compression; frames that are shown at most; whether arrows come along."""
+
+    motion: int
+    columns: int
+    frames: int
+    vectors: bool = True
+
+
+SERVED: Final = Budget(motion=64_000_000, columns=0, frames=20_000)
+ALONE: Final = Budget(motion=3_000_000, columns=1_000_000, frames=4_000)
+SMALL: Final = Budget(motion=400_000, columns=0, frames=600, vectors=False)
+
+
+def playback(results: Sequence[Result], budget: Budget) -> bytes:
+    """The package of a result, with further ones as ghosts.
+
+    Raises ModelError where a result has nothing to draw.
+    """
+    block = Block()
+    stages = [stage(result, budget, block, number) for number, result in enumerate(results)]
+    return to_bytes(Package(PROTOCOL, "playback", stages), block)
+
+
+def shown_frames(count: int, width: int, budget: Budget) -> slice:
+    """The frames of `count` that have room, evenly taken."""
+    most = max(min(budget.frames, budget.motion // max(4 * width, 1)), 2)
+    return slice(0, count, max(-(-count // most), 1))
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a run beyond all bounds is drawn as far as it can be
+def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stage:
+    """What the page needs of a result; `number` : 0, or of a ghost."""
+    scene, record = _described(result)
+    _refuse_empty(result, scene)
+    players = cast(scene, record, block)
+    bodies, joints = len(players.bodies), len(players.joints)
+    most_vectors = 2 * joints + 2 * joints + 2 * len(players.forces) if budget.vectors else 0
+    frames = shown_frames(len(result.time), 7 * bodies + 3 * most_vectors, budget)
+    position, orientation = _poses(result, bodies, frames)
+    where = extent(players, position, orientation)
+    moments = Moments.of(position, orientation)
+    traced = arrows(players, moments, lambda name: _read(result, name, frames)) if budget.vectors else []
+    vectors = [np.stack([each.vectors for each in traced], axis=1)] if traced else []
+    violation = _read(result, "constraint_violation", frames) if budget.vectors else None
+    if violation is not None and joints:
+        rows = result.coordinates["constraint"]
+        vectors.append(violation_vectors(players.joints, rows, violation, moments))
+        places = [len(traced) + 2 * k for k in range(joints)]
+        players = replace(
+            players, joints=[replace(j, violation=k) for j, k in zip(players.joints, places, strict=True)]
+        )
+    together = np.concatenate(vectors, axis=1) if vectors else np.zeros((len(position), 0, 3))
+    rows_of_frames = frame_plan.rows(position - np.array(where.origin), orientation, vectors=together)
+    listed = columns(result, frames, block, budget.columns) if number == 0 or budget.columns else []
+    return Stage(
+        name=result.name,
+        title=str(result.path.name) if result.path else result.name,
+        up=where.up,
+        viewpoint=where.viewpoint,
+        origin=where.origin,
+        low=where.low,
+        high=where.high,
+        size=where.size,
+        layout=frame_plan.layout(bodies, 0, together.shape[1]),
+        bodies=players.bodies,
+        joints=players.joints,
+        forces=players.forces,
+        markers=players.markers,
+        arrows=described(traced, 0),
+        columns=listed,
+        moments=[Moment(event.name, float(event.time)) for event in result.events[:MOST_MOMENTS]],
+        notes=_notes(result, position, frames),
+        motion=Motion(
+            block.add(result.time[frames], "f8"),
+            block.add(rows_of_frames.T),
+            len(result.time),
+            frames.step,
+        ),
+    )
+
+
+def _described(result: Result) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Scene and machine record of a result, the record empty where there is none.
+
+    Raises ModelError where they are damaged.
+    """
+    try:
+        scene = result.scene
+        record = json.loads(str(result.attributes.get("machine_record", "{}")))
+    except ValueError:
+        raise ModelError(f"{_title(result)}: its description of the machine cannot be read") from None
+    if not isinstance(scene, dict) or not isinstance(record, dict):
+        raise ModelError(f"{_title(result)}: its description of the machine cannot be read")
+    return scene, record
+
+
+def _refuse_empty(result: Result, scene: dict[str, Any]) -> None:
+    if not scene.get("bodies"):
+        raise ModelError(
+            f"{_title(result)} says nothing about bodies to draw: it was written by another version of nivel"
+        )
+    if "position" not in result.variables or "orientation" not in result.variables:
+        raise ModelError(f"{_title(result)} has no positions of bodies")
+    if tuple(body["name"] for body in scene["bodies"]) != tuple(result.coordinates["body"]):
+        raise ModelError(f"{_title(result)}: the bodies of its picture are not those of its motion")
+    if not len(result.time):
+        raise ModelError(f"{_title(result)} has no frame: the run ended before its first moment was stored")
+
+
+def _title(result: Result) -> str:
+    return str(result.path) if result.path else result.name
+
+
+def _poses(result: Result, bodies: int, frames: slice) -> tuple[Array, Array]:
+    position, orientation = result.array("position", frames), result.array("orientation", frames)
+    length = np.linalg.norm(orientation, axis=-1, keepdims=True)
+    orientation = np.divide(orientation, length, out=np.full_like(orientation, np.nan), where=length > 0.0)
+    return position.reshape(-1, bodies, 3), orientation.reshape(-1, bodies, 4)
+
+
+def _read(result: Result, name: str, frames: slice) -> Array | None:
+    return result.array(name, frames) if name in result else None
+
+
+def _notes(result: Result, position: Array, frames: slice) -> list[str]:
+    """What the user has to know before looking."""
+    notes = []
+    if result.outcome == "failed":
+        notes.append(f"The run failed: {result.failure or 'the reason is not known'}")
+    elif result.outcome != "done":
+        notes.append(
+            {"running": "The run goes on, or was killed."}.get(result.outcome, f"The run was {result.outcome}.")
+        )
+    bad = int(np.sum(~np.all(np.isfinite(position), axis=(1, 2))))
+    if bad:
+        notes.append(f"{bad} of {len(position)} frames have positions that are not finite and are not drawn.")
+    if frames.step > 1:
+        notes.append(f"Every {_ordinal(frames.step)} of {len(result.time)} frames is shown.")
+    return notes
+
+
+def _ordinal(n: int) -> str:
+    last = {1: "st", 2: "nd", 3: "rd"}.get(n % 10, "th") if n % 100 not in (11, 12, 13) else "th"
+    return f"{n}{last}"
+
+
+__all__ = ["ALONE", "SERVED", "SMALL", "Budget", "Cast", "playback", "shown_frames", "stage"]

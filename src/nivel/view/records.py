@@ -1,0 +1,323 @@
+"""What server and page say to each other. `typescript.py` writes these records for the page, name by name.
+
+Lengths in metres, angles in radians, vectors in global axes unless the record says otherwise. A body is a number: its place in
+`Stage.bodies`, -1 the ground.
+
+Packed arrays lie one after the other in a block of bytes; `Packed` says where. Over a connection every binary message begins with a
+little-endian 32-bit number that says what follows: see PACKAGE, FRAME and COLUMN.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Final, Literal
+
+Triple = tuple[float, float, float]
+
+PROTOCOL: Final = 1  # version of all that stands here
+PACKAGE: Final = 1  # binary message: a package (package.py)
+FRAME: Final = 2  # binary message: number of the frame (32 bits), its time (64-bit float), then its floats (frames.py)
+COLUMN: Final = 3  # binary message: number of the request (32 bits), 4 bytes unused, then a column of 32-bit floats
+
+
+@dataclass(frozen=True)
+class Packed:
+    """An array in the block of bytes. kind : f4, f8 or u4, little-endian. start : its first byte.
+
+    The bytes are shuffled, which compresses better: the first bytes of all numbers, then the second bytes, and so on.
+    """
+
+    kind: Literal["f4", "f8", "u4"]
+    shape: list[int]
+    start: int
+
+
+@dataclass(frozen=True)
+class Part:
+    """A solid in the body frame with its centre at `centre`.
+
+    size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; extrusion: length;
+    a capsule's length is that of its straight part. along : the axis of round bars and extrusions. outline : of an extrusion,
+    corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh.
+    """
+
+    kind: Literal["box", "cylinder", "tube", "sphere", "capsule", "extrusion", "mesh"]
+    centre: Triple
+    size: list[float]
+    along: Literal["x", "y", "z"] = "x"
+    outline: list[tuple[float, float]] = field(default_factory=list)
+    vertices: Packed | None = None
+    triangles: Packed | None = None
+
+
+@dataclass(frozen=True)
+class Body:
+    """A body. links : points of its frame to which automatic links lead from the centre of mass. held : where joints hold it."""
+
+    name: str
+    colour: str
+    centre_of_mass: Triple
+    parts: list[Part] = field(default_factory=list)
+    links: list[Triple] = field(default_factory=list)
+    held: list[Triple] = field(default_factory=list)
+    facts: list[tuple[str, str]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Flexible:
+    """A mesh that deforms: a vertex is vertices + Σ q_k modes[k], in the body's frame; q are modal coordinates of the frame.
+
+    vertices (n, 3), triangles (m, 3), modes (modes, n, 3). first : place of its first modal coordinate among those of the frame.
+    field : (modes, n) what the colours show is Σ q_k field[k], or without it the length of the displacement; low, high : ends of
+    the colours, in `unit`.
+    """
+
+    body: int
+    name: str
+    vertices: Packed
+    triangles: Packed
+    modes: Packed
+    first: int
+    low: float
+    high: float
+    unit: str
+    quantity: str
+    field: Packed | None = None
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint: points and axes on its two bodies, in their frames. slot : direction of a slot in the second body.
+
+    place : at which of the two points its sign stands. rod : it is a massless link between them.
+
+    violation : places of the two vectors of its constraint violation among those of the frame: how far the second point is from where
+    it should be, and how far the second frame is turned, in axes of the first marker turned into global ones; -1 without.
+    """
+
+    name: str
+    kind: str
+    bodies: tuple[int, int]
+    points: tuple[Triple, Triple]
+    axes: tuple[Triple, Triple]
+    x_axes: tuple[Triple, Triple] | None = None
+    slot: Triple | None = None
+    place: Literal[0, 1] = 0
+    rod: bool = False
+    violation: int = -1
+    facts: list[tuple[str, str]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Force:
+    """A force element. points : of the two ends, none where it has no ends to draw. axis : of a coil, or normal of a contact's plane.
+
+    look : what is drawn between the ends.
+    """
+
+    name: str
+    kind: str
+    bodies: list[int]
+    points: list[Triple] = field(default_factory=list)
+    axis: Triple | None = None
+    look: Literal["nothing", "spring", "damper", "spring-damper", "cylinder", "coil", "bushing", "plane"] = "nothing"
+    facts: list[tuple[str, str]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """A vector of the frames drawn as an arrow at a point of a body. first : its place among the vectors of the frame.
+
+    source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest : greatest length in
+    the whole motion, 0 where it is not known.
+    """
+
+    owner: str
+    source: Literal["reaction", "applied"]
+    kind: Literal["force", "torque"]
+    body: int
+    point: Triple
+    vector: int
+    largest: float = 0.0
+
+
+@dataclass(frozen=True)
+class Marker:
+    """A named point of a body, to be traced."""
+
+    name: str
+    body: int
+    point: Triple
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Floats of a frame: 7 a body (position, Euler parameters scalar first), then modal coordinates, then vectors of 3."""
+
+    bodies: int
+    modes: int
+    vectors: int
+    width: int
+
+
+@dataclass(frozen=True)
+class Viewpoint:
+    """Where to look from at first: unit vectors. flat : the machine lies in a plane, which is seen along its normal."""
+
+    right: Triple
+    up: Triple
+    towards: Triple
+    flat: bool
+
+
+@dataclass(frozen=True)
+class Column:
+    """A variable that can be plotted: one number a frame. owner : element that it belongs to, empty for the whole machine.
+
+    values : where the package has it; else it is asked for.
+    """
+
+    name: str
+    unit: str
+    owner: str
+    values: Packed | None = None
+
+
+@dataclass(frozen=True)
+class Moment:
+    """Something that happened: an event of the run."""
+
+    name: str
+    time: float
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """A joint coordinate that may be moved by hand, between low and high. free : it can move at all."""
+
+    name: str
+    joint: str
+    unit: str
+    value: float
+    low: float
+    high: float
+    free: bool
+
+
+@dataclass(frozen=True)
+class Motion:
+    """time (n,) of the frames, frames (width, n).
+
+    total : frames of the result; every `stride`th is here.
+    """
+
+    time: Packed
+    frames: Packed
+    total: int
+    stride: int
+
+
+@dataclass(frozen=True)
+class Stage:
+    """Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted.
+
+    up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by.
+    notes : what the user has to know, for instance that the run failed.
+    """
+
+    name: str
+    title: str
+    up: Triple
+    viewpoint: Viewpoint
+    origin: Triple
+    low: Triple
+    high: Triple
+    size: float
+    layout: Layout
+    bodies: list[Body]
+    joints: list[Joint]
+    forces: list[Force]
+    markers: list[Marker]
+    arrows: list[Arrow]
+    flexible: list[Flexible] = field(default_factory=list)
+    columns: list[Column] = field(default_factory=list)
+    moments: list[Moment] = field(default_factory=list)
+    coordinates: list[Coordinate] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    motion: Motion | None = None
+
+
+@dataclass(frozen=True)
+class Package:
+    """All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come.
+
+    stages : the first is the machine, others are drawn as ghosts over it.
+    """
+
+    protocol: int
+    mode: Literal["playback", "machine", "live"]
+    stages: list[Stage]
+
+
+@dataclass(frozen=True)
+class Note:
+    """From the server: a sentence for the user."""
+
+    type: Literal["note"]
+    text: str
+
+
+@dataclass(frozen=True)
+class Moved:
+    """From the server, after a move: values of all coordinates now, and why it could not be made, or an empty text."""
+
+    type: Literal["moved"]
+    values: list[float]
+    problem: str
+
+
+@dataclass(frozen=True)
+class Refused:
+    """From the server: why a column that was asked for does not come."""
+
+    type: Literal["refused"]
+    request: int
+    problem: str
+
+
+@dataclass(frozen=True)
+class Shown:
+    """From the page: the frame with this number is on the screen; the next may come."""
+
+    type: Literal["shown"]
+    frame: int
+
+
+@dataclass(frozen=True)
+class Want:
+    """From the page: send the column `name` of a stage under this request number."""
+
+    type: Literal["want"]
+    request: int
+    stage: int
+    name: str
+
+
+@dataclass(frozen=True)
+class Move:
+    """From the page: move a joint coordinate to a value."""
+
+    type: Literal["move"]
+    coordinate: str
+    value: float
+
+
+@dataclass(frozen=True)
+class Reset:
+    """From the page: put the machine back as it was assembled."""
+
+    type: Literal["reset"]
+
+
+FROM_SERVER: Final = (Note, Moved, Refused)
+FROM_PAGE: Final = (Shown, Want, Move, Reset)

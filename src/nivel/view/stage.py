@@ -1,0 +1,153 @@
+"""What is drawn of a machine, from the scene of its result and the machine's record."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.looks.colours import colour_of
+from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL
+from nivel.looks.links import held_points, link_ends
+from nivel.machine.surface import surface_arrays
+from nivel.view.package import Block
+from nivel.view.records import Body, Force, Joint, Marker, Part, Triple
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Cast:
+    """A machine's elements as the page draws them, and where they are found by name. `places` : bodies, -1 the ground."""
+
+    scene: dict[str, Any]
+    record: dict[str, Any]
+    bodies: list[Body]
+    joints: list[Joint]
+    forces: list[Force]
+    markers: list[Marker]
+    places: dict[str, int] = field(default_factory=dict)
+
+
+def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
+    """The elements of a machine. scene : as in a result; record : its machine record as JSON, which may be empty."""
+    bodies = scene.get("bodies", [])
+    places = {body["name"]: k for k, body in enumerate(bodies)} | {"ground": -1}
+    return Cast(
+        scene,
+        record,
+        [_body(scene, body, colour_of(k), block) for k, body in enumerate(bodies)],
+        [_joint(joint, places) for joint in scene.get("joints", [])],
+        _forces(scene, record, places),
+        [Marker(m["name"], places[m["body"]], triple(m["position"])) for m in scene.get("markers", [])],
+        places,
+    )
+
+
+def triple(values: Any) -> Triple:
+    """Three numbers that JSON can hold: what is not finite becomes 0."""
+    x, y, z = (float(value) if np.isfinite(value) else 0.0 for value in values)
+    return x, y, z
+
+
+def _body(scene: dict[str, Any], body: dict[str, Any], colour: str, block: Block) -> Body:
+    held = held_points(scene, body)
+    shape = body.get("shape")
+    return Body(
+        body["name"],
+        colour,
+        triple(body["centre_of_mass"]),
+        [part(shape, block)] if shape else [],
+        [triple(point) for point in _apart(link_ends(body, held))],
+        [triple(point) for point in held],
+        [(str(name), str(value)) for name, value in body.get("facts", [])],
+    )
+
+
+def _apart(points: Array) -> Array:
+    """Points (n, 3), each once."""
+    return np.unique(points, axis=0) if len(points) else points
+
+
+def part(shape: dict[str, Any], block: Block) -> Part:
+    """A shape of the scene as a part."""
+    centre, along = triple(shape.get("centre") or (0.0, 0.0, 0.0)), shape.get("along") or "x"
+    match shape["type"]:
+        case "box":
+            return Part("box", centre, [float(each) for each in shape["size"]])
+        case "sphere":
+            return Part("sphere", centre, [float(shape["radius"])])
+        case "cylinder" | "capsule":
+            return Part(shape["type"], centre, [float(shape["radius"]), float(shape["length"])], along)
+        case "tube":
+            radii = [float(shape["outer_radius"]), float(shape["inner_radius"])]
+            return Part("tube", centre, [*radii, float(shape["length"])], along)
+        case "extrusion":
+            outline = [(float(a), float(b)) for a, b in shape["outline"]]
+            return Part("extrusion", centre, [float(shape["length"])], along, outline)
+        case "mesh":
+            vertices, triangles = surface_arrays(shape["surface"])
+            return Part("mesh", centre, [], vertices=block.add(vertices, "f4"), triangles=block.add(triangles, "u4"))
+        case other:
+            raise ValueError(f"no picture of the shape {other}")
+
+
+def _joint(joint: dict[str, Any], places: dict[str, int]) -> Joint:
+    first, second = joint["bodies"]
+    axes, x_axes = joint["axes"], joint.get("x_axes")
+    return Joint(
+        joint["name"],
+        joint["type"],
+        (places[first], places[second]),
+        (triple(joint["points"][0]), triple(joint["points"][1])),
+        (triple(axes[0]), triple(axes[1])),
+        (triple(x_axes[0]), triple(x_axes[1])) if x_axes else None,
+        triple(joint["slot"]) if "slot" in joint else None,
+        1 if joint["type"] in ON_FIRST or (joint["type"] in ON_RAIL and second != "ground") else 0,
+        joint["type"] in LINKS,
+        facts=[("type", joint["type"]), ("first body", first), ("second body", second)],
+    )
+
+
+def _forces(scene: dict[str, Any], record: dict[str, Any], places: dict[str, int]) -> list[Force]:
+    """All force elements, in the order of the machine; those without two ends are listed, not drawn."""
+    drawn = {force["name"]: force for force in scene.get("forces", [])}
+    records = {force["name"]: force for force in record.get("forces", [])}
+    out = []
+    for name in {**records, **drawn}:
+        known, force = records.get(name, {}), drawn.get(name)
+        kind = str((force or known).get("type", "force"))
+        if force is None:
+            facts = [
+                (word, str(known[word]))
+                for word in ("body", "marker", "coordinate")
+                if isinstance(known.get(word), str)
+            ]
+            out.append(Force(name, kind, [], facts=[("type", kind), *facts]))
+            continue
+        ends = [str(body) for body in force["bodies"]]
+        facts = [("type", kind), ("first body", ends[0]), ("second body", ends[1])]
+        axis = triple(force["axis"]) if "axis" in force else None
+        points = [triple(point) for point in force["points"]]
+        out.append(Force(name, kind, [places[body] for body in ends], points, axis, _look(force, known), facts))
+    return out
+
+
+def _look(force: dict[str, Any], record: dict[str, Any]) -> Any:
+    """What is drawn between the ends of a force."""
+    match force["type"]:
+        case "spring-damper":
+            damped = any(record.get(word) for word in ("damping", "damping_table", "damping_law"))
+            sprung = any(record.get(word) for word in ("stiffness", "table", "law", "preload")) or not damped
+            return "spring-damper" if damped and sprung else "damper" if damped else "spring"
+        case "torsional-spring-damper":
+            return "coil"
+        case "pair-force":
+            return "cylinder"
+        case "bushing":
+            return "bushing"
+        case "contact":
+            return "plane" if "axis" in force else "nothing"
+    return "nothing"

@@ -1,0 +1,21 @@
+// Bundles the page into the Python package: one script, one style sheet, the notices of what is inside.
+import { build } from "esbuild";
+import { readFileSync, writeFileSync } from "node:fs";
+
+const out = "../src/nivel/view/page";
+const notice = (name) => `${name}\n\n${readFileSync(`node_modules/${name}/LICENSE`, "utf8").trim()}\n`;
+
+await build({
+  entryPoints: { viewer: "src/main.ts" },
+  bundle: true,
+  minify: true,
+  format: "iife",
+  target: "es2022",
+  charset: "utf8",
+  legalComments: "none",
+  loader: { ".css": "css" },
+  banner: { js: "/* three.js and uPlot: MIT licence, see NOTICE */" },
+  outdir: out,
+  logLevel: "info",
+});
+writeFileSync(`${out}/NOTICE`, ["three", "uplot"].map(notice).join("\n---\n\n"));

@@ -1,0 +1,224 @@
+// Written by `python -m nivel.view.typescript` from records.py. Do not edit.
+
+export const PROTOCOL = 1;
+export const PACKAGE = 1;
+export const FRAME = 2;
+export const COLUMN = 3;
+
+/** An array in the block of bytes. kind : f4, f8 or u4, little-endian. start : its first byte. The bytes are shuffled, which compresses better: the first bytes of all numbers, then the second bytes, and so on. */
+export interface Packed {
+  kind: "f4" | "f8" | "u4";
+  shape: number[];
+  start: number;
+}
+
+/** A solid in the body frame with its centre at `centre`. size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; extrusion: length; a capsule's length is that of its straight part. along : the axis of round bars and extrusions. outline : of an extrusion, corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh. */
+export interface Part {
+  kind: "box" | "cylinder" | "tube" | "sphere" | "capsule" | "extrusion" | "mesh";
+  centre: [number, number, number];
+  size: number[];
+  along: "x" | "y" | "z";
+  outline: [number, number][];
+  vertices: Packed | null;
+  triangles: Packed | null;
+}
+
+/** A body. links : points of its frame to which automatic links lead from the centre of mass. held : where joints hold it. */
+export interface Body {
+  name: string;
+  colour: string;
+  centre_of_mass: [number, number, number];
+  parts: Part[];
+  links: [number, number, number][];
+  held: [number, number, number][];
+  facts: [string, string][];
+}
+
+/** A mesh that deforms: a vertex is vertices + Σ q_k modes[k], in the body's frame; q are modal coordinates of the frame. vertices (n, 3), triangles (m, 3), modes (modes, n, 3). first : place of its first modal coordinate among those of the frame. field : (modes, n) what the colours show is Σ q_k field[k], or without it the length of the displacement; low, high : ends of the colours, in `unit`. */
+export interface Flexible {
+  body: number;
+  name: string;
+  vertices: Packed;
+  triangles: Packed;
+  modes: Packed;
+  first: number;
+  low: number;
+  high: number;
+  unit: string;
+  quantity: string;
+  field: Packed | null;
+}
+
+/** A joint: points and axes on its two bodies, in their frames. slot : direction of a slot in the second body. place : at which of the two points its sign stands. rod : it is a massless link between them. violation : places of the two vectors of its constraint violation among those of the frame: how far the second point is from where it should be, and how far the second frame is turned, in axes of the first marker turned into global ones; -1 without. */
+export interface Joint {
+  name: string;
+  kind: string;
+  bodies: [number, number];
+  points: [[number, number, number], [number, number, number]];
+  axes: [[number, number, number], [number, number, number]];
+  x_axes: [[number, number, number], [number, number, number]] | null;
+  slot: [number, number, number] | null;
+  place: 0 | 1;
+  rod: boolean;
+  violation: number;
+  facts: [string, string][];
+}
+
+/** A force element. points : of the two ends, none where it has no ends to draw. axis : of a coil, or normal of a contact's plane. look : what is drawn between the ends. */
+export interface Force {
+  name: string;
+  kind: string;
+  bodies: number[];
+  points: [number, number, number][];
+  axis: [number, number, number] | null;
+  look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane";
+  facts: [string, string][];
+}
+
+/** A vector of the frames drawn as an arrow at a point of a body. first : its place among the vectors of the frame. source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest : greatest length in the whole motion, 0 where it is not known. */
+export interface Arrow {
+  owner: string;
+  source: "reaction" | "applied";
+  kind: "force" | "torque";
+  body: number;
+  point: [number, number, number];
+  vector: number;
+  largest: number;
+}
+
+/** A named point of a body, to be traced. */
+export interface Marker {
+  name: string;
+  body: number;
+  point: [number, number, number];
+}
+
+/** Floats of a frame: 7 a body (position, Euler parameters scalar first), then modal coordinates, then vectors of 3. */
+export interface Layout {
+  bodies: number;
+  modes: number;
+  vectors: number;
+  width: number;
+}
+
+/** Where to look from at first: unit vectors. flat : the machine lies in a plane, which is seen along its normal. */
+export interface Viewpoint {
+  right: [number, number, number];
+  up: [number, number, number];
+  towards: [number, number, number];
+  flat: boolean;
+}
+
+/** A variable that can be plotted: one number a frame. owner : element that it belongs to, empty for the whole machine. values : where the package has it; else it is asked for. */
+export interface Column {
+  name: string;
+  unit: string;
+  owner: string;
+  values: Packed | null;
+}
+
+/** Something that happened: an event of the run. */
+export interface Moment {
+  name: string;
+  time: number;
+}
+
+/** A joint coordinate that may be moved by hand, between low and high. free : it can move at all. */
+export interface Coordinate {
+  name: string;
+  joint: string;
+  unit: string;
+  value: number;
+  low: number;
+  high: number;
+  free: boolean;
+}
+
+/** time (n,) of the frames, frames (width, n). total : frames of the result; every `stride`th is here. */
+export interface Motion {
+  time: Packed;
+  frames: Packed;
+  total: number;
+  stride: number;
+}
+
+/** Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted. up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by. notes : what the user has to know, for instance that the run failed. */
+export interface Stage {
+  name: string;
+  title: string;
+  up: [number, number, number];
+  viewpoint: Viewpoint;
+  origin: [number, number, number];
+  low: [number, number, number];
+  high: [number, number, number];
+  size: number;
+  layout: Layout;
+  bodies: Body[];
+  joints: Joint[];
+  forces: Force[];
+  markers: Marker[];
+  arrows: Arrow[];
+  flexible: Flexible[];
+  columns: Column[];
+  moments: Moment[];
+  coordinates: Coordinate[];
+  notes: string[];
+  motion: Motion | null;
+}
+
+/** All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come. stages : the first is the machine, others are drawn as ghosts over it. */
+export interface Package {
+  protocol: number;
+  mode: "playback" | "machine" | "live";
+  stages: Stage[];
+}
+
+/** From the server: a sentence for the user. */
+export interface Note {
+  type: "note";
+  text: string;
+}
+
+/** From the server, after a move: values of all coordinates now, and why it could not be made, or an empty text. */
+export interface Moved {
+  type: "moved";
+  values: number[];
+  problem: string;
+}
+
+/** From the server: why a column that was asked for does not come. */
+export interface Refused {
+  type: "refused";
+  request: number;
+  problem: string;
+}
+
+/** From the page: the frame with this number is on the screen; the next may come. */
+export interface Shown {
+  type: "shown";
+  frame: number;
+}
+
+/** From the page: send the column `name` of a stage under this request number. */
+export interface Want {
+  type: "want";
+  request: number;
+  stage: number;
+  name: string;
+}
+
+/** From the page: move a joint coordinate to a value. */
+export interface Move {
+  type: "move";
+  coordinate: string;
+  value: number;
+}
+
+/** From the page: put the machine back as it was assembled. */
+export interface Reset {
+  type: "reset";
+}
+
+export type FromServer = Note | Moved | Refused;
+
+export type FromPage = Shown | Want | Move | Reset;

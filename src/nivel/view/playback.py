@@ -18,7 +18,7 @@ from nivel.view.columns import columns
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.records import PROTOCOL, Moment, Motion, Package, Stage
-from nivel.view.stage import Cast, cast
+from nivel.view.stage import cast
 from nivel.view.violations import violation_vectors
 
 Array = NDArray[np.float64]
@@ -50,8 +50,12 @@ def playback(results: Sequence[Result], budget: Budget) -> bytes:
     return to_bytes(Package(PROTOCOL, "playback", stages), block)
 
 
-def shown_frames(count: int, width: int, budget: Budget) -> slice:
-    """The frames of `count` that have room, evenly taken."""
+def played_frames(result: Result, budget: Budget) -> slice:
+    """The frames of a result that have room, evenly taken."""
+    scene = result.scene
+    bodies, joints, forces = (len(scene.get(name, [])) for name in ("bodies", "joints", "forces"))
+    width = 7 * bodies + (3 * (4 * joints + 2 * forces) if budget.vectors else 0)
+    count = len(result.time)
     most = max(min(budget.frames, budget.motion // max(4 * width, 1)), 2)
     return slice(0, count, max(-(-count // most), 1))
 
@@ -63,8 +67,7 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     _refuse_empty(result, scene)
     players = cast(scene, record, block)
     bodies, joints = len(players.bodies), len(players.joints)
-    most_vectors = 2 * joints + 2 * joints + 2 * len(players.forces) if budget.vectors else 0
-    frames = shown_frames(len(result.time), 7 * bodies + 3 * most_vectors, budget)
+    frames = played_frames(result, budget)
     position, orientation = _poses(result, bodies, frames)
     where = extent(players, position, orientation)
     moments = Moments.of(position, orientation)
@@ -171,6 +174,3 @@ def _notes(result: Result, position: Array, frames: slice) -> list[str]:
 def _ordinal(n: int) -> str:
     last = {1: "st", 2: "nd", 3: "rd"}.get(n % 10, "th") if n % 100 not in (11, 12, 13) else "th"
     return f"{n}{last}"
-
-
-__all__ = ["ALONE", "SERVED", "SMALL", "Budget", "Cast", "playback", "shown_frames", "stage"]

@@ -1,0 +1,30 @@
+"""A result as one HTML file with its motion inside."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from nivel.errors import ModelError
+from nivel.results.result import Result
+from nivel.results.target import keep_sources
+from nivel.view.page import page_alone
+from nivel.view.playback import ALONE, Budget, playback
+
+
+def scene_html(results: Sequence[Result], budget: Budget = ALONE) -> str:
+    """The page of a result, with further ones as ghosts: it needs no network and nothing beside it."""
+    return page_alone(playback(results, budget), results[0].name)
+
+
+def write_scene(results: Sequence[Result], path: str | os.PathLike[str]) -> Path:
+    """Write the page to `path`; an existing file is replaced."""
+    target = Path(path)
+    keep_sources(target, "page", [result.path for result in results if result.path])
+    text = scene_html(results)
+    try:
+        target.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ModelError(f"the page {target} cannot be written: {(error.strerror or str(error)).lower()}") from error
+    return target

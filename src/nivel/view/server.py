@@ -1,0 +1,185 @@
+"""A server for the page: on this machine only, or for others with a token. It gives out what it holds and writes nothing.
+
+It answers two addresses: `/`, the page, and `/stream`, the connection of the page. Pages of other origins are refused, and so are
+names of this machine that are not its own (rebound ones), connections without the token, long or many messages, and many pages.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import secrets
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from http import HTTPStatus
+from typing import TYPE_CHECKING, Any, Final
+from urllib.parse import parse_qs, urlsplit
+
+from nivel.errors import ModelError
+from nivel.view.messages import LARGEST
+from nivel.view.page import script_hash, served_page
+from nivel.view.sources import Source
+from nivel.view.stream import REFUSED, Stream
+
+if TYPE_CHECKING:
+    from websockets.asyncio.server import Server, ServerConnection
+    from websockets.http11 import Request, Response
+
+LOOPBACK: Final = ("127.0.0.1", "localhost", "::1")
+MOST_PAGES: Final = 16
+HANDSHAKE: Final = 5.0  # seconds that a connection may take to say what it wants
+PORTS: Final = range(8640, 8660)  # tried in their order
+
+
+@dataclass
+class Address:
+    """Where the server listens. port : 0 for a free one. token : needed in the address of the page, or empty."""
+
+    host: str = "127.0.0.1"
+    port: int = 0
+    token: str = ""
+
+    @classmethod
+    def of(cls, host: str, port: int) -> Address:
+        """With a new token where others than this machine can reach it."""
+        return cls(host, port, "" if host in LOOPBACK else secrets.token_urlsafe(24))
+
+    @property
+    def url(self) -> str:
+        """To be opened in a browser."""
+        host = f"[{self.host}]" if ":" in self.host else self.host
+        return f"http://{host}:{self.port}/" + (f"?token={self.token}" if self.token else "")
+
+
+@dataclass
+class Viewing:
+    """A server and the pages connected to it."""
+
+    source: Source
+    address: Address
+    streams: set[Stream] = field(default_factory=set)
+
+    async def talk(self, connection: ServerConnection) -> None:
+        """One page, as long as it stays."""
+        from websockets.exceptions import ConnectionClosed
+
+        if len(self.streams) >= MOST_PAGES:
+            await connection.close(REFUSED, "too many pages")
+            return
+        stream = Stream(connection, self.source)
+        self.streams.add(stream)
+        try:
+            await stream.run()
+        except* ConnectionClosed:
+            pass
+        finally:
+            self.streams.discard(stream)
+
+    def answer(self, connection: ServerConnection, request: Request) -> Response | None:
+        """The page, or a refusal; None lets a page in."""
+        parts = urlsplit(request.path)
+        if not self._is_own_name(request.headers.get_all("Host")) or not self._has_token(parts.query):
+            return _respond(connection, HTTPStatus.FORBIDDEN, "Forbidden: open the address that `nivel view` printed.")
+        if parts.path == "/stream":
+            return None if self._is_own_page(request) else _respond(connection, HTTPStatus.FORBIDDEN, "Forbidden.")
+        if parts.path != "/":
+            return _respond(connection, HTTPStatus.NOT_FOUND, "There is nothing here.")
+        return _respond(connection, HTTPStatus.OK, served_page(), page=True)
+
+    def _is_own_name(self, hosts: list[str]) -> bool:
+        if len(hosts) != 1:
+            return False
+        if self.address.token:
+            return True
+        return urlsplit(f"//{hosts[0]}").hostname in LOOPBACK
+
+    def _has_token(self, query: str) -> bool:
+        if not self.address.token:
+            return True
+        given = parse_qs(query).get("token", [""])[0]
+        return hmac.compare_digest(given.encode(), self.address.token.encode())
+
+    def _is_own_page(self, request: Request) -> bool:
+        return request.headers.get_all("Origin") == [f"http://{request.headers['Host']}"]
+
+    def has_news(self) -> None:
+        """All pages are to get a frame."""
+        for stream in self.streams:
+            stream.has_news()
+
+
+def _respond(connection: ServerConnection, status: HTTPStatus, text: str, *, page: bool = False) -> Response:
+    response = connection.respond(status, text)
+    headers = response.headers
+    if page:
+        del headers["Content-Type"]
+        headers["Content-Type"] = "text/html; charset=utf-8"
+        headers["Content-Security-Policy"] = (
+            f"default-src 'none'; script-src {script_hash()}; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'self'; "
+            "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+        )
+    headers["X-Content-Type-Options"] = "nosniff"
+    headers["Referrer-Policy"] = "no-referrer"
+    headers["Cache-Control"] = "no-store"
+    return response
+
+
+async def start(viewing: Viewing) -> Server:
+    """Listen; the address gets the port that was found.
+
+    Raises ModelError where `websockets` is missing or the port is taken.
+    """
+    try:
+        from websockets.asyncio.server import serve
+    except ModuleNotFoundError:
+        raise ModelError("the viewer needs websockets: pip install 'nivel[view]'") from None
+    loop = asyncio.get_running_loop()
+    viewing.source.on_change = lambda: loop.call_soon_threadsafe(viewing.has_news)
+    address = viewing.address
+    ports = [address.port] if address.port else [*PORTS, 0]
+    for port in ports:
+        try:
+            server = await serve(
+                viewing.talk,
+                address.host,
+                port,
+                process_request=viewing.answer,
+                compression=None,
+                max_size=LARGEST,
+                max_queue=16,
+                open_timeout=HANDSHAKE,
+                close_timeout=1.0,
+                server_header=None,
+                logger=_quiet(),
+            )
+        except OSError as error:
+            problem = error
+            continue
+        address.port = next(iter(server.sockets)).getsockname()[1]
+        return server
+    raise ModelError(_refusal(address, problem))
+
+
+def _quiet() -> Any:
+    """A logger that says nothing: whatever strangers send is no news."""
+    import logging
+
+    logger = logging.getLogger("nivel.view.server")
+    logger.disabled = True
+    return logger
+
+
+def _refusal(address: Address, problem: OSError) -> str:
+    reason = (problem.strerror or str(problem)).lower()
+    if address.port:
+        return f"port {address.port} of {address.host} cannot be used: {reason}; choose another with --port"
+    return f"{address.host} is no address that this machine can listen at: {reason}"
+
+
+async def show(source: Source, address: Address, ready: Callable[[str], None]) -> None:
+    """Show `source` until cancelled; `ready` gets the address to open."""
+    viewing = Viewing(source, address)
+    server = await start(viewing)
+    async with server:
+        ready(address.url)
+        await server.serve_forever()

@@ -1,0 +1,111 @@
+"""What a server shows: something with a package, and perhaps with frames that come while it is looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from threading import Lock
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import ModelError
+from nivel.results.result import Result
+from nivel.view import frames
+from nivel.view.package import Block, to_bytes
+from nivel.view.playback import SERVED, Budget, playback, played_frames
+from nivel.view.records import PROTOCOL, Moved, Package, Stage
+
+Array = NDArray[np.float64]
+
+
+class Source(Protocol):
+    """What is shown. `on_change` is called, from any thread, when there is a new frame."""
+
+    on_change: Callable[[], None]
+
+    def package(self) -> bytes:
+        """Everything that the page needs at first."""
+        ...
+
+    def frame(self) -> tuple[float, Array] | None:
+        """The newest frame with its time; None where the package has the whole motion."""
+        ...
+
+    def column(self, stage: int, name: str) -> Array:
+        """A column of a stage, one number a frame. Raises ModelError."""
+        ...
+
+    def move(self, coordinate: str, value: float) -> Moved | None:
+        """Move a joint coordinate by hand; None where nothing can be moved."""
+        ...
+
+    def reset(self) -> Moved | None:
+        """Put the machine back."""
+        ...
+
+
+class Still:
+    """A source without frames of its own."""
+
+    on_change: Callable[[], None] = staticmethod(lambda: None)
+
+    def frame(self) -> tuple[float, Array] | None:
+        return None
+
+    def column(self, stage: int, name: str) -> Array:
+        raise ModelError(f"there is no variable `{name}`")
+
+    def move(self, coordinate: str, value: float) -> Moved | None:
+        return None
+
+    def reset(self) -> Moved | None:
+        return None
+
+
+class Playback(Still):
+    """A result, and results laid over it as ghosts."""
+
+    def __init__(self, results: Sequence[Result], budget: Budget = SERVED) -> None:
+        self._results = list(results)
+        self._budget = budget
+        self._package = playback(self._results, budget)
+
+    def package(self) -> bytes:
+        return self._package
+
+    def column(self, stage: int, name: str) -> Array:
+        if stage >= len(self._results):
+            raise ModelError("there is no such result")
+        result = self._results[stage]
+        values = result.array(name, played_frames(result, self._budget))
+        if values.ndim != 1:
+            raise ModelError(f"`{name}` is not one number a frame")
+        return values
+
+
+class Live(Still):
+    """Frames that a program hands over while it runs: `show` keeps the newest, and is never waited for."""
+
+    def __init__(self, stage: Stage, block: Block) -> None:
+        self._package = to_bytes(Package(PROTOCOL, "live", [stage]), block)
+        self._lock = Lock()
+        self._newest: tuple[float, Array] | None = None
+
+    def package(self) -> bytes:
+        return self._package
+
+    def show(
+        self, time: float, position: Array, orientation: Array, modal: Array | None = None, vectors: Array | None = None
+    ) -> None:
+        """A new moment: position (B, 3), orientation (B, 4), modal coordinates (M,), vectors (V, 3)."""
+        row = frames.rows(
+            position[None], orientation[None], None if modal is None else modal[None], None if vectors is None else vectors[None]
+        )[0]
+        with self._lock:
+            self._newest = (time, row)
+        self.on_change()
+
+    def frame(self) -> tuple[float, Array] | None:
+        with self._lock:
+            return self._newest

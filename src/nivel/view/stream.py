@@ -1,0 +1,130 @@
+"""One page that is connected: its frames, newest only and one on its way at a time, and what it asks for, within bounds."""
+
+from __future__ import annotations
+
+import asyncio
+import struct
+import time
+from typing import Any, Final
+
+from nivel.errors import ModelError
+from nivel.view.frames import message
+from nivel.view.messages import NotUnderstoodError, read_message, said
+from nivel.view.records import COLUMN, PACKAGE, Move, Refused, Reset, Shown, Want
+from nivel.view.sources import Source
+
+RATE: Final = 200.0  # messages a second that a page may send for long
+BURST: Final = 400.0  # and at once
+PATIENCE: Final = 2.0  # seconds after which a frame that nobody acknowledged counts as lost
+REFUSED: Final = 1008  # closing code: policy violation
+
+
+class Allowance:
+    """How much a page may still say: refilled with time."""
+
+    def __init__(self, rate: float = RATE, burst: float = BURST) -> None:
+        self._rate, self._burst = rate, burst
+        self._left, self._at = burst, time.monotonic()
+
+    def spend(self) -> bool:
+        """Whether one more message is allowed."""
+        now = time.monotonic()
+        self._left = min(self._burst, self._left + self._rate * (now - self._at))
+        self._at = now
+        self._left -= 1.0
+        return self._left >= 0.0
+
+
+class Stream:
+    """The conversation with one page over its connection (a websocket)."""
+
+    def __init__(self, connection: Any, source: Source) -> None:
+        self._connection = connection
+        self._source = source
+        self._fresh = asyncio.Event()  # there is a frame that was not sent
+        self._seen = asyncio.Event()  # no frame is on its way
+        self._seen.set()
+        self._number = 0
+        self._wish: Move | Reset | None = None  # the newest only: a slider that is dragged says more than can be computed
+        self._wished = asyncio.Event()
+        self.frame_count = 0
+        self.send_seconds = 0.0
+
+    def has_news(self) -> None:
+        """The source has a new frame."""
+        self._fresh.set()
+
+    async def run(self) -> None:
+        """Talk until the page goes."""
+        await self._connection.send(struct.pack("<I", PACKAGE) + self._source.package())
+        if self._source.frame() is not None:
+            self._fresh.set()
+        async with asyncio.TaskGroup() as group:
+            tasks = [group.create_task(self._send_frames()), group.create_task(self._fulfil())]
+            await self._listen()
+            for task in tasks:
+                task.cancel()
+
+    async def _send_frames(self) -> None:
+        while True:
+            await self._fresh.wait()
+            try:
+                await asyncio.wait_for(self._seen.wait(), PATIENCE)
+            except TimeoutError:
+                pass  # a page in the background shows nothing and says nothing
+            self._fresh.clear()
+            begin = time.perf_counter()
+            newest = self._source.frame()
+            if newest is None:
+                continue
+            self._number += 1
+            content = message(self._number, *newest)
+            self._seen.clear()
+            self.send_seconds += time.perf_counter() - begin
+            self.frame_count += 1
+            await self._connection.send(content)
+
+    async def _listen(self) -> None:
+        allowance = Allowance()
+        async for content in self._connection:
+            if not allowance.spend():
+                await self._connection.close(REFUSED, "too many messages")
+                return
+            try:
+                wanted = read_message(content)
+            except NotUnderstoodError as problem:
+                await self._connection.close(REFUSED, str(problem))
+                return
+            match wanted:
+                case Shown(frame=number):
+                    if number == self._number:
+                        self._seen.set()
+                case Want():
+                    await self._answer(wanted)
+                case Move() | Reset():
+                    self._wish = wanted
+                    self._wished.set()
+
+    async def _answer(self, wanted: Want) -> None:
+        try:
+            column = await asyncio.to_thread(self._source.column, wanted.stage, wanted.name)
+        except ModelError as error:
+            await self._connection.send(said(Refused("refused", wanted.request, str(error))))
+            return
+        await self._connection.send(struct.pack("<III", COLUMN, wanted.request, 0) + column.astype("<f4").tobytes())
+
+    async def _fulfil(self) -> None:
+        """Move the machine as the page wishes, one wish after the other, those in between left out."""
+        while True:
+            await self._wished.wait()
+            self._wished.clear()
+            wish, self._wish = self._wish, None
+            match wish:
+                case Move(coordinate=name, value=value):
+                    moved = await asyncio.to_thread(self._source.move, name, value)
+                case Reset():
+                    moved = await asyncio.to_thread(self._source.reset)
+                case _:
+                    moved = None
+            if moved is not None:
+                await self._connection.send(said(moved))

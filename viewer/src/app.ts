@@ -1,0 +1,260 @@
+// The page: one machine in the picture, perhaps ghosts of it, and what controls them.
+import { Columns } from "./columns";
+import type { Connection, Frame } from "./connection";
+import type { FromServer, Stage } from "./generated/records";
+import { Motion } from "./motion";
+import type { Opened } from "./package";
+import { Player } from "./player";
+import { Actor, type Picked } from "./stage/actor";
+import { Arrows } from "./stage/arrows";
+import { Labels } from "./stage/labels";
+import { Follower } from "./stage/follower";
+import { listenToPicks } from "./stage/picking";
+import { Traces } from "./stage/traces";
+import { Violations } from "./stage/violations";
+import { World, type View } from "./stage/world";
+import { Coordinates } from "./ui/coordinates";
+import { Display } from "./ui/display";
+import { el } from "./ui/dom";
+import { Inspector } from "./ui/inspector";
+import { helpDialog, listenToKeys } from "./ui/keys";
+import { Panels, type PanelName } from "./ui/panels";
+import { Plots } from "./ui/plots";
+import { Timeline } from "./ui/timeline";
+import { Tree } from "./ui/tree";
+
+const FEW_NAMES = 14; // a machine of more bodies starts without names
+
+export class App {
+  readonly stage: Stage;
+  readonly world: World;
+  readonly actor: Actor;
+  readonly ghosts: { actor: Actor; motion: Motion }[] = [];
+  readonly motion: Motion | null;
+  readonly player: Player | null = null;
+  readonly arrows: Arrows;
+  readonly traces: Traces;
+  readonly violations: Violations;
+  readonly labels: Labels;
+  readonly plots: Plots;
+  private readonly follower: Follower;
+  private readonly timeline: Timeline | null = null;
+  private readonly tree: Tree;
+  private readonly inspector: Inspector;
+  private readonly coordinates: Coordinates | null = null;
+  private readonly panels: Panels;
+  private readonly dialog = helpDialog();
+  private readonly status = el("p", { class: "status", role: "status" });
+  private picked: Picked | null = null;
+  private latest: Frame | null = null;
+  private acknowledge = 0;
+
+  constructor(
+    opened: Opened,
+    private readonly connection: Connection | null,
+  ) {
+    const { content, arrays } = opened;
+    const [stage, ...others] = content.stages;
+    if (!stage) throw new Error("there is no machine to show");
+    this.stage = stage;
+    const holder = el("main", { class: "view" });
+    const names = el("div", { class: "labels", "aria-hidden": "true" });
+    document.body.replaceChildren(holder);
+    document.title = `${stage.name} – nivel`;
+    this.motion = stage.motion ? new Motion(stage, arrays) : null;
+    this.world = new World(holder, stage);
+    this.actor = new Actor(stage, arrays, this.world.look, false);
+    for (const other of others) {
+      const ghost = new Actor(other, arrays, this.world.look, true);
+      ghost.root.position.set(...other.origin).sub({ x: stage.origin[0], y: stage.origin[1], z: stage.origin[2] });
+      this.ghosts.push({ actor: ghost, motion: new Motion(other, arrays) });
+      this.world.scene.add(ghost.root);
+    }
+    this.arrows = new Arrows(this.actor, this.world.look);
+    this.traces = new Traces(this.actor, this.motion, this.world.look);
+    this.violations = new Violations(this.actor, this.world.look);
+    this.labels = new Labels(this.actor, names);
+    this.labels.shown.body = stage.bodies.length <= FEW_NAMES;
+    this.follower = new Follower(this.world, this.actor);
+    this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
+    holder.append(names);
+    const columns = new Columns(opened, connection);
+    const ghostTime = this.ghosts[0]?.motion.time ?? null;
+    const times = { main: this.motion?.time ?? new Float64Array(), ghost: ghostTime };
+    this.plots = new Plots(columns, times, (time) => this.goTo(time), () => this.inspector?.refresh());
+    this.inspector = new Inspector(stage, columns, this.plots, this.traces, {
+      follow: () => this.followOrFit(),
+      isFollowed: (picked) => this.follower.name === picked.name,
+      change: () => this.refreshFrame(),
+      canPlay: !!this.motion,
+    });
+    this.tree = new Tree(stage, (picked) => this.choose(picked));
+    if (this.motion) {
+      this.player = new Player(this.motion);
+      this.timeline = new Timeline(this.player, stage.moments);
+      this.player.onChange = () => this.timeline?.refresh();
+      this.player.onTime = () => this.showTime();
+    }
+    if (content.mode === "machine") {
+      this.coordinates = new Coordinates(
+        stage.coordinates,
+        (coordinate, value) => connection?.send({ type: "move", coordinate, value }),
+        () => this.reset(),
+      );
+    }
+    const data = el("div", {}, this.coordinates?.element ?? null, this.inspector.element);
+    const display = new Display(this).element;
+    this.panels = new Panels(stage, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? null, this.status, () => this.dialog.showModal());
+    document.body.append(...this.panels.elements, this.dialog);
+    this.panels.settle(!!this.coordinates);
+    this.world.onBeforeRender = (now) => this.beforeRender(now);
+    this.world.onRecolour = () => this.recolour();
+    listenToPicks(this.world, this.actor, this.arrows.root, (picked) => this.choose(picked));
+    listenToKeys(this);
+    if (this.motion) this.showTime();
+    const first = columns.list().find((column) => /\.(angle|displacement)$/.test(column.name));
+    if (first && this.motion) void this.plots.show([first.name]);
+  }
+
+  // --- time ---
+
+  goTo(time: number): void {
+    this.player?.toggle(false);
+    this.player?.seek(time);
+  }
+
+  /** Show the frame of the player's time. */
+  private showTime(): void {
+    const { player, motion } = this;
+    if (!player || !motion) return;
+    motion.sample(player.time, this.actor.frame);
+    for (const ghost of this.ghosts) {
+      ghost.motion.sample(player.time, ghost.actor.frame);
+      ghost.actor.apply();
+    }
+    this.world.running = player.playing;
+    this.refreshFrame();
+    this.timeline?.tick();
+    this.plots.moveTo(player.time);
+    this.inspector.moveTo(player.frame);
+  }
+
+  /** A frame from the server; the page acknowledges it after the next picture. */
+  take(frame: Frame): void {
+    this.latest = frame;
+    this.world.running = true;
+    this.world.invalidate();
+  }
+
+  message(message: FromServer): void {
+    if (message.type === "note") this.say(message.text);
+    if (message.type === "moved") this.coordinates?.update(message.values, this.stage.coordinates, message.problem);
+  }
+
+  say(text: string): void {
+    this.status.textContent = text;
+  }
+
+  private beforeRender(now: number): void {
+    this.player?.advance(now);
+    if (this.acknowledge) {
+      this.connection?.send({ type: "shown", frame: this.acknowledge });
+      this.acknowledge = 0;
+    }
+    if (this.latest) {
+      this.actor.frame.set(this.latest.values.subarray(0, this.actor.frame.length));
+      this.acknowledge = this.latest.number;
+      this.latest = null;
+      this.refreshFrame();
+    }
+    const { clientWidth, clientHeight } = this.world.holder;
+    this.labels.update(this.world.camera, clientWidth, clientHeight);
+  }
+
+  /** Everything that depends on the frame that is shown. */
+  refreshFrame(): void {
+    this.actor.apply();
+    this.follower.update();
+    this.arrows.update();
+    this.violations.update();
+    this.traces.update(this.player?.frame ?? 0);
+    this.world.invalidate();
+  }
+
+  // --- what is chosen and shown ---
+
+  choose(picked: Picked | null): void {
+    this.picked = picked;
+    this.actor.mark(picked, this.world.look);
+    this.tree.select(picked);
+    this.inspector.select(picked);
+    if (picked) this.panels.offer("data");
+    this.refreshFrame();
+  }
+
+  followOrFit(): void {
+    if (this.picked?.kind === "body") this.follower.toggle(this.picked.name);
+    else {
+      this.follower.stop();
+      this.world.fit();
+    }
+    this.inspector.refresh();
+  }
+
+  look(view: View): void {
+    this.follower.stop();
+    this.world.view(view);
+    this.inspector.refresh();
+  }
+
+  /** Change something of the picture. */
+  change(what: () => void): void {
+    what();
+    this.refreshFrame();
+  }
+
+  show(what: "signs" | "triads" | "centres", on: boolean): void {
+    this.change(() => this.actor.show(what, on));
+  }
+
+  name(kind: "body" | "joint" | "force", on: boolean): void {
+    this.change(() => (this.labels.shown[kind] = on));
+  }
+
+  toggleNames(): void {
+    this.name("body", !this.labels.shown.body);
+  }
+
+  showGhosts(on: boolean): void {
+    this.change(() => this.ghosts.forEach((ghost) => (ghost.actor.root.visible = on)));
+  }
+
+  togglePanel(name: PanelName): void {
+    this.panels.toggle(name);
+  }
+
+  help(): void {
+    this.dialog.showModal();
+  }
+
+  escape(): void {
+    if (this.dialog.open) this.dialog.close();
+    else if (this.picked) this.choose(null);
+    else this.panels.closeTop();
+  }
+
+  /** A machine moved by hand goes back to its assembled position. */
+  reset(): void {
+    this.connection?.send({ type: "reset" });
+  }
+
+  private recolour(): void {
+    const { look } = this.world;
+    this.actor.recolour(look);
+    for (const ghost of this.ghosts) ghost.actor.recolour(look);
+    this.arrows.recolour(look);
+    this.traces.recolour(look);
+    this.violations.recolour(look);
+    this.actor.mark(this.picked, look);
+  }
+}

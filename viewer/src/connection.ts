@@ -1,0 +1,93 @@
+// The connection to the server that the page came from. Frames are acknowledged once they are on the screen, so that the server
+// never has more than one on its way.
+import { COLUMN, FRAME, PACKAGE, type FromPage, type FromServer } from "./generated/records";
+
+const PATIENCE = [500, 1000, 2000, 4000]; // ms before the next attempt
+
+export interface Frame {
+  number: number;
+  time: number;
+  values: Float32Array;
+}
+
+export interface Listener {
+  onPackage(bytes: Uint8Array): void;
+  onFrame(frame: Frame): void;
+  onMessage(message: FromServer): void;
+  onState(connected: boolean): void;
+}
+
+export class Connection {
+  private socket: WebSocket | null = null;
+  private requests = new Map<number, (column: Float32Array | string) => void>();
+  private lastRequest = 0;
+  private failures = 0;
+  private known = false; // the package came already
+
+  constructor(
+    private readonly address: string,
+    private readonly listener: Listener,
+  ) {
+    this.open();
+  }
+
+  send(message: FromPage): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+
+  /** A column of a stage, or in words why there is none. */
+  column(stage: number, name: string): Promise<Float32Array | string> {
+    const request = ++this.lastRequest;
+    return new Promise((done) => {
+      if (this.socket?.readyState !== WebSocket.OPEN) {
+        done("not connected");
+        return;
+      }
+      this.requests.set(request, done);
+      this.send({ type: "want", request, stage, name });
+    });
+  }
+
+  private open(): void {
+    const socket = new WebSocket(this.address);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => {
+      this.failures = 0;
+      this.listener.onState(true);
+    };
+    socket.onmessage = (event) => this.receive(event.data);
+    socket.onclose = () => {
+      for (const done of this.requests.values()) done("the connection was lost");
+      this.requests.clear();
+      this.listener.onState(false);
+      const wait = PATIENCE[Math.min(this.failures++, PATIENCE.length - 1)]!;
+      if (this.failures < 40) setTimeout(() => this.open(), wait);
+    };
+    this.socket = socket;
+  }
+
+  private receive(data: ArrayBuffer | string): void {
+    if (typeof data === "string") {
+      const message = JSON.parse(data) as FromServer;
+      if (message.type === "refused") this.answer(message.request, message.problem);
+      else this.listener.onMessage(message);
+      return;
+    }
+    const view = new DataView(data);
+    const kind = view.getUint32(0, true);
+    if (kind === PACKAGE) {
+      if (!this.known) this.listener.onPackage(new Uint8Array(data, 4));
+      this.known = true;
+    } else if (kind === FRAME) {
+      const values = new Float32Array(data, 16);
+      this.listener.onFrame({ number: view.getUint32(4, true), time: view.getFloat64(8, true), values });
+    } else if (kind === COLUMN) {
+      this.answer(view.getUint32(4, true), new Float32Array(data, 12));
+    }
+  }
+
+  private answer(request: number, column: Float32Array | string): void {
+    this.requests.get(request)?.(column);
+    this.requests.delete(request);
+  }
+}

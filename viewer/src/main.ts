@@ -1,0 +1,76 @@
+// Where the page begins: its data are in it, or come from the server that it came from.
+import { App } from "./app";
+import { Connection } from "./connection";
+import { inflate, openPackage } from "./package";
+import "./style.css";
+
+function complain(text: string): void {
+  const message = document.createElement("p");
+  message.className = "complaint";
+  message.setAttribute("role", "alert");
+  message.textContent = text;
+  document.body.replaceChildren(message);
+}
+
+function inWords(error: unknown): string {
+  const text = error instanceof Error ? error.message : String(error);
+  return /WebGL/i.test(text) ? "This browser shows no three-dimensional pictures (WebGL is missing or switched off)." : `The machine cannot be shown: ${text}.`;
+}
+
+/** What programs that drive the page use: tests, and `nivel view --still` and `--export film.mp4`. */
+declare global {
+  interface Window {
+    nivel?: { app: App; draw(time: number, width: number, height: number): string; frames(): number };
+  }
+}
+
+function present(app: App): void {
+  window.nivel = {
+    app,
+    draw(time, width, height) {
+      app.player?.toggle(false);
+      app.player?.seek(time);
+      return app.world.renderAt(width, height);
+    },
+    frames: () => app.world.frameCount,
+  };
+}
+
+function connect(): void {
+  let app: App | null = null;
+  const token = new URLSearchParams(location.search).get("token");
+  const address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/stream${token ? `?token=${encodeURIComponent(token)}` : ""}`;
+  const connection = new Connection(address, {
+    onPackage(bytes) {
+      try {
+        app = new App(openPackage(bytes), connection);
+        present(app);
+      } catch (error) {
+        complain(inWords(error));
+        throw error;
+      }
+    },
+    onFrame: (frame) => app?.take(frame),
+    onMessage: (message) => app?.message(message),
+    onState: (connected) => app?.say(connected ? "" : "The program that shows this page has ended; what is here stays."),
+  });
+}
+
+async function start(): Promise<void> {
+  const embedded = document.getElementById("package");
+  if (!embedded?.textContent?.trim()) {
+    connect();
+    return;
+  }
+  try {
+    const app = new App(openPackage(await inflate(embedded.textContent)), null);
+    embedded.remove();
+    present(app);
+    if (location.hash === "#play") app.player?.toggle(true);
+  } catch (error) {
+    complain(inWords(error));
+    throw error;
+  }
+}
+
+void start();

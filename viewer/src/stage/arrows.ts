@@ -1,0 +1,105 @@
+// Arrows of forces and torques: length by value, the largest of the motion as long as a fixed share of the machine.
+import * as THREE from "three";
+import type { Arrow } from "../generated/records";
+import type { Actor } from "./actor";
+import type { Look } from "./look";
+
+const LONGEST = 0.4; // of the machine's size
+const SHAFT = 0.0052;
+const HEAD = 0.05;
+const UP = new THREE.Vector3(0, 1, 0);
+
+export type Family = "reaction-force" | "reaction-torque" | "applied-force" | "applied-torque";
+export const FAMILIES: readonly Family[] = ["applied-force", "applied-torque", "reaction-force", "reaction-torque"];
+
+interface Drawn {
+  record: Arrow;
+  group: THREE.Group;
+  shaft: THREE.Mesh;
+  heads: THREE.Mesh[];
+}
+
+export class Arrows {
+  readonly root = new THREE.Group();
+  readonly shown = new Set<Family>();
+  scale = 1;
+  only: string | null = null; // element whose arrows alone are shown
+  private readonly drawn: Drawn[];
+  private readonly largest = new Map<string, number>();
+  private readonly materials = new Map<Family, THREE.MeshBasicMaterial>();
+
+  constructor(
+    private readonly actor: Actor,
+    look: Look,
+  ) {
+    for (const family of FAMILIES) this.materials.set(family, new THREE.MeshBasicMaterial({ toneMapped: false }));
+    this.recolour(look);
+    for (const arrow of actor.stage.arrows) {
+      // one scale for all forces and one for all torques: lengths can be compared
+      this.largest.set(arrow.kind, Math.max(this.largest.get(arrow.kind) ?? 0, arrow.largest));
+    }
+    this.drawn = actor.stage.arrows.map((arrow) => this.make(arrow));
+  }
+
+  has(family: Family): boolean {
+    return this.drawn.some((each) => familyOf(each.record) === family && each.record.largest > 0);
+  }
+
+  /** [N or N m] what an arrow of a tenth of the machine's size stands for. */
+  unit(kind: "force" | "torque"): number {
+    return ((this.largest.get(kind) ?? 0) * 0.1) / (LONGEST * this.scale);
+  }
+
+  recolour(look: Look): void {
+    for (const [family, material] of this.materials) {
+      material.color.set(family.startsWith("applied") ? look.applied : family.endsWith("torque") ? look.moment : look.reaction);
+    }
+  }
+
+  update(): void {
+    const vector = new THREE.Vector3();
+    const size = this.actor.stage.size;
+    for (const each of this.drawn) {
+      const { record, group } = each;
+      group.visible = this.shown.has(familyOf(record)) && (!this.only || this.only === record.owner) && !this.actor.isBad[record.body];
+      if (!group.visible) continue;
+      this.actor.vector(record.vector, vector);
+      const value = vector.length();
+      const largest = this.largest.get(record.kind) ?? 0;
+      const length = largest > 0 ? (value / largest) * LONGEST * size * this.scale : 0;
+      if (!(length > 1e-3 * size) || !Number.isFinite(length)) {
+        group.visible = false;
+        continue;
+      }
+      this.actor.place(record.body, record.point, group.position);
+      group.quaternion.setFromUnitVectors(UP, vector.divideScalar(value));
+      const head = Math.min(HEAD * size, 0.5 * length);
+      const wide = head / (HEAD * size);
+      each.shaft.scale.set(1, Math.max(length - head, 1e-9), 1);
+      each.heads.forEach((tip, k) => {
+        tip.scale.setScalar(wide);
+        tip.position.y = length - head - 0.55 * k * head;
+      });
+    }
+  }
+
+  private make(record: Arrow): Drawn {
+    const size = this.actor.stage.size;
+    const material = this.materials.get(familyOf(record))!;
+    const shaft = new THREE.Mesh(new THREE.CylinderGeometry(SHAFT * size, SHAFT * size, 1, 10).translate(0, 0.5, 0), material);
+    const heads = Array.from({ length: record.kind === "torque" ? 2 : 1 }, () => {
+      return new THREE.Mesh(new THREE.ConeGeometry(3.1 * SHAFT * size, HEAD * size, 18).translate(0, 0.5 * HEAD * size, 0), material);
+    });
+    const group = new THREE.Group();
+    group.add(shaft, ...heads);
+    group.visible = false;
+    const said = { kind: this.actor.stage.joints.some((joint) => joint.name === record.owner) ? "joint" : "force", name: record.owner };
+    for (const each of [shaft, ...heads]) each.userData = said;
+    this.root.add(group);
+    return { record, group, shaft, heads };
+  }
+}
+
+export function familyOf(arrow: Arrow): Family {
+  return `${arrow.source}-${arrow.kind}`;
+}

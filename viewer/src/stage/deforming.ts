@@ -1,0 +1,66 @@
+// A mesh that deforms with its modal coordinates, coloured by what it shows. The morphing is done here: a frame brings only the coordinates.
+import * as THREE from "three";
+import type { Flexible } from "../generated/records";
+import type { Arrays } from "../package";
+import { ramp } from "./ramp";
+import { triangleMesh } from "./solids";
+
+export class Deforming {
+  readonly mesh: THREE.Mesh;
+  exaggeration = 1;
+  private readonly rest: Float32Array;
+  private readonly modes: Float32Array; // (modes, 3 n)
+  private readonly field: Float32Array | null; // (modes, n)
+  private readonly count: number;
+  private readonly modeCount: number;
+
+  constructor(
+    readonly record: Flexible,
+    arrays: Arrays,
+    isGhost: boolean,
+  ) {
+    this.rest = arrays.floats(record.vertices);
+    this.modes = arrays.floats(record.modes);
+    this.field = record.field ? arrays.floats(record.field) : null;
+    this.count = this.rest.length / 3;
+    this.modeCount = record.modes.shape[0] ?? 0;
+    const geometry = triangleMesh(this.rest.slice(), arrays.indices(record.triangles));
+    geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(3 * this.count).fill(1), 3));
+    geometry.computeVertexNormals();
+    const material = new THREE.MeshPhongMaterial({ vertexColors: true, shininess: 20, specular: 0x1a1a1a, side: THREE.DoubleSide, transparent: isGhost, opacity: isGhost ? 0.25 : 1 });
+    this.mesh = new THREE.Mesh(geometry, material);
+    this.mesh.castShadow = !isGhost;
+    this.mesh.frustumCulled = false; // its extent changes
+    this.mesh.userData = { kind: "body", name: record.name };
+  }
+
+  /** `first` : place of the first modal coordinate of the frame. */
+  update(frame: Float32Array, first: number): void {
+    const { count, modes, rest, field } = this;
+    const position = this.mesh.geometry.getAttribute("position") as THREE.BufferAttribute;
+    const colour = this.mesh.geometry.getAttribute("color") as THREE.BufferAttribute;
+    const at = position.array as Float32Array;
+    const moved = new Float32Array(3 * count);
+    const shown = new Float32Array(count);
+    for (let mode = 0; mode < this.modeCount; mode++) {
+      const q = frame[first + this.record.first + mode]!;
+      if (!Number.isFinite(q) || q === 0) continue;
+      const shape = 3 * count * mode;
+      for (let k = 0; k < 3 * count; k++) moved[k]! += q * modes[shape + k]!;
+      if (field) for (let k = 0; k < count; k++) shown[k]! += q * field[count * mode + k]!;
+    }
+    const { low, high } = this.record;
+    const span = high > low ? high - low : 1;
+    for (let k = 0; k < count; k++) {
+      const [x, y, z] = [moved[3 * k]!, moved[3 * k + 1]!, moved[3 * k + 2]!];
+      at[3 * k] = rest[3 * k]! + this.exaggeration * x;
+      at[3 * k + 1] = rest[3 * k + 1]! + this.exaggeration * y;
+      at[3 * k + 2] = rest[3 * k + 2]! + this.exaggeration * z;
+      const value = field ? shown[k]! : Math.hypot(x, y, z);
+      ramp((value - low) / span, colour.array as Float32Array, 3 * k);
+    }
+    position.needsUpdate = true;
+    colour.needsUpdate = true;
+    this.mesh.geometry.computeVertexNormals();
+  }
+}

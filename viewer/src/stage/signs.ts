@@ -1,0 +1,122 @@
+// Signs of joints in space: what textbooks draw, at the size of the machine.
+import * as THREE from "three";
+import type { Joint, Stage } from "../generated/records";
+import type { Palette } from "./look";
+
+const SIZE = 0.021; // half the size of a sign, of the machine's size
+
+/** A sign: what moves with the body at which it stands, in its frame; and what stands on the ground. */
+export interface Sign {
+  moving: THREE.Object3D[];
+  standing: THREE.Object3D[];
+}
+
+const Z = new THREE.Vector3(0, 0, 1);
+
+export function jointSign(joint: Joint, stage: Stage, palette: Palette): Sign {
+  const sign: Sign = { moving: [], standing: [] };
+  if (joint.rod) return sign; // drawn as a rod with its ends
+  const s = SIZE * stage.size;
+  const at = new THREE.Vector3(...joint.points[joint.place]);
+  const axis = new THREE.Vector3(...(joint.slot && joint.place === 1 ? joint.slot : joint.axes[joint.place])).normalize();
+  const frame = new THREE.Group();
+  frame.position.copy(at);
+  frame.quaternion.setFromUnitVectors(Z, axis);
+  frame.add(...shapes(joint.kind, s, palette));
+  frame.traverse((each) => {
+    each.userData = { kind: "joint", name: joint.name };
+    each.castShadow = each instanceof THREE.Mesh;
+  });
+  sign.moving.push(frame);
+  const side = joint.bodies[0] < 0 ? 0 : joint.bodies[1] < 0 ? 1 : -1;
+  if (side >= 0) sign.standing.push(...foot(joint, side as 0 | 1, stage, s, palette));
+  return sign;
+}
+
+/** Solids of a sign; its axis is z. */
+function shapes(kind: string, s: number, palette: Palette): THREE.Object3D[] {
+  const light = (geometry: THREE.BufferGeometry) => new THREE.Mesh(geometry, palette.sign);
+  const dark = (geometry: THREE.BufferGeometry) => new THREE.Mesh(geometry, palette.signDark);
+  const round = (radius: number, length: number) => new THREE.CylinderGeometry(radius, radius, length, 24).rotateX(Math.PI / 2);
+  switch (kind) {
+    case "revolute":
+      return [light(round(0.95 * s, 1.9 * s)), dark(round(0.42 * s, 2.7 * s))];
+    case "cylindrical":
+      return [light(round(0.95 * s, 1.9 * s)), dark(round(0.42 * s, 4.4 * s))];
+    case "screw": {
+      const rings = [-0.6, 0, 0.6].map((z) => dark(new THREE.TorusGeometry(0.95 * s, 0.14 * s, 8, 24).translate(0, 0, z * s)));
+      return [light(round(0.9 * s, 1.9 * s)), dark(round(0.42 * s, 4.4 * s)), ...rings];
+    }
+    case "translational":
+      return [light(new THREE.BoxGeometry(1.7 * s, 1.7 * s, 2.8 * s))];
+    case "spherical":
+      return [light(new THREE.SphereGeometry(1.1 * s, 24, 16))];
+    case "universal":
+      return [dark(round(0.36 * s, 2.8 * s)), dark(round(0.36 * s, 2.8 * s).rotateX(Math.PI / 2)), light(new THREE.SphereGeometry(0.62 * s, 20, 14))];
+    case "fixed":
+      return [dark(new THREE.BoxGeometry(1.5 * s, 1.5 * s, 1.5 * s))];
+    case "planar":
+      return [light(new THREE.BoxGeometry(4.2 * s, 4.2 * s, 0.3 * s))];
+    case "point-on-line":
+      return [dark(round(0.22 * s, 6 * s)), light(new THREE.SphereGeometry(0.8 * s, 20, 14))];
+    case "point-on-plane":
+      return [light(new THREE.BoxGeometry(4.2 * s, 4.2 * s, 0.16 * s)), dark(new THREE.SphereGeometry(0.7 * s, 20, 14))];
+    default:
+      return [light(new THREE.SphereGeometry(0.9 * s, 20, 14))];
+  }
+}
+
+const RAILS = ["translational", "cylindrical", "screw", "point-on-line"];
+
+/** The ground under a joint: a rail as long as the motion for what slides, else a cone with its tip at the joint. */
+function foot(joint: Joint, side: 0 | 1, stage: Stage, s: number, palette: Palette): THREE.Object3D[] {
+  const at = new THREE.Vector3(...joint.points[side]);
+  const said = { kind: "joint", name: joint.name };
+  const made = (geometry: THREE.BufferGeometry) => {
+    const mesh = new THREE.Mesh(geometry, palette.foot);
+    mesh.userData = said;
+    return mesh;
+  };
+  const up = new THREE.Vector3(...stage.up);
+  if (RAILS.includes(joint.kind) || joint.slot) {
+    const axis = new THREE.Vector3(...(joint.slot ?? joint.axes[side])).normalize();
+    const half = Math.max(0.62 * reachAlong(axis, stage), 4 * s);
+    const middle = new THREE.Vector3(...stage.low).add(new THREE.Vector3(...stage.high)).multiplyScalar(0.5).add(new THREE.Vector3(...stage.origin));
+    const shift = Math.max(Math.min(middle.sub(at).dot(axis), half - 3 * s), 3 * s - half);
+    const rail = made(new THREE.CylinderGeometry(0.24 * s, 0.24 * s, 2 * half, 12).rotateX(Math.PI / 2));
+    rail.quaternion.setFromUnitVectors(Z, axis);
+    rail.position.copy(at).addScaledVector(axis, shift);
+    return [rail];
+  }
+  const cone = made(new THREE.ConeGeometry(1.5 * s, 2.5 * s, 4, 1).rotateY(Math.PI / 4).translate(0, -2 * s, 0));
+  cone.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), up);
+  cone.position.copy(at);
+  const plate = made(new THREE.BoxGeometry(3.4 * s, 0.3 * s, 3.4 * s).translate(0, -3.35 * s, 0));
+  plate.quaternion.copy(cone.quaternion);
+  plate.position.copy(at);
+  return [cone, plate];
+}
+
+function reachAlong(axis: THREE.Vector3, stage: Stage): number {
+  const box = new THREE.Vector3(...stage.high).sub(new THREE.Vector3(...stage.low));
+  return 0.5 * (Math.abs(axis.x) * box.x + Math.abs(axis.y) * box.y + Math.abs(axis.z) * box.z);
+}
+
+const AXES = [0xd2473f, 0x279a55, 0x2f6fd6]; // x, y, z
+
+/** Three coloured arrows along the axes of a body. */
+export function bodyFrame(length: number): THREE.Group {
+  const group = new THREE.Group();
+  const radius = 0.028 * length;
+  AXES.forEach((colour, k) => {
+    const material = new THREE.MeshBasicMaterial({ color: colour });
+    const shaft = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, 0.8 * length, 8).translate(0, 0.4 * length, 0), material);
+    const tip = new THREE.Mesh(new THREE.ConeGeometry(3 * radius, 0.2 * length, 12).translate(0, 0.9 * length, 0), material);
+    const arrow = new THREE.Group();
+    arrow.add(shaft, tip);
+    if (k === 0) arrow.rotation.z = -Math.PI / 2;
+    if (k === 2) arrow.rotation.x = Math.PI / 2;
+    group.add(arrow);
+  });
+  return group;
+}

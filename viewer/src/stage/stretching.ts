@@ -1,0 +1,188 @@
+// What stretches between two bodies: springs, dampers, cylinders, rods of massless links; coils, bushings and planes of contacts.
+import * as THREE from "three";
+import type { Force, Joint } from "../generated/records";
+import type { Actor } from "./actor";
+import type { Palette } from "./look";
+
+const WIRE = 0.0042; // radii, of the machine's size
+const COIL = 0.021;
+const ROD = 0.0075;
+const BARREL = 0.0135;
+const TURNS = 9;
+
+export interface Stretching {
+  object: THREE.Object3D;
+  update(): void;
+}
+
+type Point = readonly [number, number, number];
+const Z = new THREE.Vector3(0, 0, 1);
+
+export function stretching(actor: Actor, palette: Palette): Stretching[] {
+  const out: Stretching[] = [];
+  for (const joint of actor.stage.joints) if (joint.rod) out.push(rod(actor, joint, palette));
+  for (const force of actor.stage.forces) {
+    if (force.points.length !== 2) continue;
+    if (force.look === "plane") out.push(plane(actor, force));
+    else if (force.look === "coil") out.push(coil(actor, force, palette));
+    else if (force.look === "bushing") out.push(bushing(actor, force, palette));
+    else if (force.look !== "nothing") out.push(between(actor, force, palette));
+  }
+  return out;
+}
+
+/** A group whose z axis is laid from one point to the other at every frame; `fill` sets what depends on the length. */
+function laid(actor: Actor, bodies: readonly number[], points: readonly Point[], group: THREE.Group, fill: (length: number) => void): Stretching {
+  const from = new THREE.Vector3();
+  const to = new THREE.Vector3();
+  return {
+    object: group,
+    update() {
+      actor.place(bodies[0]!, points[0]!, from);
+      actor.place(bodies[1]!, points[1]!, to);
+      const bad = bodies.some((body) => actor.isBad[body]);
+      group.visible = !bad;
+      if (bad) return;
+      group.position.copy(from);
+      const length = to.sub(from).length();
+      if (length > 0) group.quaternion.setFromUnitVectors(Z, to.divideScalar(length));
+      fill(Math.max(length, 1e-9 * actor.stage.size));
+    },
+  };
+}
+
+function mesh(geometry: THREE.BufferGeometry, material: THREE.Material, said: { kind: string; name: string }): THREE.Mesh {
+  const made = new THREE.Mesh(geometry, material);
+  made.castShadow = true;
+  made.userData = said;
+  return made;
+}
+
+/** A cylinder from z = 0 to 1. */
+const unit = (radius: number) => new THREE.CylinderGeometry(radius, radius, 1, 18).rotateX(Math.PI / 2).translate(0, 0, 0.5);
+
+function rod(actor: Actor, joint: Joint, palette: Palette): Stretching {
+  const size = actor.stage.size;
+  const said = { kind: "joint", name: joint.name };
+  const group = new THREE.Group();
+  const shaft = mesh(unit(ROD * size), palette.foot, said);
+  const ends = [0, 1].map(() => mesh(new THREE.SphereGeometry(0.016 * size, 20, 14), palette.sign, said));
+  group.add(shaft, ...ends);
+  return laid(actor, joint.bodies, joint.points, group, (length) => {
+    shaft.scale.z = length;
+    ends[1]!.position.z = length;
+  });
+}
+
+/** A helix about z from 0 to 1 with straight ends; its length scales, its wire keeps about its thickness. */
+function helix(radius: number, wire: number, natural: number): THREE.BufferGeometry {
+  const points: THREE.Vector3[] = [];
+  const steps = TURNS * 16;
+  for (let k = 0; k <= steps; k++) {
+    const share = k / steps;
+    const angle = 2 * Math.PI * TURNS * share;
+    const open = Math.min(1, 6 * share, 6 * (1 - share));
+    points.push(new THREE.Vector3(open * radius * Math.cos(angle), open * radius * Math.sin(angle), natural * (0.04 + 0.92 * share)));
+  }
+  points.unshift(new THREE.Vector3(0, 0, 0));
+  points.push(new THREE.Vector3(0, 0, natural));
+  const path = new THREE.CatmullRomCurve3(points, false, "catmullrom", 0.3);
+  return new THREE.TubeGeometry(path, steps, wire, 6).scale(1, 1, 1 / natural);
+}
+
+function between(actor: Actor, force: Force, palette: Palette): Stretching {
+  const size = actor.stage.size;
+  const said = { kind: "force", name: force.name };
+  const group = new THREE.Group();
+  const natural = naturalLength(actor, force);
+  const sprung = force.look === "spring" || force.look === "spring-damper";
+  const hydraulic = force.look === "cylinder";
+  const spring = sprung ? mesh(helix(COIL * size, WIRE * size, natural), palette.wire, said) : null;
+  const barrel = force.look === "spring" ? null : mesh(unit((hydraulic ? 1.35 : 0.8) * BARREL * size), palette.foot, said);
+  const piston = barrel ? mesh(unit(0.55 * ROD * size * (hydraulic ? 1.5 : 1)), palette.sign, said) : null;
+  for (const each of [spring, barrel, piston]) if (each) group.add(each);
+  const pins = [0, 1].map(() => mesh(new THREE.SphereGeometry(0.008 * size, 14, 10), palette.signDark, said));
+  group.add(...pins);
+  const least = 0.58 * natural;
+  return laid(actor, force.bodies, force.points, group, (length) => {
+    if (spring) spring.scale.z = length;
+    if (barrel && piston) {
+      barrel.scale.z = Math.min(least, 0.92 * length);
+      piston.scale.z = length;
+    }
+    pins[1]!.position.z = length;
+  });
+}
+
+/** [m] the length at the start, or of the whole machine where both ends lie on each other. */
+function naturalLength(actor: Actor, force: Force): number {
+  const [a, b] = [0, 1].map((k) => actor.place(force.bodies[k]!, force.points[k]!, new THREE.Vector3()));
+  const length = a!.distanceTo(b!);
+  return length > 1e-6 * actor.stage.size ? length : 0.2 * actor.stage.size;
+}
+
+/** A flat spiral about the axis, fixed in the first body. */
+function coil(actor: Actor, force: Force, palette: Palette): Stretching {
+  const size = actor.stage.size;
+  const points = Array.from({ length: 80 }, (_, k) => {
+    const angle = (k / 79) * 5 * Math.PI;
+    const radius = size * (0.012 + 0.026 * (k / 79));
+    return new THREE.Vector3(radius * Math.cos(angle), radius * Math.sin(angle), 0);
+  });
+  const spiral = mesh(new THREE.TubeGeometry(new THREE.CatmullRomCurve3(points), 120, 0.0036 * size, 6), palette.wire, { kind: "force", name: force.name });
+  return carried(actor, force, spiral);
+}
+
+function bushing(actor: Actor, force: Force, palette: Palette): Stretching {
+  const ring = mesh(new THREE.TorusGeometry(0.02 * actor.stage.size, 0.009 * actor.stage.size, 12, 28), palette.signDark, { kind: "force", name: force.name });
+  return carried(actor, force, ring);
+}
+
+/** An object that stands at the first end, its z along the force's axis. */
+function carried(actor: Actor, force: Force, object: THREE.Object3D): Stretching {
+  const group = new THREE.Group();
+  object.quaternion.setFromUnitVectors(Z, new THREE.Vector3(...(force.axis ?? [0, 0, 1])).normalize());
+  group.add(object);
+  const body = force.bodies[0]!;
+  return {
+    object: group,
+    update() {
+      group.visible = !actor.isBad[body];
+      actor.place(body, force.points[0]!, group.position);
+      group.quaternion.copy(actor.holder(body).quaternion);
+    },
+  };
+}
+
+/** The plane of a contact, on the second body. */
+function plane(actor: Actor, force: Force): Stretching {
+  const size = 1.6 * Math.max(actor.stage.size, new THREE.Vector3(...actor.stage.high).distanceTo(new THREE.Vector3(...actor.stage.low)) * 0.6);
+  const material = new THREE.MeshLambertMaterial({ color: 0x8fa0b3, transparent: true, opacity: 0.16, side: THREE.DoubleSide, depthWrite: false });
+  const sheet = new THREE.Mesh(new THREE.PlaneGeometry(size, size), material);
+  sheet.userData = { kind: "force", name: force.name };
+  const group = new THREE.Group();
+  const normal = new THREE.Vector3(...(force.axis ?? [0, 0, 1])).normalize();
+  sheet.quaternion.setFromUnitVectors(Z, normal);
+  group.add(sheet);
+  const foot = new THREE.Vector3();
+  const centre = new THREE.Vector3();
+  const turned = new THREE.Vector3();
+  const body = force.bodies[1]!;
+  const start: { offset: THREE.Vector3 | null } = { offset: null };
+  return {
+    object: group,
+    update() {
+      group.visible = !actor.isBad[body];
+      actor.place(body, force.points[1]!, foot);
+      if (!start.offset) {
+        // under what touches it at the start, so that it need not be endless
+        actor.place(force.bodies[0]!, force.points[0]!, centre);
+        const n = turned.copy(normal).applyQuaternion(actor.holder(body).quaternion);
+        start.offset = centre.sub(foot).addScaledVector(n, -centre.dot(n)).applyQuaternion(actor.holder(body).quaternion.clone().invert());
+        if (!Number.isFinite(start.offset.lengthSq())) start.offset.set(0, 0, 0);
+      }
+      group.quaternion.copy(actor.holder(body).quaternion);
+      group.position.copy(start.offset).applyQuaternion(group.quaternion).add(foot);
+    },
+  };
+}

@@ -1,0 +1,301 @@
+// Renderer, light, floor and camera. A picture is drawn only when something changed.
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Stage, Viewpoint } from "../generated/records";
+import { Floor } from "./floor";
+import { readLook, type Look } from "./look";
+
+export const VIEWS = ["first", "front", "right", "top", "back", "left", "below"] as const;
+export type View = (typeof VIEWS)[number];
+
+const FIELD = 26; // degrees, of the shorter side of the picture
+const TURN_TIME = 260; // ms from one view to another
+const SLOW = 34; // ms a frame: slower than this, pixels and then shadows are given up
+
+const vector = (v: readonly [number, number, number]) => new THREE.Vector3(...v);
+
+export class World {
+  readonly scene = new THREE.Scene();
+  readonly renderer: THREE.WebGLRenderer;
+  readonly camera = new THREE.PerspectiveCamera(FIELD, 1, 0.01, 1000);
+  readonly controls: OrbitControls;
+  readonly floor: Floor;
+  look: Look = readLook();
+  onBeforeRender: (now: number) => void = () => {};
+  onRecolour: (look: Look) => void = () => {};
+  frameCount = 0;
+  private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
+  private readonly sky = new THREE.HemisphereLight(0xffffff, 0x8893a0, 1.55);
+  private readonly low: THREE.Vector3;
+  private readonly high: THREE.Vector3;
+  private readonly up: THREE.Vector3;
+  private free = { left: 0, top: 0, right: 0, bottom: 0 };
+  private dirty = true;
+  private ratio: number;
+  private readonly paces: number[] = [];
+  private flight: { from: THREE.Vector3; to: THREE.Vector3; target: THREE.Vector3; start: number; aim: THREE.Vector3 } | null = null;
+  running = false; // frames follow each other
+
+  constructor(
+    readonly holder: HTMLElement,
+    private readonly stage: Stage,
+  ) {
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "high-performance", preserveDrawingBuffer: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.renderer.toneMapping = THREE.NoToneMapping;
+    this.ratio = Math.min(devicePixelRatio, 2);
+    const canvas = this.renderer.domElement;
+    canvas.setAttribute("aria-label", `${stage.name} in three dimensions: drag to turn, two fingers or right button to move, wheel to zoom`);
+    canvas.setAttribute("role", "img");
+    canvas.tabIndex = 0;
+    holder.append(canvas);
+    this.up = vector(stage.up);
+    this.low = vector(stage.low);
+    this.high = vector(stage.high);
+    this.camera.up.copy(this.up);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.addEventListener("start", () => (this.flight = null));
+    this.floor = new Floor(stage, this.look);
+    this.scene.add(this.floor.group, this.sky, this.sun, this.sun.target);
+    this.light();
+    this.recolour();
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.recolour());
+    new ResizeObserver(() => this.resize()).observe(holder);
+    this.resize();
+    this.view("first", false);
+    requestAnimationFrame((now) => this.tick(now));
+  }
+
+  invalidate(): void {
+    this.dirty = true;
+  }
+
+  /** Pixels at the sides that panels cover: the machine is shown in the middle of the rest. */
+  keepFree(sides: { left: number; top: number; right: number; bottom: number }): void {
+    this.free = sides;
+    this.resize();
+  }
+
+  setShadows(on: boolean): void {
+    this.sun.castShadow = on;
+    this.floor.setShadows(on);
+    this.invalidate();
+  }
+
+  /** Look from one of the standard sides, far enough to see everything. */
+  view(name: View, animate = true): void {
+    const { towards, up } = this.direction(name);
+    this.flyTo(towards, up, this.middle(), this.distanceFor(towards), animate);
+  }
+
+  fit(animate = true): void {
+    const towards = this.camera.position.clone().sub(this.controls.target).normalize();
+    this.flyTo(towards, this.up, this.middle(), this.distanceFor(towards), animate);
+  }
+
+  /** Turn the camera about its target by angles in radians. */
+  orbit(sideways: number, upwards: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    offset.applyAxisAngle(this.up, sideways);
+    const right = new THREE.Vector3().crossVectors(this.up, offset).normalize();
+    const lifted = offset.clone().applyAxisAngle(right, -upwards);
+    if (Math.abs(lifted.clone().normalize().dot(this.up)) < 0.995) offset.copy(lifted);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  zoom(factor: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** Move camera and target together. */
+  shift(by: THREE.Vector3): void {
+    this.camera.position.add(by);
+    this.controls.target.add(by);
+    this.flight?.to.add(by);
+    this.flight?.aim.add(by);
+    this.controls.update();
+  }
+
+  /** Draw now, in a size of its own: for pictures and films. */
+  renderAt(width: number, height: number): string {
+    this.fixed = { width, height };
+    this.resize();
+    this.onBeforeRender(performance.now());
+    this.renderer.render(this.scene, this.camera);
+    return this.renderer.domElement.toDataURL("image/png");
+  }
+
+  private fixed: { width: number; height: number } | null = null;
+
+  private tick(now: number): void {
+    requestAnimationFrame((next) => this.tick(next));
+    if (this.flight) this.fly(now);
+    this.onBeforeRender(now);
+    if (!this.dirty) {
+      this.paces.length = 0;
+      return;
+    }
+    this.dirty = false;
+    this.near();
+    this.renderer.render(this.scene, this.camera);
+    this.frameCount++;
+    this.pace(now);
+  }
+
+  private last = 0;
+
+  /** Where pictures come too slowly while the machine moves, fewer pixels and then no shadows. */
+  private pace(now: number): void {
+    const took = now - this.last;
+    this.last = now;
+    if (!this.running || took > 500) return;
+    this.paces.push(took);
+    if (this.paces.length < 24) return;
+    const middle = this.paces.sort((a, b) => a - b)[12]!;
+    this.paces.length = 0;
+    if (middle < SLOW) return;
+    if (this.ratio > 1) this.ratio = 1;
+    else if (this.sun.castShadow) this.setShadows(false);
+    else if (this.ratio > 0.6) this.ratio = 0.6;
+    this.resize();
+  }
+
+  private middle(): THREE.Vector3 {
+    return this.low.clone().add(this.high).multiplyScalar(0.5);
+  }
+
+  private direction(name: View): { towards: THREE.Vector3; up: THREE.Vector3 } {
+    const first: Viewpoint = this.stage.viewpoint;
+    if (name === "first") return { towards: vector(first.towards), up: vector(first.up) };
+    const vertical = Math.abs(this.up.z) > 0.9;
+    const front = vertical ? new THREE.Vector3(0, -1, 0) : new THREE.Vector3(0, 0, 1);
+    const right = new THREE.Vector3().crossVectors(this.up, front);
+    const towards = {
+      front,
+      right,
+      top: this.up.clone(),
+      back: front.clone().negate(),
+      left: right.clone().negate(),
+      below: this.up.clone().negate(),
+    }[name];
+    const up = name === "top" ? front.clone().negate() : name === "below" ? front.clone() : this.up.clone();
+    return { towards, up };
+  }
+
+  private distanceFor(towards: THREE.Vector3): number {
+    const middle = this.middle();
+    const back = towards.clone().normalize();
+    const side = new THREE.Vector3().crossVectors(this.up, back);
+    if (side.lengthSq() < 1e-6) side.crossVectors(new THREE.Vector3(0.1, 0.3, 1), back);
+    side.normalize();
+    const rise = new THREE.Vector3().crossVectors(back, side);
+    const { width, height } = this.size();
+    const across = Math.max(width - this.free.left - this.free.right, 80);
+    const down = Math.max(height - this.free.top - this.free.bottom, 80);
+    const slope = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
+    let distance = 0.2 * this.stage.size;
+    for (let k = 0; k < 8; k++) {
+      const corner = new THREE.Vector3(k & 1 ? this.low.x : this.high.x, k & 2 ? this.low.y : this.high.y, k & 4 ? this.low.z : this.high.z).sub(middle);
+      const depth = corner.dot(back);
+      const needed = Math.max((Math.abs(corner.dot(side)) * height) / across, (Math.abs(corner.dot(rise)) * height) / down);
+      distance = Math.max(distance, depth + (1.16 * needed + 0.06 * this.stage.size) / slope);
+    }
+    return distance;
+  }
+
+  private flyTo(towards: THREE.Vector3, up: THREE.Vector3, aim: THREE.Vector3, distance: number, animate: boolean): void {
+    const offset = towards.clone().normalize();
+    // the controls know no direction exactly along the vertical
+    if (Math.abs(offset.dot(this.up)) > 0.9999) offset.addScaledVector(up, -1e-3 * Math.sign(offset.dot(this.up))).normalize();
+    const to = aim.clone().addScaledVector(offset, distance);
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (!animate || still) {
+      this.flight = null;
+      this.camera.position.copy(to);
+      this.controls.target.copy(aim);
+      this.controls.update();
+      this.invalidate();
+      return;
+    }
+    this.flight = { from: this.camera.position.clone(), to, target: this.controls.target.clone(), aim, start: performance.now() };
+  }
+
+  private fly(now: number): void {
+    const flight = this.flight!;
+    const t = Math.min(Math.max((now - flight.start) / TURN_TIME, 0), 1);
+    const share = t * t * (3 - 2 * t);
+    const target = flight.target.clone().lerp(flight.aim, share);
+    const a = flight.from.clone().sub(flight.target);
+    const b = flight.to.clone().sub(flight.aim);
+    const length = THREE.MathUtils.lerp(a.length(), b.length(), share);
+    const turn = new THREE.Quaternion().setFromUnitVectors(a.clone().normalize(), b.clone().normalize());
+    const step = new THREE.Quaternion().slerp(turn, share);
+    this.camera.position.copy(a.applyQuaternion(step).setLength(length)).add(target);
+    this.controls.target.copy(target);
+    this.controls.update();
+    if (t >= 1) this.flight = null;
+    this.invalidate();
+  }
+
+  /** Near and far planes around what is there, so that depth keeps its digits. */
+  private near(): void {
+    const distance = this.camera.position.distanceTo(this.middle());
+    const reach = 0.5 * this.low.distanceTo(this.high) + 12 * this.stage.size;
+    this.camera.near = Math.max(distance - reach, 0.004 * (distance + this.stage.size));
+    this.camera.far = distance + 4 * reach;
+    this.camera.updateProjectionMatrix();
+  }
+
+  private light(): void {
+    const middle = this.middle();
+    const reach = Math.max(0.75 * this.low.distanceTo(this.high), 0.75 * this.stage.size);
+    const { towards } = this.direction("first");
+    const right = new THREE.Vector3().crossVectors(this.up, towards);
+    const from = this.up.clone().multiplyScalar(1.5).addScaledVector(towards, 0.5).addScaledVector(right, -0.55).normalize();
+    this.sun.position.copy(middle).addScaledVector(from, 3 * reach);
+    this.sun.target.position.copy(middle);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(1024, 1024);
+    this.sun.shadow.radius = 3;
+    this.sun.shadow.normalBias = 0.004 * this.stage.size;
+    const frustum = this.sun.shadow.camera;
+    frustum.left = frustum.bottom = -1.25 * reach;
+    frustum.right = frustum.top = 1.25 * reach;
+    frustum.near = 0.5 * reach;
+    frustum.far = 8 * reach;
+    this.sky.position.copy(this.up);
+  }
+
+  private recolour(): void {
+    this.look = readLook();
+    this.scene.background = new THREE.Color(this.look.sky);
+    this.sky.intensity = this.look.dark ? 1.25 : 1.7;
+    this.sun.intensity = this.look.dark ? 1.9 : 1.9;
+    this.floor.recolour(this.look);
+    this.onRecolour(this.look);
+    this.invalidate();
+  }
+
+  private size(): { width: number; height: number } {
+    return this.fixed ?? { width: Math.max(this.holder.clientWidth, 1), height: Math.max(this.holder.clientHeight, 1) };
+  }
+
+  private resize(): void {
+    const { width, height } = this.size();
+    this.renderer.setPixelRatio(this.fixed ? 1 : this.ratio);
+    this.renderer.setSize(width, height, !this.fixed);
+    this.camera.aspect = width / height;
+    const { left, top, right, bottom } = this.fixed ? { left: 0, top: 0, right: 0, bottom: 0 } : this.free;
+    this.camera.setViewOffset(width, height, (right - left) / 2, (bottom - top) / 2, width, height);
+    this.camera.updateProjectionMatrix();
+    this.invalidate();
+  }
+}

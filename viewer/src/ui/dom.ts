@@ -1,0 +1,68 @@
+// Elements of the page in few words.
+type Child = Node | string | null | undefined | false;
+type Attributes = Record<string, string | number | boolean | ((event: any) => void) | undefined>;
+
+export function el<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === undefined || value === false) continue;
+    if (typeof value === "function") element.addEventListener(name.slice(2), value);
+    else element.setAttribute(name, value === true ? "" : String(value));
+  }
+  element.append(...children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false));
+  return element;
+}
+
+// 20 by 20, drawn with lines
+const ICONS = {
+  play: '<path d="M6.5 4.2v11.6l9-5.8z" fill="currentColor" stroke-linejoin="round"/>',
+  pause: '<path d="M6.8 4.5v11M13.2 4.5v11" stroke-width="2.6"/>',
+  back: '<path d="M13.5 5l-6 5 6 5zM6 5v10" />',
+  forward: '<path d="M6.5 5l6 5-6 5zM14 5v10"/>',
+  loop: '<path d="M4 9.5a5 5 0 0 1 5-5h5.5M12 2l2.7 2.5L12 7M16 10.5a5 5 0 0 1-5 5H5.5M8 18l-2.7-2.5L8 13"/>',
+  tree: '<path d="M4 4.5h6M4 4.5v11h4M4 10h4M11 10h5M11 15.5h5"/>',
+  plot: '<path d="M3.5 3.5v13h13M6 13l3.2-4.5 2.6 2.6L16 5.5"/>',
+  eye: '<path d="M2 10s3-5 8-5 8 5 8 5-3 5-8 5-8-5-8-5z"/><circle cx="10" cy="10" r="2.4"/>',
+  cube: '<path d="M10 2.8l6.2 3.5v7.4L10 17.2l-6.2-3.5V6.3zM3.8 6.3L10 9.9l6.2-3.6M10 9.9v7.3"/>',
+  help: '<circle cx="10" cy="10" r="7.2"/><path d="M7.8 7.8a2.2 2.2 0 1 1 3.2 2c-.7.4-1 .8-1 1.6M10 14.2v.1"/>',
+  close: '<path d="M5.5 5.5l9 9M14.5 5.5l-9 9"/>',
+  fit: '<path d="M3.5 7V3.5H7M13 3.5h3.5V7M16.5 13v3.5H13M7 16.5H3.5V13"/>',
+  target: '<circle cx="10" cy="10" r="5.2"/><path d="M10 2v4M10 14v4M2 10h4M14 10h4"/>',
+  path: '<path d="M3 15c3-9 6-9 7-4s4 4 7-6"/><circle cx="17" cy="5" r="1.6" fill="currentColor"/>',
+  reset: '<path d="M4.5 10a5.5 5.5 0 1 0 1.8-4.1M6.5 2.5v3.7h3.7"/>',
+} as const;
+export type IconName = keyof typeof ICONS;
+
+export function icon(name: IconName): SVGSVGElement {
+  const holder = document.createElement("template");
+  holder.innerHTML = `<svg viewBox="0 0 20 20" width="20" height="20" fill="none" stroke="currentColor" stroke-width="1.6" stroke-linecap="round" stroke-linejoin="round" aria-hidden="true">${ICONS[name]}</svg>`;
+  return holder.content.firstElementChild as SVGSVGElement;
+}
+
+/** A button with an icon; `label` is what it is called, and shown as a hint with its key. */
+export function iconButton(name: IconName, label: string, onclick: () => void, key = ""): HTMLButtonElement {
+  return el("button", { type: "button", class: "icon-button", "aria-label": label, title: key ? `${label} (${key})` : label, onclick }, icon(name));
+}
+
+/** Swap the icon and name of a button. */
+export function renew(button: HTMLButtonElement, name: IconName, label: string, key = ""): void {
+  if (button.getAttribute("aria-label") === label) return;
+  button.replaceChildren(icon(name));
+  button.setAttribute("aria-label", label);
+  button.title = key ? `${label} (${key})` : label;
+}
+
+export function toggle(label: string, checked: boolean, onchange: (on: boolean) => void): HTMLLabelElement {
+  const input = el("input", { type: "checkbox", role: "switch", checked });
+  input.addEventListener("change", () => onchange(input.checked));
+  return el("label", { class: "toggle" }, input, el("span", {}, label));
+}
+
+/** A number as people read it: five digits. */
+export function short(value: number): string {
+  if (!Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (size === 0) return "0";
+  const text = size >= 1e-3 && size < 1e6 ? String(+value.toPrecision(5)) : value.toExponential(2).replace(/\.?0+e/, "e").replace("e+", "e");
+  return text.replace(/^-/, "−").replace("e-", "e−");
+}

@@ -1,0 +1,57 @@
+// Bodies, joints and forces as a list to choose from.
+import type { Stage } from "../generated/records";
+import type { Picked } from "../stage/actor";
+import { el } from "./dom";
+
+const FEW = 14; // longer lists get a field to search
+
+export class Tree {
+  readonly element: HTMLElement;
+  private readonly buttons = new Map<string, HTMLButtonElement>();
+
+  constructor(stage: Stage, choose: (picked: Picked | null) => void) {
+    const sections: [string, Picked["kind"], { name: string; note: string; colour?: string }[]][] = [
+      ["Bodies", "body", stage.bodies.map((body) => ({ name: body.name, note: "", colour: body.colour }))],
+      ["Joints", "joint", stage.joints.map((joint) => ({ name: joint.name, note: joint.kind }))],
+      ["Forces", "force", stage.forces.map((force) => ({ name: force.name, note: force.kind }))],
+    ];
+    const search = el("input", { type: "search", class: "search", placeholder: "Find a part", "aria-label": "Find a part" });
+    search.addEventListener("input", () => this.filter(search.value));
+    const total = sections.reduce((count, [, , items]) => count + items.length, 0);
+    const lists = sections
+      .filter(([, , items]) => items.length)
+      .map(([title, kind, items]) =>
+        el(
+          "section",
+          { class: "branch" },
+          el("h3", {}, title, el("span", { class: "count" }, String(items.length))),
+          el("ul", {}, ...items.map((item) => el("li", {}, this.button(kind, item, choose)))),
+        ),
+      );
+    this.element = el("div", { class: "tree" }, total > FEW && search, ...lists);
+  }
+
+  select(picked: Picked | null): void {
+    for (const [key, button] of this.buttons) {
+      const on = !!picked && key === `${picked.kind} ${picked.name}`;
+      button.setAttribute("aria-pressed", String(on));
+      if (on) button.scrollIntoView({ block: "nearest" });
+    }
+  }
+
+  private button(kind: Picked["kind"], item: { name: string; note: string; colour?: string }, choose: (picked: Picked | null) => void): HTMLButtonElement {
+    const dot = el("i", { class: `dot ${kind}` });
+    if (item.colour) dot.style.background = item.colour;
+    const pick = () => choose(button.getAttribute("aria-pressed") === "true" ? null : { kind, name: item.name });
+    const button: HTMLButtonElement = el("button", { type: "button", "aria-pressed": "false", onclick: pick }, dot, el("span", { class: "name" }, item.name), el("small", {}, item.note));
+    this.buttons.set(`${kind} ${item.name}`, button);
+    return button;
+  }
+
+  private filter(text: string): void {
+    const wanted = text.trim().toLowerCase();
+    for (const button of this.buttons.values()) {
+      button.parentElement!.hidden = !button.textContent!.toLowerCase().includes(wanted);
+    }
+  }
+}

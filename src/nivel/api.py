@@ -36,8 +36,10 @@ from nivel.machine import (
 
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
+    from nivel.analysis.posing import Posing
     from nivel.results.comparison import Comparison
     from nivel.results.result import Result
+    from nivel.view.sources import Hand
 
 
 class Machine:
@@ -115,6 +117,28 @@ class Machine:
 
         with self._faults_in_file():
             return check(self.record)
+
+    def posed(self, *, listener: Listener | None = None) -> Posing:
+        """The assembled machine, to be moved by hand. Raises ModelError where it cannot be assembled."""
+        simulation = self.record.simulation
+        compile_path(self.record, ("absolute", "newton-euler", simulation.rotations), listener or Listener())
+        from nivel.analysis.posing import Posing
+
+        with self._faults_in_file():
+            return Posing(self.record)
+
+    def view(self, *, port: int = 0, browser: bool = True) -> None:
+        """Show the assembled machine in a browser, with a slider for each joint that can move; returns after Ctrl-C."""
+        from nivel.view.opening import serve
+
+        serve(self.shown(), host="127.0.0.1", port=port, browser=browser, say=print)
+
+    def shown(self, *, listener: Listener | None = None) -> Hand:
+        """What the viewer shows of the machine before any run."""
+        from nivel.view.sources import Hand
+
+        posed = self.posed(listener=listener)
+        return Hand(self.name, posed, self.record.model_dump(mode="json", by_alias=True, exclude_none=True))
 
     def simulate(
         self,

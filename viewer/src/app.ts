@@ -221,6 +221,14 @@ export class App {
     this.change(() => (this.labels.shown[kind] = on));
   }
 
+  /** The picture alone, without controls. */
+  bare(side: View): void {
+    document.body.classList.add("bare");
+    this.panels.close();
+    this.world.keepFree({ left: 0, top: 0, right: 0, bottom: 0 });
+    this.world.view(side, false);
+  }
+
   toggleNames(): void {
     this.name("body", !this.labels.shown.body);
   }

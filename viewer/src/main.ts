@@ -2,6 +2,7 @@
 import { App } from "./app";
 import { Connection } from "./connection";
 import { inflate, openPackage } from "./package";
+import type { View } from "./stage/world";
 import "./style.css";
 
 function complain(text: string): void {
@@ -17,20 +18,32 @@ function inWords(error: unknown): string {
   return /WebGL/i.test(text) ? "This browser shows no three-dimensional pictures (WebGL is missing or switched off)." : `The machine cannot be shown: ${text}.`;
 }
 
-/** What programs that drive the page use: tests, and `nivel view --still` and `--export film.mp4`. */
+/** What programs that drive the page use: tests, `nivel view --still` and `--export film.mp4`. */
+interface Remote {
+  app: App;
+  /** Hide all controls and look from a side. */
+  bare(side: View): void;
+  /** First and last time. */
+  span(): [number, number];
+  /** Show a moment; done when it is on the screen. */
+  pose(time: number): Promise<void>;
+  /** Pictures drawn so far. */
+  frames(): number;
+}
 declare global {
   interface Window {
-    nivel?: { app: App; draw(time: number, width: number, height: number): string; frames(): number };
+    nivel?: Remote;
   }
 }
 
 function present(app: App): void {
   window.nivel = {
     app,
-    draw(time, width, height) {
-      app.player?.toggle(false);
-      app.player?.seek(time);
-      return app.world.renderAt(width, height);
+    bare: (side) => app.bare(side),
+    span: () => [app.motion?.start ?? 0, app.motion?.end ?? 0],
+    pose: (time) => {
+      app.goTo(time);
+      return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())));
     },
     frames: () => app.world.frameCount,
   };

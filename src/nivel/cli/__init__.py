@@ -25,6 +25,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and say how fast and how exact each is."),
     "reduce": CommandPlace("nivel.cli.reduce", "Make a flexible body of a finite-element model."),
+    "view": CommandPlace("nivel.cli.view", "Play a result, or move a machine, in the browser."),
     "explain": CommandPlace("nivel.cli.explain", "Say how far a result can be trusted, and why."),
     "export": CommandPlace("nivel.cli.export", "Write a result in another format."),
     "warmup": CommandPlace("nivel.cli.warmup", "Compile all kernels ahead of the first run."),

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from nivel.view.inline import Inline
+
 
 class Result:
     """What a run computed, read from its file or memory when asked for.
@@ -195,6 +197,18 @@ class Result:
         from nivel.report.write import write_report
 
         return write_report(self, path)
+
+    def view(self, *others: Result, height: int = 520) -> Inline:
+        """The motion, to be played in a notebook; `others` are laid over it as ghosts. height : in pixels."""
+        from nivel.view.inline import Inline
+
+        return Inline([self, *others], height)
+
+    def export_scene(self, path: str | os.PathLike[str], *others: Result) -> Path:
+        """Write the motion as one HTML page that opens anywhere and needs no network; an existing file is replaced."""
+        from nivel.view.export import write_scene
+
+        return write_scene([self, *others], path)
 
     def export_csv(self, path: str | os.PathLike[str], select: tuple[str, ...] | list[str] = ()) -> Path:
         """Write a table, one row per frame; `select` takes names, elements (`crank`), or patterns (`*.angle`).

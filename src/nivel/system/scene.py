@@ -4,10 +4,11 @@ The scene is stored as JSON in the result; the report and the viewer read it. Le
 a body (`ground` among them) is in that body's frame, which `position` and `orientation` of the result place in space.
 
 =================  ====================================================================================================
-``bodies``         list of ``name``, ``shape`` (null without one), ``centre_of_mass``, ``points`` (where joints hold it)
+``bodies``         list of ``name``, ``shape`` (null without one), ``centre_of_mass``, ``points`` (where joints hold it), ``mass``
 ``ground_points``  where joints hold the ground
-``joints``         list of ``name``, ``type``, ``bodies``, ``points``, ``axes`` (z of the markers): first and second;
-                   a pin in a slot has ``slot`` too, its direction in the second body
+``joints``         list of ``name``, ``type``, ``bodies``, ``points``, ``axes`` (z of the markers), ``x_axes``: first and
+                   second; a pin in a slot has ``slot`` too, its direction in the second body
+``markers``        named markers: list of ``name``, ``body``, ``position``
 ``forces``         what acts between two bodies at two points: list of ``name``, ``type``, ``bodies``, ``points``;
                    ``axis`` too where it has one, see below
 =================  ====================================================================================================
@@ -26,7 +27,7 @@ import numpy as np
 
 from nivel.machine.body import Body
 from nivel.machine.forces import Bushing, Contact, Force, PairForce, SpringDamper, TorsionalSpringDamper
-from nivel.machine.inertia import box_size, length
+from nivel.machine.inertia import box_size, length, mass_properties
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.shape import Box, Sphere, Tube
@@ -48,10 +49,18 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
             "shape": _shape(body),
             "centre_of_mass": system.record.bodies.centre_b[k].tolist(),
             "points": held[body.name],
+            "mass": mass_properties(body).mass,
         }
         for k, body in enumerate(machine.bodies)
     ]
-    return {"bodies": bodies, "ground_points": held["ground"], "joints": joints, "forces": list(_forces(machine))}
+    markers = [{"name": m.name, "body": m.body, "position": list(m.position)} for m in machine.markers if m.name]
+    return {
+        "bodies": bodies,
+        "ground_points": held["ground"],
+        "joints": joints,
+        "forces": list(_forces(machine)),
+        "markers": markers,
+    }
 
 
 def _joint(machine: MachineRecord, system: System, k: int) -> dict[str, Any]:
@@ -66,6 +75,7 @@ def _joint(machine: MachineRecord, system: System, k: int) -> dict[str, Any]:
         "bodies": [names[int(markers.body[m])] for m in pair],
         "points": [markers.position_b[m].tolist() for m in pair],
         "axes": [markers.frame_b[m, :, 2].tolist() for m in pair],
+        "x_axes": [markers.frame_b[m, :, 0].tolist() for m in pair],
     }
     if joint.type == "revolute-translational":
         out["slot"] = slot_frame(machine, joint)[2][:, 2].tolist()

@@ -1,4 +1,4 @@
-"""A result as one HTML file with its motion inside."""
+"""What is shown, as one HTML file with everything inside."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from nivel.results.result import Result
 from nivel.results.target import keep_sources
 from nivel.view.page import page_alone
 from nivel.view.playback import ALONE, Budget, playback
+from nivel.view.sources import Source
 
 
 def scene_html(results: Sequence[Result], budget: Budget = ALONE) -> str:
@@ -18,11 +19,24 @@ def scene_html(results: Sequence[Result], budget: Budget = ALONE) -> str:
     return page_alone(playback(results, budget), results[0].name)
 
 
+def page_of(source: Source) -> str:
+    """The page of a source, without what would come later."""
+    return page_alone(source.package(), "nivel")
+
+
 def write_scene(results: Sequence[Result], path: str | os.PathLike[str]) -> Path:
-    """Write the page to `path`; an existing file is replaced."""
+    """Write the page of results to `path`; an existing file is replaced."""
     target = Path(path)
     keep_sources(target, "page", [result.path for result in results if result.path])
-    text = scene_html(results)
+    return _written(target, scene_html(results))
+
+
+def write_page(source: Source, path: Path) -> Path:
+    """Write the page of a source to `path`; an existing file is replaced."""
+    return _written(path, page_of(source))
+
+
+def _written(target: Path, text: str) -> Path:
     try:
         target.write_text(text, encoding="utf-8")
     except OSError as error:

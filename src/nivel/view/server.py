@@ -134,9 +134,14 @@ async def start(viewing: Viewing) -> Server:
     except ModuleNotFoundError:
         raise ModelError("the viewer needs websockets: pip install 'nivel[view]'") from None
     loop = asyncio.get_running_loop()
-    viewing.source.on_change = lambda: loop.call_soon_threadsafe(viewing.has_news)
+
+    def changed() -> None:
+        loop.call_soon_threadsafe(viewing.has_news)
+
+    viewing.source.on_change = changed
     address = viewing.address
     ports = [address.port] if address.port else [*PORTS, 0]
+    problem = OSError("no port is free")
     for port in ports:
         try:
             server = await serve(

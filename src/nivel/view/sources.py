@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from threading import Lock
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.results.result import Result
 from nivel.view import frames
+from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.playback import SERVED, Budget, playback, played_frames
-from nivel.view.records import PROTOCOL, Moved, Package, Stage
+from nivel.view.records import PROTOCOL, Coordinate, Motion, Moved, Package, Stage
+from nivel.view.stage import cast
 
 Array = NDArray[np.float64]
 
@@ -48,7 +50,8 @@ class Source(Protocol):
 class Still:
     """A source without frames of its own."""
 
-    on_change: Callable[[], None] = staticmethod(lambda: None)
+    def __init__(self) -> None:
+        self.on_change: Callable[[], None] = lambda: None
 
     def frame(self) -> tuple[float, Array] | None:
         return None
@@ -67,6 +70,7 @@ class Playback(Still):
     """A result, and results laid over it as ghosts."""
 
     def __init__(self, results: Sequence[Result], budget: Budget = SERVED) -> None:
+        super().__init__()
         self._results = list(results)
         self._budget = budget
         self._package = playback(self._results, budget)
@@ -84,10 +88,109 @@ class Playback(Still):
         return values
 
 
+class Movable(Protocol):
+    """A machine that can be moved by hand. `movements` have name, unit, value, low, high and free, as `records.Coordinate`."""
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """As in a result."""
+        ...
+
+    @property
+    def movements(self) -> Sequence[Any]:
+        """What can be moved."""
+        ...
+
+    def pose(self) -> tuple[Array, Array]:
+        """Position (B, 3) and Euler parameters (B, 4) of all bodies."""
+        ...
+
+    def values(self) -> list[float]:
+        """Of all movements now."""
+        ...
+
+    def move(self, name: str, value: float) -> str:
+        """Why it could not be moved there, or an empty text."""
+        ...
+
+    def reset(self) -> None:
+        """Back to the start."""
+        ...
+
+
+class Hand(Still):
+    """A machine moved by hand: every move gives a frame."""
+
+    def __init__(self, name: str, movable: Movable, record: dict[str, Any]) -> None:
+        super().__init__()
+        self._movable = movable
+        self._lock = Lock()
+        block = Block()
+        self._stage = machine_stage(name, movable, record, block)
+        self._package = to_bytes(Package(PROTOCOL, "machine", [self._stage]), block)
+
+    def package(self) -> bytes:
+        return self._package
+
+    def frame(self) -> tuple[float, Array] | None:
+        with self._lock:
+            position, orientation = self._movable.pose()
+        return 0.0, frames.rows(position[None] - np.array(self._stage.origin), orientation[None])[0]
+
+    def move(self, coordinate: str, value: float) -> Moved | None:
+        with self._lock:
+            problem = self._movable.move(coordinate, value)
+            values = self._movable.values()
+        self.on_change()
+        return Moved("moved", values, problem)
+
+    def reset(self) -> Moved | None:
+        with self._lock:
+            self._movable.reset()
+            values = self._movable.values()
+        self.on_change()
+        return Moved("moved", values, "")
+
+
+def machine_stage(name: str, movable: Movable, record: dict[str, Any], block: Block) -> Stage:
+    """What is drawn of a machine in its present position."""
+    players = cast(movable.scene, record, block)
+    position, orientation = movable.pose()
+    where = extent(players, position[None], orientation[None])
+    motion = Motion(
+        block.add(np.zeros(1), "f8"),
+        block.add(frames.rows(position[None] - np.array(where.origin), orientation[None]).T),
+        1,
+        1,
+    )
+    return Stage(
+        name=name,
+        title=name,
+        up=where.up,
+        viewpoint=where.viewpoint,
+        origin=where.origin,
+        low=where.low,
+        high=where.high,
+        size=where.size,
+        layout=frames.layout(len(players.bodies)),
+        bodies=players.bodies,
+        joints=players.joints,
+        forces=players.forces,
+        markers=players.markers,
+        arrows=[],
+        coordinates=[
+            Coordinate(m.name, m.name.partition(".")[0], m.unit, m.value, m.low, m.high, m.free)
+            for m in movable.movements
+        ],
+        motion=motion,
+    )
+
+
 class Live(Still):
     """Frames that a program hands over while it runs: `show` keeps the newest, and is never waited for."""
 
     def __init__(self, stage: Stage, block: Block) -> None:
+        super().__init__()
         self._package = to_bytes(Package(PROTOCOL, "live", [stage]), block)
         self._lock = Lock()
         self._newest: tuple[float, Array] | None = None
@@ -100,7 +203,10 @@ class Live(Still):
     ) -> None:
         """A new moment: position (B, 3), orientation (B, 4), modal coordinates (M,), vectors (V, 3)."""
         row = frames.rows(
-            position[None], orientation[None], None if modal is None else modal[None], None if vectors is None else vectors[None]
+            position[None],
+            orientation[None],
+            None if modal is None else modal[None],
+            None if vectors is None else vectors[None],
         )[0]
         with self._lock:
             self._newest = (time, row)

@@ -41,7 +41,11 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
         [_body(scene, body, colour_of(k), block) for k, body in enumerate(bodies)],
         [_joint(joint, places) for joint in scene.get("joints", [])],
         _forces(scene, record, places),
-        [Marker(m["name"], places[m["body"]], triple(m["position"])) for m in scene.get("markers", [])],
+        [
+            Marker(m["name"], places[m["body"]], triple(m["position"]))
+            for m in scene.get("markers", [])
+            if m["body"] != "ground"
+        ],
         places,
     )
 
@@ -62,7 +66,7 @@ def _body(scene: dict[str, Any], body: dict[str, Any], colour: str, block: Block
         [part(shape, block)] if shape else [],
         [triple(point) for point in _apart(link_ends(body, held))],
         [triple(point) for point in held],
-        [(str(name), str(value)) for name, value in body.get("facts", [])],
+        [("mass", f"{body['mass']:.5g} kg")] if "mass" in body else [],
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import struct
 import time
+from contextlib import suppress
 from typing import Any, Final
 
 from nivel.errors import ModelError
@@ -45,7 +46,9 @@ class Stream:
         self._seen = asyncio.Event()  # no frame is on its way
         self._seen.set()
         self._number = 0
-        self._wish: Move | Reset | None = None  # the newest only: a slider that is dragged says more than can be computed
+        self._wish: Move | Reset | None = (
+            None  # the newest only: a slider that is dragged says more than can be computed
+        )
         self._wished = asyncio.Event()
         self.frame_count = 0
         self.send_seconds = 0.0
@@ -68,10 +71,8 @@ class Stream:
     async def _send_frames(self) -> None:
         while True:
             await self._fresh.wait()
-            try:
+            with suppress(TimeoutError):  # a page in the background shows nothing and says nothing
                 await asyncio.wait_for(self._seen.wait(), PATIENCE)
-            except TimeoutError:
-                pass  # a page in the background shows nothing and says nothing
             self._fresh.clear()
             begin = time.perf_counter()
             newest = self._source.frame()

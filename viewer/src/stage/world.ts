@@ -40,7 +40,7 @@ export class World {
     readonly holder: HTMLElement,
     private readonly stage: Stage,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "high-performance", preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = THREE.NoToneMapping;
@@ -123,17 +123,6 @@ export class World {
     this.flight?.aim.add(by);
     this.controls.update();
   }
-
-  /** Draw now, in a size of its own: for pictures and films. */
-  renderAt(width: number, height: number): string {
-    this.fixed = { width, height };
-    this.resize();
-    this.onBeforeRender(performance.now());
-    this.renderer.render(this.scene, this.camera);
-    return this.renderer.domElement.toDataURL("image/png");
-  }
-
-  private fixed: { width: number; height: number } | null = null;
 
   private tick(now: number): void {
     requestAnimationFrame((next) => this.tick(next));
@@ -285,15 +274,15 @@ export class World {
   }
 
   private size(): { width: number; height: number } {
-    return this.fixed ?? { width: Math.max(this.holder.clientWidth, 1), height: Math.max(this.holder.clientHeight, 1) };
+    return { width: Math.max(this.holder.clientWidth, 1), height: Math.max(this.holder.clientHeight, 1) };
   }
 
   private resize(): void {
     const { width, height } = this.size();
-    this.renderer.setPixelRatio(this.fixed ? 1 : this.ratio);
-    this.renderer.setSize(width, height, !this.fixed);
+    this.renderer.setPixelRatio(this.ratio);
+    this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
-    const { left, top, right, bottom } = this.fixed ? { left: 0, top: 0, right: 0, bottom: 0 } : this.free;
+    const { left, top, right, bottom } = this.free;
     this.camera.setViewOffset(width, height, (right - left) / 2, (bottom - top) / 2, width, height);
     this.camera.updateProjectionMatrix();
     this.invalidate();

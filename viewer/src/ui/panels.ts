@@ -55,7 +55,7 @@ export class Panels {
 
   toggle(name: PanelName): void {
     const on = this.panels[name].hidden === true;
-    if (on && innerWidth < NARROW) for (const other of Object.keys(this.panels) as PanelName[]) this.set(other, false);
+    if (on && innerWidth < NARROW) this.close();
     if (on && name === "data") this.set("display", false);
     if (on && name === "display") this.set("data", false);
     this.set(name, on);
@@ -75,6 +75,10 @@ export class Panels {
         return;
       }
     }
+  }
+
+  close(): void {
+    for (const name of Object.keys(this.panels) as PanelName[]) this.set(name, false);
   }
 
   private set(name: PanelName, on: boolean): void {

@@ -1,0 +1,188 @@
+"""`nivel view RESULT`: play results in a browser; `nivel view MACHINE`: move a machine by hand; or write pages, pictures and films."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
+
+if TYPE_CHECKING:
+    from nivel.view.capture import Look
+    from nivel.view.sources import Source
+
+MACHINES = (".yaml", ".yml")
+
+
+@click.command(short_help="Play a result, or move a machine, in the browser.")
+@file_argument("file")
+@click.argument("ghosts", nargs=-1, type=click.Path(dir_okay=True))
+@click.option(
+    "--export",
+    "exports",
+    multiple=True,
+    type=click.Path(dir_okay=False),
+    help="Write FILE.html, one page with everything inside, or a film FILE.mp4 or FILE.gif; nothing is opened.",
+)
+@click.option("--still", type=click.Path(dir_okay=False), help="Write a picture FILE.png; nothing is opened.")
+@click.option("--at", "moment", type=float, help="Time of the still [s]; default: the start.")
+@click.option("--size", default="1280x720", show_default=True, metavar="WxH", help="Of stills and films, in pixels.")
+@click.option(
+    "--from", "side", default="first", show_default=True, help="Side that stills and films show: front, right, top, …"
+)
+@click.option(
+    "--frames-per-second", "rate", default=25, show_default=True, type=click.IntRange(1, 60), help="Of films."
+)
+@click.option("--speed", default=1.0, show_default=True, type=float, help="Of films: seconds of motion in a second.")
+@click.option("--dark", is_flag=True, help="Dark stills and films.")
+@click.option("--port", default=0, type=click.IntRange(0, 65535), help="Port to listen at; default: a free one.")
+@click.option(
+    "--host",
+    default="127.0.0.1",
+    show_default=True,
+    help="Address to listen at; others than this machine's own need a token.",
+)
+@click.option("--no-browser", is_flag=True, help="Open no browser, only say the address.")
+@click.option("--force", is_flag=True, help="Replace existing files.")
+@override_option
+@allow_code_option
+@quiet_option
+def command(
+    file: str,
+    ghosts: tuple[str, ...],
+    exports: tuple[str, ...],
+    still: str | None,
+    moment: float | None,
+    size: str,
+    side: str,
+    rate: int,
+    speed: float,
+    dark: bool,
+    port: int,
+    host: str,
+    no_browser: bool,
+    force: bool,
+    overrides: dict[str, str],
+    allow_code: bool,
+    quiet: bool,
+) -> None:
+    """Show FILE: a result (.nc), or a machine file (.yaml) that is assembled and can be moved by hand.
+
+    Results after the first are laid over it as ghosts. The page is served on this machine only, unless --host says otherwise; it needs
+    no network. With --export or --still files are written and nothing is opened.
+    """
+    from nivel.view.capture import Look
+    from nivel.view.opening import serve
+
+    look = Look.of(size=size, side=side, rate=rate, speed=speed, dark=dark)
+    written = [*exports, *([still] if still else [])]
+    _refuse_targets(written, [file, *ghosts], force)
+    if Path(file).suffix.lower() in MACHINES:
+        source = _machine(file, ghosts, overrides, allow_code, quiet)
+    else:
+        source = _results(file, ghosts, overrides, alone=bool(written))
+    for target in exports:
+        _export(source, Path(target), look, quiet)
+    if still:
+        _still(source, Path(still), moment, look)
+        _say(f"picture: {still}", quiet)
+    if not written:
+        serve(source, host=host, port=port, browser=not no_browser, say=lambda text: _say(text, quiet=False))
+
+
+def _refuse_targets(targets: list[str], sources: list[str], force: bool) -> None:
+    """Refuse, before anything is computed, files that may not be written, and kinds that are not known."""
+    from nivel.errors import Fault, ModelError
+    from nivel.results.target import check_folder, check_target
+    from nivel.view.capture import FILMS
+
+    faults = []
+    for target in targets:
+        kind = Path(target).suffix.lower()
+        if kind not in (".html", ".png", *FILMS):
+            faults.append(
+                Fault("", 0, 0, "", f"{target}: a name ending in .html, .png, {' or '.join(FILMS)} was expected")
+            )
+            continue
+        try:
+            check_folder(Path(target), "file")
+            check_target(Path(target), "file", force=force, sources=[Path(source) for source in sources])
+        except ModelError as error:
+            faults += error.faults
+    if faults:
+        raise ModelError(faults)
+
+
+def _machine(file: str, ghosts: tuple[str, ...], overrides: dict[str, str], allow_code: bool, quiet: bool) -> Source:
+    from nivel.api import load
+    from nivel.cli.progress import progress_listener
+    from nivel.errors import ModelError
+
+    if ghosts:
+        raise ModelError(f"{ghosts[0]} cannot be laid over a machine: only results are laid over each other")
+    machine = load(file, overrides, allow_code=allow_code)
+    with progress_listener(quiet) as listener:
+        return machine.shown(listener=listener)
+
+
+def _results(file: str, ghosts: tuple[str, ...], overrides: dict[str, str], *, alone: bool) -> Source:
+    from nivel.errors import Fault, ModelError
+    from nivel.results import Result
+    from nivel.view.playback import ALONE, SERVED
+    from nivel.view.sources import Playback
+
+    if overrides:
+        raise ModelError("--set is for machine files; a result is what it is")
+    faults: list[Fault] = []
+    results = []
+    for path in (file, *ghosts):
+        try:
+            results.append(Result.open(path))
+        except ModelError as error:
+            faults += error.faults
+    if faults:
+        raise ModelError(faults)
+    return Playback(results, ALONE if alone else SERVED)
+
+
+def _export(source: Source, target: Path, look: Look, quiet: bool) -> None:
+    from nivel.view.capture import film
+    from nivel.view.export import write_page
+
+    if target.suffix.lower() == ".html":
+        write_page(source, target)
+    elif target.suffix.lower() == ".png":
+        _still(source, target, None, look)
+    else:
+        with _film_progress(quiet) as shown:
+            film(source, target, look, shown)
+    _say(f"written: {target}", quiet)
+
+
+def _still(source: Source, target: Path, moment: float | None, look: Look) -> None:
+    from nivel.view.capture import still
+
+    still(source, target, look, moment)
+
+
+@contextmanager
+def _film_progress(quiet: bool) -> Iterator[Callable[[int, int], None]]:
+    """Hears how many of how many frames are done."""
+    if quiet:
+        yield lambda _done, _all: None
+        return
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("drawing the film", total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+def _say(text: str, quiet: bool) -> None:
+    if not quiet:
+        click.echo(text, err=True)

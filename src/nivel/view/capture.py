@@ -1,0 +1,189 @@
+"""Stills and films: the page draws them in a browser."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from nivel.errors import Fault, ModelError
+from nivel.view.browser import Tab, tab
+from nivel.view.export import page_of
+from nivel.view.sources import Source
+
+FILMS: Final = (".mp4", ".gif")
+SIDES: Final = ("first", "front", "right", "top", "back", "left", "below")
+SMALLEST: Final = 64  # pixels
+LARGEST: Final = 4096
+MOST_FRAMES: Final = 5000
+NO_FFMPEG: Final = "an .mp4 film needs ffmpeg: install it, or pip install 'nivel[film]'; a .gif or a page (--export scene.html) needs none"
+NO_PILLOW: Final = "a .gif film needs pillow: pip install 'nivel[film]'"
+
+
+@dataclass(frozen=True)
+class Look:
+    """How stills and films look. rate : frames a second of film. speed : seconds of motion in one of film."""
+
+    width: int = 1280
+    height: int = 720
+    side: str = "first"
+    rate: int = 25
+    speed: float = 1.0
+    dark: bool = False
+
+    @classmethod
+    def of(cls, *, size: str, side: str, rate: int, speed: float, dark: bool) -> Look:
+        """From words. Raises ModelError with all that is wrong."""
+        faults = []
+        found = re.fullmatch(r"(\d{2,4})\s*[x×*]\s*(\d{2,4})", size.strip())
+        width, height = (int(found[1]), int(found[2])) if found else (0, 0)
+        if not (SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
+            faults.append(f"a size like 1280x720, each from {SMALLEST} to {LARGEST} pixels, was expected, got {size!r}")
+        if side not in SIDES:
+            faults.append(f"there is no side {side!r}; there are {', '.join(SIDES)}")
+        if not (np.isfinite(speed) and speed > 0.0):
+            faults.append(f"a speed greater than zero was expected, got {speed:g}")
+        if faults:
+            raise ModelError([Fault("", 0, 0, "", message) for message in faults])
+        return cls(width, height, side, rate, speed, dark)
+
+
+def still(source: Source, path: Path, look: Look, moment: float | None = None) -> None:
+    """Write a picture (PNG) of the moment [s], default the start."""
+    with _opened(source, look) as page:
+        start, end = _span(page)
+        if moment is not None and not start <= moment <= end:
+            raise ModelError(f"the motion goes from {start:g} s to {end:g} s; there is no moment {moment:g} s")
+        page.run(f"nivel.pose({start if moment is None else moment!r})")
+        _write(path, page.picture())
+
+
+def film(source: Source, path: Path, look: Look, progress: Callable[[int, int], None]) -> None:
+    """Write a film; the end of `path` says which kind. `progress` hears frames done and their number.
+
+    Raises ModelError before the first frame where what it needs is missing.
+    """
+    coder = _gif if path.suffix.lower() == ".gif" else _mp4
+    with _opened(source, look) as page:
+        start, end = _span(page)
+        if not end > start:
+            raise ModelError("there is no motion to film: one moment only; write a picture with --still")
+        count = int(np.floor((end - start) / look.speed * look.rate + 1e-9)) + 1
+        if count > MOST_FRAMES:
+            faster = (end - start) * look.rate / MOST_FRAMES
+            raise ModelError(
+                f"the film would have {count} frames, more than {MOST_FRAMES}; take a --speed of {faster:.3g} or more"
+            )
+        with coder(path, look) as take:
+            for k in range(count):
+                page.run(f"nivel.pose({min(start + k * look.speed / look.rate, end)!r})")
+                take(page.picture())
+                progress(k + 1, count)
+
+
+@contextmanager
+def _opened(source: Source, look: Look) -> Iterator[Tab]:
+    """The page of the source in a browser, without controls."""
+    with tempfile.TemporaryDirectory(prefix="nivel-page-") as folder:
+        page = Path(folder) / "page.html"
+        page.write_text(page_of(source), encoding="utf-8")
+        with tab(page, look.width, look.height, dark=look.dark) as opened:
+            opened.run(f"nivel.bare('{look.side}')")
+            yield opened
+
+
+def _span(page: Tab) -> tuple[float, float]:
+    start, end = page.run("nivel.span()")
+    return float(start), float(end)
+
+
+Take = Callable[[bytes], Any]
+
+
+@contextmanager
+def _gif(path: Path, look: Look) -> Iterator[Take]:
+    try:
+        from PIL import Image
+    except ModuleNotFoundError:
+        raise ModelError(NO_PILLOW) from None
+    pictures: list[Any] = []
+
+    def take(content: bytes) -> None:
+        picture = Image.open(BytesIO(content)).convert("RGB")
+        # the colours of the first picture serve all: none flickers
+        palette = pictures[0] if pictures else None
+        pictures.append(
+            picture.quantize(255) if palette is None else picture.quantize(palette=palette, dither=Image.Dither.NONE)
+        )
+
+    yield take
+    content = BytesIO()
+    pictures[0].save(
+        content,
+        "GIF",
+        save_all=True,
+        append_images=pictures[1:],
+        duration=round(1000 / look.rate),
+        loop=0,
+        optimize=False,
+    )
+    _write(path, content.getvalue())
+
+
+@contextmanager
+def _mp4(path: Path, look: Look) -> Iterator[Take]:
+    program = _ffmpeg()
+    with tempfile.TemporaryDirectory(prefix="nivel-film-") as folder:
+        made = Path(folder) / "film.mp4"
+        # players want even sizes and this kind of colours
+        even = "scale=trunc(iw/2)*2:trunc(ih/2)*2"
+        command = [program, "-y", "-loglevel", "error", "-f", "image2pipe", "-framerate", str(look.rate), "-i", "-"]
+        command += ["-vf", even, "-pix_fmt", "yuv420p", "-movflags", "+faststart", str(made)]
+        with tempfile.TemporaryFile() as said:
+            running = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=said)
+            assert running.stdin is not None
+            try:
+                yield running.stdin.write
+                running.stdin.close()
+                code = running.wait()
+            except BrokenPipeError:
+                code = running.wait()
+            finally:
+                if running.poll() is None:
+                    running.kill()
+                    running.wait()
+            if code:
+                said.seek(0)
+                words = said.read().decode(errors="replace").strip().splitlines() or ["no reason given"]
+                raise ModelError(f"ffmpeg failed: {words[-1]}")
+        _write(path, made.read_bytes())
+
+
+def _ffmpeg() -> str:
+    program = shutil.which("ffmpeg")
+    if program is not None:
+        return program
+    try:
+        from imageio_ffmpeg import get_ffmpeg_exe
+    except ModuleNotFoundError:
+        raise ModelError(NO_FFMPEG) from None
+    try:
+        return get_ffmpeg_exe()
+    except RuntimeError:
+        raise ModelError(NO_FFMPEG) from None
+
+
+def _write(path: Path, content: bytes) -> None:
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        raise ModelError(f"{path} cannot be written: {(error.strerror or str(error)).lower()}") from error

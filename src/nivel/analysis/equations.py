@@ -71,13 +71,16 @@ class MotionEquations:
         return np.hstack([f, n_b])
 
 
-def equations(machine: MachineRecord, formulation: str = "newton-euler") -> MotionEquations:
+def equations(
+    machine: MachineRecord, formulation: str = "newton-euler", *, measured: bool = False
+) -> MotionEquations:
     """Numbers and compiled equations of `machine` in absolute coordinates, as placed; compiles on first use.
 
     formulation : "newton-euler", six velocities a body, or "lagrange", seven and normalisation.
+    measured : every evaluation measures all joint coordinates, not only those that something needs.
     """
     lagrange = formulation == "lagrange"
-    system = build(machine, Equations(7 if lagrange else 6, normalisation=lagrange))
+    system = build(machine, Equations(7 if lagrange else 6, normalisation=lagrange), measured=measured)
     motion = MotionEquations(
         system, import_module("nivel.motion.lagrange" if lagrange else "nivel.motion.newton_euler")
     )

@@ -56,8 +56,11 @@ DIRECTIONS = {"both": BOTH, "rising": RISING, "falling": FALLING}
 STICK = 1e-3
 
 
-def build(machine: MachineRecord, equations: Equations) -> System:
-    """Arrays of `machine` for a formulation with these equations; poses and velocities as given, not yet assembled."""
+def build(machine: MachineRecord, equations: Equations, *, measured: bool = False) -> System:
+    """Arrays of `machine` for a formulation with these equations; poses and velocities as given, not yet assembled.
+
+    measured : every evaluation measures all joint coordinates, not only those that something needs.
+    """
     draft, rows = Draft(machine), RowTable()
     for joint in machine.joints:
         add_joint(draft, rows, joint)
@@ -69,6 +72,8 @@ def build(machine: MachineRecord, equations: Equations) -> System:
         for values in (joint.start, joint.start_rates):
             for name in values.given if values is not None else ():
                 draft.coordinate(f"{joint.name}.{name}")
+    if measured:
+        draft.measure_all()
     sensors = sensor_columns(draft)
     watched = _watched(draft)
     names = tuple(body.name for body in machine.bodies)

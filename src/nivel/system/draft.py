@@ -124,6 +124,11 @@ class Draft:
         joint, name = resolve(reference, self.machine.joints, kind)
         return self._measured(f"{joint}.{name}")
 
+    def measure_all(self) -> None:
+        """All joint coordinates are measured in every evaluation from now on."""
+        for name in self.joint_coordinates:
+            self._measured(name)
+
     def _measured(self, name: str) -> int:
         index = self.joint_coordinates[name]
         self._note(*self.coordinates.what[index][1:3])

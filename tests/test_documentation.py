@@ -40,7 +40,7 @@ from nivel.machine.quantity import read_quantity
 from nivel.machine.record import field_words
 from nivel.machine.sensor import COORDINATE_QUANTITIES, MARKER_QUANTITIES
 from nivel.machine.settings import Baumgarte
-from nivel.machine.shape import Box, Cylinder, Sphere, Tube
+from nivel.machine.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Sphere, Tube
 from nivel.machine.symbols import POINT_QUANTITIES, SENSOR_QUANTITIES, TURN_QUANTITIES
 from nivel.machine.unit import UNITS
 from nivel.system.joints import JOINTS
@@ -167,6 +167,9 @@ def test_every_key_of_a_force_has_its_row_with_its_default(force):
         ("Shapes", Cylinder),
         ("Shapes", Tube),
         ("Shapes", Sphere),
+        ("Shapes", Capsule),
+        ("Shapes", Extrusion),
+        ("Shapes", Mesh),
         ("Contact", Material),
         ("Simulation", Baumgarte),
     ],
@@ -185,7 +188,7 @@ def test_every_section_is_described():
 
 def test_every_type_is_described():
     assert set(get_args(JointType)) == set(JOINTS) <= first_column("Joints")
-    for record in (Box, Cylinder, Tube, Sphere):
+    for record in (Box, Cylinder, Capsule, Tube, Sphere, Extrusion, Mesh):
         assert record.model_fields["type"].default in first_column("Shapes")
     for coupling in (Gear, Belt, Rack, LinearCoupling):
         (row,) = [

@@ -100,7 +100,7 @@ FAULTS = {
         "bodies.crank",
         "not both",
     ),
-    "unknown shape": ("type: box", "type: brick", 0, "bodies.rod.shape", "there are box, cylinder, sphere, tube"),
+    "unknown shape": ("type: box", "type: brick", 0, "bodies.rod.shape", "there are box, cylinder, capsule, tube, sphere, extrusion, mesh"),
     "shape without type": ("type: box, ", "", 0, "bodies.rod.shape", "`type` is missing"),
     "half of from and to": (" to: [1, 0, 0],", "", 0, "bodies.rod.shape", "belong together"),
     "no width": (" width: 1 cm,", "", 0, "bodies.rod.shape", "`width` is missing"),

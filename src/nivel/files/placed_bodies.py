@@ -9,17 +9,21 @@ from nivel.files.scene import Scene
 from nivel.machine import (
     Body,
     Box,
+    Capsule,
     Cylinder,
+    Extrusion,
     Inertia,
     Joint,
+    Mesh,
     Shape,
     Sphere,
     Tube,
     frame_from_axes,
     placement,
 )
-from nivel.machine.inertia import box_size, length
 from nivel.machine.orientation import matrix_from_euler_parameters
+from nivel.machine.solids import axes_of, box_size, length, mesh_surface
+from nivel.machine.surface import surface_text
 
 KEPT = {"universal": AXIAL, "translational": POLAR_Z, "point-on-line": POLAR_Z}  # others keep AXIAL_Z
 _SLIDING = ("translational", "point-on-line")  # joints whose axis is a direction of motion, not an axis of turning
@@ -52,13 +56,17 @@ def placed_body(body: Body, placing: Placement) -> Body:
 def _moved_body(body: Body, placing: Placement) -> Body:
     """`body` moved without being turned."""
     shape = body.shape
-    if shape is None or isinstance(shape, Sphere) or shape.from_ is None or shape.to is None:
+    if shape is None or isinstance(shape, Sphere | Mesh) or shape.from_ is None or shape.to is None:
         return body.replace(position=placing.point(body.position or (0.0, 0.0, 0.0)))
     return body.replace(shape=shape.replace(from_=placing.point(shape.from_), to=placing.point(shape.to)))
 
 
 def _placed_shape(shape: Shape, placing: Placement) -> Shape:
     """The shape in the body frame."""
+    if isinstance(shape, Mesh):
+        return _placed_mesh(shape, placing)
+    if isinstance(shape, Extrusion):
+        shape = shape.replace(outline=_mirrored_outline(shape, placing))
     if isinstance(shape, Sphere) or shape.from_ is None:
         return shape if shape.centre is None else shape.replace(centre=placing.in_body(shape.centre))
     match shape:
@@ -66,8 +74,27 @@ def _placed_shape(shape: Shape, placing: Placement) -> Shape:
             return Box(size=box_size(shape))
         case Cylinder():
             return Cylinder(radius=shape.radius, length=length(shape))
+        case Capsule():
+            return Capsule(radius=shape.radius, length=length(shape))
         case Tube():
             return Tube(outer_radius=shape.outer_radius, inner_radius=shape.inner_radius, length=length(shape))
+        case Extrusion():
+            return Extrusion(outline=shape.outline, length=length(shape))
+
+
+def _mirrored_outline(shape: Extrusion, placing: Placement) -> tuple[tuple[float, float], ...]:
+    """The corners in the body frame of the mirror image."""
+    _, first, second = axes_of(shape.along)
+    a, b = float(placing.reflection[first]), float(placing.reflection[second])
+    return tuple((a * x + 0.0, b * y + 0.0) for x, y in shape.outline)
+
+
+def _placed_mesh(mesh: Mesh, placing: Placement) -> Mesh:
+    """The mesh in the body frame of the mirror image; its triangles still go counter-clockwise seen from outside."""
+    if not placing.mirrored:
+        return mesh
+    vertices, triangles = mesh_surface(mesh)
+    return Mesh(file=mesh.file, surface=surface_text(vertices * placing.reflection, triangles[:, ::-1]))
 
 
 def _mirrored_inertia(inertia: Inertia, placing: Placement) -> Inertia:

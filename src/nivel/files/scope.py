@@ -18,6 +18,7 @@ from nivel.files.assembly import Assembly, given_parameters, made_by, read_assem
 from nivel.files.body_files import place_body_files
 from nivel.files.include import include
 from nivel.files.mass_file import read_mass_properties
+from nivel.files.mesh_file import read_meshes
 from nivel.files.outline import as_part, check_sections, check_start, section_of
 from nivel.files.overrides import in_order, override, prefix_of
 from nivel.files.python_laws import read_python_laws
@@ -58,6 +59,7 @@ def read_scope(
     if user is not None:
         as_part(tree, user[2].only, f"`assemblies.{user[1]}: {{file: {user[2].file}, only: [bodies, joints]}}`")
         given_parameters(tree, *user)
+    read_meshes(tree, sources)
     read_python_laws(tree, sources)
     parameters, faults = resolve(section_of(tree, "parameters"))
     tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]

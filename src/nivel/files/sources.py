@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from pathlib import Path as FilePath
-from typing import Final
+from typing import Final, TypeVar
 
 from nivel.errors import Fault, ModelError
 from nivel.files.tree import Path, Tree
 from nivel.machine.quantity import shown
+
+Content = TypeVar("Content", str, bytes)
 
 DEEPEST: Final = 20  # files that name files
 MOST: Final = 2000  # files read for one machine, each as often as it is used
@@ -36,6 +39,15 @@ class Sources:
         """Text and name of the file `name`, which `path` of `tree` mentions; None where there is a fault, which has
         been reported.
         """
+        file = self._file(tree, path, name)
+        return None if file is None else self._read(tree, path, file, read_text)
+
+    def content(self, tree: Tree, path: Path, name: object) -> tuple[bytes, str] | None:
+        """As `text`, of a file that holds no text."""
+        file = self._file(tree, path, name)
+        return None if file is None else self._read(tree, path, file, read_bytes)
+
+    def _file(self, tree: Tree, path: Path, name: object) -> str | None:
         if not isinstance(name, str) or not name.strip():
             tree.report(path, f"the name of a file was expected, got {shown(name)}")
             return None
@@ -51,7 +63,7 @@ class Sources:
             tree.report(path, f"there is no file `{file}`{_nearest(file)}")
         else:
             self.read.append(file)
-            return self._read(tree, path, file)
+            return file
         return None
 
     def ring(self, file: str) -> str:
@@ -61,9 +73,9 @@ class Sources:
             return ""
         return " → ".join(each.name for each in (*self.open[self.open.index(target) :], target))
 
-    def _read(self, tree: Tree, path: Path, file: str) -> tuple[str, str] | None:
+    def _read(self, tree: Tree, path: Path, file: str, read: Callable[[str], Content]) -> tuple[Content, str] | None:
         try:
-            return read_text(file), file
+            return read(file), file
         except ModelError as error:
             for fault in error.faults:
                 if fault.line:
@@ -111,16 +123,7 @@ def read_text(path: str | FilePath) -> str:
 
     Raises ModelError where it cannot be read, or is not UTF-8.
     """
-    file = str(path)
-    try:
-        content = FilePath(path).read_bytes()
-    except FileNotFoundError:
-        raise ModelError(Fault(file, 0, 0, file, "there is no such file")) from None
-    except IsADirectoryError:
-        raise ModelError(Fault(file, 0, 0, file, "this is a directory; a machine file was expected")) from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise ModelError(Fault(file, 0, 0, file, f"the file cannot be read: {reason}")) from None
+    content, file = read_bytes(path), str(path)
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -128,3 +131,20 @@ def read_text(path: str | FilePath) -> str:
         line, column = before.count(b"\n") + 1, error.start - (before.rfind(b"\n") + 1) + 1
         message = f"the file is not UTF-8 text: the byte 0x{content[error.start]:02x} stands here; save it as UTF-8"
         raise ModelError(Fault(file, line, column, "", message)) from None
+
+
+def read_bytes(path: str | FilePath) -> bytes:
+    """The content of the file at `path`.
+
+    Raises ModelError where it cannot be read.
+    """
+    file = str(path)
+    try:
+        return FilePath(path).read_bytes()
+    except FileNotFoundError:
+        raise ModelError(Fault(file, 0, 0, file, "there is no such file")) from None
+    except IsADirectoryError:
+        raise ModelError(Fault(file, 0, 0, file, "this is a directory; a machine file was expected")) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise ModelError(Fault(file, 0, 0, file, f"the file cannot be read: {reason}")) from None

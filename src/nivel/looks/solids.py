@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.machine.surface import surface_arrays
+
 Array = NDArray[np.float64]
 
 FACETS = 48  # of a cylinder: its silhouette is round to 0.2 % of the radius
+MOST_FACES = 4000  # of a mesh, to keep the picture small
 FEW_FACETS = 20  # in a machine of many bodies, to keep the picture small
 
 
@@ -47,6 +51,12 @@ def solid(shape: dict[str, Any], facets: int = FACETS) -> list[Face] | Ball:
         case "tube":
             radii = [shape["outer_radius"], shape["inner_radius"]]
             faces = _round(shape["length"], radii, shape.get("along") or "x", facets)
+        case "capsule":
+            faces = _lathe(_capsule_profile(shape["radius"], shape["length"]), shape.get("along") or "x", facets)
+        case "extrusion":
+            faces = _prism(np.array(shape["outline"], dtype=float), shape["length"], shape.get("along") or "x")
+        case "mesh":
+            faces = _mesh(*surface_arrays(shape["surface"]))
         case other:
             raise ValueError(f"no picture of the shape {other}")
     for face in faces:
@@ -56,6 +66,8 @@ def solid(shape: dict[str, Any], facets: int = FACETS) -> list[Face] | Ball:
 
 def reach(shape: dict[str, Any]) -> Array:
     """(n, 3) [m] points in the body frame whose extent is that of the shape."""
+    if shape["type"] == "mesh":
+        return surface_arrays(shape["surface"])[0]
     parts = solid(shape)
     if isinstance(parts, Ball):
         return parts.centre + parts.radius * np.concatenate([np.eye(3), -np.eye(3)])
@@ -110,3 +122,91 @@ def _round(length: float, radii: list[float], along: str, facets: int) -> list[F
             corners = np.stack([outer[k], outer[k + 1], inner[k + 1], inner[k]])[:: int(end)]
             faces.append(Face(corners, normal, np.array([True, False, True, False])))
     return faces
+
+
+def _capsule_profile(radius: float, straight: float) -> Array:
+    """(n, 2) place along the axis and distance from it, from one end to the other."""
+    angle = np.linspace(0.0, 0.5 * np.pi, 7)
+    cap = np.stack([0.5 * straight + radius * np.sin(angle), radius * np.cos(angle)], axis=1)
+    return np.concatenate([(cap * [-1.0, 1.0])[::-1], cap])
+
+
+def _lathe(profile: Array, along: str, facets: int) -> list[Face]:
+    """The profile (n, 2) turned about its axis; it begins and ends on the axis."""
+    turn = 2.0 * np.pi * np.arange(facets + 1) / facets
+    order = [("xyz".index(along) + k) % 3 for k in range(3)]
+    faces = []
+    for (s0, r0), (s1, r1) in pairwise(profile):
+        for a, b in pairwise(turn):
+            ring = [(s0, r0, a), (s1, r1, a), (s1, r1, b), (s0, r0, b)]
+            corners = np.zeros((4, 3))
+            corners[:, order] = [(s, r * np.cos(t), r * np.sin(t)) for s, r, t in ring]
+            middle = 0.5 * (a + b)
+            normal = np.zeros(3)
+            normal[order] = [r0 - r1, (s1 - s0) * np.cos(middle), (s1 - s0) * np.sin(middle)]
+            faces.append(Face(corners, normal / np.linalg.norm(normal), np.zeros(4, dtype=bool)))
+    return faces
+
+
+def _prism(outline: Array, length: float, along: str) -> list[Face]:
+    """The outline (n, 2) drawn along an axis; its ends are triangles, since a face is convex."""
+    axis, first, second = (("xyz".index(along) + k) % 3 for k in range(3))
+    a, b = outline, np.roll(outline, -1, axis=0)
+    if np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) < 0.0:
+        outline = outline[::-1]
+    half, n = 0.5 * length, len(outline)
+
+    def at(s: float, corners: Array) -> Array:
+        out = np.empty((len(corners), 3))
+        out[:, axis], out[:, first], out[:, second] = s, corners[:, 0], corners[:, 1]
+        return out
+
+    faces = []
+    for k in range(n):
+        side = outline[[k, (k + 1) % n]]
+        corners = np.concatenate([at(-half, side), at(half, side[::-1])])
+        normal = at(0.0, np.array([[side[1, 1] - side[0, 1], side[0, 0] - side[1, 0]]]))[0]
+        faces.append(Face(corners, normal / np.linalg.norm(normal)))
+    for triangle in ears(outline):
+        rim = np.array([(j - i) % n == 1 for i, j in pairwise([*triangle, triangle[0]])])
+        up = np.eye(3)[axis]
+        faces.append(Face(at(half, outline[list(triangle)]), up, rim))
+        faces.append(Face(at(-half, outline[list(triangle)])[::-1], -up, rim[[1, 0, 2]]))
+    return faces
+
+
+def ears(outline: Array) -> list[tuple[int, int, int]]:
+    """Triangles of a simple polygon (n, 2), counter-clockwise: corners whose triangle holds no other corner are cut off one by one."""
+    left, out = list(range(len(outline))), []
+    while len(left) > 3:
+        for k, tip in enumerate(left):
+            triangle = (left[k - 1], tip, left[(k + 1) % len(left)])
+            p, q, r = outline[list(triangle)]
+            others = outline[[each for each in left if each not in triangle]]
+            if _turn(p, q, r[None])[0] > 0.0 and not np.any(
+                (_turn(p, q, others) >= 0.0) & (_turn(q, r, others) >= 0.0) & (_turn(r, p, others) >= 0.0)
+            ):
+                out.append(triangle)
+                left.pop(k)
+                break
+        else:  # corners on a line: nothing to see
+            left.pop(0)
+    return [*out, (left[0], left[1], left[2])]
+
+
+def _turn(a: Array, b: Array, x: Array) -> Array:
+    """Twice the signed area of the triangles from a to b to each of x (n, 2)."""
+    return (b[0] - a[0]) * (x[:, 1] - a[1]) - (b[1] - a[1]) * (x[:, 0] - a[0])
+
+
+def _mesh(vertices: Array, triangles: NDArray[np.uint32]) -> list[Face]:
+    """Triangles as faces; of a mesh too fine for a drawing some, evenly taken."""
+    step = -(-len(triangles) // MOST_FACES)
+    corners = vertices[triangles[::step]]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    return [
+        Face(each, normal / size, np.zeros(3, dtype=bool))
+        for each, normal, size in zip(corners, normals, lengths, strict=True)
+        if size > 0.0
+    ]

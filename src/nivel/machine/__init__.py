@@ -32,7 +32,7 @@ from nivel.machine.placement import frame_from_axes, initial_velocity, marker_fr
 from nivel.machine.record import GROUND, Record
 from nivel.machine.sensor import Sensor
 from nivel.machine.settings import Baumgarte, SimulationSettings
-from nivel.machine.shape import Box, Cylinder, Shape, Sphere, Tube
+from nivel.machine.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Shape, Sphere, Tube
 from nivel.machine.symbols import find_symbol
 from nivel.machine.time_function import Expression, PythonLaw, Table, TimeFunction
 
@@ -46,12 +46,14 @@ __all__ = [
     "Body",
     "Box",
     "Bushing",
+    "Capsule",
     "Contact",
     "Coupling",
     "Cylinder",
     "Driver",
     "Event",
     "Expression",
+    "Extrusion",
     "Force",
     "Friction",
     "Gear",
@@ -65,6 +67,7 @@ __all__ = [
     "Marker",
     "MassProperties",
     "Material",
+    "Mesh",
     "Motor",
     "Orientation",
     "PairForce",

@@ -10,11 +10,12 @@ from pydantic import Field
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import PositiveNumber, Truth
 from nivel.machine.flexibility import FlexibleBody
-from nivel.machine.inertia import InertiaTensor, impossible, mass_properties, volume
+from nivel.machine.inertia import InertiaTensor, impossible, mass_properties
 from nivel.machine.orientation import Orientation
 from nivel.machine.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector
 from nivel.machine.record import GROUND, Name
-from nivel.machine.shape import Shape, Sphere
+from nivel.machine.shape import Mesh, Shape, Sphere
+from nivel.machine.solids import volume, why_not_solid
 
 LIGHTEST: Final = 1e-2  # [kg/m³] mean density below which a unit must have slipped: a hundredth of that of air
 DENSEST: Final = 1e5  # [kg/m³] and above which: four times that of the densest metal
@@ -77,7 +78,7 @@ class Body(Checked):
             yield from self._problems_of_inertia()
         if self.angular_velocity is not None and self.angular_velocity_body is not None:
             yield Problem((), "give `angular_velocity` (global axes) or `angular_velocity_body` (body axes), not both")
-        if self.shape is not None and not isinstance(self.shape, Sphere) and self.shape.from_ is not None:
+        if self.shape is not None and not isinstance(self.shape, Sphere | Mesh) and self.shape.from_ is not None:
             for name in ("position", "orientation"):
                 if getattr(self, name) is not None:
                     yield superfluous(name, "follows from the shape's `from` and `to` and must not be given")
@@ -129,6 +130,12 @@ class Body(Checked):
     def _problems_of_density(self) -> Iterator[Problem]:
         if self.density is not None and not LIGHTEST <= self.density <= DENSEST:
             yield Problem(("density",), f"a density of {self.density:.3g} kg/m^3: a slip of a unit?")
+        if isinstance(self.shape, Mesh):
+            why = why_not_solid(self.shape)
+            if why and self.inertia is None:
+                yield Problem(("shape",), f"{why}; close it, or give `mass` and `inertia`")
+            if why:
+                return
         if self.shape is None or self.mass is None or self.density is not None:
             return
         mean = self.mass / volume(self.shape)

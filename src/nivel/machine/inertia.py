@@ -16,7 +16,7 @@ from pydantic import BeforeValidator, ValidationInfo
 from nivel.machine.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.quantity import InertiaComponent, fault, listed, parameters_of, read_quantity, reported, shown
 from nivel.machine.record import Record
-from nivel.machine.shape import Box, Cylinder, Shape, Sphere, Tube
+from nivel.machine.solids import centroid, squared_gyration, volume
 
 if TYPE_CHECKING:
     from nivel.machine.body import Body
@@ -104,8 +104,7 @@ def _of_homogeneous_shape(body: Body) -> MassProperties:
     if shape is None:
         raise ValueError(f"body {body.name} has neither inertia nor shape")
     mass = body.mass if body.mass is not None else float(body.density or 0.0) * volume(shape)
-    centre = np.array(shape.centre or (0.0, 0.0, 0.0))
-    return MassProperties(mass, centre, mass * np.diag(squared_gyration_radii(shape)))
+    return MassProperties(mass, centroid(shape), mass * squared_gyration(shape))
 
 
 def tensor(inertia: Inertia) -> Array:
@@ -119,54 +118,6 @@ def point_mass_inertia(mass: float, position: Array) -> Array:
     theorem.
     """
     return mass * (position @ position * np.eye(3) - np.outer(position, position))
-
-
-def length(shape: Box | Cylinder | Tube) -> float:
-    """[m] along the bar, from `length` or the two points; of a box along x."""
-    if shape.from_ is not None and shape.to is not None:
-        return float(np.linalg.norm(np.subtract(shape.to, shape.from_)))
-    if isinstance(shape, Box):
-        return shape.size[0] if shape.size else 0.0
-    return shape.length or 0.0
-
-
-def box_size(box: Box) -> tuple[float, float, float]:
-    """[m] along the body x, y and z axes."""
-    return box.size or (length(box), box.width or 0.0, box.height or 0.0)
-
-
-def volume(shape: Shape) -> float:
-    """[m³]"""
-    match shape:
-        case Box():
-            return float(np.prod(box_size(shape)))
-        case Cylinder():
-            return float(np.pi * shape.radius**2 * length(shape))
-        case Tube():
-            return float(np.pi * (shape.outer_radius**2 - shape.inner_radius**2) * length(shape))
-        case Sphere():
-            return float(4 / 3 * np.pi * shape.radius**3)
-
-
-def squared_gyration_radii(shape: Shape) -> Array:
-    """(3,) [m²] principal moments per unit mass about the centre of the shape, body axes."""
-    match shape:
-        case Box():
-            a, b, c = box_size(shape)
-            return np.array([b**2 + c**2, a**2 + c**2, a**2 + b**2]) / 12
-        case Cylinder():
-            return _of_round_bar(shape.radius**2, length(shape), shape.along)
-        case Tube():
-            return _of_round_bar(shape.outer_radius**2 + shape.inner_radius**2, length(shape), shape.along)
-        case Sphere():
-            return np.full(3, 0.4 * shape.radius**2)
-
-
-def _of_round_bar(radii_squared: float, bar_length: float, along: str | None) -> Array:
-    """Moments per unit mass of a round bar: `radii_squared` is R², with a bore R² + r²."""
-    moments = np.full(3, radii_squared / 4 + bar_length**2 / 12)
-    moments["xyz".index(along or "x")] = radii_squared / 2
-    return moments
 
 
 def impossible(inertia: Array) -> str:

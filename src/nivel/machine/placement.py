@@ -13,7 +13,7 @@ from nivel.machine.orientation import (
     matrix_from_euler_parameters,
     rotation_matrix,
 )
-from nivel.machine.shape import Sphere
+from nivel.machine.shape import Mesh, Sphere
 
 if TYPE_CHECKING:
     from nivel.machine.body import Body
@@ -33,7 +33,7 @@ def placement(body: Body) -> tuple[Array, Array]:
     Between two points: the origin is their midpoint and x points from the first to the second (`frame_between`).
     """
     shape = body.shape
-    if shape is not None and not isinstance(shape, Sphere) and shape.from_ is not None and shape.to is not None:
+    if shape is not None and not isinstance(shape, Sphere | Mesh) and shape.from_ is not None and shape.to is not None:
         start, end = np.array(shape.from_), np.array(shape.to)
         return (start + end) / 2, euler_parameters_from_matrix(frame_between(start, end))
     return np.array(body.position or (0.0, 0.0, 0.0)), euler_parameters(body.orientation)

@@ -21,7 +21,7 @@ Faults = Iterator[tuple[Place, str]]
 
 WITH_ROWS: Final = ("joints", "couplings", "drivers")  # their rows are called NAME.…, so they share their names
 _OUTPUTS: Final = {force.model_fields["type"].default: force.outputs for force in FORCES}
-_SHAPES: Final = ("box", "cylinder", "sphere", "tube")
+_SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "extrusion", "mesh")
 
 
 def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faults:

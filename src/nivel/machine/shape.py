@@ -1,18 +1,23 @@
-"""Homogeneous solids: box, cylinder, sphere, tube. They give a body its looks and, with a density or mass, its inertia.
+"""Homogeneous solids: box, cylinder, capsule, tube, sphere, extrusion, mesh. They give a body its looks and, with a density or mass,
+its inertia.
 
-A shape stands in the body frame with its centre at `centre`. Box, cylinder and tube may instead be laid between two
-global points `from:` and `to:`; then they define the body frame too (placement.py) and the centre is its origin.
+A shape stands in the body frame with its centre at `centre`, a mesh with the origin of its file at `position`. All but spheres and
+meshes may instead be laid between two global points `from:` and `to:`; then they define the body frame too (placement.py) and the
+centre is its origin.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Final, Literal
+from typing import Annotated, Any, Final, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
-from nivel.machine.quantity import Position, PositiveLength, fault
+from nivel.machine.orientation import Orientation
+from nivel.machine.polygon import bad_outline
+from nivel.machine.quantity import Length, Position, PositiveLength, fault, listed
 from nivel.machine.record import Record
+from nivel.machine.surface import surface_arrays
 
 Along = Literal["x", "y", "z"]
 _NEAR: Final = 1e-9  # [m] two end points closer than this have no direction
@@ -116,6 +121,89 @@ class Tube(_Between):
         return self
 
 
+class Capsule(_Between):
+    """A round bar with half balls at its ends: `radius`, `length` of the straight part and `along` (default x); or `radius`,
+    `from` and `to`, the centres of the balls.
+    """
+
+    type: Literal["capsule"] = "capsule"
+    radius: PositiveLength
+    length: PositiveLength | None = Field(
+        default=None, description="of the straight part, between the centres of the balls"
+    )
+    along: Along | None = Field(default=None, description="body axis; default x")
+
+    def _extent(self) -> dict[str, object]:
+        return {"length": self.length}
+
+    @model_validator(mode="after")
+    def _along_x(self) -> Capsule:
+        _refuse_along(self)
+        return self
+
+
+Corner = Annotated[tuple[Length, Length], BeforeValidator(listed)]
+
+
+class Extrusion(_Between):
+    """A prism: an `outline`, drawn along `length` to both sides of it, and `along` (default x); or the outline, `from` and `to`.
+
+    The outline's corners are given in the two body axes that follow `along`: y and z for x, z and x for y, x and y for z.
+    """
+
+    type: Literal["extrusion"] = "extrusion"
+    outline: Annotated[tuple[Corner, ...], BeforeValidator(listed)] = Field(
+        description="corners in their order, at least three; lines between them do not cross"
+    )
+    length: PositiveLength | None = None
+    along: Along | None = Field(default=None, description="body axis; default x")
+
+    def _extent(self) -> dict[str, object]:
+        return {"length": self.length}
+
+    @model_validator(mode="after")
+    def _sound(self) -> Extrusion:
+        _refuse_along(self)
+        why = bad_outline(np.array(self.outline, dtype=float).reshape(-1, 2))
+        if why:
+            raise fault(f"`outline`: {why}")
+        return self
+
+
+class Mesh(Record):
+    """A surface of triangles from a `file`: STL, OBJ or glTF. With a density or mass it must be closed.
+
+    `surface` holds the triangles (surface.py) in the axes and the unit of the file; it is filled when the machine file is read, in
+    Python by `nivel.files.read_mesh`.
+    """
+
+    type: Literal["mesh"] = "mesh"
+    file: str = Field(default="", description="STL, OBJ or glTF file, seen from the folder of the machine file")
+    unit: PositiveLength = Field(default=1.0, description="length of one unit of the file")
+    position: Position | None = Field(
+        default=None, description="of the file's origin in the body frame; default the origin"
+    )
+    orientation: Orientation | None = Field(
+        default=None, description="of the file's axes in the body frame; default not turned"
+    )
+    surface: str | None = Field(default=None, description="the triangles, filled when the file is read")
+
+    @model_validator(mode="after")
+    def _readable(self) -> Mesh:
+        if self.surface is None and not self.file:
+            raise fault("a mesh needs the name of a `file`")
+        if self.surface is None:
+            raise fault(f"the file `{self.file}` was not read; in Python use nivel.files.read_mesh")
+        try:
+            surface_arrays(self.surface)
+        except ValueError:
+            raise fault("`surface` holds no triangles; leave it out, it is filled when `file` is read") from None
+        return self
+
+    def __repr_args__(self) -> Any:
+        return [(name, value) for name, value in super().__repr_args__() if name != "surface"]
+
+
 class Sphere(Record):
     """A solid ball: `radius`."""
 
@@ -124,9 +212,10 @@ class Sphere(Record):
     centre: Position | None = _CENTRE
 
 
-Shape = Annotated[Box | Cylinder | Sphere | Tube, Field(discriminator="type")]
+Shape = Annotated[Box | Cylinder | Capsule | Tube | Sphere | Extrusion | Mesh, Field(discriminator="type")]
+Long = Box | Cylinder | Capsule | Tube | Extrusion  # those that may be laid between two points
 
 
-def _refuse_along(shape: Cylinder | Tube) -> None:
+def _refuse_along(shape: Cylinder | Capsule | Tube | Extrusion) -> None:
     if shape.along is not None and shape.from_ is not None:
         raise fault("`along` must not be given: between `from` and `to` the shape lies along the body x axis")

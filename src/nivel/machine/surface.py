@@ -54,6 +54,7 @@ class Enclosed:
     moments: Array
 
 
+@np.errstate(divide="ignore", invalid="ignore")  # what encloses nothing has no centre
 def enclosed(vertices: Array, triangles: Triangles) -> Enclosed:
     """What the closed surface encloses; its triangles go counter-clockwise seen from outside, or all the other way."""
     middle = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))  # digits are lost far from the origin

@@ -27,10 +27,12 @@ import numpy as np
 
 from nivel.machine.body import Body
 from nivel.machine.forces import Bushing, Contact, Force, PairForce, SpringDamper, TorsionalSpringDamper
-from nivel.machine.inertia import box_size, length, mass_properties
+from nivel.machine.inertia import mass_properties
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.shape import Box, Sphere, Tube
+from nivel.machine.shape import Box, Extrusion, Mesh, Sphere, Tube
+from nivel.machine.solids import box_size, length, mesh_surface
+from nivel.machine.surface import surface_text
 from nivel.system.draft import Draft
 from nivel.system.joint_frames import slot_frame
 from nivel.system.system import System
@@ -120,15 +122,21 @@ def _ends(draft: Draft, force: Force) -> tuple[int, int] | None:
 def _centre(draft: Draft, name: str) -> int:
     """Marker at the centre of a body's shape."""
     body = draft.machine.body_named[name]
-    centre = body.shape.centre if body.shape is not None else None
+    shape = body.shape
+    centre = None if shape is None or isinstance(shape, Mesh) else shape.centre
     return draft.place((name, np.array(centre or (0.0, 0.0, 0.0)), np.eye(3)))
 
 
 def _shape(body: Body) -> dict[str, Any] | None:
-    """The shape in body axes: a shape between two points lies along x about the origin, as long as they are apart."""
+    """The shape in body axes: a shape between two points lies along x about the origin, as long as they are apart.
+
+    type, `centre` and sizes by their words in the machine file; of a mesh its `surface`, in the body's frame (`machine.surface`).
+    """
     shape = body.shape
     if shape is None:
         return None
+    if isinstance(shape, Mesh):
+        return {"type": shape.type, "centre": [0.0, 0.0, 0.0], "surface": surface_text(*mesh_surface(shape))}
     out: dict[str, Any] = {"type": shape.type, "centre": list(shape.centre or (0.0, 0.0, 0.0))}
     match shape:
         case Sphere():
@@ -137,6 +145,8 @@ def _shape(body: Body) -> dict[str, Any] | None:
             return out | {"size": list(box_size(shape))}
         case Tube():
             out |= {"outer_radius": shape.outer_radius, "inner_radius": shape.inner_radius}
+        case Extrusion():
+            out["outline"] = [list(corner) for corner in shape.outline]
         case _:
             out["radius"] = shape.radius
     return out | {"length": length(shape), "along": shape.along or "x"}

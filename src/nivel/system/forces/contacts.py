@@ -10,9 +10,9 @@ import numpy as np
 
 from nivel.machine.body import Body
 from nivel.machine.forces import Bushing, Contact
-from nivel.machine.inertia import box_size, length
 from nivel.machine.placement import frame_from_axes
 from nivel.machine.shape import Box, Cylinder, Sphere
+from nivel.machine.solids import box_size, length
 from nivel.system.draft import Draft
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
@@ -89,7 +89,7 @@ def _shape(contact: Any, body: Body) -> tuple[int, list[float]]:
 def _shape_marker(draft: Draft, body: Body) -> int:
     """Marker at the centre of the shape; z along a cylinder."""
     shape = body.shape
-    assert shape is not None  # the record was checked
+    assert isinstance(shape, Sphere | Box | Cylinder)  # the record was checked
     axes = np.eye(3)
     if isinstance(shape, Cylinder):
         axes = frame_from_axes(np.eye(3)["xyz".index(shape.along or "x")])

@@ -1,0 +1,236 @@
+"""`file:` of a mesh: STL (text or binary), OBJ and glTF (.gltf, .glb) as vertices and triangles."""
+
+from __future__ import annotations
+
+import base64
+import json
+import struct
+from collections.abc import Callable
+from pathlib import Path as FilePath
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import ModelError
+from nivel.files.outline import section_of
+from nivel.files.sources import Sources, read_bytes
+from nivel.files.tree import Tree
+from nivel.machine.orientation import matrix_from_euler_parameters
+from nivel.machine.shape import Mesh
+from nivel.machine.surface import MOST_TRIANGLES, Triangles, surface_text
+
+Array = NDArray[np.float64]
+KINDS: Final = (".stl", ".obj", ".gltf", ".glb")
+STL_HEAD: Final = 84  # bytes before the triangles of a binary STL file
+STL_TRIANGLE: Final = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+NUMBERS: Final = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}  # componentType of glTF
+TRIANGLES: Final = 4  # mode of a glTF primitive
+DEEPEST: Final = 64  # nodes of glTF inside each other
+
+
+class NotReadError(Exception):
+    """Why a file is no mesh, in words."""
+
+
+def read_meshes(tree: Tree, sources: Sources) -> None:
+    """Put the surface of the file of each mesh into its shape, as `surface`. Faults go to `tree.faults`."""
+    for name, body in section_of(tree, "bodies").items():
+        shape = body.get("shape") if isinstance(body, dict) else None
+        if not isinstance(shape, dict) or shape.get("type") != "mesh" or "file" not in shape or "surface" in shape:
+            continue
+        path = ("bodies", name, "shape", "file")
+        found = sources.content(tree, path, shape["file"])
+        if found is None:
+            tree.broken.add(path[:2])
+            continue
+        content, file = found
+        try:
+            shape["surface"] = surface_text(*parse(content, file))
+        except NotReadError as problem:
+            tree.report(path, f"`{file}`: {problem}")
+            tree.broken.add(path[:2])
+
+
+def read_mesh(file: str | FilePath, **given: Any) -> Mesh:
+    """The mesh in a file, for machines written in Python; `given` : `unit`, `position`, `orientation`. Raises ModelError."""
+    try:
+        return Mesh(file=str(file), surface=surface_text(*parse(read_bytes(file), str(file))), **given)
+    except NotReadError as problem:
+        raise ModelError(f"{file}: {problem}") from None
+
+
+def parse(content: bytes, file: str) -> tuple[Array, Triangles]:
+    """vertices (n, 3) and triangles (m, 3) of a file with this content. Raises NotReadError."""
+    kind = FilePath(file).suffix.lower()
+    readers: dict[str, Callable[[], tuple[Any, Any]]] = {
+        ".stl": lambda: _stl(content),
+        ".obj": lambda: _obj(content),
+        ".gltf": lambda: _gltf(_json(content), {}, file),
+        ".glb": lambda: _glb(content, file),
+    }
+    if kind not in readers:
+        raise NotReadError(f"a mesh in {', '.join(KINDS)} was expected")
+    try:
+        vertices, triangles = readers[kind]()
+        vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
+        triangles = np.asarray(triangles, dtype=np.int64).reshape(-1, 3)
+    except (ValueError, KeyError, IndexError, TypeError, struct.error, OverflowError, RecursionError):
+        raise NotReadError("the file is damaged, or not what its name says") from None
+    if not len(triangles):
+        raise NotReadError("there are no triangles in it")
+    if len(triangles) > MOST_TRIANGLES:
+        raise NotReadError(f"it has {len(triangles)} triangles, more than {MOST_TRIANGLES}; make it coarser")
+    if triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise NotReadError("a triangle has a corner that is not there")
+    if not np.all(np.isfinite(vertices)):
+        raise NotReadError("it has coordinates that are not finite")
+    return vertices, triangles.astype(np.uint32)
+
+
+def _stl(content: bytes) -> tuple[Array, Any]:
+    if len(content) >= STL_HEAD:
+        (count,) = struct.unpack_from("<I", content, STL_HEAD - 4)
+        if len(content) == STL_HEAD + STL_TRIANGLE.itemsize * count:
+            corners = np.frombuffer(content, STL_TRIANGLE, count, STL_HEAD)["corners"]
+            return _merged(corners.astype(np.float64).reshape(-1, 3))
+    if not content.lstrip()[:5].lower() == b"solid":
+        raise NotReadError("this is no STL file, or it is cut short")
+    words = content.decode("utf-8", errors="replace").lower().split()
+    places = [k for k, word in enumerate(words) if word == "vertex"]
+    corners = np.array([[float(value) for value in words[k + 1 : k + 4]] for k in places], dtype=np.float64)
+    return _merged(corners.reshape(-1, 3))
+
+
+def _merged(corners: Array) -> tuple[Array, Any]:
+    """Corners (3 m, 3) of triangles as vertices, each once, and triangles."""
+    if len(corners) % 3:
+        raise NotReadError("a triangle has fewer than three corners")
+    if not len(corners):
+        return corners, np.zeros((0, 3), dtype=np.int64)
+    vertices, place = np.unique(corners, axis=0, return_inverse=True)
+    return vertices, place.reshape(-1, 3)
+
+
+def _obj(content: bytes) -> tuple[Any, Any]:
+    vertices: list[list[float]] = []
+    triangles: list[tuple[int, int, int]] = []
+    for line in content.decode("utf-8", errors="replace").replace("\\\n", " ").splitlines():
+        word, *rest = line.split() or [""]
+        if word == "v":
+            vertices.append([float(value) for value in rest[:3]])
+        elif word == "f":
+            corners = [int(each.split("/")[0]) for each in rest]
+            # from 1, or backwards from the last
+            corners = [k - 1 if k > 0 else len(vertices) + k for k in corners]
+            triangles += [(corners[0], corners[k], corners[k + 1]) for k in range(1, len(corners) - 1)]
+    return vertices, triangles
+
+
+# --- glTF 2.0 ---
+
+
+def _json(content: bytes) -> dict[str, Any]:
+    data = json.loads(content.decode("utf-8"))
+    if not isinstance(data, dict):
+        raise NotReadError("this is no glTF file")
+    return data
+
+
+def _glb(content: bytes, file: str) -> tuple[Any, Any]:
+    magic, version, _ = struct.unpack_from("<4sII", content)
+    if magic != b"glTF" or version != 2:
+        raise NotReadError("this is no binary glTF 2 file")
+    chunks: dict[bytes, bytes] = {}
+    at = 12
+    while at < len(content):
+        length, kind = struct.unpack_from("<I4s", content, at)
+        chunks.setdefault(kind, content[at + 8 : at + 8 + length])
+        at += 8 + length
+    return _gltf(_json(chunks[b"JSON"]), {0: chunks.get(b"BIN\0", b"")}, file)
+
+
+def _gltf(data: dict[str, Any], buffers: dict[int, bytes], file: str) -> tuple[Any, Any]:
+    """All triangles of the scene, placed by its nodes."""
+    for k, buffer in enumerate(data.get("buffers", [])):
+        if "uri" in buffer:
+            buffers[k] = _buffer(str(buffer["uri"]), file)
+    vertices: list[Array] = []
+    triangles: list[Any] = []
+    scenes = data.get("scenes") or [{"nodes": list(range(len(data.get("nodes", []))))}]
+    for node in scenes[data.get("scene", 0)].get("nodes", []):
+        _collect(data, buffers, (node, np.eye(4), 0), vertices, triangles)
+    if not triangles:
+        return np.zeros((0, 3)), np.zeros((0, 3))
+    starts = np.cumsum([0, *(len(each) for each in vertices)])
+    return np.concatenate(vertices), np.concatenate([t + start for t, start in zip(triangles, starts, strict=False)])
+
+
+def _collect(
+    data: dict[str, Any],
+    buffers: dict[int, bytes],
+    at: tuple[int, Array, int],
+    vertices: list[Array],
+    triangles: list[Any],
+) -> None:
+    number, around, depth = at
+    if depth > DEEPEST:
+        raise NotReadError("its nodes lead back to themselves")
+    node = data["nodes"][number]
+    placed = around @ _transform(node)
+    if "mesh" in node:
+        for primitive in data["meshes"][node["mesh"]]["primitives"]:
+            if primitive.get("mode", TRIANGLES) != TRIANGLES:
+                continue
+            points = _accessor(data, buffers, primitive["attributes"]["POSITION"]).reshape(-1, 3).astype(np.float64)
+            corners = np.arange(len(points))
+            if "indices" in primitive:
+                corners = _accessor(data, buffers, primitive["indices"]).astype(np.int64)
+            corners = corners.reshape(-1, 3)
+            vertices.append(points @ placed[:3, :3].T + placed[:3, 3])
+            triangles.append(corners if np.linalg.det(placed[:3, :3]) > 0.0 else corners[:, ::-1])
+    for child in node.get("children", []):
+        _collect(data, buffers, (child, placed, depth + 1), vertices, triangles)
+
+
+def _transform(node: dict[str, Any]) -> Array:
+    """(4, 4) of a node: its matrix (column by column), or translation, rotation (scalar last) and scale."""
+    if "matrix" in node:
+        return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
+    out = np.eye(4)
+    x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
+    turn = np.array([w, x, y, z], dtype=np.float64)
+    out[:3, :3] = matrix_from_euler_parameters(turn / np.linalg.norm(turn)) * np.array(
+        node.get("scale", (1.0, 1.0, 1.0))
+    )
+    out[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
+    return out
+
+
+def _buffer(uri: str, file: str) -> bytes:
+    if uri.startswith("data:"):
+        return base64.b64decode(uri.partition(",")[2])
+    if "://" in uri or FilePath(uri).is_absolute() or ".." in FilePath(uri).parts:
+        raise NotReadError(f"it names `{uri}`, and only files beside it are read")
+    try:
+        return (FilePath(file).parent / uri).read_bytes()
+    except OSError:
+        raise NotReadError(f"its file `{uri}` cannot be read") from None
+
+
+def _accessor(data: dict[str, Any], buffers: dict[int, bytes], number: int) -> NDArray[Any]:
+    accessor = data["accessors"][number]
+    if "sparse" in accessor or "bufferView" not in accessor:
+        raise NotReadError("it has packed (sparse or compressed) parts, which are not read")
+    view = data["bufferViews"][accessor["bufferView"]]
+    if "extensions" in view:
+        raise NotReadError("it has compressed parts, which are not read")
+    width = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
+    kind = np.dtype((NUMBERS[accessor["componentType"]], (width,)))
+    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    stride = view.get("byteStride") or kind.itemsize
+    content, count = buffers[view["buffer"]], accessor["count"]
+    if not 0 < count <= len(content) or start + stride * (count - 1) + kind.itemsize > len(content):
+        raise NotReadError("it is cut short")
+    rows = np.ndarray((count, width), kind.base, content, start, (stride, kind.base.itemsize))
+    return np.array(rows) if width > 1 else np.array(rows)[:, 0]

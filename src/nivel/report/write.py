@@ -22,6 +22,8 @@ from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
 from nivel.results.target import keep_sources
 from nivel.results.verdicts import RULES, THRESHOLDS
+from nivel.view.export import scene_html
+from nivel.view.playback import SMALL
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -29,6 +31,8 @@ if TYPE_CHECKING:
 HERE = Path(__file__).parent
 POINTS = (400, 4000)  # of a curve: a screen is about 1000 wide, and one wants to zoom in
 MARKED_EVENTS = 200  # marks in a plot; more cannot be told apart
+MOVING = 2  # frames from which on there is a motion
+LARGEST_MOTION = 900_000  # characters
 ALL_POINTS = 600_000  # of all curves together: keeps the file below about 4 MB
 
 
@@ -66,6 +70,7 @@ def report_html(result: Result) -> str:
         rules=RULES,
         picture_style=STYLE,
         picture=_picture(result, record),
+        motion=_motion(result),
         peaks=peak_reactions(result),
         icon=joint_icon,
         panels=shown,
@@ -94,6 +99,17 @@ def _picture(result: Result, record: dict[str, Any]) -> str:
     first = slice(0, 1)
     position, orientation = result.array("position", first)[0], result.array("orientation", first)[0]
     return machine_picture(result.scene, position, orientation, upwards(record.get("gravity")))
+
+
+def _motion(result: Result) -> str:
+    """The page that plays the motion, to be shown in a frame; empty where there is none, or where it would be large."""
+    if len(result.time) < MOVING:
+        return ""
+    try:
+        text = scene_html([result], SMALL)
+    except ModelError:  # nothing to draw: the report says the rest
+        return ""
+    return text if len(text) <= LARGEST_MOTION else ""
 
 
 def _data(result: Result, shown: list[Panel]) -> str:

@@ -37,7 +37,7 @@ class Budget:
 
 SERVED: Final = Budget(motion=64_000_000, columns=0, frames=20_000)
 ALONE: Final = Budget(motion=3_000_000, columns=1_000_000, frames=4_000)
-SMALL: Final = Budget(motion=400_000, columns=0, frames=600, vectors=False)
+SMALL: Final = Budget(motion=600_000, columns=0, frames=1200, vectors=False)
 
 
 def playback(results: Sequence[Result], budget: Budget) -> bytes:

@@ -23,6 +23,7 @@ import { Plots } from "./ui/plots";
 import { Timeline } from "./ui/timeline";
 import { Tree } from "./ui/tree";
 
+const IDLE = 400; // ms without a frame after which nothing moves
 const FEW_NAMES = 14; // a machine of more bodies starts without names
 
 export class App {
@@ -47,7 +48,7 @@ export class App {
   private readonly status = el("p", { class: "status", role: "status" });
   private picked: Picked | null = null;
   private latest: Frame | null = null;
-  private acknowledge = 0;
+  private came = 0; // ms: when the last frame came
 
   constructor(
     opened: Opened,
@@ -108,6 +109,7 @@ export class App {
     document.body.append(...this.panels.elements, this.dialog);
     this.panels.settle(!!this.coordinates);
     this.world.onBeforeRender = (now) => this.beforeRender(now);
+    this.world.onEdges = (on) => this.actor.show("edges", on);
     this.world.onRecolour = () => this.recolour();
     listenToPicks(this.world, this.actor, this.arrows.root, (picked) => this.choose(picked));
     listenToKeys(this);
@@ -139,9 +141,10 @@ export class App {
     this.inspector.moveTo(player.frame);
   }
 
-  /** A frame from the server; the page acknowledges it after the next picture. */
+  /** A frame from the server; it is acknowledged when it is drawn. */
   take(frame: Frame): void {
     this.latest = frame;
+    this.came = performance.now();
     this.world.running = true;
     this.world.invalidate();
   }
@@ -157,13 +160,11 @@ export class App {
 
   private beforeRender(now: number): void {
     this.player?.advance(now);
-    if (this.acknowledge) {
-      this.connection?.send({ type: "shown", frame: this.acknowledge });
-      this.acknowledge = 0;
-    }
+    if (this.came && now - this.came > IDLE) this.world.running = false;
     if (this.latest) {
       this.actor.frame.set(this.latest.values.subarray(0, this.actor.frame.length));
-      this.acknowledge = this.latest.number;
+      // the next one may travel while this one is drawn
+      this.connection?.send({ type: "shown", frame: this.latest.number });
       this.latest = null;
       this.refreshFrame();
     }

@@ -30,6 +30,7 @@ export class Actor {
   private readonly signObjects: THREE.Object3D[] = [];
   private readonly triads: THREE.Object3D[] = [];
   private readonly centres: THREE.Object3D[] = [];
+  private readonly edges: THREE.Object3D[] = [];
   private marked: THREE.Object3D[] = [];
 
   constructor(
@@ -93,8 +94,8 @@ export class Actor {
     for (const each of this.deforming) each.update(this.frame, first);
   }
 
-  show(what: "signs" | "triads" | "centres", on: boolean): void {
-    const objects = { signs: this.signObjects, triads: this.triads, centres: this.centres }[what];
+  show(what: "signs" | "triads" | "centres" | "edges", on: boolean): void {
+    const objects = { signs: this.signObjects, triads: this.triads, centres: this.centres, edges: this.edges }[what];
     for (const each of objects) each.visible = on;
   }
 
@@ -128,7 +129,11 @@ export class Actor {
       const mesh = solid(geometry, material, said);
       group.add(mesh);
       const edges = edgesOf(part, geometry);
-      if (edges) group.add(new THREE.LineSegments(edges, this.palette.edge));
+      if (edges) {
+        const lines = new THREE.LineSegments(edges, this.palette.edge);
+        group.add(lines);
+        this.edges.push(lines);
+      }
     }
     const centre = new THREE.Vector3(...body.centre_of_mass);
     const size = this.stage.size;

@@ -33,7 +33,7 @@ export class Floor {
     this.group.position.copy(snapped.applyQuaternion(turn));
     this.lines = new THREE.LineSegments(gridLines(this.square), this.material);
     this.lines.renderOrder = -1;
-    this.shadow = new THREE.Mesh(new THREE.PlaneGeometry(6 * reach, 6 * reach), this.shade);
+    this.shadow = new THREE.Mesh(new THREE.PlaneGeometry(3 * reach, 3 * reach), this.shade);
     this.shadow.receiveShadow = true;
     this.shadow.renderOrder = -2;
     this.group.add(this.lines, this.shadow);

@@ -10,7 +10,10 @@ export type View = (typeof VIEWS)[number];
 
 const FIELD = 26; // degrees, of the shorter side of the picture
 const TURN_TIME = 260; // ms from one view to another
-const SLOW = 34; // ms a frame: slower than this, pixels and then shadows are given up
+const SLOW = 30; // ms a frame: slower than this is not smooth
+const PACED = 12; // frames that the pace is taken of
+const LEAST = 3; // quality: nothing more can be left out
+const REST = 300; // ms after which a picture at rest is drawn in full
 
 const vector = (v: readonly [number, number, number]) => new THREE.Vector3(...v);
 
@@ -22,6 +25,7 @@ export class World {
   readonly floor: Floor;
   look: Look = readLook();
   onBeforeRender: (now: number) => void = () => {};
+  onEdges: (on: boolean) => void = () => {};
   onRecolour: (look: Look) => void = () => {};
   frameCount = 0;
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
@@ -31,20 +35,28 @@ export class World {
   private readonly up: THREE.Vector3;
   private free = { left: 0, top: 0, right: 0, bottom: 0 };
   private dirty = true;
+  private readonly finest: number; // pixels of the picture for one of the page
   private ratio: number;
+  private shadows = true; // as the user wants
+  private level = 0;
+  private learnt = 0; // the quality at which motion is smooth
+  private last = 0;
   private readonly paces: number[] = [];
   private flight: { from: THREE.Vector3; to: THREE.Vector3; target: THREE.Vector3; start: number; aim: THREE.Vector3 } | null = null;
-  running = false; // frames follow each other
+  running = false; // frames follow each other, as long as this is set
 
   constructor(
     readonly holder: HTMLElement,
     private readonly stage: Stage,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    const slow = drawsWithProcessor();
+    document.body.classList.toggle("plain", slow);
+    this.renderer = new THREE.WebGLRenderer({ antialias: !slow, powerPreference: "high-performance" });
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.renderer.shadowMap.type = slow ? THREE.BasicShadowMap : THREE.PCFShadowMap;
     this.renderer.toneMapping = THREE.NoToneMapping;
-    this.ratio = Math.min(devicePixelRatio, 2);
+    this.finest = slow ? 1 : Math.min(devicePixelRatio, 2);
+    this.ratio = this.finest;
     const canvas = this.renderer.domElement;
     canvas.setAttribute("aria-label", `${stage.name} in three dimensions: drag to turn, two fingers or right button to move, wheel to zoom`);
     canvas.setAttribute("role", "img");
@@ -81,8 +93,9 @@ export class World {
   }
 
   setShadows(on: boolean): void {
-    this.sun.castShadow = on;
-    this.floor.setShadows(on);
+    this.shadows = on;
+    this.sun.castShadow = on && this.level < 1;
+    this.floor.setShadows(this.sun.castShadow);
     this.invalidate();
   }
 
@@ -128,10 +141,9 @@ export class World {
     requestAnimationFrame((next) => this.tick(next));
     if (this.flight) this.fly(now);
     this.onBeforeRender(now);
-    if (!this.dirty) {
-      this.paces.length = 0;
-      return;
-    }
+    if (this.running) this.draw(this.learnt);
+    else if (this.level && now - this.last > REST) this.draw(0);
+    if (!this.dirty) return;
     this.dirty = false;
     this.near();
     this.renderer.render(this.scene, this.camera);
@@ -139,21 +151,26 @@ export class World {
     this.pace(now);
   }
 
-  private last = 0;
-
-  /** Where pictures come too slowly while the machine moves, fewer pixels and then no shadows. */
+  /** Where pictures come too slowly while the machine moves, less is drawn: first no shadows, then no edges, then fewer pixels. */
   private pace(now: number): void {
     const took = now - this.last;
     this.last = now;
     if (!this.running || took > 500) return;
     this.paces.push(took);
-    if (this.paces.length < 24) return;
-    const middle = this.paces.sort((a, b) => a - b)[12]!;
+    if (this.paces.length < PACED) return;
+    const middle = this.paces.sort((a, b) => a - b)[PACED >> 1]!;
     this.paces.length = 0;
-    if (middle < SLOW) return;
-    if (this.ratio > 1) this.ratio = 1;
-    else if (this.sun.castShadow) this.setShadows(false);
-    else if (this.ratio > 0.6) this.ratio = 0.6;
+    if (middle > SLOW && this.learnt < LEAST) this.draw(++this.learnt);
+  }
+
+  /** Draw with a quality: 0 is everything, LEAST the least. */
+  private draw(level: number): void {
+    if (level === this.level) return;
+    this.level = level;
+    this.sun.castShadow = this.shadows && level < 1;
+    this.floor.setShadows(this.sun.castShadow);
+    this.onEdges(level < 2);
+    this.ratio = level < 3 ? this.finest : 0.6 * this.finest;
     this.resize();
   }
 
@@ -287,4 +304,13 @@ export class World {
     this.camera.updateProjectionMatrix();
     this.invalidate();
   }
+}
+
+/** Whether there is no graphics hardware: then edges are not smoothed, which costs several times the rest. */
+function drawsWithProcessor(): boolean {
+  const probe = document.createElement("canvas").getContext("webgl2");
+  const info = probe?.getExtension("WEBGL_debug_renderer_info");
+  const name = probe && info ? String(probe.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  probe?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }

@@ -1,0 +1,111 @@
+"""A browser for tests: Debian's chromium without a window, drawing with the processor, and a server in a thread."""
+
+import asyncio
+import os
+import shutil
+import threading
+from contextlib import contextmanager
+
+import pytest
+
+from nivel.view.server import Address, Viewing, start
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
+FLAGS = [
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+]
+LOCAL = ("file:", "data:", "blob:", "about:", "http://127.0.0.1:")
+
+
+@contextmanager
+def chromium():
+    """A browser, or a skipped test with the reason."""
+    if CHROMIUM is None:
+        pytest.skip("no chromium on this machine")
+    playwright = pytest.importorskip("playwright.sync_api")
+    root = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, *root])
+        try:
+            yield browser
+        finally:
+            browser.close()
+
+
+class Watched:
+    """A page and everything that went wrong in it: `said` errors and warnings, `left` requests to other machines."""
+
+    def __init__(self, browser, *, width=1280, height=800, scheme="light", touch=False):
+        self.context = browser.new_context(
+            viewport={"width": width, "height": height}, color_scheme=scheme, has_touch=touch
+        )
+        self.page = self.context.new_page()
+        self.said, self.left = [], []
+        self.page.on("console", self._console)
+        self.page.on("pageerror", lambda error: self.said.append(str(error)))
+        self.page.on("request", lambda request: None if request.url.startswith(LOCAL) else self.left.append(request.url))
+
+    def _console(self, message):
+        # drawing with the processor is slow to read back, which tests do and users do not
+        if message.type in ("error", "warning") and "GPU stall due to ReadPixels" not in message.text:
+            self.said.append(message.text)
+
+    def open(self, address):
+        self.page.goto(address)
+        self.page.wait_for_function("window.nivel", timeout=30_000)
+        self.page.wait_for_timeout(100)
+        return self.page
+
+    def pose(self, body=0):
+        """Position and Euler parameters (scalar first) of a body as they are drawn."""
+        return self.page.evaluate(
+            "(k) => { const { bodies, stage } = nivel.app.actor, p = bodies[k].position, q = bodies[k].quaternion;"
+            "return [...[p.x, p.y, p.z].map((x, i) => x + stage.origin[i]), q.w, q.x, q.y, q.z]; }",
+            body,
+        )
+
+    def close(self):
+        """Close, and fail on whatever went wrong."""
+        self.context.close()
+        assert self.said == []
+        assert self.left == []
+
+
+@contextmanager
+def watched(browser, **given):
+    """A watched page; on the way out everything must have gone well."""
+    page = Watched(browser, **given)
+    try:
+        yield page
+    except BaseException:
+        page.context.close()
+        raise
+    page.close()
+
+
+@contextmanager
+def served(source, address=None):
+    """The viewing of a source that is served in another thread."""
+    viewing, ready, loop = Viewing(source, address or Address()), threading.Event(), asyncio.new_event_loop()
+    stop = asyncio.Event()
+
+    async def serve():
+        async with await start(viewing):
+            ready.set()
+            await stop.wait()
+
+    thread = threading.Thread(target=lambda: loop.run_until_complete(serve()), daemon=True)
+    thread.start()
+    assert ready.wait(10)
+    try:
+        yield viewing
+    finally:
+        loop.call_soon_threadsafe(stop.set)
+        thread.join(10)
+        loop.close()

@@ -1,0 +1,68 @@
+"""A synthetic scene: 50 boxes that circle, and a plate of 1000 vertices that vibrates in its modes, coloured by its deflection."""
+
+import numpy as np
+
+from nivel.view.frames import layout
+from nivel.view.package import Block
+from nivel.view.records import Body, Flexible, Part, Stage, Viewpoint
+
+BODIES, ALONG, ACROSS, MODES = 50, 40, 25, 12
+
+
+def stage(block: Block) -> Stage:
+    """The stage; the plate is carried by body 0."""
+    x, y = np.meshgrid(np.linspace(-1, 1, ALONG), np.linspace(-0.6, 0.6, ACROSS), indexing="ij")
+    vertices = np.stack([x, y, np.zeros_like(x)], axis=-1).reshape(-1, 3)
+    k = np.arange(ALONG * ACROSS).reshape(ALONG, ACROSS)
+    a, b, c, d = k[:-1, :-1].ravel(), k[1:, :-1].ravel(), k[1:, 1:].ravel(), k[:-1, 1:].ravel()
+    triangles = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    orders = [(m, n) for m in range(1, 5) for n in range(1, 4)]
+    shapes = np.stack([np.sin(m * np.pi * (x + 1) / 2) * np.sin(n * np.pi * (y + 0.6) / 1.2) for m, n in orders])
+    modes = np.zeros((MODES, len(vertices), 3))
+    modes[:, :, 2] = shapes.reshape(MODES, -1)
+    plate = Flexible(
+        body=0,
+        name="plate",
+        vertices=block.add(vertices),
+        triangles=block.add(triangles, "u4"),
+        modes=block.add(modes),
+        first=0,
+        low=-0.2,
+        high=0.2,
+        unit="m",
+        quantity="deflection",
+        field=block.add(shapes.reshape(MODES, -1)),
+    )
+    colours = ("#5b86b4", "#cf7f4f", "#6fa17a", "#9274b0")
+    box = Part("box", (0, 0, 0), [0.12, 0.08, 0.05])
+    bodies = [Body("carrier", colours[0], (0, 0, 0))]
+    bodies += [Body(f"box_{n}", colours[n % 4], (0, 0, 0), [box]) for n in range(1, BODIES)]
+    view = Viewpoint((1, 0, 0), (0, 0.5, 0.866), (0, -0.866, 0.5), False)
+    return Stage(
+        name="many",
+        title="many",
+        up=(0, 0, 1),
+        viewpoint=view,
+        origin=(0, 0, 0),
+        low=(-1.5, -1.5, -0.3),
+        high=(1.5, 1.5, 0.8),
+        size=3.0,
+        layout=layout(BODIES, MODES),
+        bodies=bodies,
+        joints=[],
+        forces=[],
+        markers=[],
+        arrows=[],
+        flexible=[plate],
+    )
+
+
+def moment(t: float):
+    """Position (B, 3), orientation (B, 4) and modal coordinates (M,) at the time t."""
+    n = np.arange(BODIES)
+    angle = 2 * np.pi * n / BODIES + t
+    position = np.stack([1.3 * np.cos(angle), 1.3 * np.sin(angle), 0.3 + 0.2 * np.sin(3 * angle)], axis=1)
+    position[0] = 0.0
+    orientation = np.stack([np.cos(angle / 2), 0 * angle, 0 * angle, np.sin(angle / 2)], axis=1)
+    orientation[0] = 1.0, 0.0, 0.0, 0.0
+    return position, orientation, 0.15 * np.sin((2 + np.arange(MODES)) * t) / (1 + np.arange(MODES))

@@ -4,6 +4,7 @@ import asyncio
 import os
 import shutil
 import threading
+import time
 from contextlib import contextmanager
 
 import pytest
@@ -38,6 +39,14 @@ def chromium():
             browser.close()
 
 
+def until(page, condition, patience=30.0):
+    """Wait until an expression is true in a page, whose policy forbids it to evaluate texts by itself."""
+    end = time.monotonic() + patience
+    while not page.evaluate(condition):
+        assert time.monotonic() < end, f"never: {condition}"
+        page.wait_for_timeout(25)
+
+
 class Watched:
     """A page and everything that went wrong in it: `said` errors and warnings, `left` requests to other machines."""
 
@@ -49,7 +58,9 @@ class Watched:
         self.said, self.left = [], []
         self.page.on("console", self._console)
         self.page.on("pageerror", lambda error: self.said.append(str(error)))
-        self.page.on("request", lambda request: None if request.url.startswith(LOCAL) else self.left.append(request.url))
+        self.page.on(
+            "request", lambda request: None if request.url.startswith(LOCAL) else self.left.append(request.url)
+        )
 
     def _console(self, message):
         # drawing with the processor is slow to read back, which tests do and users do not
@@ -58,7 +69,7 @@ class Watched:
 
     def open(self, address):
         self.page.goto(address)
-        self.page.wait_for_function("window.nivel", timeout=30_000)
+        until(self.page, "!!window.nivel")
         self.page.wait_for_timeout(100)
         return self.page
 

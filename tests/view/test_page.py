@@ -1,0 +1,280 @@
+"""The page in a browser: every example plays, scrubs and opens from a file; nothing is complained of, nothing leaves the machine."""
+
+import json
+import runpy
+from functools import cache
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+import synthetic_run as pendulum
+from browsing import chromium, served, until, watched
+from nivel.results import Memory
+from nivel.view.export import write_scene
+from nivel.view.sources import Playback
+
+EXAMPLES = Path(__file__).parent.parent.parent / "examples"
+MACHINES = [*sorted(EXAMPLES.glob("*.yaml")), EXAMPLES / "double_pendulum.py"]
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with chromium() as running:
+        yield running
+
+
+@cache
+def result_of(path):
+    if path.suffix == ".py":
+        return runpy.run_path(str(path))["machine"].simulate(duration=1)
+    return nivel.load(path, allow_code=True).simulate()
+
+
+def picture(page):
+    """The screen as (height, width, 3)."""
+    image = pytest.importorskip("PIL.Image")
+    return np.asarray(image.open(BytesIO(page.screenshot())).convert("RGB"))
+
+
+def assert_drawn(seen, result, frame, page):
+    """Every body of the page stands where the result says."""
+    position, orientation = result.array("position")[frame], result.array("orientation")[frame]
+    size = page.evaluate("nivel.app.stage.size")
+    for body, (r, theta) in enumerate(zip(position, orientation, strict=True)):
+        pose = np.array(seen.pose(body))
+        np.testing.assert_allclose(pose[:3], r, atol=1e-5 * size)
+        sign = np.sign(pose[3:] @ theta)
+        np.testing.assert_allclose(sign * pose[3:], theta, atol=1e-5)
+
+
+@pytest.mark.parametrize("path", MACHINES, ids=lambda path: path.stem)
+def test_every_example_plays_scrubs_and_opens_from_a_file(path, browser, tmp_path):
+    result = result_of(path)
+    file = write_scene([result], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        assert page.evaluate("nivel.span()") == pytest.approx([result.time[0], result.time[-1]])
+        assert_drawn(seen, result, 0, page)
+        start = picture(page)
+        # play
+        page.get_by_role("button", name="Play", exact=True).click()
+        until(page, "nivel.app.player.time > nivel.span()[0]")
+        page.get_by_role("button", name="Pause").click()
+        # scrub
+        slider = page.get_by_role("slider", name="Time")
+        slider.focus()
+        page.keyboard.press("End")
+        page.wait_for_timeout(150)
+        assert_drawn(seen, result, -1, page)
+        assert page.locator("output.time").inner_text().startswith(f"{result.time[-1]:.1f}"[:3])
+        # somewhere else than at the start, where many machines come by again at the end
+        frame = int(0.37 * len(result.time))
+        page.evaluate(f"nivel.app.goTo({float(result.time[frame])!r})")
+        page.wait_for_timeout(150)
+        assert_drawn(seen, result, frame, page)
+        later = picture(page)
+        slider.focus()
+        page.keyboard.press("Home")
+        page.wait_for_timeout(150)
+        assert_drawn(seen, result, 0, page)
+        # something is to be seen, and it moved
+        assert len(np.unique(start.reshape(-1, 3), axis=0)) > 100
+        moved = np.abs(start.astype(int) - later).max(axis=2) > 25
+        assert moved[60:700, 260:940].sum() > 30
+
+
+def test_the_served_page_fetches_what_it_plots(browser):
+    result = result_of(EXAMPLES / "slider-crank.yaml")
+    with served(Playback([result])) as viewing, watched(browser) as seen:
+        page = seen.open(viewing.address.url)
+        page.get_by_role("button", name="crank", exact=True).click()
+        page.get_by_role("button", name="Plot crank.position.y").click()
+        until(page, "document.querySelectorAll('.chart canvas').length === 2")
+        page.keyboard.press("Escape")
+        page.evaluate("nivel.app.goTo(1.307)")
+        frame = int(np.searchsorted(result.time, page.evaluate("nivel.app.player.time"), side="right") - 1)
+        shown = page.locator(".readout li", has_text="crank.position.y").locator("b").inner_text()
+        assert float(shown.replace("−", "-")) == pytest.approx(result.array("crank.position.y")[frame], rel=1e-4)
+        # a click into a plot moves the picture there
+        box = page.locator(".chart .u-over").first.bounding_box()
+        page.mouse.click(box["x"] + box["width"] / 2, box["y"] + 20)
+        assert page.evaluate("nivel.app.player.time") == pytest.approx(4.0, abs=0.2)
+
+
+def test_a_machine_is_moved_by_its_sliders(browser):
+    source = nivel.load(EXAMPLES / "four-bar.yaml").shown()
+    with served(source) as viewing, watched(browser) as seen:
+        page = seen.open(viewing.address.url)
+        before = np.array(seen.pose(1))
+        slider = page.get_by_role("slider", name="crank_pivot.angle")
+        slider.focus()
+        for _ in range(20):
+            page.keyboard.press("ArrowRight")
+        page.wait_for_timeout(400)
+        values = source._movable.values()
+        assert values[0] > source._movable.movements[0].value + 0.05
+        np.testing.assert_allclose(seen.pose(1)[:3], source._movable.pose()[0][1], atol=1e-5)
+        assert np.abs(np.array(seen.pose(1)) - before).max() > 1e-3
+        page.get_by_role("button", name="Back to the assembled position").click()
+        page.wait_for_timeout(300)
+        np.testing.assert_allclose(seen.pose(1), before, atol=1e-5)
+
+
+def test_keys_do_what_the_help_says(browser, tmp_path):
+    result = result_of(EXAMPLES / "slider-crank.yaml")
+    file = write_scene([result], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        page.locator("canvas").first.focus()
+        time = lambda: page.evaluate("nivel.app.player.time")  # noqa: E731
+        page.keyboard.press("ArrowRight")
+        assert time() == pytest.approx(result.time[1])
+        page.keyboard.press("Shift+ArrowRight")
+        assert time() == pytest.approx(result.time[11])
+        page.keyboard.press("ArrowLeft")
+        assert time() == pytest.approx(result.time[10])
+        page.keyboard.press("End")
+        assert time() == pytest.approx(result.time[-1])
+        page.keyboard.press("Home")
+        assert time() == 0.0
+        page.keyboard.press("+")
+        assert page.evaluate("nivel.app.player.speed") == 2
+        page.keyboard.press("-")
+        page.keyboard.press("l")
+        assert page.evaluate("nivel.app.player.loop") is False
+        page.keyboard.press("Space")
+        assert page.evaluate("nivel.app.player.playing") is True
+        page.keyboard.press("Space")
+        # views: gravity is along -Y, so the top is seen from +Y
+        page.keyboard.press("3")
+        page.wait_for_timeout(600)
+        towards = page.evaluate(
+            "() => { const w = nivel.app.world, v = w.camera.position.clone().sub(w.controls.target).normalize(); return v.toArray() }"
+        )
+        np.testing.assert_allclose(towards, [0, 1, 0], atol=5e-3)
+        page.keyboard.press("?")
+        assert page.get_by_role("dialog").is_visible()
+        page.keyboard.press("Escape")
+        # follow a body
+        page.get_by_role("button", name="rod", exact=True).click()
+        page.locator("canvas").first.focus()
+        page.keyboard.press("f")
+        page.evaluate("nivel.app.goTo(1.0)")
+        page.wait_for_timeout(100)
+        target = page.evaluate("nivel.app.world.controls.target.toArray()")
+        np.testing.assert_allclose(target, seen.pose(1)[:3], atol=1e-4)
+
+
+def test_everything_can_be_switched_on_without_complaint(browser, tmp_path):
+    result = result_of(EXAMPLES / "slider-crank.yaml")
+    file = write_scene([result, result], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        page.get_by_role("button", name="Display", exact=True).click()
+        for switch in page.get_by_role("switch").all():
+            switch.check()
+        page.evaluate("nivel.app.goTo(2.0)")
+        page.wait_for_timeout(200)
+        lengths = page.evaluate("nivel.app.arrows.drawn.filter((a) => a.group.visible).length")
+        assert lengths >= 3
+        assert page.evaluate("nivel.app.violations.exaggeration") >= 1e3
+        page.get_by_role("button", name="Data and plots", exact=True).click()
+        page.get_by_role("button", name="rod", exact=True).click()
+        page.get_by_role("button", name="Trace centre of mass").click()
+        assert page.evaluate("nivel.app.traces.keys") == ["body rod"]
+
+
+def test_a_click_into_the_picture_chooses_a_body(browser, tmp_path):
+    file = write_scene([result_of(EXAMPLES / "simple-pendulum.yaml")], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        x, y = page.evaluate(
+            "() => { const a = nivel.app, v = a.actor.bodies[0].position.clone().project(a.world.camera), c = a.world.renderer.domElement;"
+            "return [(v.x + 1) / 2 * c.clientWidth, (1 - v.y) / 2 * c.clientHeight] }"
+        )
+        page.mouse.click(x, y)
+        assert page.locator(".chosen h2").inner_text() in ("bob", "hinge")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (390, 800)])
+def test_the_page_fits_its_window_and_every_control_has_a_name(browser, tmp_path, scheme, width, height):
+    file = write_scene([result_of(EXAMPLES / "slider-crank.yaml")], tmp_path / "scene.html")
+    with watched(browser, width=width, height=height, scheme=scheme, touch=width < 500) as seen:
+        page = seen.open(file.as_uri())
+        for name in ("Structure", "Data and plots", "Display"):
+            button = page.get_by_role("button", name=name, exact=True)
+            if button.get_attribute("aria-pressed") != "true":
+                button.click()
+            page.wait_for_timeout(50)
+            outside = page.evaluate(
+                "() => [...document.querySelectorAll('button, input, select, .panel, .timeline, .top')].filter((e) => {"
+                "const b = e.getBoundingClientRect(); return b.width && (b.left < -1 || b.right > innerWidth + 1) })"
+                ".map((e) => e.outerHTML.slice(0, 80))"
+            )
+            assert outside == []
+        nameless = page.evaluate(
+            "() => [...document.querySelectorAll('button, input, select')].filter((e) => !e.getAttribute('aria-label') &&"
+            "!e.textContent.trim() && !(e.labels && e.labels.length)).length"
+        )
+        assert nameless == 0
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_poses_that_are_not_finite_hide_their_body(browser, tmp_path):
+    time = np.linspace(0.0, 1.0, 101)
+    values = pendulum.histories(time)
+    values["position"][50:] = np.nan
+    memory = Memory()
+    memory.begin(pendulum.header(outcome="failed", failure="the step became too small"))
+    memory.take(pendulum.packed(time, values))
+    file = write_scene([memory.close({"outcome": "failed"})], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        assert "the step became too small" in page.locator(".notes").inner_text()
+        page.evaluate("nivel.app.goTo(0.9)")
+        page.wait_for_timeout(100)
+        assert page.evaluate("nivel.app.actor.bodies[0].visible") is False
+        page.evaluate("nivel.app.goTo(0.1)")
+        assert page.evaluate("nivel.app.actor.bodies[0].visible") is True
+
+
+def test_a_report_plays_its_run_and_a_notebook_too(browser, tmp_path):
+    result = result_of(EXAMPLES / "slider-crank.yaml")
+    report = result.report(tmp_path / "report.html")
+    with watched(browser) as seen:
+        page = seen.page
+        page.goto(report.as_uri())
+        page.get_by_role("button", name="Play the motion").click()
+        page.wait_for_timeout(300)
+        frame = page.frames[1]
+        until(frame, "!!window.nivel")
+        assert frame.evaluate("nivel.span()") == pytest.approx([0.0, 8.0])
+        notebook = tmp_path / "notebook.html"
+        notebook.write_text(f"<!doctype html><meta charset=utf-8>{result.view()._repr_html_()}", encoding="utf-8")
+        page.goto(notebook.as_uri())
+        page.wait_for_timeout(300)
+        until(page.frames[1], "!!window.nivel")
+
+
+def test_damaged_data_are_told_in_the_page(browser, tmp_path):
+    file = write_scene([result_of(EXAMPLES / "simple-pendulum.yaml")], tmp_path / "scene.html")
+    text = file.read_text(encoding="utf-8")
+    start = text.index('id="package">') + len('id="package">')
+    (tmp_path / "cut.html").write_text(text[: start + 400] + text[text.index("</script>", start) :], encoding="utf-8")
+    page = browser.new_page()
+    page.goto((tmp_path / "cut.html").as_uri())
+    page.wait_for_selector(".complaint")
+    assert "cannot be shown" in page.locator(".complaint").inner_text()
+    page.close()
+
+
+def test_what_the_scene_knows_of_flexible_bodies_is_json():
+    from many_bodies import stage
+    from nivel.view.package import Block
+
+    block = Block()
+    assert json.dumps(stage(block).flexible[0].name) == '"plate"'

@@ -1,0 +1,235 @@
+"""Packages of results: poses, arrows and violations are those of the result; what is too much is thinned; what is wrong is said."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+import synthetic_run as pendulum
+from nivel.errors import ModelError
+from nivel.machine import Body, Driver, Joint, Motor, PairForce, PointForce, SpringDamper, Torque
+from nivel.results import Memory
+from nivel.view.export import scene_html
+from nivel.view.package import from_bytes, unpacked
+from nivel.view.playback import ALONE, SERVED, SMALL, Budget, playback
+
+TIME = np.linspace(0.0, 8.0, 801)
+
+
+def swung(time=TIME, values=None, **attributes):
+    memory = Memory()
+    memory.begin(pendulum.header(**attributes))
+    memory.take(pendulum.frames(time) if values is None else pendulum.packed(time, values))
+    return memory.close({"outcome": "done", **attributes})
+
+
+def opened(*results, budget=ALONE):
+    """The first stage, its times, its frames (n, width) and all stages."""
+    head, arrays = from_bytes(playback(list(results), budget))
+    stage = head["stages"][0]
+    motion = stage["motion"]
+    return stage, unpacked(motion["time"], arrays), unpacked(motion["frames"], arrays).T, head["stages"], arrays
+
+
+def vectors(stage, frames):
+    first = 7 * stage["layout"]["bodies"] + stage["layout"]["modes"]
+    return frames[:, first:].reshape(len(frames), -1, 3)
+
+
+def test_poses_and_times_are_those_of_the_result():
+    result = swung()
+    stage, time, frames, *_ = opened(result)
+    np.testing.assert_array_equal(time, result.time)
+    np.testing.assert_allclose(frames[:, :3], result.array("position")[:, 0], atol=1e-6)
+    np.testing.assert_allclose(frames[:, 3:7], result.array("orientation")[:, 0], atol=1e-6)
+    assert [body["name"] for body in stage["bodies"]] == ["arm"]
+    assert stage["up"] == [0.0, 0.0, 1.0]
+
+
+def test_columns_are_the_variables_of_the_result_and_belong_to_their_elements():
+    result = swung()
+    stage, *_, arrays = opened(result)
+    columns = {column["name"]: column for column in stage["columns"]}
+    for name in ("hinge.angle", "arm.position.x", "hinge.force.y", "kinetic_energy"):
+        np.testing.assert_allclose(unpacked(columns[name]["values"], arrays), result.array(name), rtol=1e-6)
+    assert columns["arm.position.x"]["owner"] == "arm"
+    assert columns["hinge.angle"]["owner"] == "hinge"
+    assert columns["hinge.angle"]["unit"] == "rad"
+    assert columns["kinetic_energy"]["owner"] == ""
+
+
+def test_a_gap_of_a_joint_is_its_violation_and_a_turn_that_of_its_directions():
+    scene = pendulum.scene()
+    scene["joints"][0]["x_axes"] = [[1, 0, 0], [1, 0, 0]]
+    values = pendulum.histories(TIME)
+    values["orientation"] = np.tile([1.0, 0.0, 0.0, 0.0], (len(TIME), 1, 1))  # both markers along the global axes
+    stage, time, frames, *_ = opened(swung(values=values, scene=json.dumps(scene)))
+    place = stage["joints"][0]["violation"]
+    gap, turn = vectors(stage, frames)[:, place], vectors(stage, frames)[:, place + 1]
+    # rows of synthetic_run: 1e-9 t (1, 2, 0) of the point, 0.5 and 0.25 of x and y of the first against z of the second;
+    # with z = z: b × a = z × x = y, z × y = -x
+    np.testing.assert_allclose(gap, 1e-9 * np.outer(time, [1, 2, 0]), rtol=1e-6, atol=1e-16)
+    np.testing.assert_allclose(turn, 1e-9 * np.outer(time, [-0.25, 0.5, 0]), rtol=1e-6, atol=1e-16)
+
+
+def machine(**parts):
+    arm = Body(name="arm", mass=2.0, inertia=(0.01, 0.2, 0.2), position=(0.5, 0, 0))
+    pin = Joint(name="pin", type="revolute", bodies=("ground", "arm"), point=(0, 0, 0), axis=(0, 0, 1))
+    return nivel.Machine("arm", bodies=[arm], joints=[pin], gravity=(0, -9.81, 0), **parts)
+
+
+def arrow(result, owner, kind):
+    """The arrow's record, its vectors (n, 3) and the result."""
+    stage, _, frames, *_ = opened(result)
+    found = [each for each in stage["arrows"] if each["owner"] == owner and each["kind"] == kind]
+    return found, [vectors(stage, frames)[:, each["vector"]] for each in found]
+
+
+def test_the_reaction_of_a_pin_carries_weight_and_acceleration():
+    result = machine().simulate(duration=0.5, step=1e-3)
+    (record,), (shown,) = arrow(result, "pin", "force")
+    # on the arm: m (a - g)
+    np.testing.assert_allclose(
+        shown, 2.0 * (result.array("arm.acceleration") - np.array([0, -9.81, 0])), rtol=1e-5, atol=1e-4
+    )
+    assert record["body"] == 0
+    assert record["point"] == pytest.approx([-0.5, 0, 0])
+    assert record["largest"] == pytest.approx(np.linalg.norm(shown, axis=1).max(), rel=1e-6)
+
+
+def test_a_spring_pulls_both_ways_along_its_line():
+    spring = SpringDamper(
+        name="spring", bodies=("ground", "arm"), points=((0.5, 1, 0), (0.5, 0, 0)), stiffness=50, free_length=0.2
+    )
+    result = machine(forces=[spring]).simulate(duration=1.0, step=1e-3)
+    (record,), (shown,) = arrow(result, "spring", "force")
+    end = result.array("arm.position")
+    line = np.array([0.5, 1, 0]) - end
+    length = np.linalg.norm(line, axis=1, keepdims=True)
+    np.testing.assert_allclose(shown, 50 * (length - 0.2) * line / length, rtol=1e-4, atol=1e-3)
+    assert record["source"] == "applied"
+
+
+def test_loads_motors_and_drivers_have_their_sign_from_their_power():
+    push = PointForce(name="push", body="arm", vector=("3*sin(20*time)", 0, 0))
+    twist = Torque(name="twist", body="arm", vector=(0, 0, 1.5))
+    motor = Motor(name="motor", coordinate="pin.angle", effort="2*cos(10*time)")
+    pair = PairForce(name="ram", bodies=("ground", "arm"), points=((0, -1, 0), (0.5, 0, 0)), magnitude="4*sin(9*time)")
+    result = machine(forces=[push, twist, motor, pair]).simulate(duration=0.6, step=1e-3)
+    time, moving = result.time, slice(5, None)
+    _, (shown,) = arrow(result, "push", "force")
+    np.testing.assert_allclose(shown[moving, 0], 3 * np.sin(20 * time[moving]), atol=1e-5)
+    _, (shown,) = arrow(result, "twist", "torque")
+    np.testing.assert_allclose(shown, np.tile([0, 0, 1.5], (len(time), 1)), atol=1e-6)
+    _, (shown,) = arrow(result, "motor", "torque")
+    np.testing.assert_allclose(shown[moving, 2], 2 * np.cos(10 * time[moving]), atol=1e-5)
+    _, (shown,) = arrow(result, "ram", "force")
+    line = result.array("arm.position") - np.array([0, -1, 0])
+    np.testing.assert_allclose(
+        np.sum(shown * line, axis=1)[moving] / np.linalg.norm(line, axis=1)[moving],
+        4 * np.sin(9 * time[moving]),
+        atol=1e-4,
+    )
+    driven = machine(drivers=[Driver(name="drive", coordinate="pin.angle", value="time^2")]).simulate(
+        duration=0.5, step=1e-3
+    )
+    _, (shown,) = arrow(driven, "drive", "torque")
+    # about the pin: J θ'' = effort - weight's moment, J = 0.2 + 2 · 0.25
+    expected = 0.7 * 2.0 + 2.0 * 9.81 * 0.5 * np.cos(driven.time**2)
+    np.testing.assert_allclose(shown[moving, 2], expected[moving], rtol=1e-5)
+
+
+def test_long_results_are_thinned_evenly_and_it_is_said():
+    time = np.linspace(0.0, 1000.0, 100_000)
+    stage, shown, frames, *_ = opened(swung(time), budget=SERVED)
+    assert len(shown) <= SERVED.frames
+    assert stage["motion"]["stride"] == 5
+    np.testing.assert_array_equal(shown, time[::5])
+    assert len(frames) == len(shown)
+    assert any("5th of 100000" in note for note in stage["notes"])
+    assert len(scene_html([swung(time)])) < 6_000_000
+
+
+@pytest.mark.parametrize("budget", [SERVED, ALONE, SMALL])
+def test_poses_that_are_not_finite_are_told_and_do_no_harm(budget):
+    values = pendulum.histories(TIME)
+    values["position"] = values["position"].copy()
+    values["position"][700:] = np.nan
+    values["orientation"] = values["orientation"].copy()
+    values["orientation"][750:] = np.inf
+    values["joint_force"] = np.full_like(values["joint_force"], 1e300)
+    stage, _, frames, *_ = opened(swung(values=values, outcome="failed", failure="it broke"), budget=budget)
+    assert "it broke" in stage["notes"][0]
+    assert any("not finite" in note for note in stage["notes"])
+    assert np.all(np.isfinite(stage["low"] + stage["high"]))
+    assert np.isnan(frames[-1, 0])
+
+
+def test_machines_far_from_the_origin_keep_their_digits():
+    values = pendulum.histories(TIME)
+    values["position"] = values["position"] + 1e6
+    scene = pendulum.scene()
+    scene["ground_points"] = []
+    stage, _, frames, *_ = opened(swung(values=values, scene=json.dumps(scene)))
+    np.testing.assert_allclose(frames[:, :3] + stage["origin"], values["position"][:, 0], atol=1e-6)
+    assert stage["size"] < 10.0
+
+
+def test_two_results_of_different_machines_are_laid_over_each_other():
+    other = machine().simulate(duration=0.2, step=1e-3)
+    *_, stages, _ = opened(swung(), other)
+    assert [stage["name"] for stage in stages] == ["pendulum", "arm"]
+
+
+@pytest.mark.parametrize(
+    ("attributes", "said"),
+    [
+        ({"scene": "{}"}, "nothing about bodies"),
+        ({"scene": "{not json"}, "cannot be read"),
+        ({"scene": "[]"}, "cannot be read"),
+        (
+            {"scene": json.dumps({"bodies": [{"name": "leg", "shape": None, "centre_of_mass": [0, 0, 0]}]})},
+            "not those of its motion",
+        ),
+    ],
+)
+def test_results_without_a_picture_are_refused_with_the_reason(attributes, said):
+    with pytest.raises(ModelError, match=said):
+        playback([swung(**attributes)], ALONE)
+
+
+def test_a_result_without_frames_is_refused():
+    memory = Memory()
+    memory.begin(pendulum.header())
+    with pytest.raises(ModelError, match="no frame"):
+        playback([memory.close({"outcome": "failed"})], ALONE)
+
+
+def test_a_scene_of_an_older_version_is_shown():
+    scene = pendulum.scene()  # knows no masses, no x axes, no markers, no forces
+    assert "markers" not in scene
+    stage, *_ = opened(swung(scene=json.dumps(scene), machine_record="{}"))
+    assert stage["forces"] == stage["markers"] == []
+
+
+def test_names_cannot_break_the_page():
+    text = scene_html([swung(machine="</script><script>alert(1)</script>")])
+    assert "<script>alert" not in text
+
+
+def test_ten_seconds_of_the_slider_crank_fit_into_two_megabytes():
+    path = Path(__file__).parent.parent.parent / "examples" / "slider-crank.yaml"
+    result = nivel.load(path).simulate(duration=10)
+    assert len(result.time) == 1001
+    text = scene_html([result])
+    assert len(text.encode()) <= 2_000_000
+    # all of it, not a thinned one
+    _, time, *_ = opened(result)
+    assert len(time) == 1001
+
+
+def test_the_budget_of_columns_is_kept():
+    stage, *_ = opened(swung(), budget=Budget(motion=10**6, columns=4 * 801 * 3, frames=1000))
+    assert sum(column["values"] is not None for column in stage["columns"]) == 3

@@ -1,6 +1,7 @@
 // Bundles the page into the Python package: one script, one style sheet, the notices of what is inside.
 import { build } from "esbuild";
-import { readFileSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 
 const out = "../src/nivel/view/page";
 const notice = (name) => `${name}\n\n${readFileSync(`node_modules/${name}/LICENSE`, "utf8").trim()}\n`;
@@ -19,3 +20,12 @@ await build({
   logLevel: "info",
 });
 writeFileSync(`${out}/NOTICE`, ["three", "uplot"].map(notice).join("\n---\n\n"));
+
+// what the bundle was made from: tests compare
+const files = readdirSync("src", { recursive: true, withFileTypes: true })
+  .filter((entry) => entry.isFile())
+  .map((entry) => `${entry.parentPath ?? entry.path}/${entry.name}`.replaceAll("\\", "/"))
+  .sort();
+const digest = createHash("sha256");
+for (const file of [...files, "build.mjs", "package-lock.json"]) digest.update(readFileSync(file));
+writeFileSync(`${out}/SOURCES`, `${digest.digest("hex")}\n`);

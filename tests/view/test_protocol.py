@@ -1,5 +1,6 @@
 """Messages, packages and frames: what is written is read back, what is not ours is refused."""
 
+import hashlib
 import json
 import re
 import struct
@@ -28,6 +29,22 @@ def test_the_typescript_of_the_records_is_current():
     assert GENERATED.read_text(encoding="utf-8") == typescript(), (
         f"python -m nivel.view.typescript {GENERATED.relative_to(ROOT)}, then npm run build in viewer/"
     )
+
+
+def test_the_built_page_is_that_of_the_sources():
+    folder = ROOT / "viewer"
+    files = sorted(
+        (path for path in (folder / "src").rglob("*") if path.is_file()),
+        key=lambda path: path.relative_to(folder).as_posix(),
+    )
+    digest = hashlib.sha256()
+    for path in [*files, folder / "build.mjs", folder / "package-lock.json"]:
+        digest.update(path.read_bytes())
+    assert built("SOURCES").strip() == digest.hexdigest(), "npm ci && npm run build in viewer/"
+
+
+def test_the_lock_file_names_no_registry():
+    assert '"resolved"' not in (ROOT / "viewer" / "package-lock.json").read_text(encoding="utf-8")
 
 
 def test_every_record_and_field_is_in_the_typescript():

@@ -7,6 +7,7 @@ import type { Opened } from "./package";
 import { Player } from "./player";
 import { Actor, type Picked } from "./stage/actor";
 import { Arrows } from "./stage/arrows";
+import { cloudOf } from "./stage/cloud";
 import { Labels } from "./stage/labels";
 import { Follower } from "./stage/follower";
 import { listenToPicks } from "./stage/picking";
@@ -71,6 +72,7 @@ export class App {
       this.ghosts.push({ actor: ghost, motion: new Motion(other, arrays) });
       this.world.scene.add(ghost.root);
     }
+    if (this.motion) this.world.see(cloudOf(this.actor, this.motion));
     this.arrows = new Arrows(this.actor, this.world.look);
     this.traces = new Traces(this.actor, this.motion, this.world.look);
     this.violations = new Violations(this.actor, this.world.look);

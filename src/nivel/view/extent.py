@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.looks.joints import sliding_axes, turning_axes
-from nivel.looks.links import held_points
+from nivel.looks.links import attached, held_points
 from nivel.looks.poses import Pose, body_poses, in_space, upwards
 from nivel.looks.solids import reach
 from nivel.looks.viewpoint import choose_view, is_planar
@@ -87,4 +87,5 @@ def _skeleton(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
         in_space(poses[b["name"]], np.vstack([[b["centre_of_mass"]], held_points(scene, b)]))
         for b in scene.get("bodies", [])
     ]
+    parts += [in_space(poses["ground"], point) for point in attached(scene, "ground")]
     return np.concatenate([NOTHING, *parts])

@@ -15,6 +15,12 @@ const PACED = 12; // frames that the pace is taken of
 const LEAST = 3; // quality: nothing more can be left out
 const REST = 300; // ms after which a picture at rest is drawn in full
 
+/** The eight corners of a box. */
+export function corners(box: THREE.Box3): THREE.Vector3[] {
+  const { min, max } = box;
+  return Array.from({ length: 8 }, (_, k) => new THREE.Vector3(k & 1 ? min.x : max.x, k & 2 ? min.y : max.y, k & 4 ? min.z : max.z));
+}
+
 const vector = (v: readonly [number, number, number]) => new THREE.Vector3(...v);
 
 export class World {
@@ -33,6 +39,7 @@ export class World {
   private readonly low: THREE.Vector3;
   private readonly high: THREE.Vector3;
   private readonly up: THREE.Vector3;
+  private cloud: THREE.Vector3[];
   private free = { left: 0, top: 0, right: 0, bottom: 0 };
   private dirty = true;
   private readonly finest: number; // pixels of the picture for one of the page
@@ -65,6 +72,7 @@ export class World {
     this.up = vector(stage.up);
     this.low = vector(stage.low);
     this.high = vector(stage.high);
+    this.cloud = corners(new THREE.Box3(this.low, this.high));
     this.camera.up.copy(this.up);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
@@ -174,8 +182,13 @@ export class World {
     this.resize();
   }
 
+  /** Points around everything that is to be seen, during the whole motion. */
+  see(points: THREE.Vector3[]): void {
+    if (points.length) this.cloud = points;
+  }
+
   private middle(): THREE.Vector3 {
-    return this.low.clone().add(this.high).multiplyScalar(0.5);
+    return new THREE.Box3().setFromPoints(this.cloud).getCenter(new THREE.Vector3());
   }
 
   private direction(name: View): { towards: THREE.Vector3; up: THREE.Vector3 } {
@@ -208,11 +221,11 @@ export class World {
     const down = Math.max(height - this.free.top - this.free.bottom, 80);
     const slope = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
     let distance = 0.2 * this.stage.size;
-    for (let k = 0; k < 8; k++) {
-      const corner = new THREE.Vector3(k & 1 ? this.low.x : this.high.x, k & 2 ? this.low.y : this.high.y, k & 4 ? this.low.z : this.high.z).sub(middle);
+    for (const point of this.cloud) {
+      const corner = point.clone().sub(middle);
       const depth = corner.dot(back);
       const needed = Math.max((Math.abs(corner.dot(side)) * height) / across, (Math.abs(corner.dot(rise)) * height) / down);
-      distance = Math.max(distance, depth + (1.16 * needed + 0.06 * this.stage.size) / slope);
+      distance = Math.max(distance, depth + (1.08 * needed + 0.05 * this.stage.size) / slope);
     }
     return distance;
   }
@@ -283,8 +296,8 @@ export class World {
   private recolour(): void {
     this.look = readLook();
     this.scene.background = new THREE.Color(this.look.sky);
-    this.sky.intensity = this.look.dark ? 1.25 : 1.7;
-    this.sun.intensity = this.look.dark ? 1.9 : 1.9;
+    this.sky.intensity = this.look.dark ? 1.75 : 1.7;
+    this.sun.intensity = this.look.dark ? 2.2 : 1.9;
     this.floor.recolour(this.look);
     this.onRecolour(this.look);
     this.invalidate();

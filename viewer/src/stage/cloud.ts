@@ -1,0 +1,46 @@
+// Points around a machine during its whole motion, for the camera to keep in sight.
+import * as THREE from "three";
+import type { Motion } from "../motion";
+import type { Actor } from "./actor";
+import { corners } from "./world";
+
+const MOMENTS = 24;
+const MOST = 8000; // points
+
+/** Corners of the boxes around all bodies, at some moments; and what stands on the ground. */
+export function cloudOf(actor: Actor, motion: Motion): THREE.Vector3[] {
+  const boxes = actor.bodies.map((group) => localBox(group));
+  const moments = Math.max(Math.min(MOMENTS, motion.count, Math.floor(MOST / (8 * Math.max(boxes.length, 1)))), 1);
+  const frame = new Float32Array(motion.layout.width);
+  const turn = new THREE.Quaternion();
+  const out: THREE.Vector3[] = [];
+  for (let k = 0; k < moments; k++) {
+    motion.sample(motion.time[Math.round((k * (motion.count - 1)) / Math.max(moments - 1, 1))]!, frame);
+    boxes.forEach((box, body) => {
+      const [x, y, z, e0, e1, e2, e3] = frame.subarray(7 * body, 7 * body + 7) as unknown as number[];
+      if (box.isEmpty() || !Number.isFinite(x! + y! + z! + e0! + e1! + e2! + e3!)) return;
+      turn.set(e1!, e2!, e3!, e0!).normalize();
+      const at = new THREE.Vector3(x, y, z);
+      for (const corner of corners(box)) out.push(corner.applyQuaternion(turn).add(at));
+    });
+  }
+  const ends = new THREE.Vector3();
+  for (const each of [...actor.stage.joints, ...actor.stage.forces]) {
+    each.points.forEach((point, side) => {
+      if (each.bodies[side] === -1 && each.kind !== "contact") out.push(actor.place(-1, point, ends).clone());
+    });
+  }
+  return out;
+}
+
+/** The box around what a group holds, in its own axes; signs of joints do not count. */
+function localBox(group: THREE.Group): THREE.Box3 {
+  const box = new THREE.Box3();
+  for (const child of group.children) {
+    if (!(child instanceof THREE.Mesh) || child.userData.kind !== "body" || !child.visible) continue;
+    child.updateMatrix();
+    child.geometry.computeBoundingBox();
+    if (child.geometry.boundingBox) box.union(child.geometry.boundingBox.clone().applyMatrix4(child.matrix));
+  }
+  return box;
+}

@@ -72,7 +72,10 @@ export class App {
       this.ghosts.push({ actor: ghost, motion: new Motion(other, arrays) });
       this.world.scene.add(ghost.root);
     }
-    if (this.motion) this.world.see(cloudOf(this.actor, this.motion));
+    if (this.motion) {
+      const ghosts = this.ghosts.flatMap(({ actor, motion }) => cloudOf(actor, motion).map((point) => point.add(actor.root.position)));
+      this.world.see([...cloudOf(this.actor, this.motion), ...ghosts]);
+    }
     this.arrows = new Arrows(this.actor, this.world.look);
     this.traces = new Traces(this.actor, this.motion, this.world.look);
     this.violations = new Violations(this.actor, this.world.look);
@@ -89,16 +92,16 @@ export class App {
       follow: () => this.followOrFit(),
       isFollowed: (picked) => this.follower.name === picked.name,
       change: () => this.refreshFrame(),
-      canPlay: !!this.motion,
+      canPlay: content.mode === "playback",
     });
     this.tree = new Tree(stage, (picked) => this.choose(picked));
-    if (this.motion) {
+    if (this.motion && content.mode === "playback") {
       this.player = new Player(this.motion);
       this.timeline = new Timeline(this.player, stage.moments);
       this.player.onChange = () => this.timeline?.refresh();
       this.player.onTime = () => this.showTime();
     }
-    if (content.mode === "machine") {
+    if (content.mode === "machine" && connection) {
       this.coordinates = new Coordinates(
         stage.coordinates,
         (coordinate, value) => connection?.send({ type: "move", coordinate, value }),
@@ -115,9 +118,11 @@ export class App {
     this.world.onRecolour = () => this.recolour();
     listenToPicks(this.world, this.actor, this.arrows.root, (picked) => this.choose(picked));
     listenToKeys(this);
-    if (this.motion) this.showTime();
+    if (this.player) this.showTime();
+    else if (this.motion) this.motion.sample(this.motion.start, this.actor.frame);
+    this.refreshFrame();
     const first = columns.list().find((column) => /\.(angle|displacement)$/.test(column.name));
-    if (first && this.motion) void this.plots.show([first.name]);
+    if (first && this.player) void this.plots.show([first.name]);
   }
 
   // --- time ---

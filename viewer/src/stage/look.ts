@@ -53,6 +53,7 @@ export class Palette {
     this.signDark = new THREE.MeshLambertMaterial();
     this.foot = new THREE.MeshLambertMaterial();
     this.wire = new THREE.MeshLambertMaterial();
+    if (ghost) for (const each of [this.sign, this.signDark, this.foot, this.wire]) Object.assign(each, { transparent: true, opacity: 0.3, depthWrite: false });
     this.recolour(look);
   }
 

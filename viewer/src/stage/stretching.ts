@@ -53,7 +53,7 @@ function laid(actor: Actor, bodies: readonly number[], points: readonly Point[],
 
 function mesh(geometry: THREE.BufferGeometry, material: THREE.Material, said: { kind: string; name: string }): THREE.Mesh {
   const made = new THREE.Mesh(geometry, material);
-  made.castShadow = true;
+  made.castShadow = !material.transparent;
   made.userData = said;
   return made;
 }

@@ -45,6 +45,7 @@ export class World {
   private readonly finest: number; // pixels of the picture for one of the page
   private ratio: number;
   private shadows = true; // as the user wants
+  private fitted = true; // everything is in sight, and stays so when the room changes
   private level = 0;
   private learnt = 0; // the quality at which motion is smooth
   private last = 0;
@@ -78,13 +79,19 @@ export class World {
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.invalidate());
-    this.controls.addEventListener("start", () => (this.flight = null));
+    this.controls.addEventListener("start", () => {
+      this.flight = null;
+      this.fitted = false;
+    });
     this.floor = new Floor(stage, this.look);
     this.scene.add(this.floor.group, this.sky, this.sun, this.sun.target);
     this.light();
     this.recolour();
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.recolour());
-    new ResizeObserver(() => this.resize()).observe(holder);
+    new ResizeObserver(() => {
+      this.resize();
+      if (this.fitted) this.fit(false);
+    }).observe(holder);
     this.resize();
     this.view("first", false);
     requestAnimationFrame((now) => this.tick(now));
@@ -98,6 +105,7 @@ export class World {
   keepFree(sides: { left: number; top: number; right: number; bottom: number }): void {
     this.free = sides;
     this.resize();
+    if (this.fitted) this.fit(false);
   }
 
   setShadows(on: boolean): void {
@@ -110,10 +118,12 @@ export class World {
   /** Look from one of the standard sides, far enough to see everything. */
   view(name: View, animate = true): void {
     const { towards, up } = this.direction(name);
+    this.fitted = true;
     this.flyTo(towards, up, this.middle(), this.distanceFor(towards), animate);
   }
 
   fit(animate = true): void {
+    this.fitted = true;
     const towards = this.camera.position.clone().sub(this.controls.target).normalize();
     this.flyTo(towards, this.up, this.middle(), this.distanceFor(towards), animate);
   }
@@ -131,6 +141,7 @@ export class World {
   }
 
   zoom(factor: number): void {
+    this.fitted = false;
     this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
     this.controls.update();
     this.invalidate();
@@ -138,6 +149,7 @@ export class World {
 
   /** Move camera and target together. */
   shift(by: THREE.Vector3): void {
+    this.fitted = false;
     this.camera.position.add(by);
     this.controls.target.add(by);
     this.flight?.to.add(by);

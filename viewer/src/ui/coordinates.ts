@@ -44,5 +44,5 @@ export class Coordinates {
 }
 
 function inWords(value: number, unit: string): string {
-  return unit === "rad" ? `${((value * 180) / Math.PI).toFixed(1)}°`.replace("-", "−") : `${short(value)} ${unit}`;
+  return unit === "rad" ? `${((value * 180) / Math.PI).toFixed(1)}°`.replace(/^-0\.0°/, "0.0°").replace("-", "−") : `${short(value)} ${unit}`;
 }

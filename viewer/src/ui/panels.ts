@@ -43,6 +43,7 @@ export class Panels {
 
   /** Open what has room at first; `move` : the machine is moved by hand, by sliders in the data panel. */
   settle(move: boolean): void {
+    if (move) this.rename("data", "Joints and data");
     if (innerWidth >= WIDE && innerHeight > 480) {
       this.set("structure", true);
       this.set("data", true);
@@ -79,6 +80,13 @@ export class Panels {
 
   close(): void {
     for (const name of Object.keys(this.panels) as PanelName[]) this.set(name, false);
+  }
+
+  private rename(name: PanelName, title: string): void {
+    this.panels[name].setAttribute("aria-label", title);
+    this.panels[name].querySelector("h2")!.textContent = title;
+    this.buttons[name].setAttribute("aria-label", title);
+    this.buttons[name].title = `${title} (${KEYS[name]})`;
   }
 
   private set(name: PanelName, on: boolean): void {

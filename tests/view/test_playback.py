@@ -167,6 +167,14 @@ def test_poses_that_are_not_finite_are_told_and_do_no_harm(budget):
     assert np.isnan(frames[-1, 0])
 
 
+def test_a_run_that_explodes_is_looked_at_where_it_began():
+    values = pendulum.histories(TIME)
+    values["position"] = values["position"] * np.exp(np.clip(TIME - 4.0, 0.0, None) * 20.0)[:, None, None]
+    stage, *_ = opened(swung(values=values))
+    assert np.abs(stage["high"] + stage["low"]).max() < 250.0
+    assert stage["size"] < 2.0
+
+
 def test_machines_far_from_the_origin_keep_their_digits():
     values = pendulum.histories(TIME)
     values["position"] = values["position"] + 1e6

@@ -71,9 +71,7 @@ class MotionEquations:
         return np.hstack([f, n_b])
 
 
-def equations(
-    machine: MachineRecord, formulation: str = "newton-euler", *, measured: bool = False
-) -> MotionEquations:
+def equations(machine: MachineRecord, formulation: str = "newton-euler", *, measured: bool = False) -> MotionEquations:
     """Numbers and compiled equations of `machine` in absolute coordinates, as placed; compiles on first use.
 
     formulation : "newton-euler", six velocities a body, or "lagrange", seven and normalisation.

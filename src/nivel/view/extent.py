@@ -19,6 +19,8 @@ from nivel.view.stage import Cast, triple
 Array = NDArray[np.float64]
 FAR_AWAY: Final = 1e3  # machine lengths from the global origin from which on positions are counted from the machine
 LOOKED_AT: Final = 60  # frames that the box around a motion is found from
+FLOWN: Final = 200.0  # lengths of the machine
+BEYOND: Final = 1e15  # [m] a run that went further than machines may be long (system.build) is drawn up to there
 NOTHING: Final = np.empty((0, 3))
 
 
@@ -35,9 +37,9 @@ class Extent:
 
 
 def extent(cast: Cast, position: Array, orientation: Array) -> Extent:
-    """The extent over frames: position (n, B, 3) [m], orientation (n, B, 4); frames that are not finite are left out."""
+    """The extent over frames: position (n, B, 3) [m], orientation (n, B, 4); frames that are not finite, or beyond all bounds, are left out."""
     scene, up = cast.scene, upwards(cast.record.get("gravity"))
-    fit = np.all(np.isfinite(position), axis=(1, 2)) & np.all(np.isfinite(orientation), axis=(1, 2))
+    fit = np.all(np.abs(position) < BEYOND, axis=(1, 2)) & np.all(np.isfinite(orientation), axis=(1, 2))
     chosen = np.flatnonzero(fit)
     chosen = (
         chosen[np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), LOOKED_AT)).astype(int))]
@@ -45,6 +47,8 @@ def extent(cast: Cast, position: Array, orientation: Array) -> Extent:
         else chosen
     )
     position, orientation = position[chosen], orientation[chosen]
+    near = _stays_near(scene, position, orientation)
+    position, orientation = position[near], orientation[near]
     if not len(position):
         position, orientation = np.zeros((1, len(cast.bodies), 3)), np.tile([1.0, 0, 0, 0], (1, len(cast.bodies), 1))
     skeletons = [_points(scene, p, q) for p, q in zip(position, orientation, strict=True)]
@@ -62,6 +66,14 @@ def extent(cast: Cast, position: Array, orientation: Array) -> Extent:
     flat = is_planar(bones if len(bones) else cloud, turning, sliding)
     point = Viewpoint(triple(view.right), triple(view.up), triple(view.towards), flat)
     return Extent(triple(origin), triple(low - origin), triple(high - origin), size, triple(up), point)
+
+
+def _stays_near(scene: dict[str, Any], position: Array, orientation: Array) -> NDArray[np.bool_]:
+    """(n,) frames in which no body is further away than FLOWN lengths of the machine: a run that exploded is shown where it began."""
+    if not len(position) or not scene.get("bodies"):
+        return np.ones(len(position), dtype=bool)
+    size = float(np.linalg.norm(np.ptp(_points(scene, position[0], orientation[0]), axis=0))) or np.inf
+    return np.all(np.linalg.norm(position - position[0], axis=-1) <= FLOWN * size, axis=1)
 
 
 def _points(scene: dict[str, Any], position: Array, orientation: Array) -> Array:

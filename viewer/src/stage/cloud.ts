@@ -13,6 +13,8 @@ export function cloudOf(actor: Actor, motion: Motion): THREE.Vector3[] {
   const moments = Math.max(Math.min(MOMENTS, motion.count, Math.floor(MOST / (8 * Math.max(boxes.length, 1)))), 1);
   const frame = new Float32Array(motion.layout.width);
   const turn = new THREE.Quaternion();
+  const room = new THREE.Box3(new THREE.Vector3(...actor.stage.low), new THREE.Vector3(...actor.stage.high));
+  room.expandByScalar(room.min.distanceTo(room.max) + actor.stage.size); // what exploded is left out
   const out: THREE.Vector3[] = [];
   for (let k = 0; k < moments; k++) {
     motion.sample(motion.time[Math.round((k * (motion.count - 1)) / Math.max(moments - 1, 1))]!, frame);
@@ -21,6 +23,7 @@ export function cloudOf(actor: Actor, motion: Motion): THREE.Vector3[] {
       if (box.isEmpty() || !Number.isFinite(x! + y! + z! + e0! + e1! + e2! + e3!)) return;
       turn.set(e1!, e2!, e3!, e0!).normalize();
       const at = new THREE.Vector3(x, y, z);
+      if (!room.containsPoint(at)) return;
       for (const corner of corners(box)) out.push(corner.applyQuaternion(turn).add(at));
     });
   }

@@ -56,7 +56,10 @@ def test_all_faults_come_at_once_and_name_the_element():
     assert "bodies.crank.mass: `3 m` is a length (m); a mass (kg) was expected" in text
     assert "bodies.crank.inertia: three moments" in text
     assert "bodies.crank.positon: the key `positon` is not known; did you mean `position`?" in text
-    assert "bodies.crank.shape: the type `boks` is not known; there are box, cylinder, capsule, tube, sphere, extrusion, mesh" in text
+    assert (
+        "bodies.crank.shape: the type `boks` is not known; there are box, cylinder, capsule, tube, sphere, extrusion, mesh"
+        in text
+    )
 
 
 def test_nested_faults_name_the_elements_of_the_machine():

@@ -6,6 +6,7 @@ import json
 import random
 import socket
 import struct
+import sys
 
 import numpy as np
 import pytest
@@ -218,3 +219,18 @@ def test_ports_and_addresses_that_cannot_be_used_are_said():
             asyncio.run(start(Viewing(Playback([swinging()]), Address("127.0.0.1", port))))
     with pytest.raises(ModelError, match="no address that this machine can listen at"):
         asyncio.run(start(Viewing(Playback([swinging()]), Address("192.0.2.1", 0, "token"))))
+
+
+def test_what_goes_on_when_the_server_has_ended_is_not_disturbed():
+    block = Block()
+    live = Live(stage(block), block)
+    with served(live):
+        live.show(0.0, *moment(0.0))
+    live.show(1.0, *moment(1.0))
+    assert live.frame()[0] == 1.0
+
+
+def test_without_websockets_it_is_said_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "websockets.asyncio.server", None)
+    with pytest.raises(ModelError, match=r"pip install 'nivel\[view\]'"):
+        asyncio.run(start(Viewing(Playback([swinging()]), Address())))

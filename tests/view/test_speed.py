@@ -11,7 +11,7 @@ from nivel.view.package import Block
 from nivel.view.sources import Live
 
 ENOUGH = 30.0  # frames a second
-ATTEMPTS = 4  # a busy machine may spoil some
+ATTEMPTS = 15  # a busy machine spoils some
 SERVER_TIME = 0.3e-3  # [s] a frame
 
 

@@ -2,7 +2,7 @@
 import { App } from "./app";
 import { Connection } from "./connection";
 import { inflate, openPackage } from "./package";
-import type { View } from "./stage/world";
+import type { View } from "./stage/views";
 import "./style.css";
 
 function complain(text: string): void {

@@ -37,52 +37,50 @@ class Extent:
 
 
 def extent(cast: Cast, position: Array, orientation: Array) -> Extent:
-    """The extent over frames: position (n, B, 3) [m], orientation (n, B, 4); frames that are not finite, or beyond all bounds, are left out."""
-    scene, up = cast.scene, upwards(cast.record.get("gravity"))
-    fit = np.all(np.abs(position) < BEYOND, axis=(1, 2)) & np.all(np.isfinite(orientation), axis=(1, 2))
-    chosen = np.flatnonzero(fit)
-    chosen = (
-        chosen[np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), LOOKED_AT)).astype(int))]
-        if len(chosen)
-        else chosen
-    )
-    position, orientation = position[chosen], orientation[chosen]
-    near = _stays_near(scene, position, orientation)
-    position, orientation = position[near], orientation[near]
-    if not len(position):
-        position, orientation = np.zeros((1, len(cast.bodies), 3)), np.tile([1.0, 0, 0, 0], (1, len(cast.bodies), 1))
-    skeletons = [_points(scene, p, q) for p, q in zip(position, orientation, strict=True)]
-    start, cloud = skeletons[0], np.concatenate([*skeletons, NOTHING])
-    if not len(cloud):
-        start = cloud = np.zeros((1, 3))
+    """The extent over frames: position (n, B, 3) [m], orientation (n, B, 4)."""
+    boxes = [_corners(body["shape"]) if body.get("shape") else NOTHING for body in cast.scene.get("bodies", [])]
+    position, orientation = _looked_at(position, orientation)
+    clouds = [_points(cast.scene, boxes, p, q) for p, q in zip(position, orientation, strict=True)]
+    size = float(np.linalg.norm(np.ptp(clouds[0], axis=0))) if len(clouds[0]) else 0.0
+    if size > 0.0:  # a run that exploded is shown where it began
+        near = np.all(np.linalg.norm(position - position[0], axis=-1) <= FLOWN * size, axis=1)
+        clouds = [cloud for cloud, stays in zip(clouds, near, strict=True) if stays]
+    cloud = np.concatenate(clouds)
+    cloud = cloud if len(cloud) else np.zeros((1, 3))
     low, high = cloud.min(axis=0), cloud.max(axis=0)
-    size = float(np.linalg.norm(np.ptp(start, axis=0))) or float(np.linalg.norm(high - low)) or 1.0
+    size = size or float(np.linalg.norm(high - low)) or 1.0
     middle = 0.5 * (low + high)
     origin = middle if np.linalg.norm(middle) > FAR_AWAY * size else np.zeros(3)
-    poses = body_poses(scene, position[0], orientation[0]) if cast.bodies else {"ground": (np.zeros(3), np.eye(3))}
-    bones = _skeleton(scene, poses)
-    turning, sliding = turning_axes(scene, poses), sliding_axes(scene, poses)
-    view = choose_view(bones if len(bones) else cloud, turning, sliding, up)
-    flat = is_planar(bones if len(bones) else cloud, turning, sliding)
-    point = Viewpoint(triple(view.right), triple(view.up), triple(view.towards), flat)
-    return Extent(triple(origin), triple(low - origin), triple(high - origin), size, triple(up), point)
+    up = upwards(cast.record.get("gravity"))
+    view = _first_view(cast.scene, position[0], orientation[0], up)
+    return Extent(triple(origin), triple(low - origin), triple(high - origin), size, triple(up), view)
 
 
-def _stays_near(scene: dict[str, Any], position: Array, orientation: Array) -> NDArray[np.bool_]:
-    """(n,) frames in which no body is further away than FLOWN lengths of the machine: a run that exploded is shown where it began."""
-    if not len(position) or not scene.get("bodies"):
-        return np.ones(len(position), dtype=bool)
-    size = float(np.linalg.norm(np.ptp(_points(scene, position[0], orientation[0]), axis=0))) or np.inf
-    return np.all(np.linalg.norm(position - position[0], axis=-1) <= FLOWN * size, axis=1)
+def _looked_at(position: Array, orientation: Array) -> tuple[Array, Array]:
+    """Some of the frames, evenly taken of those that are finite and within bounds; a resting one where there is none."""
+    fit = np.all(np.abs(position) < BEYOND, axis=(1, 2)) & np.all(np.isfinite(orientation), axis=(1, 2))
+    chosen = np.flatnonzero(fit)
+    if not len(chosen):
+        bodies = position.shape[1]
+        return np.zeros((1, bodies, 3)), np.tile([1.0, 0.0, 0.0, 0.0], (1, bodies, 1))
+    chosen = chosen[np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), LOOKED_AT)).astype(int))]
+    return position[chosen], orientation[chosen]
 
 
-def _points(scene: dict[str, Any], position: Array, orientation: Array) -> Array:
-    """(n, 3) points around the machine in one frame."""
-    if not scene.get("bodies"):
-        return NOTHING
+def _first_view(scene: dict[str, Any], position: Array, orientation: Array, up: Array) -> Viewpoint:
     poses = body_poses(scene, position, orientation)
-    shapes = [in_space(poses[b["name"]], _corners(b["shape"])) for b in scene["bodies"] if b.get("shape")]
-    return np.concatenate([_skeleton(scene, poses), *shapes])
+    bones = _skeleton(scene, poses)
+    bones = bones if len(bones) else np.zeros((1, 3))
+    turning, sliding = turning_axes(scene, poses), sliding_axes(scene, poses)
+    view = choose_view(bones, turning, sliding, up)
+    return Viewpoint(triple(view.right), triple(view.up), triple(view.towards), is_planar(bones, turning, sliding))
+
+
+def _points(scene: dict[str, Any], boxes: list[Array], position: Array, orientation: Array) -> Array:
+    """(n, 3) points around the machine in one frame; boxes : corners around the shape of each body, in its frame."""
+    poses = body_poses(scene, position, orientation)
+    placed = [in_space(poses[body["name"]], box) for body, box in zip(scene["bodies"], boxes, strict=True)]
+    return np.concatenate([_skeleton(scene, poses), *placed])
 
 
 def _corners(shape: dict[str, Any]) -> Array:
@@ -96,8 +94,8 @@ def _skeleton(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
     """(n, 3) centres of mass, and points where joints and forces hold bodies and ground."""
     parts = [np.reshape(np.asarray(scene.get("ground_points", []), dtype=float), (-1, 3))]
     parts += [
-        in_space(poses[b["name"]], np.vstack([[b["centre_of_mass"]], held_points(scene, b)]))
-        for b in scene.get("bodies", [])
+        in_space(poses[body["name"]], np.vstack([[body["centre_of_mass"]], held_points(scene, body)]))
+        for body in scene["bodies"]
     ]
     parts += [in_space(poses["ground"], point) for point in attached(scene, "ground")]
     return np.concatenate([NOTHING, *parts])

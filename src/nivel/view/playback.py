@@ -17,8 +17,8 @@ from nivel.view.arrows import Moments, arrows, described
 from nivel.view.columns import columns
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
-from nivel.view.records import PROTOCOL, Moment, Motion, Package, Stage
-from nivel.view.stage import cast
+from nivel.view.records import PROTOCOL, Arrow, Joint, Moment, Motion, Package, Stage
+from nivel.view.stage import Cast, cast
 from nivel.view.violations import violation_vectors
 
 Array = NDArray[np.float64]
@@ -66,24 +66,13 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     scene, record = _described(result)
     _refuse_empty(result, scene)
     players = cast(scene, record, block)
-    bodies, joints = len(players.bodies), len(players.joints)
+    bodies = len(players.bodies)
     frames = played_frames(result, budget)
     position, orientation = _poses(result, bodies, frames)
     where = extent(players, position, orientation)
-    moments = Moments.of(position, orientation)
-    traced = arrows(players, moments, lambda name: _read(result, name, frames)) if budget.vectors else []
-    vectors = [np.stack([each.vectors for each in traced], axis=1)] if traced else []
-    violation = _read(result, "constraint_violation", frames) if budget.vectors else None
-    if violation is not None and joints:
-        rows = result.coordinates["constraint"]
-        vectors.append(violation_vectors(players.joints, rows, violation, moments))
-        places = [len(traced) + 2 * k for k in range(joints)]
-        players = replace(
-            players, joints=[replace(j, violation=k) for j, k in zip(players.joints, places, strict=True)]
-        )
-    together = np.concatenate(vectors, axis=1) if vectors else np.zeros((len(position), 0, 3))
-    rows_of_frames = frame_plan.rows(position - np.array(where.origin), orientation, vectors=together)
-    listed = columns(result, frames, block, budget.columns) if number == 0 or budget.columns else []
+    drawn = _vectors(players, result, frames, Moments.of(position, orientation)) if budget.vectors else NO_VECTORS
+    vectors = drawn.values if budget.vectors else np.zeros((len(position), 0, 3))
+    rows = frame_plan.rows(position - np.array(where.origin), orientation, vectors=vectors)
     return Stage(
         name=result.name,
         title=str(result.path.name) if result.path else result.name,
@@ -93,22 +82,40 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         low=where.low,
         high=where.high,
         size=where.size,
-        layout=frame_plan.layout(bodies, 0, together.shape[1]),
+        layout=frame_plan.layout(bodies, 0, vectors.shape[1]),
         bodies=players.bodies,
-        joints=players.joints,
+        joints=drawn.joints or players.joints,
         forces=players.forces,
         markers=players.markers,
-        arrows=described(traced, 0),
-        columns=listed,
+        arrows=drawn.arrows,
+        columns=columns(result, frames, block, budget.columns) if number == 0 or budget.columns else [],
         moments=[Moment(event.name, float(event.time)) for event in result.events[:MOST_MOMENTS]],
         notes=_notes(result, position, frames),
-        motion=Motion(
-            block.add(result.time[frames], "f8"),
-            block.add(rows_of_frames.T),
-            len(result.time),
-            frames.step,
-        ),
+        motion=Motion(block.add(result.time[frames], "f8"), block.add(rows.T), len(result.time), frames.step),
     )
+
+
+@dataclass(frozen=True)
+class Vectors:
+    """values (n, V, 3) of the frames; the arrows that they are, and the joints with the places of their violations."""
+
+    values: Array
+    arrows: list[Arrow]
+    joints: list[Joint]
+
+
+NO_VECTORS: Final = Vectors(np.zeros((0, 0, 3)), [], [])
+
+
+def _vectors(players: Cast, result: Result, frames: slice, moments: Moments) -> Vectors:
+    """Arrows first, then a gap and a turn for each joint."""
+    traced = arrows(players, moments, lambda name: _read(result, name, frames))
+    parts = [np.zeros((len(moments.position), 0, 3)), *(each.vectors[:, None] for each in traced)]
+    joints, violation = players.joints, _read(result, "constraint_violation", frames)
+    if violation is not None:
+        parts.append(violation_vectors(joints, result.coordinates["constraint"], violation, moments))
+        joints = [replace(joint, violation=len(traced) + 2 * k) for k, joint in enumerate(joints)]
+    return Vectors(np.concatenate(parts, axis=1), described(traced, 0), joints)
 
 
 def _described(result: Result) -> tuple[dict[str, Any], dict[str, Any]]:

@@ -10,6 +10,7 @@ import asyncio
 import hmac
 import secrets
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Any, Final
@@ -136,7 +137,8 @@ async def start(viewing: Viewing) -> Server:
     loop = asyncio.get_running_loop()
 
     def changed() -> None:
-        loop.call_soon_threadsafe(viewing.has_news)
+        with suppress(RuntimeError):  # the server has ended, what it showed goes on
+            loop.call_soon_threadsafe(viewing.has_news)
 
     viewing.source.on_change = changed
     address = viewing.address

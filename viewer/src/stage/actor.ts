@@ -154,6 +154,7 @@ export class Actor {
       const holder = this.holder(joint.bodies[joint.place]);
       const sign = jointSign(joint, this.stage, this.palette);
       for (const each of sign.moving) {
+        if (holder === this.ground) each.position.sub(this.origin);
         holder.add(each);
         this.signObjects.push(each);
       }

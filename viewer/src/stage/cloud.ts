@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import type { Motion } from "../motion";
 import type { Actor } from "./actor";
-import { corners } from "./world";
+import { corners } from "./views";
 
 const MOMENTS = 24;
 const MOST = 8000; // points

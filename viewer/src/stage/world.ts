@@ -1,12 +1,10 @@
 // Renderer, light, floor and camera. A picture is drawn only when something changed.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { Stage, Viewpoint } from "../generated/records";
+import type { Stage } from "../generated/records";
 import { Floor } from "./floor";
 import { readLook, type Look } from "./look";
-
-export const VIEWS = ["first", "front", "right", "top", "back", "left", "below"] as const;
-export type View = (typeof VIEWS)[number];
+import { corners, distanceFor, sideOf, vector, type View } from "./views";
 
 const FIELD = 26; // degrees, of the shorter side of the picture
 const TURN_TIME = 260; // ms from one view to another
@@ -14,14 +12,6 @@ const SLOW = 30; // ms a frame: slower than this is not smooth
 const PACED = 12; // frames that the pace is taken of
 const LEAST = 3; // quality: nothing more can be left out
 const REST = 300; // ms after which a picture at rest is drawn in full
-
-/** The eight corners of a box. */
-export function corners(box: THREE.Box3): THREE.Vector3[] {
-  const { min, max } = box;
-  return Array.from({ length: 8 }, (_, k) => new THREE.Vector3(k & 1 ? min.x : max.x, k & 2 ? min.y : max.y, k & 4 ? min.z : max.z));
-}
-
-const vector = (v: readonly [number, number, number]) => new THREE.Vector3(...v);
 
 export class World {
   readonly scene = new THREE.Scene();
@@ -117,15 +107,15 @@ export class World {
 
   /** Look from one of the standard sides, far enough to see everything. */
   view(name: View, animate = true): void {
-    const { towards, up } = this.direction(name);
+    const { towards, up } = sideOf(name, this.stage.viewpoint, this.up);
     this.fitted = true;
-    this.flyTo(towards, up, this.middle(), this.distanceFor(towards), animate);
+    this.flyTo(towards, up, this.middle(), this.distance(towards), animate);
   }
 
   fit(animate = true): void {
     this.fitted = true;
     const towards = this.camera.position.clone().sub(this.controls.target).normalize();
-    this.flyTo(towards, this.up, this.middle(), this.distanceFor(towards), animate);
+    this.flyTo(towards, this.up, this.middle(), this.distance(towards), animate);
   }
 
   /** Turn the camera about its target by angles in radians. */
@@ -203,43 +193,11 @@ export class World {
     return new THREE.Box3().setFromPoints(this.cloud).getCenter(new THREE.Vector3());
   }
 
-  private direction(name: View): { towards: THREE.Vector3; up: THREE.Vector3 } {
-    const first: Viewpoint = this.stage.viewpoint;
-    if (name === "first") return { towards: vector(first.towards), up: vector(first.up) };
-    const vertical = Math.abs(this.up.z) > 0.9;
-    const front = vertical ? new THREE.Vector3(0, -1, 0) : new THREE.Vector3(0, 0, 1);
-    const right = new THREE.Vector3().crossVectors(this.up, front);
-    const towards = {
-      front,
-      right,
-      top: this.up.clone(),
-      back: front.clone().negate(),
-      left: right.clone().negate(),
-      below: this.up.clone().negate(),
-    }[name];
-    const up = name === "top" ? front.clone().negate() : name === "below" ? front.clone() : this.up.clone();
-    return { towards, up };
-  }
-
-  private distanceFor(towards: THREE.Vector3): number {
-    const middle = this.middle();
-    const back = towards.clone().normalize();
-    const side = new THREE.Vector3().crossVectors(this.up, back);
-    if (side.lengthSq() < 1e-6) side.crossVectors(new THREE.Vector3(0.1, 0.3, 1), back);
-    side.normalize();
-    const rise = new THREE.Vector3().crossVectors(back, side);
+  /** How far away everything is in sight. */
+  private distance(towards: THREE.Vector3): number {
     const { width, height } = this.size();
-    const across = Math.max(width - this.free.left - this.free.right, 80);
-    const down = Math.max(height - this.free.top - this.free.bottom, 80);
-    const slope = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
-    let distance = 0.2 * this.stage.size;
-    for (const point of this.cloud) {
-      const corner = point.clone().sub(middle);
-      const depth = corner.dot(back);
-      const needed = Math.max((Math.abs(corner.dot(side)) * height) / across, (Math.abs(corner.dot(rise)) * height) / down);
-      distance = Math.max(distance, depth + (1.08 * needed + 0.05 * this.stage.size) / slope);
-    }
-    return distance;
+    const room = { width, height, across: width - this.free.left - this.free.right, down: height - this.free.top - this.free.bottom };
+    return distanceFor(this.cloud, this.middle(), towards, this.up, room, this.camera.fov, this.stage.size);
   }
 
   private flyTo(towards: THREE.Vector3, up: THREE.Vector3, aim: THREE.Vector3, distance: number, animate: boolean): void {
@@ -288,7 +246,7 @@ export class World {
   private light(): void {
     const middle = this.middle();
     const reach = Math.max(0.75 * this.low.distanceTo(this.high), 0.75 * this.stage.size);
-    const { towards } = this.direction("first");
+    const { towards } = sideOf("first", this.stage.viewpoint, this.up);
     const right = new THREE.Vector3().crossVectors(this.up, towards);
     const from = this.up.clone().multiplyScalar(1.5).addScaledVector(towards, 0.5).addScaledVector(right, -0.55).normalize();
     this.sun.position.copy(middle).addScaledVector(from, 3 * reach);

@@ -1,7 +1,7 @@
 // What is shown, and from where: the panel behind the eye.
 import { rampGradient } from "../stage/ramp";
 import { FAMILIES, type Family } from "../stage/arrows";
-import type { View } from "../stage/world";
+import type { View } from "../stage/views";
 import type { App } from "../app";
 import { el, short, toggle } from "./dom";
 

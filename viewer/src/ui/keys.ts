@@ -1,6 +1,6 @@
 // What the keys do, and the page that says so.
 import type { App } from "../app";
-import { VIEWS } from "../stage/world";
+import { VIEWS } from "../stage/views";
 import { el, iconButton } from "./dom";
 
 const SAID: readonly [string, string][] = [

@@ -19,6 +19,7 @@ Read = Callable[[str], Array | None]  # a variable of the result by name (n, …
 # coordinates of joints along or about the z axis of the first marker
 ALONG_Z: Final = {"angle": "torque", "displacement": "force"}
 ON_COORDINATES: Final = ("motor", "joint-spring-damper", "stop", "friction")
+LARGEST: Final = 1e30  # [N or N m] beyond it nothing is drawn
 BETWEEN: Final = ("spring-damper", "pair-force")
 
 
@@ -194,12 +195,13 @@ def _unit(vectors: Array) -> Array:
 def described(traced: list[Traced], first: int) -> list[Arrow]:
     """Records of arrows whose vectors stand from place `first` on."""
     return [
-        Arrow(each.owner, each.source, each.kind, each.body, each.point, first + k, _largest(each.vectors))
+        Arrow(each.owner, each.source, each.kind, each.body, each.point, first + k, *_sizes(each.vectors))
         for k, each in enumerate(traced)
     ]
 
 
-def _largest(vectors: Array) -> float:
+def _sizes(vectors: Array) -> tuple[float, float]:
+    """Greatest length, and the root of the mean square; of what is finite, also when squared."""
     lengths = np.linalg.norm(vectors, axis=-1)
-    lengths = lengths[np.isfinite(lengths)]
-    return float(lengths.max(initial=0.0))
+    lengths = lengths[lengths < LARGEST]
+    return float(lengths.max(initial=0.0)), float(np.sqrt(np.mean(lengths**2))) if len(lengths) else 0.0

@@ -128,8 +128,8 @@ class Force:
 class Arrow:
     """A vector of the frames drawn as an arrow at a point of a body. first : its place among the vectors of the frame.
 
-    source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest : greatest length in
-    the whole motion, 0 where it is not known.
+    source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest, typical : greatest
+    length in the whole motion, and the root of its mean square.
     """
 
     owner: str
@@ -138,7 +138,8 @@ class Arrow:
     body: int
     point: Triple
     vector: int
-    largest: float = 0.0
+    largest: float
+    typical: float
 
 
 @dataclass(frozen=True)

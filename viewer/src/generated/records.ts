@@ -75,7 +75,7 @@ export interface Force {
   facts: [string, string][];
 }
 
-/** A vector of the frames drawn as an arrow at a point of a body. first : its place among the vectors of the frame. source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest : greatest length in the whole motion, 0 where it is not known. */
+/** A vector of the frames drawn as an arrow at a point of a body. first : its place among the vectors of the frame. source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest, typical : greatest length in the whole motion, and the root of its mean square. */
 export interface Arrow {
   owner: string;
   source: "reaction" | "applied";
@@ -84,6 +84,7 @@ export interface Arrow {
   point: [number, number, number];
   vector: number;
   largest: number;
+  typical: number;
 }
 
 /** A named point of a body, to be traced. */

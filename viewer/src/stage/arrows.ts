@@ -1,10 +1,11 @@
-// Arrows of forces and torques: length by value, the largest of the motion as long as a fixed share of the machine.
+// Arrows of forces and torques: length by value. Twice the typical value of the motion is as long as a fixed share of the machine, or a
+// quarter of the largest value, so that a short peak neither hides all others nor leaves the picture.
 import * as THREE from "three";
 import type { Arrow } from "../generated/records";
 import type { Actor } from "./actor";
 import type { Look } from "./look";
 
-const LONGEST = 0.4; // of the machine's size
+const LONGEST = 0.32; // of the machine's size
 const SHAFT = 0.0052;
 const HEAD = 0.05;
 const UP = new THREE.Vector3(0, 1, 0);
@@ -25,18 +26,19 @@ export class Arrows {
   scale = 1;
   only: string | null = null; // element whose arrows alone are shown
   private readonly drawn: Drawn[];
-  private readonly largest = new Map<string, number>();
+  private readonly reference = new Map<string, number>();
   private readonly materials = new Map<Family, THREE.MeshBasicMaterial>();
 
   constructor(
     private readonly actor: Actor,
     look: Look,
   ) {
-    for (const family of FAMILIES) this.materials.set(family, new THREE.MeshBasicMaterial({ toneMapped: false }));
+    for (const family of FAMILIES) this.materials.set(family, new THREE.MeshBasicMaterial({ depthTest: false, transparent: true }));
     this.recolour(look);
     for (const arrow of actor.stage.arrows) {
       // one scale for all forces and one for all torques: lengths can be compared
-      this.largest.set(arrow.kind, Math.max(this.largest.get(arrow.kind) ?? 0, arrow.largest));
+      const reference = Math.max(2 * arrow.typical, arrow.largest / 4);
+      this.reference.set(arrow.kind, Math.max(this.reference.get(arrow.kind) ?? 0, reference));
     }
     this.drawn = actor.stage.arrows.map((arrow) => this.make(arrow));
   }
@@ -47,7 +49,7 @@ export class Arrows {
 
   /** [N or N m] what an arrow of a tenth of the machine's size stands for. */
   unit(kind: "force" | "torque"): number {
-    return ((this.largest.get(kind) ?? 0) * 0.1) / (LONGEST * this.scale);
+    return ((this.reference.get(kind) ?? 0) * 0.1) / (LONGEST * this.scale);
   }
 
   recolour(look: Look): void {
@@ -65,8 +67,8 @@ export class Arrows {
       if (!group.visible) continue;
       this.actor.vector(record.vector, vector);
       const value = vector.length();
-      const largest = this.largest.get(record.kind) ?? 0;
-      const length = largest > 0 ? (value / largest) * LONGEST * size * this.scale : 0;
+      const reference = this.reference.get(record.kind) ?? 0;
+      const length = reference > 0 ? (value / reference) * LONGEST * size * this.scale : 0;
       if (!(length > 1e-3 * size) || !Number.isFinite(length)) {
         group.visible = false;
         continue;
@@ -94,7 +96,10 @@ export class Arrows {
     group.add(shaft, ...heads);
     group.visible = false;
     const said = { kind: this.actor.stage.joints.some((joint) => joint.name === record.owner) ? "joint" : "force", name: record.owner };
-    for (const each of [shaft, ...heads]) each.userData = said;
+    for (const each of [shaft, ...heads]) {
+      each.userData = said;
+      each.renderOrder = 5; // seen through bodies
+    }
     this.root.add(group);
     return { record, group, shaft, heads };
   }

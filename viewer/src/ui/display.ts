@@ -57,13 +57,15 @@ export class Display {
     const { app } = this;
     const known = FAMILIES.filter((family) => app.arrows.has(family));
     if (!known.length) return null;
-    const size = short(app.actor.stage.size * 0.1);
+    const round = (value: number) => short(+value.toPrecision(2));
+    const size = round(app.actor.stage.size * 0.1);
     const scaleNote = el("p", { class: "note" });
     const say = () => {
       const units = (["force", "torque"] as const).filter((kind) => app.arrows.unit(kind) > 0);
-      scaleNote.textContent = `${size} m of arrow: ${units.map((kind) => `${short(app.arrows.unit(kind))} ${kind === "force" ? "N" : "N m"}`).join(", ")}`;
+      const worth = units.map((kind) => `${round(app.arrows.unit(kind))} ${kind === "force" ? "N" : "N m"}`);
+      scaleNote.textContent = `${size} m of arrow: ${worth.join(", ")}`;
     };
-    const slider = range("Length of arrows", -1, 1, 0, (value) => {
+    const slider = range("Length of arrows", -1, 2, 0, (value) => {
       app.change(() => (app.arrows.scale = 10 ** value));
       say();
     });

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.flexible.body import ReducedBody
+from nivel.looks.viewpoint import View, choose_view
 from nivel.report.frame import HEIGHTS, WIDTH, Frame, fit
 from nivel.report.shading import LIGHT, between
-from nivel.report.view import View, choose_view
 
 Array = NDArray[np.float64]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nivel.kernels.compile import stage
-from nivel.kernels.floating_frame import flexible_kinetic_energy
+from nivel.kernels.floating_dynamics import flexible_kinetic_energy
 from nivel.kernels.record import record_at
 from nivel.kernels.rigid import kinetic_energy, potential_energy
 

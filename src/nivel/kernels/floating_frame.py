@@ -1,10 +1,7 @@
-"""Flexible bodies in a floating frame of reference with modes (Rantalainen 2007, eqs. 3.49–3.83, by invariants).
+"""Flexible bodies in a floating frame of reference with modes: where they and the frames at their interfaces are (Rantalainen 2007).
 
 A point is at R + A (x + φ p), velocities are (Ṙ, ω̄, ṗ). The frame at an interface has the axes A exp(ψ p)~: of the first order in the
 modes like the displacement, but a rotation, so that joints hold exactly.
-
-Modes have unit modal mass, so the mass matrix in axes of the body [M_b B; Bᵀ 1] is factorised from the modes on: what is left of the frame
-is M_b - B Bᵀ = L Lᵀ, 6 × 6 for any number of modes.
 """
 
 from __future__ import annotations
@@ -12,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf, stage
-from nivel.kernels.geometric_stiffening import add_shortening, add_velocity_forces, product
+from nivel.kernels.geometric_stiffening import add_shortening, product
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.spatial import centripetal, cross, dot, multiply
 
@@ -204,186 +201,6 @@ def add_bias(machine):
 
 
 @stage
-def gather(machine):
-    """Bring the wrenches at interfaces to the floating frames and to `Q`, with weight, elastic and damping forces of the modes."""
-    record = record_at(machine)
-    bodies, own, control = record.bodies, record.flexible, record.control
-    for j in range(own.Q.shape[0]):
-        own.Q[j] = 0.0
-    for k in range(own.frame.shape[0]):
-        f, v = own.frame[k, 0], own.frame[k, 1]
-        b = own.body[f]
-        first, n = modes_of(own, f)
-        F, total = bodies.wrench[v], bodies.wrench[b]
-        moment = cross(bodies.c[v], F)
-        for j in range(n):
-            power = 0.0 * F[0]
-            for i in range(3):
-                power += own.displacement[k, i, j] * F[i] + own.turn[k, i, j] * F[3 + i]
-            own.Q[first + j] += power
-        for i in range(3):
-            total[i] += F[i]
-            total[3 + i] += F[3 + i] + moment[i]
-        for i in range(6):
-            F[i] = 0.0
-    for f in range(own.body.shape[0]):
-        A, g, B = bodies.A[own.body[f]], bodies.gravity, own.coupling[f]
-        first, n = modes_of(own, f)
-        g_b = dot(A[:, 0], g), dot(A[:, 1], g), dot(A[:, 2], g)
-        for j in range(n):
-            elastic = dot_modes(own.stiffness[f, j], own.p, first, n)
-            damping = dot_modes(own.damping[f, j], own.pdot, first, n)
-            weight = B[0, j] * g_b[0] + B[1, j] * g_b[1] + B[2, j] * g_b[2]
-            own.Q[first + j] += weight - elastic - damping
-            control.stored[0] += 0.5 * own.p[first + j] * elastic
-            control.power[1] += own.pdot[first + j] * damping
-
-
-@stage
-def velocity_forces(bodies, own, f, out):
-    """Quadratic velocity force of the frame of flexible body f into out (6,), axes of the body; that of its modes is added to `Q`."""
-    b = own.body[f]
-    first, n = modes_of(own, f)
-    width, w, S, J = own.I3.shape[2], bodies.omega_b[b], own.first[f], own.inertia[f]
-    drift = (
-        dot_modes(own.I3[f, 0], own.pdot, first, n),
-        dot_modes(own.I3[f, 1], own.pdot, first, n),
-        dot_modes(own.I3[f, 2], own.pdot, first, n),
-    )
-    centripetal(w, S, out[:3])
-    coriolis = cross(w, drift)
-    gyroscopic = cross(w, (dot(J[0], w), dot(J[1], w), dot(J[2], w)))
-    for i in range(3):
-        out[i] = -out[i] - 2.0 * coriolis[i]
-        out[3 + i] = -gyroscopic[i]
-    for j in range(n):
-        at, t = f * width + j, own.static[f, j]
-        force = dot(w, t)
-        for i in range(3):
-            out[3 + i] -= 2.0 * own.pdot[first + j] * t[i]
-            force += 2.0 * w[i] * dot_modes(own.I5[at, i], own.pdot, first, n)
-        own.Q[first + j] += force
-    if own.of_spin.shape[0] > 0:
-        add_velocity_forces(own, f, w, first, n, out)
-
-
-@stage
-def factorise_frame(bodies, own, f):
-    """root[f] := L of M_b - B Bᵀ = L Lᵀ."""
-    L, B, S, J, b = own.root[f], own.coupling[f], own.first[f], own.inertia[f], own.body[f]
-    m, (_, n) = bodies.mass[b], modes_of(own, f)
-    for i in range(6):
-        for j in range(i + 1):
-            L[i, j] = J[i - 3, j - 3] if i > 2 and j > 2 else 0.0
-    for i in range(3):
-        L[i, i] = m
-    # S~ of M_θR
-    L[3, 1], L[3, 2], L[4, 0], L[4, 2], L[5, 0], L[5, 1] = -S[2], S[1], S[2], -S[0], -S[1], S[0]
-    for i in range(6):
-        for j in range(i + 1):
-            total = L[i, j]
-            for k in range(n):
-                total -= B[i, k] * B[j, k]
-            for k in range(j):
-                total -= L[i, k] * L[j, k]
-            L[i, j] = np.sqrt(total) if i == j else total / L[j, j]
-
-
-@leaf
-def whiten_frame(L, x):
-    """x (6,) := L⁻¹ x."""
-    for i in range(6):
-        total = x[i]
-        for k in range(i):
-            total -= L[i, k] * x[k]
-        x[i] = total / L[i, i]
-
-
-@stage
-def whiten_flexible_rows(machine):
-    """W of all blocks of flexible bodies: of their frames L⁻¹ (C_qr - C_qp Bᵀ)ᵀ, of their modes C_qp."""
-    record = record_at(machine)
-    bodies, own, markers, saddle, J = (
-        record.bodies,
-        record.flexible,
-        record.markers,
-        record.saddle,
-        record.constraints.J,
-    )
-    for f in range(own.body.shape[0]):
-        factorise_frame(bodies, own, f)
-    for e in range(own.block.shape[0]):
-        at, k, f, modal = own.block[e, 0], own.block[e, 1], own.block[e, 2], own.block[e, 3]
-        A, B = bodies.A[own.body[f]], own.coupling[f]
-        _, n = modes_of(own, f)
-        part, u, W = J[saddle.block[at, 1]], markers.u[saddle.block[at, 2]], saddle.W[at]
-        across = cross(u, part)
-        # about the node; then about the origin of the floating frame
-        M = part[3] + across[0], part[4] + across[1], part[5] + across[2]
-        lever = (0.0, 0.0, 0.0) if k == NONE else cross(bodies.c[own.frame[k, 1]], part)
-        for i in range(3):
-            W[i] = A[0, i] * part[0] + A[1, i] * part[1] + A[2, i] * part[2]
-            W[3 + i] = A[0, i] * (M[0] + lever[0]) + A[1, i] * (M[1] + lever[1]) + A[2, i] * (M[2] + lever[2])
-        for j in range(n):
-            power = 0.0
-            if k != NONE:
-                for i in range(3):
-                    power += own.displacement[k, i, j] * part[i] + own.turn[k, i, j] * M[i]
-            saddle.W[modal + j // 6, j % 6] = power
-            for i in range(6):
-                W[i] -= B[i, j] * power
-        whiten_frame(own.root[f], W)
-
-
-@stage
-def whiten_flexible_forces(machine):
-    """z of all flexible bodies: of their frames, then of their modes in rows of six behind all bodies."""
-    record = record_at(machine)
-    bodies, own, saddle = record.bodies, record.flexible, record.saddle
-    at = np.int64(bodies.mass.shape[0])
-    for f in range(own.body.shape[0]):
-        b = own.body[f]
-        first, n = modes_of(own, f)
-        A, B, F, z = bodies.A[b], own.coupling[f], bodies.wrench[b], saddle.z[b]
-        velocity_forces(bodies, own, f, z)
-        for i in range(3):
-            z[i] += A[0, i] * F[0] + A[1, i] * F[1] + A[2, i] * F[2]
-            z[3 + i] += A[0, i] * F[3] + A[1, i] * F[4] + A[2, i] * F[5]
-        for j in range(n):
-            saddle.z[at + j // 6, j % 6] = own.Q[first + j]
-            for i in range(6):
-                z[i] -= B[i, j] * own.Q[first + j]
-        whiten_frame(own.root[f], z)
-        at += (n + 5) // 6
-
-
-@stage
-def unwhiten_flexible(machine):
-    """(R̈, ᾱ) of the frames of flexible bodies and p̈ from z; also changes of (R, rotation, p) or (Ṙ, ω̄, ṗ) in a correction."""
-    record = record_at(machine)
-    bodies, own, saddle = record.bodies, record.flexible, record.saddle
-    at = np.int64(bodies.mass.shape[0])
-    for f in range(own.body.shape[0]):
-        b = own.body[f]
-        first, n = modes_of(own, f)
-        L, B, x = own.root[f], own.coupling[f], saddle.z[b]
-        for i in range(5, -1, -1):
-            total = x[i]
-            for k in range(i + 1, 6):
-                total -= L[k, i] * x[k]
-            x[i] = total / L[i, i]
-        multiply(bodies.A[b], x[:3], bodies.Rddot[b])
-        for i in range(3):
-            bodies.alpha_b[b, i] = x[3 + i]
-        for j in range(n):
-            total = saddle.z[at + j // 6, j % 6]
-            for i in range(6):
-                total -= B[i, j] * x[i]
-            own.pddot[first + j] = total
-        at += (n + 5) // 6
-
-
-@stage
 def move_frames(machine):
     """Accelerations of the frames at interfaces into `residual.acceleration` from those of their bodies and modes, less their bias."""
     record = record_at(machine)
@@ -396,45 +213,6 @@ def move_frames(machine):
         for i in range(3):
             out[i] = x[i] + dot_modes(own.turn[k, i], own.pddot, first, n)
             out[3 + i] = x[3 + i] + across[i] + dot_modes(own.displacement[k, i], own.pddot, first, n)
-
-
-@stage
-def flexible_rows(machine):
-    """Rows of the residual of flexible bodies: M v̇ - Q_v - Q of their frames and modes."""
-    record = record_at(machine)
-    bodies, own, residual = record.bodies, record.flexible, record.residual
-    modal = 6 * np.int64(bodies.mass.shape[0])
-    for f in range(own.body.shape[0]):
-        b = own.body[f]
-        first, n = modes_of(own, f)
-        A, S, J, B, F, q = (
-            bodies.A[b],
-            own.first[f],
-            own.inertia[f],
-            own.coupling[f],
-            bodies.wrench[b],
-            own.velocity_force[f],
-        )
-        at = 6 * np.int64(b)
-        x, alpha = residual.vdot[at : at + 3], residual.vdot[at + 3 : at + 6]
-        a = dot(A[:, 0], x), dot(A[:, 1], x), dot(A[:, 2], x)
-        velocity_forces(bodies, own, f, q)
-        swing, heave = cross(alpha, S), cross(S, a)
-        for i in range(3):
-            q[i] = bodies.mass[b] * a[i] + swing[i] - q[i]
-            q[3 + i] = heave[i] + dot(J[i], alpha) - q[3 + i] - dot(A[:, i], F[3:6])
-        for j in range(n):
-            rate = own.pddot[first + j]
-            total = rate - own.Q[first + j]
-            for i in range(3):
-                total += B[i, j] * a[i] + B[3 + i, j] * alpha[i]
-                q[i] += B[i, j] * rate
-                q[3 + i] += B[3 + i, j] * rate
-            residual.value[modal + first + j] = total
-        multiply(A, q[:3], residual.value[at : at + 3])
-        for i in range(3):
-            residual.value[at + i] -= F[i]
-            residual.value[at + 3 + i] = q[3 + i]
 
 
 @stage
@@ -460,19 +238,3 @@ def accelerate_frames(machine):
         )
         for i in range(3):
             bodies.alpha_b[v, i] = A[0, i] * turning[0] + A[1, i] * turning[1] + A[2, i] * turning[2]
-
-
-@stage
-def flexible_kinetic_energy(bodies, own, f):
-    """½ m |Ṙ|² + Ṙᵀ A (ω̄ × S + I3 ṗ) + ½ ω̄ᵀ J̄ ω̄ + ω̄ᵀ C ṗ + ½ |ṗ|² of flexible body f [J]."""
-    b = own.body[f]
-    first, n = modes_of(own, f)
-    A, V, w, S, J, B = bodies.A[b], bodies.Rdot[b], bodies.omega_b[b], own.first[f], own.inertia[f], own.coupling[f]
-    v = dot(A[:, 0], V), dot(A[:, 1], V), dot(A[:, 2], V)
-    total = 0.5 * bodies.mass[b] * dot(v, v) + dot(v, cross(w, S))
-    total += 0.5 * (w[0] * dot(J[0], w) + w[1] * dot(J[1], w) + w[2] * dot(J[2], w))
-    for j in range(n):
-        rate = own.pdot[first + j]
-        along = B[0, j] * v[0] + B[1, j] * v[1] + B[2, j] * v[2]
-        total += rate * (along + B[3, j] * w[0] + B[4, j] * w[1] + B[5, j] * w[2] + 0.5 * rate)
-    return total

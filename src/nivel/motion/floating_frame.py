@@ -6,15 +6,8 @@ State y = (R, θ of every body; p; Ṙ, ω̄ of every body; ṗ; states of force
 from __future__ import annotations
 
 from nivel.kernels.compile import entry, stage
-from nivel.kernels.floating_frame import (
-    accelerate_frames,
-    add_bias,
-    bend,
-    gather,
-    unwhiten_flexible,
-    whiten_flexible_forces,
-    whiten_flexible_rows,
-)
+from nivel.kernels.floating_dynamics import gather, unwhiten_flexible, whiten_flexible_forces, whiten_flexible_rows
+from nivel.kernels.floating_frame import accelerate_frames, add_bias, bend
 from nivel.kernels.hook import apply_forces, finish_forces
 from nivel.kernels.record import correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight, place_body

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from nivel.kernels.floating_frame import flexible_rows, gather, move_frames
+from nivel.kernels.floating_dynamics import flexible_rows, gather
+from nivel.kernels.floating_frame import move_frames
 from nivel.kernels.hook import apply_forces, family
 from nivel.kernels.record import record_at
 from nivel.kernels.residual import inertial_wrenches, load_multipliers, write_rows

@@ -1,0 +1,150 @@
+"""One attempt at a step of Newmark's method, HHT-α and generalised-α: the state as a function of the unknowns, and what is kept of it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import leaf, stage
+from nivel.kernels.record import record_at
+from nivel.kernels.status import OK
+from nivel.march.residual_newton import iterate
+from nivel.march.run import EVALUATIONS, RESTART, run_at
+
+# entries of run.numbers: the constants; the step before, 0 after a start
+ALPHA_M, ALPHA_F, BETA, GAMMA, DELTA_M, DELTA_F, THETA = 0, 1, 2, 3, 4, 5, 6
+LAST_STEP = 7
+# rows of run.stages: a and v̇ of the accepted state, w and ẋ; v̇ and ẋ of the state before; work; rate at the begin of the step
+A, VDOT, W, XDOT, BEFORE, AHEAD, RATE = 0, 1, 2, 3, 4, 5, 6
+# a difference over this share of a step gives v̈ of the start to half the digits
+DIFFERENCE = 1e-4
+
+
+@leaf
+def start(evaluate, machine, history, t, h):
+    """Accelerations, rates and multipliers of the state run.y at time t, whose rate is run.rate.
+
+    a approximates v̇ at t + (α_m - α_f) h (Arnold, Brüls, Cardona 2015): a start with v̇ itself would cost the multipliers of the first
+    steps an order.
+    """
+    run, record = run_at(history), record_at(machine)
+    newton, residual, c, stages = record.newton, record.residual, run.numbers, run.stages
+    n, states = residual.vdot.shape[0], newton.state.shape[0]
+    positions = np.int64(run.y.shape[0]) - n - states - 2
+    for k in range(residual.row.shape[0]):
+        newton.lam[k] = record.constraints.lam[residual.row[k]]
+    ahead = DIFFERENCE * h
+    for i in range(run.y.shape[0]):
+        run.trial[i] = run.y[i] + ahead * run.rate[i]
+    status = evaluate(machine, t + ahead, run.trial, stages[AHEAD])
+    run.counter[EVALUATIONS] += 1
+    for k in range(n + states):
+        rate = run.rate[positions + k]
+        slope = (stages[AHEAD, positions + k] - rate) * h / ahead if status == OK else 0.0
+        if k < n:
+            stages[VDOT, k], stages[A, k] = rate, rate + (c[ALPHA_M] - c[ALPHA_F]) * slope
+        else:
+            stages[XDOT, k - n], stages[W, k - n] = rate, rate + (c[DELTA_M] - c[DELTA_F]) * slope
+    newton.kept[0], c[LAST_STEP] = 0.0, 0.0
+    run.counter[RESTART] = 0
+
+
+@stage
+def refresh(machine, run):
+    """As stabilised index 2, take accelerations, rates and multipliers of the accepted state from its evaluation by the loop.
+
+    In a step only the mean of the accelerations at both ends counts for an undamped method: what it got wrong once along the constraints
+    would alternate for ever. a becomes what `keep_step` would have made of these accelerations.
+    """
+    record = record_at(machine)
+    newton, residual = record.newton, record.residual
+    n, states = residual.vdot.shape[0], newton.state.shape[0]
+    positions = np.int64(run.y.shape[0]) - n - states - 2
+    c, stages, rate = run.numbers, run.stages, run.rate
+    share, share_x = (1.0 - c[ALPHA_F]) / (1.0 - c[ALPHA_M]), (1.0 - c[DELTA_F]) / (1.0 - c[DELTA_M])
+    for k in range(n):
+        stages[A, k] += share * (rate[positions + k] - stages[VDOT, k])
+        stages[VDOT, k] = rate[positions + k]
+    for k in range(states):
+        stages[W, k] += share_x * (rate[positions + n + k] - stages[XDOT, k])
+        stages[XDOT, k] = rate[positions + n + k]
+    for k in range(residual.row.shape[0]):
+        newton.lam[k] = record.constraints.lam[residual.row[k]]
+
+
+@stage
+def predict(run, newton, residual, h):
+    """The unknowns at the end of the step as if they went on to change as in the step before."""
+    stages, n, last = run.stages, residual.vdot.shape[0], run.numbers[LAST_STEP]
+    ratio = h / last if last > 0.0 else 0.0
+    for k in range(n):
+        residual.vdot[k] = stages[VDOT, k] + ratio * (stages[VDOT, k] - stages[BEFORE, k])
+    for k in range(newton.state.shape[0]):
+        newton.rate[k] = stages[XDOT, k] + ratio * (stages[XDOT, k] - stages[BEFORE, n + k])
+    for k in range(residual.lam.shape[0]):
+        residual.lam[k] = newton.lam[k] + ratio * (newton.lam[k] - newton.lam_before[k])
+
+
+@stage
+def prepare(run, newton, n, h):
+    """The state as a function of the unknowns. Returns cq, cv, cx.
+
+    a and w stand a share of their step away from the accepted state: for another step they are moved to the same share of that.
+    """
+    c, stages, y = run.numbers, run.stages, run.y
+    states = newton.state.shape[0]
+    positions = np.int64(y.shape[0]) - n - states - 2
+    ratio = h / c[LAST_STEP] if c[LAST_STEP] > 0.0 else 1.0
+    share = (1.0 - c[ALPHA_F]) / (1.0 - c[ALPHA_M])
+    share_x = (1.0 - c[DELTA_F]) / (1.0 - c[DELTA_M])
+    for i in range(y.shape[0]):
+        newton.base[i] = y[i]
+    for k in range(n):
+        v, vdot = y[positions + k], stages[VDOT, k]
+        a = vdot + ratio * (stages[A, k] - vdot)
+        # a₁ = share v̇₁ + known
+        known = (c[ALPHA_F] * vdot - c[ALPHA_M] * a) / (1.0 - c[ALPHA_M])
+        newton.speed[k] = v + h * ((1.0 - c[GAMMA]) * a + c[GAMMA] * known)
+        newton.turn[k] = h * v + h * h * ((0.5 - c[BETA]) * a + c[BETA] * known)
+        newton.correction[k] = 0.0
+    for k in range(states):
+        xdot = stages[XDOT, k]
+        w = xdot + ratio * (stages[W, k] - xdot)
+        known = (c[DELTA_F] * xdot - c[DELTA_M] * w) / (1.0 - c[DELTA_M])
+        newton.state[k] = y[positions + n + k] + h * ((1.0 - c[THETA]) * w + c[THETA] * known)
+    return h * h * c[BETA] * share, h * c[GAMMA] * share, h * c[THETA] * share_x
+
+
+@leaf
+def attempt(machine, history, h, end, tolerance):
+    """The state after a step h, which ends at time `end`, in `residual.y`. tolerance : see `iterate`. Returns a status."""
+    run, record = run_at(history), record_at(machine)
+    predict(run, record.newton, record.residual, h)
+    cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)
+    return iterate(machine, history, end, cq, cv, cx, tolerance)
+
+
+@stage
+def keep_step(machine, run, h):
+    """The state reached, and what the next step needs to know of it."""
+    record = record_at(machine)
+    newton, residual, c, stages = record.newton, record.residual, run.numbers, run.stages
+    n, states, last = residual.vdot.shape[0], newton.state.shape[0], run.y.shape[0] - 2
+    ratio = h / c[LAST_STEP] if c[LAST_STEP] > 0.0 else 1.0
+    for k in range(n):
+        new, old = residual.vdot[k], stages[VDOT, k]
+        a = old + ratio * (stages[A, k] - old)
+        stages[A, k] = ((1.0 - c[ALPHA_F]) * new + c[ALPHA_F] * old - c[ALPHA_M] * a) / (1.0 - c[ALPHA_M])
+        stages[BEFORE, k], stages[VDOT, k] = old, new
+    for k in range(states):
+        new, old = newton.rate[k], stages[XDOT, k]
+        w = old + ratio * (stages[W, k] - old)
+        stages[W, k] = ((1.0 - c[DELTA_F]) * new + c[DELTA_F] * old - c[DELTA_M] * w) / (1.0 - c[DELTA_M])
+        stages[BEFORE, n + k], stages[XDOT, k] = old, new
+    for k in range(residual.lam.shape[0]):
+        newton.lam_before[k], newton.lam[k] = newton.lam[k], residual.lam[k]
+    for i in range(last):
+        run.y[i] = residual.y[i]
+    # energies: the trapezoidal rule
+    for i in range(2):
+        run.y[last + i] += 0.5 * h * (run.rate[last + i] + record.control.power[i])
+    c[LAST_STEP] = h

@@ -58,7 +58,9 @@ def tumble(body, step, damping):
 
 @pytest.fixture(scope="module", params=["reference: mean-axis", "reference: root"])
 def body(request):
-    whole, _ = reduced(bar(tip=(1.0, 0.5, 0.2), elements=8, width=0.1, height=0.15, reduction=f"modes: 6, {request.param}"))
+    whole, _ = reduced(
+        bar(tip=(1.0, 0.5, 0.2), elements=8, width=0.1, height=0.15, reduction=f"modes: 6, {request.param}")
+    )
     return whole.keeping(np.arange(4))
 
 

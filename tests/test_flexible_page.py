@@ -30,8 +30,15 @@ from nivel.machine.record import field_words
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "flexible-bodies.md").read_text(encoding="utf-8")
-EXAMPLES = sorted((ROOT / "examples" / "flexible").glob("*.yaml"))
-MODELS = re.findall(r"^```yaml\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
+MACHINE = re.compile(r"^bodies:", re.MULTILINE)  # machines stand beside the models of their bodies
+EXAMPLES = [
+    path
+    for path in sorted((ROOT / "examples" / "flexible").glob("*.yaml"))
+    if not MACHINE.search(path.read_text(encoding="utf-8"))
+]
+MODELS = [
+    text for text in re.findall(r"^```yaml\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL) if not MACHINE.search(text)
+]
 
 
 def section(title):

@@ -164,11 +164,11 @@ class BeamElements:
             at += count
         return np.concatenate(parts)
 
-    def geometric_stiffness(self, displacement: Array) -> Sparse:
+    def geometric_stiffness(self, displacement: Array, modes: Array) -> Array:
         """Of the tension of each beam; its bending moments and torque are left out."""
-        local = []
+        out = np.zeros((displacement.shape[1], modes.shape[1], modes.shape[1]))
         for e, beam in enumerate(self.beams):
-            u = self.turning(e) @ displacement[self.columns[e]]
+            u, phi = (self.turning(e) @ each[self.columns[e]] for each in (displacement, modes))
             tension = beam.material.youngs_modulus * beam.section.area * (u[6] - u[0]) / beam.length
-            local.append(tension * geometric_stiffness(beam))
-        return self.summed(local)
+            out += tension[:, None, None] * (phi.T @ geometric_stiffness(beam) @ phi)
+        return 0.5 * (out + out.transpose(0, 2, 1))

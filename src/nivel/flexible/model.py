@@ -38,8 +38,8 @@ class Elements(Protocol):
         """(s, 6, n) strain in the same order; shear as γ = 2 ε."""
         ...
 
-    def geometric_stiffness(self, displacement: Array) -> Sparse:
-        """(F, F) [N/m] of the stress that the displacement (F,) causes."""
+    def geometric_stiffness(self, displacement: Array, modes: Array) -> Array:
+        """(k, n, n) ∫ ∇φ_iᵀ σ ∇φ_j dV of the stress that each displacement (F, k) causes, for `modes` (F, n); symmetric."""
         ...
 
 

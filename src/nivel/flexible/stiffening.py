@@ -18,7 +18,6 @@ from nivel.flexible.factor import Factor, Whole
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.inertia_loads import inertia_loads
 from nivel.flexible.model import Array
-from nivel.flexible.sparse import Sparse
 
 
 def stiffening(body: FreeBody, modes: Array, support: Whole, loaded: dict[str, Whole]) -> dict[str, Array]:
@@ -30,14 +29,17 @@ def stiffening(body: FreeBody, modes: Array, support: Whole, loaded: dict[str, W
     returns `acceleration` (3, n, n) per m/s², `angular_acceleration` (3, n, n) per rad/s², `centrifugal` (6, n, n) per
     rad²/s² for x², y², z², xy, yz, zx; all symmetric, K_g on the side of the stiffness: force -K_g q.
     """
+    elements = body.model.elements
+    assert elements is not None
     free = np.setdiff1d(np.arange(body.model.count), support)
     factor = Factor(sp.csc_array(body.K[free][:, free]))
     loads = {**inertia_loads(body), **{f"interface.{name}": _units(body, rows) for name, rows in loaded.items()}}
     out = {}
+    full = body.model.expansion @ modes
     for name, load in loads.items():
         moved = np.zeros_like(load)
         moved[free] = factor.solve(load[free])
-        out[name] = np.array([_projected(body, modes, moved[:, k]) for k in range(load.shape[1])])
+        out[name] = elements.geometric_stiffness(body.model.expansion @ moved, full)
     return out
 
 
@@ -45,20 +47,3 @@ def _units(body: FreeBody, rows: Whole) -> Array:
     loads = np.zeros((body.model.count, len(rows)))
     loads[rows, np.arange(len(rows))] = 1.0
     return loads
-
-
-def _projected(body: FreeBody, modes: Array, moved: Array) -> Array:
-    """(n, n) the geometric stiffness of the stress of the displacement (N,)."""
-    assert body.model.elements is not None
-    matrix = body.model.elements.geometric_stiffness(body.model.expansion @ moved)
-    full = body.model.expansion @ modes
-    out = full.T @ (_padded(matrix, len(full)) @ full)
-    return 0.5 * (out + out.T)
-
-
-def _padded(matrix: Sparse, size: int) -> Sparse:
-    """The matrix with empty rows for reference nodes, which come last."""
-    if matrix.shape[0] == size:
-        return matrix
-    coo = matrix.tocoo()
-    return sp.csr_array((coo.data, coo.coords), shape=(size, size))

@@ -130,25 +130,23 @@ class Tetrahedra:
         )
         return out
 
-    def geometric_stiffness(self, displacement: Array) -> Sparse:
-        """∫ ∇N_a · σ ∇N_b dV on x, y and z alike. Zienkiewicz & Taylor 2000, The Finite Element Method, vol. 2."""
-        u = displacement[self.freedoms[self.nodes]]
-        D = elasticity(self.material)
-        count = self.nodes.shape[1]
-        blocks = np.zeros((len(self.nodes), count, count))
+    def geometric_stiffness(self, displacement: Array, modes: Array) -> Array:
+        """Zienkiewicz & Taylor 2000, The Finite Element Method, vol. 2. Summed over Gauss points without a global matrix."""
+        D, n, count = elasticity(self.material), modes.shape[1], displacement.shape[1]
+        out = np.zeros((count, n, n))
+        at = self.freedoms[self.nodes]
         for gradients, volume in self.points:
-            gradient = np.einsum("enb,ena->eab", gradients, u)
-            s = _strain(gradient[..., None])[..., 0] @ D
-            sigma = s[:, [0, 3, 5, 3, 1, 4, 5, 4, 2]].reshape(-1, 3, 3)
-            blocks += np.einsum("e,ena,eab,emb->enm", volume, gradients, sigma, gradients, optimize=True)
-        rows, columns, data = [], [], []
-        for axis in range(3):
-            at = self.freedoms[self.nodes][:, :, axis]
-            rows.append(np.repeat(at, count, axis=1).ravel())
-            columns.append(np.tile(at, (1, count)).ravel())
-            data.append(blocks.ravel())
-        size = int(self.freedoms.max()) + 1
-        return sp.csr_array((np.concatenate(data), (np.concatenate(rows), np.concatenate(columns))), shape=(size, size))
+            moved = np.einsum("enb,enak->eabk", gradients, displacement[at], optimize=True)
+            stress = np.einsum("ij,ejk,e->kie", D, _strain(moved), volume, optimize=True)
+            slopes = np.einsum("enb,enaj->abej", gradients, modes[at], optimize=True)
+            slopes = np.ascontiguousarray(slopes)  # [a, b] (e, n): ∂φ_a/∂x_b
+            for k in range(count):
+                weight = stress[k][[0, 3, 5, 3, 1, 4, 5, 4, 2]].reshape(3, 3, -1)
+                for along in slopes:
+                    for b in range(3):
+                        pulled = sum(weight[b, c][:, None] * along[c] for c in range(3))
+                        out[k] += along[b].T @ pulled
+        return 0.5 * (out + out.transpose(0, 2, 1))
 
 
 def _strain(g: Array) -> Array:

@@ -17,7 +17,6 @@ Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
 TETRAHEDRA: Final = {"C3D4": 4, "C3D10": 10, "C3D10M": 10, "C3D10MH": 10, "C3D10T": 10, "C3D4T": 4}
-NODES: Final = {"C3D8": 8, "C3D8R": 8, "C3D8I": 8, "C3D20": 20, "C3D20R": 20, "C3D6": 6, "C3D15": 15, **TETRAHEDRA}
 
 
 @dataclass

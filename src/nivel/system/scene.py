@@ -4,7 +4,9 @@ The scene is stored as JSON in the result; the report and the viewer read it. Le
 a body (`ground` among them) is in that body's frame, which `position` and `orientation` of the result place in space.
 
 =================  ====================================================================================================
-``bodies``         list of ``name``, ``shape`` (null without one), ``centre_of_mass``, ``points`` (where joints hold it), ``mass``
+``bodies``         list of ``name``, ``shape`` (null without one), ``centre_of_mass``, ``points`` (where joints hold it), ``mass``;
+                   of a flexible one ``flexible``: ``surface`` packed, ``modes`` (modes, vertices, 3) as packed 32-bit numbers,
+                   ``first`` of them among the modal coordinates
 ``ground_points``  where joints hold the ground
 ``joints``         list of ``name``, ``type``, ``bodies``, ``points``, ``axes`` (z of the markers), ``x_axes``: first and
                    second; a pin in a slot has ``slot`` too, its direction in the second body
@@ -20,20 +22,23 @@ shape and a point of a plane; then ``axis`` is the plane's normal, in the second
 
 from __future__ import annotations
 
+import base64
+import zlib
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
+from nivel.flexible.picture import moving_surface
 from nivel.machine.body import Body
 from nivel.machine.forces import Bushing, Contact, Force, PairForce, SpringDamper, TorsionalSpringDamper
-from nivel.machine.inertia import mass_properties
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.shape import Box, Extrusion, Mesh, Sphere, Tube
 from nivel.machine.solids import box_size, length, mesh_surface
 from nivel.machine.surface import surface_text
 from nivel.system.draft import Draft
+from nivel.system.flexible import bending_bodies
 from nivel.system.joint_frames import slot_frame
 from nivel.system.system import System
 
@@ -51,10 +56,12 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
             "shape": _shape(body),
             "centre_of_mass": system.record.bodies.centre_b[k].tolist(),
             "points": held[body.name],
-            "mass": mass_properties(body).mass,
+            "mass": float(system.record.bodies.mass[k]),
         }
         for k, body in enumerate(machine.bodies)
     ]
+    for body, looks in _flexible(machine):
+        bodies[body]["flexible"] = looks
     markers = [{"name": m.name, "body": m.body, "position": list(m.position)} for m in machine.markers if m.name]
     return {
         "bodies": bodies,
@@ -63,6 +70,23 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
         "forces": list(_forces(machine)),
         "markers": markers,
     }
+
+
+def _flexible(machine: MachineRecord) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Numbers of flexible bodies that have a surface to draw, and how they look."""
+    first = 0
+    for each in bending_bodies(machine):
+        surface = moving_surface(each.reduced)
+        if surface is not None:
+            yield (
+                each.body,
+                {
+                    "surface": surface_text(surface.vertices, surface.triangles),
+                    "modes": base64.b64encode(zlib.compress(surface.modes.astype("<f4").tobytes())).decode(),
+                    "first": first,
+                },
+            )
+        first += len(each.reduced.eigenvalues)
 
 
 def _joint(machine: MachineRecord, system: System, k: int) -> dict[str, Any]:

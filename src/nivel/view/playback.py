@@ -18,7 +18,7 @@ from nivel.view.columns import columns
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.records import PROTOCOL, Arrow, Joint, Moment, Motion, Package, Stage
-from nivel.view.stage import Cast, cast
+from nivel.view.stage import Cast, cast, flexible
 from nivel.view.violations import violation_vectors
 
 Array = NDArray[np.float64]
@@ -54,7 +54,8 @@ def played_frames(result: Result, budget: Budget) -> slice:
     """The frames of a result that have room, evenly taken."""
     scene = result.scene
     bodies, joints, forces = (len(scene.get(name, [])) for name in ("bodies", "joints", "forces"))
-    width = 7 * bodies + (3 * (4 * joints + 2 * forces) if budget.vectors else 0)
+    modes = len(result.coordinates.get("mode", ()))
+    width = 7 * bodies + modes + (3 * (4 * joints + 2 * forces) if budget.vectors else 0)
     count = len(result.time)
     most = max(min(budget.frames, budget.motion // max(4 * width, 1)), 2)
     return slice(0, count, max(-(-count // most), 1))
@@ -72,7 +73,8 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     where = extent(players, position, orientation)
     drawn = _vectors(players, result, frames, Moments.of(position, orientation)) if budget.vectors else NO_VECTORS
     vectors = drawn.values if budget.vectors else np.zeros((len(position), 0, 3))
-    rows = frame_plan.rows(position - np.array(where.origin), orientation, vectors=vectors)
+    modal = _read(result, "modal_coordinate", frames)
+    rows = frame_plan.rows(position - np.array(where.origin), orientation, modal, vectors)
     return Stage(
         name=result.name,
         title=str(result.path.name) if result.path else result.name,
@@ -82,7 +84,8 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         low=where.low,
         high=where.high,
         size=where.size,
-        layout=frame_plan.layout(bodies, 0, vectors.shape[1]),
+        layout=frame_plan.layout(bodies, 0 if modal is None else modal.shape[1], vectors.shape[1]),
+        flexible=flexible(scene, block, modal),
         bodies=players.bodies,
         joints=drawn.joints or players.joints,
         forces=players.forces,

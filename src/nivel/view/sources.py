@@ -16,7 +16,7 @@ from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.playback import SERVED, Budget, playback, played_frames
 from nivel.view.records import PROTOCOL, Coordinate, Motion, Moved, Package, Stage
-from nivel.view.stage import cast
+from nivel.view.stage import cast, flexible
 
 Array = NDArray[np.float64]
 
@@ -135,7 +135,8 @@ class Hand(Still):
     def frame(self) -> tuple[float, Array] | None:
         with self._lock:
             position, orientation = self._movable.pose()
-        return 0.0, frames.rows(position[None] - np.array(self._stage.origin), orientation[None])[0]
+        undeformed = np.zeros((1, self._stage.layout.modes))
+        return 0.0, frames.rows(position[None] - np.array(self._stage.origin), orientation[None], undeformed)[0]
 
     def move(self, coordinate: str, value: float) -> Moved | None:
         with self._lock:
@@ -157,12 +158,10 @@ def machine_stage(name: str, movable: Movable, record: dict[str, Any], block: Bl
     players = cast(movable.scene, record, block)
     position, orientation = movable.pose()
     where = extent(players, position[None], orientation[None])
-    motion = Motion(
-        block.add(np.zeros(1), "f8"),
-        block.add(frames.rows(position[None] - np.array(where.origin), orientation[None]).T),
-        1,
-        1,
-    )
+    bending = flexible(movable.scene, block, None)
+    modes = max((each.first + each.modes.shape[0] for each in bending), default=0)
+    row = frames.rows(position[None] - np.array(where.origin), orientation[None], np.zeros((1, modes)))
+    motion = Motion(block.add(np.zeros(1), "f8"), block.add(row.T), 1, 1)
     return Stage(
         name=name,
         title=name,
@@ -172,7 +171,8 @@ def machine_stage(name: str, movable: Movable, record: dict[str, Any], block: Bl
         low=where.low,
         high=where.high,
         size=where.size,
-        layout=frames.layout(len(players.bodies)),
+        layout=frames.layout(len(players.bodies), modes),
+        flexible=bending,
         bodies=players.bodies,
         joints=players.joints,
         forces=players.forces,

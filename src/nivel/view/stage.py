@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import zlib
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +15,10 @@ from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL
 from nivel.looks.links import held_points, link_ends
 from nivel.machine.surface import surface_arrays
 from nivel.view.package import Block
-from nivel.view.records import Body, Force, Joint, Marker, Part, Triple
+from nivel.view.records import Body, Flexible, Force, Joint, Marker, Part, Triple
 
 Array = NDArray[np.float64]
+MOMENTS: Final = 100  # that are looked at for the largest displacement
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,42 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
     )
 
 
+def flexible(scene: dict[str, Any], block: Block, modal: Array | None) -> list[Flexible]:
+    """The bodies that deform. modal : (frames, modes) of the motion; the colours end at the largest displacement in it."""
+    out = []
+    for k, body in enumerate(scene.get("bodies", [])):
+        looks = body.get("flexible")
+        if not looks:
+            continue
+        vertices, triangles = surface_arrays(looks["surface"])
+        packed = zlib.decompress(base64.b64decode(looks["modes"]))
+        modes = np.frombuffer(packed, "<f4").reshape(-1, len(vertices), 3)
+        first = int(looks["first"])
+        high = 0.0 if modal is None else _largest(modes, modal[:, first : first + len(modes)])
+        out.append(
+            Flexible(
+                body=k,
+                name=body["name"],
+                vertices=block.add(vertices, "f4"),
+                triangles=block.add(triangles, "u4"),
+                modes=block.add(modes, "f4"),
+                first=first,
+                low=0.0,
+                high=high,
+                unit="m",
+                quantity="displacement",
+            )
+        )
+    return out
+
+
+def _largest(modes: Array, modal: Array) -> float:
+    """Largest displacement of a vertex in some of the moments."""
+    some = modal[:: max(len(modal) // MOMENTS, 1)]
+    some = some[np.all(np.isfinite(some), axis=1)]
+    return max((float(np.linalg.norm(np.tensordot(q, modes, 1), axis=1).max(initial=0.0)) for q in some), default=0.0)
+
+
 def triple(values: Any) -> Triple:
     """Three numbers that JSON can hold: what is not finite becomes 0."""
     x, y, z = (float(value) if np.isfinite(value) else 0.0 for value in values)
@@ -64,7 +103,7 @@ def _body(scene: dict[str, Any], body: dict[str, Any], colour: str, block: Block
         colour,
         triple(body["centre_of_mass"]),
         [part(shape, block)] if shape else [],
-        [triple(point) for point in _apart(link_ends(body, held))],
+        [] if body.get("flexible") else [triple(point) for point in _apart(link_ends(body, held))],
         [triple(point) for point in held],
         [("mass", f"{body['mass']:.5g} kg")] if "mass" in body else [],
     )

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from click import Context
 
+from models import needs
 from nivel.cli import main
 from nivel.flexible.body_file import write_body
 from nivel.flexible.model_file import TOP_WORDS, parse_model, read_model
@@ -109,7 +110,7 @@ def test_example_is_reduced_well(path):
     """The first frequencies within 1 % of the whole model; meshes here coarser than in the file."""
     overrides = {}
     if read_model(path).record.solid is not None:
-        pytest.importorskip("gmsh")
+        needs("gmsh")
         overrides = {"solid.element_size": "0.2", "reduction.modes": 10}
     reduction = reduce(path, overrides=overrides)
     assert np.all(np.abs(reduction.findings.errors[:4]) < 0.01)

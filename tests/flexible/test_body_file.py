@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from models import bar, block, reduced
+from models import bar, block, needs, reduced
 from nivel.errors import ModelError
 from nivel.flexible.body_file import read_body, read_findings, write_body
 from nivel.flexible.invariants import UNITS
@@ -55,7 +55,7 @@ def test_body_with_fewer_modes_is_that_of_these_modes(beam):
 
 
 def test_solid_is_read_back(tmp_path):
-    pytest.importorskip("gmsh")
+    needs("gmsh")
     body, _ = reduced(block(length=0.3, size=0.1, reduction="modes: 3"))
     write_body(body, tmp_path / "body.nc")
     again = read_body(tmp_path / "body.nc")

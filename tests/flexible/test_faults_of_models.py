@@ -5,7 +5,7 @@ import pytest
 import scipy.io
 import scipy.sparse as sp
 
-from models import STEEL, bar, block, reduced
+from models import STEEL, bar, block, needs, reduced
 from nivel.errors import ModelError
 from nivel.flexible.beam import Beam, mass_matrix, stiffness
 from nivel.flexible.model_file import parse_model
@@ -183,7 +183,7 @@ def test_stiffening_of_matrices_needs_elements(tmp_path):
 
 
 def test_solid_interfaces():
-    pytest.importorskip("gmsh")
+    needs("gmsh")
     root = "root: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}"
     assert "the nearest is node" in message_of(
         block(interfaces="pin: {cylinder: {point: [0, 0, 0], axis: [0, 0, 1], radius: 3}}")
@@ -206,7 +206,7 @@ def test_missing_extras_say_what_to_install(monkeypatch, missing):
 
 
 def test_step_file_that_does_not_exist_or_is_none(tmp_path):
-    pytest.importorskip("gmsh")
+    needs("gmsh")
     text = f"format: 1\nmaterials: {{{STEEL}}}\nsolid: {{file: part.step, material: steel, element_size: 0.1}}\n"
     assert "there is no file" in message_of(text, tmp_path)
     (tmp_path / "part.step").write_text("this is no STEP file")

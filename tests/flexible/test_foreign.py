@@ -8,7 +8,7 @@ import pytest
 import scipy.io
 import scipy.sparse as sp
 
-from models import bar, block, reduced
+from models import bar, block, needs, reduced
 from nivel.errors import ModelError
 from nivel.flexible.foreign.matrix import FormatError, fortran_number
 from nivel.flexible.foreign.mesh import read_mesh
@@ -273,7 +273,7 @@ def test_units_of_files_are_turned_into_si(beam, tmp_path):
 @pytest.fixture(scope="module")
 def solid(tmp_path_factory):
     """A block of tetrahedra as CalculiX would write it, in mm, t, s and with numbers from 101."""
-    pytest.importorskip("gmsh")
+    needs("gmsh")
     folder = tmp_path_factory.mktemp("solid")
     model, _ = source_model(parse_model(block(length=0.4, size=0.1)), lambda *_: None)
     K, M = sp.coo_array(sp.tril(model.stiffness)), sp.coo_array(sp.tril(model.mass.matrix))

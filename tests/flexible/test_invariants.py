@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from models import bar, block
+from models import bar, block, needs
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.invariants import invariants, of_points, tilde
 from nivel.flexible.mass import PointMass, lumped
@@ -43,7 +43,7 @@ def rotation(theta):
 @pytest.fixture(scope="module", params=MODELS)
 def case(request):
     """Mass of a model, elastic modes of it mixed with some of everything, and their invariants."""
-    pytest.importorskip("gmsh")
+    needs("gmsh")
     located = parse_model(MODELS[request.param])
     model, sets = source_model(located, lambda *_: None)
     model, _ = with_interfaces(model, located, sets)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models import bar, reduced
+from models import bar, needs, reduced
 from nivel.errors import ModelError
 from nivel.flexible.rainflow import counted, rainflow, reversals
 from nivel.flexible.recovery import (
@@ -192,7 +192,7 @@ def test_vtk_files_hold_the_motion(cantilever, bent, tmp_path):
 
 def test_vtk_files_are_read_by_another_program(tmp_path):
     meshio = pytest.importorskip("meshio")
-    pytest.importorskip("gmsh")
+    needs("gmsh")
     from models import block
 
     body, _ = reduced(block(length=0.3, size=0.1, reduction="modes: 3"))

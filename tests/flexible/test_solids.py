@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from models import STEEL, bar, block, reduced
+from models import STEEL, bar, block, needs, reduced
 from nivel.errors import ModelError
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.inertia_loads import inertia_loads
@@ -15,8 +15,7 @@ from nivel.flexible.recovery import hot_spots, stress, von_mises
 from nivel.flexible.source import source_model
 from nivel.flexible.ties import with_interfaces
 
-pytest.importorskip("gmsh")
-pytest.importorskip("skfem")
+needs("gmsh", "skfem")
 
 E, RHO, SIDE = 210e9, 7850.0, 0.1
 ROOT = "root: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from models import bar, block, reduced
+from models import bar, block, needs, reduced
 from nivel.flexible.reference import quadratic_velocity, stiffening
 
 L, B, H, E, RHO = 2.0, 0.02, 0.03, 210e9, 7850.0
@@ -88,7 +88,7 @@ def test_interface_load_stiffens_by_the_string_formula():
 
 def test_solid_and_beam_agree():
     """The same cantilever of solids: spinning frequencies of the first flapping mode within 1 % of those of beams."""
-    pytest.importorskip("gmsh")
+    needs("gmsh")
     root = "root: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}"
     solid, _ = reduced(block(interfaces=root, reduction="modes: 8, reference: root, stiffening: true"))
     beam, _ = reduced(

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from models import needs
 from nivel.flexible.reduce import reduce
 from nivel.report.mode_picture import MOST_TRIANGLES, mode_pictures
 from nivel.report.reduction_page import mac_drawing, reduction_html
@@ -21,7 +22,7 @@ def portal():
 
 @pytest.fixture(scope="module")
 def boom():
-    pytest.importorskip("gmsh")
+    needs("gmsh")
     return reduce(EXAMPLES / "crane-boom.yaml", overrides={"solid.element_size": "0.2", "reduction": {"modes": 4}})
 
 

@@ -45,7 +45,9 @@ def corrector(name, **more):
 def test_order_on_the_slider_crank_with_direct_correction(name):
     order = INTEGRATORS[name].order
     steps = LONGEST[order] * np.array([1, 1 / 2, 1 / 4, 1 / 8])
-    errors = slider_crank_errors(name, steps, 0.8, **corrector(name))
+    # one over a whole step closes the positions itself
+    own = {"stabilisation": "none"} if INTEGRATORS[name].whole else {}
+    errors = slider_crank_errors(name, steps, 0.8, **own, **corrector(name))
     assert abs(slope(steps, errors) - order) < 0.2, errors
 
 

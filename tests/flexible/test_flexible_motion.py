@@ -13,6 +13,7 @@ from nivel.flexible.body_file import write_body
 from nivel.machine import (
     Body,
     Driver,
+    Friction,
     Joint,
     MachineRecord,
     Marker,
@@ -352,3 +353,54 @@ def test_markers_away_from_interfaces_and_too_many_modes_are_named(files):
         run(pendulum(files, "plain", modes=80))
     with pytest.raises(ModelError, match="no body file"):
         run(pendulum(files, "missing"))
+
+
+def test_friction_in_the_joint_of_a_stiff_body_is_that_of_a_rigid_one(files):
+    """Loaded by the joint's own reaction; in explicit and implicit methods."""
+    body = files[1]["stout"]
+    machine = MachineRecord(
+        name="rubbing",
+        gravity=GRAVITY,
+        bodies=(Body(name="bar", flexible=flexible(files, "stout", modes=2, damping_ratio=0.3)),),
+        joints=(Joint(name="hinge", type="revolute", bodies=("ground", "bar"), point=(0, 0, 0), axis=(0, 0, 1)),),
+        forces=(
+            Friction(
+                name="rub",
+                model="coulomb",
+                coordinate="hinge.angle",
+                coefficient=0.3,
+                radius=0.05,
+                transition_speed=0.01,
+            ),
+        ),
+        markers=(Marker(name="tip", body="bar", position=(1.0, 0.0, 0.0)),),
+        sensors=(Sensor(name="tip", marker="tip", quantity="position"),),
+    )
+    inertia = body.inertia.tolist()
+    solid = Body(name="bar", mass=body.mass, centre_of_mass=tuple(body.centre_of_mass), inertia=inertia)
+    common = {"duration": 0.5, "output_interval": 0.05, "coordinates": "absolute"}
+    rigid = run(machine.replace(bodies=(solid,)), step=1e-4, **common)
+    assert rigid.dissipated_energy[-1] > 0.05 * rigid.kinetic_energy.max()
+    for integrator in ("rk4", "generalised-alpha"):
+        r = run(machine, integrator=integrator, step=1e-4, **common)
+        assert r.finished.outcome == "done"
+        assert np.abs(tip_of(r) - tip_of(rigid)).max() < 1e-4
+        assert r.dissipated_energy[-1] == pytest.approx(rigid.dissipated_energy[-1], rel=1e-3)
+
+
+def test_modes_that_leave_no_mass_to_the_frame_are_told(files, tmp_path):
+    """A frame fixed to the root, all modes, and their shortening."""
+    body, _ = reduced(
+        bar(width=0.01, height=0.01, elements=32, reduction="modes: 20, reference: root, stiffening: true")
+    )
+    write_body(body, tmp_path / "bar.nc")
+    r = run(pendulum((tmp_path, {}), "bar"), integrator="radau", tolerance=1e-6)
+    assert r.finished.outcome == "failed"
+    message, advice, _ = r.finished.failure
+    assert "the modes of bar take up all the mass" in message
+    assert "mean-axis" in advice
+
+
+def test_a_flexible_body_has_a_mode(files):
+    with pytest.raises(ModelError, match="at least 1"):
+        pendulum(files, "plain", modes=0)

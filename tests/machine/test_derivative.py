@@ -167,3 +167,12 @@ def test_the_derivative_may_be_longer_than_what_is_read():
     expected = (long(0.3 + h) - long(0.3 - h)) / (2 * h)
     assert long.derivative(0.3) == pytest.approx(expected, rel=1e-6)
     assert math.isfinite(long.derivative.derivative(0.3))
+
+
+def test_second_derivative_of_a_smooth_ramp_stays_a_number():
+    """exp(x) is one up to x = 709, exp(x)² is not from 355 on: the slope of log(1 + exp(x)) there is 1, its rate 0."""
+    tree = parse("log(1 + exp(500*time))")
+    first = derivative(tree)
+    for time in (0.8, 1.2):
+        assert evaluate(first, time) == pytest.approx(500.0, rel=1e-12)
+        assert abs(evaluate(derivative(first), time)) < 1e-6

@@ -27,6 +27,7 @@ from nivel.analysis.refusals import (
     refuse_conserved_drivers,
     refuse_deep_starts,
     refuse_for_flexible,
+    refuse_friction_at_jumps,
     refuse_implicit_stiction,
     refuse_redundant_flexible,
     refuse_rough_motions,
@@ -86,6 +87,8 @@ BUFFER_BYTES = 1_000_000
 EVENT_ROWS = 1000
 # Stiction stops a joint within this many steps.
 STICK_STEPS = 2.0
+# Fixed steps that make a time in which a machine moves by its own length, at least.
+LONG = 1e4
 
 
 @dataclass(frozen=True)
@@ -135,6 +138,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     refuse_conserved_drivers(machine)
     refuse_implicit_stiction(machine)
     refuse_rough_motions(machine)
+    refuse_friction_at_jumps(machine)
     refuse_redundant_flexible(machine, redundancy)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
     absolute = MotionEquations(motion.system.known_rank(rank), motion.kernels)
@@ -218,6 +222,7 @@ def march(
             prepared.motion, status, float(run.clock[TIME]), step_size, run.previous, chosen=settings.steps == 0
         )
         finished.failure = (message, advice, float(run.clock[TIME]))
+        _give_last_state(prepared, run, sinks)
     finished.timing = {
         "steps": int(run.counter[DONE_STEPS]),
         "evaluations": int(run.counter[EVALUATIONS]),
@@ -291,7 +296,8 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
         previous=y.copy(),
         scratch=np.zeros_like(y),
         trial=np.zeros_like(y),
-        scale=_scales(system, y, settings.duration),
+        # a run of fixed steps takes no notice of how many more follow
+        scale=_scales(system, y, min(settings.duration, LONG * settings.step) if settings.steps else settings.duration),
         stages=np.zeros((facts.stages, len(y))),
         numbers=numbers,
         matrix=np.zeros((newton, newton)),
@@ -355,6 +361,20 @@ def _deflections(system: System) -> Array:
 def _weight_energy(system: System) -> float:
     bodies = system.record.bodies
     return float(bodies.mass.sum() * np.linalg.norm(bodies.gravity) * system.size)
+
+
+def _give_last_state(prepared: Prepared, run: Run, sinks: Sequence[Sink]) -> None:
+    """The accepted state before a failure as a frame, where it is not the last one already and can be evaluated."""
+    time, motion = float(run.clock[TIME]), prepared.motion
+    if not time > run.clock[SHOWN] or not motion.holds(time, run.previous):
+        return
+    frame = np.zeros((1, motion.system.layout.width))
+    frame[0, 0] = time
+    observe: Any = import_module("nivel.kernels.observe").observe
+    observe(motion.handle.address, time, run.previous, frame[0])
+    if np.all(np.isfinite(frame)):
+        for sink in sinks:
+            sink.take(frame)
 
 
 def _give(run: Run, sinks: Sequence[Sink]) -> None:

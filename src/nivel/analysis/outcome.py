@@ -16,6 +16,7 @@ from nivel.kernels.status import (
     EVENT_NOT_FINITE,
     FRICTION_DIVERGES,
     MULTIPLIERS_NOT_FOUND,
+    NO_MASS_LEFT,
     NOT_CONVERGED,
     NOT_FINITE,
     ROTATION_SINGULAR,
@@ -47,6 +48,8 @@ def failure(
         told = _slow_multipliers(motion)
     elif status == EVENT_NOT_FINITE and number < len(motion.system.events):
         told = _broken_event(motion.system.events[number])
+    elif status == NO_MASS_LEFT:
+        told = _no_mass_left(motion.system.bodies[number])
     elif status == ROTATION_SINGULAR:
         told = _singular_rotation(motion.system.bodies[number])
     else:
@@ -187,6 +190,13 @@ def _broken_event(name: str) -> tuple[str, str]:
     return (
         f"the value of the event {name} is no longer a number",
         f"Look at `when` of {name}: a division by zero, or a root or logarithm of a negative number?",
+    )
+
+
+def _no_mass_left(body: str) -> tuple[str, str]:
+    return (
+        f"the modes of {body} take up all the mass and inertia of its frame, and more with its bending",
+        f"Reduce its model with `reference: mean-axis`, whose modes carry no momentum, or take fewer `modes` of {body}.",
     )
 
 

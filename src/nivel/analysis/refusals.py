@@ -119,6 +119,27 @@ def refuse_rough_motions(machine: MachineRecord) -> None:
         raise ModelError(faults)
 
 
+def refuse_friction_at_jumps(machine: MachineRecord) -> None:
+    """Friction loaded by reactions where the speed of a driver jumps: the impulse through the joints would ask for one of friction."""
+    end = machine.simulation.duration
+    jumping = [
+        driver.name
+        for driver in machine.drivers
+        if isinstance(driver.value, Table)
+        and (
+            driver.value.ends_before(end)
+            or (driver.value.interpolation == "linear" and min(corners_of(driver.value, end), default=end) < end)
+        )
+    ]
+    loaded = [force.name for force in machine.forces if isinstance(force, Friction) and force.normal_load is None]
+    if jumping and loaded:
+        message = (
+            f"the speed of {', '.join(jumping)} jumps, and the friction of {', '.join(loaded)} is loaded by reactions, which are impulses "
+            f"there: give a `normal_load`, or take `interpolation: cubic` for the driver"
+        )
+        raise ModelError([Fault("", 0, 0, f"forces.{name}.normal_load", message) for name in loaded])
+
+
 def _jump_of(table: Table, settings: SimulationSettings) -> str:
     """What is wrong with a table of a driver for an integrator that does not stop where its speed jumps; empty: nothing."""
     end, first, last = settings.duration, table.times[0], table.times[-1]

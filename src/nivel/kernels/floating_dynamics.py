@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.analytic import real
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.floating_frame import dot_modes, modes_of
 from nivel.kernels.geometric_stiffening import add_velocity_forces
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.spatial import centripetal, cross, dot, multiply
+from nivel.kernels.status import NO_MASS_LEFT, OK
 
 
 @stage
@@ -81,7 +83,7 @@ def velocity_forces(bodies, own, f, out):
 
 @stage
 def factorise_frame(bodies, own, f):
-    """root[f] := L of M_b - B Bᵀ = L Lᵀ."""
+    """root[f] := L of M_b - B Bᵀ = L Lᵀ; whether there is one."""
     L, B, S, J, b = own.root[f], own.coupling[f], own.first[f], own.inertia[f], own.body[f]
     m, (_, n) = bodies.mass[b], modes_of(own, f)
     for i in range(6):
@@ -98,7 +100,10 @@ def factorise_frame(bodies, own, f):
                 total -= B[i, k] * B[j, k]
             for k in range(j):
                 total -= L[i, k] * L[j, k]
+            if i == j and not real(total) > 0.0:
+                return False
             L[i, j] = np.sqrt(total) if i == j else total / L[j, j]
+    return True
 
 
 @leaf
@@ -113,7 +118,7 @@ def whiten_frame(L, x):
 
 @stage
 def whiten_flexible_rows(machine):
-    """W of all blocks of flexible bodies: of their frames L⁻¹ (C_qr - C_qp Bᵀ)ᵀ, of their modes C_qp."""
+    """W of all blocks of flexible bodies: of their frames L⁻¹ (C_qr - C_qp Bᵀ)ᵀ, of their modes C_qp. Returns a status."""
     record = record_at(machine)
     bodies, own, markers, saddle, J = (
         record.bodies,
@@ -123,7 +128,9 @@ def whiten_flexible_rows(machine):
         record.constraints.J,
     )
     for f in range(own.body.shape[0]):
-        factorise_frame(bodies, own, f)
+        if not factorise_frame(bodies, own, f):
+            record.control.failure[0] = own.body[f]
+            return NO_MASS_LEFT
     for e in range(own.block.shape[0]):
         at, k, f, modal = own.block[e, 0], own.block[e, 1], own.block[e, 2], own.block[e, 3]
         A, B = bodies.A[own.body[f]], own.coupling[f]
@@ -145,6 +152,7 @@ def whiten_flexible_rows(machine):
             for i in range(6):
                 W[i] -= B[i, j] * power
         whiten_frame(own.root[f], W)
+    return OK
 
 
 @stage

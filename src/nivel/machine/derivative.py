@@ -75,8 +75,11 @@ def _of_operation(symbol: str, u: Node, v: Node) -> Node:
             return plus(times(_derivative(u), v), times(u, _derivative(v)))
         case "/" if not varies(v):
             return over(_derivative(u), v)
+        case "/" if not varies(u):
+            return minus(_ZERO, over(times(u, _derivative(v)), to_the(v, _TWO)))
         case "/":
-            return minus(over(_derivative(u), v), over(times(u, _derivative(v)), to_the(v, _TWO)))
+            # no square of v, which would leave the range of numbers where v is near its end
+            return minus(over(_derivative(u), v), times(over(u, v), over(_derivative(v), v)))
     if not varies(v):
         n = evaluate(v)
         return times(times(Number(n), to_the(u, Number(n - 1))), _derivative(u))

@@ -15,7 +15,7 @@ class Flexibility(Record):
     """A body that bends by the modes in a file of `nivel reduce`."""
 
     file: str = Field(min_length=1, description="of `nivel reduce`, seen from the machine file")
-    modes: Annotated[int, Field(ge=0)] | None = Field(default=None, description="how many, lowest first; default all")
+    modes: Annotated[int, Field(ge=1)] | None = Field(default=None, description="how many, lowest first; default all")
     damping_ratio: Annotated[float, Field(ge=0.0, lt=1.0)] = Field(default=0.0, description="of each mode")
 
 

@@ -28,7 +28,7 @@ from nivel.march.alpha_step import (
     refresh,
     start,
 )
-from nivel.march.corners import before, next_corner, pass_corner
+from nivel.march.corners import before, is_near, next_corner, pass_corner
 from nivel.march.dense import cubic, wanted
 from nivel.march.residual_newton import TOLERANCE as NEWTON_TOLERANCE
 from nivel.march.run import (
@@ -87,19 +87,21 @@ def fixed_step(evaluate, machine, history):
         run.stages[RATE, i] = run.rate[i]
     while True:
         corner = next_corner(machine, t, target)
-        end = min(corner, target)
+        at_corner = corner < np.inf
+        # a corner within the round-off of the end is the end: what would be left is no step
+        end = corner if at_corner and not is_near(corner, target) else target
         if is_fresh(run) or run.numbers[LAST_STEP] == 0.0:
             start(evaluate, machine, history, t, end - t)
         elif record_at(machine).newton.level[0] == 2:
             refresh(machine, run)
-        h = run.clock[STEP] if corner > target and t == run.clock[TIME] else end - t
-        end_side = before(end) if corner <= target else end
+        h = run.clock[STEP] if not at_corner and t == run.clock[TIME] else end - t
+        end_side = before(end) if at_corner else end
         status = attempt(machine, history, h, end_side, record_at(machine).newton.settings[NEWTON_TOLERANCE])
         if status != OK:
             break
         keep_step(machine, run, h)
         t = end
-        if corner <= target:
+        if at_corner:
             status = end_at_corner(evaluate, machine, history, t)
             run.numbers[LAST_STEP] = 0.0
         if status != OK or t >= target:

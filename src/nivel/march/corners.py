@@ -24,6 +24,12 @@ SMOOTH = 1e-9
 
 
 @leaf
+def is_near(a, b):
+    """Whether two times differ by round-off only."""
+    return np.abs(a - b) <= NEAR * max(np.abs(a), np.abs(b))
+
+
+@leaf
 def next_corner(machine, t, target):
     """The first corner after t and not after `target`; infinity where there is none. Corners within the round-off of t are behind it."""
     corners = record_at(machine).newton.corners

@@ -42,9 +42,9 @@ def read_flexible_state(machine, t, y):
 
 @stage
 def whiten_all_rows(machine):
-    """W = C_q L⁻ᵀ of rigid and flexible bodies."""
+    """W = C_q L⁻ᵀ of rigid and flexible bodies. Returns a status."""
     whiten_rows(machine)
-    whiten_flexible_rows(machine)
+    return whiten_flexible_rows(machine)
 
 
 @stage
@@ -70,8 +70,9 @@ def evaluate(machine, t, y, ydot):
     if status != OK:
         return status
     gather(machine)
-    whiten_all_rows(machine)
-    status = factorise_rows(machine, WIDTH)
+    status = whiten_all_rows(machine)
+    if status == OK:
+        status = factorise_rows(machine, WIDTH)
     if status != OK:
         return status
     whiten_forces(machine)

@@ -51,8 +51,9 @@ def correct(machine, t, y):
         if not positions and not exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]):
             return OK
         if not factorised:
-            whiten_all_rows(machine)
-            status = factorise_rows(machine, WIDTH)
+            status = whiten_all_rows(machine)
+            if status == OK:
+                status = factorise_rows(machine, WIDTH)
             if status != OK:
                 return status
         factorised = not exceeds(saddle, constraints.C, constraints.scale, NEAR * tolerance[2])

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.record import NONE, Bodies, Record, Saddle
+from nivel.kernels.record import NONE, Bodies, Friction, Record, Saddle
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
 from nivel.system.elimination import plan
@@ -89,7 +89,11 @@ def with_modes(
     saddle, block = _saddle(old, count, bending, at)
     flexible = flexible_tables(count, bending, frames, block)
     record = old._replace(
-        markers=markers, bodies=_with_frames(old.bodies, len(frames)), saddle=saddle, flexible=flexible
+        markers=markers,
+        bodies=_with_frames(old.bodies, len(frames)),
+        saddle=saddle,
+        flexible=flexible,
+        friction=_with_modal_blocks(old.friction, saddle, len(old.constraints.C)),
     )
     record = record._replace(
         frames=record.frames._replace(
@@ -122,6 +126,16 @@ def _with_frames(bodies: Bodies, frames: int) -> Bodies:
 
     names = ("R", "theta", "A", "Rdot", "omega", "omega_b", "c", "wrench", "Rddot", "alpha_b")
     return bodies._replace(**{name: longer(getattr(bodies, name)) for name in names})
+
+
+def _with_modal_blocks(friction: Friction, saddle: Saddle, rows: int) -> Friction:
+    """With the places of the extra rows' blocks among all, those of modes too. rows : of the constraints."""
+    extra = saddle.block[int(saddle.blocks[0]) :, 0]
+    ends = int(saddle.blocks[0]) + np.searchsorted(extra, rows + np.arange(len(friction.force) + 1))
+    return friction._replace(
+        block=index_array(np.column_stack([ends[:-1], ends[1:]]), 2),
+        change=np.zeros((len(friction.force), *saddle.z.shape)),
+    )
 
 
 def _saddle(old: Record, count: int, bending: Sequence[Bending], at: dict[int, int]) -> tuple[Saddle, Blocks]:

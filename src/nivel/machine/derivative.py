@@ -75,7 +75,7 @@ def _of_operation(symbol: str, u: Node, v: Node) -> Node:
             return plus(times(_derivative(u), v), times(u, _derivative(v)))
         case "/" if not varies(v):
             return over(_derivative(u), v)
-        case "/" if not varies(u):
+        case "/" if not varies(u) and isinstance(v, Time):
             return minus(_ZERO, over(times(u, _derivative(v)), to_the(v, _TWO)))
         case "/":
             # no square of v, which would leave the range of numbers where v is near its end

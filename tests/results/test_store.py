@@ -310,3 +310,20 @@ def test_files_that_are_no_results_are_refused_in_words(tmp_path):
 def test_large_attributes_survive(tmp_path):
     source = "# a long machine file\n" * 10_000
     assert stored(tmp_path / "run.nc", machine_source=source).attributes["machine_source"] == source
+
+
+@pytest.mark.parametrize("stride", [97, 499, 997])
+def test_damaged_files_are_told_in_a_sentence(tmp_path, stride):
+    """Bytes changed here and there: whatever HDF5 stumbles over is an error of the input, or does no harm."""
+    path = tmp_path / "run.nc"
+    stored(path)
+    content = bytearray(path.read_bytes())
+    for place in range(2000, len(content), stride):
+        content[place] ^= 0x5A
+    path.write_bytes(content)
+    try:
+        result = Result.open(path)
+        for name in result.variables:
+            result.array(name)
+    except ModelError as error:
+        assert str(path) in str(error)

@@ -78,6 +78,8 @@ def command(
     from nivel.view.capture import Look
     from nivel.view.opening import serve
 
+    if not host.strip():
+        raise click.BadParameter("an address was expected, got none", param_hint="--host")
     look = Look.of(size=size, side=side, rate=rate, speed=speed, dark=dark)
     written = [*exports, *([still] if still else [])]
     _refuse_targets(written, [file, *ghosts], force)

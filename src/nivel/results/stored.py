@@ -23,7 +23,10 @@ def opened(path: Path) -> Iterator[h5py.File]:
     except OSError:
         file = _opened_while_running(path)
     with file:
-        yield file
+        try:
+            yield file
+        except (RuntimeError, OSError) as error:  # of the HDF5 library
+            raise ModelError(f"{path} is damaged and cannot be read: {error}") from None
 
 
 def _opened_while_running(path: Path) -> h5py.File:

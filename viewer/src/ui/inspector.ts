@@ -106,7 +106,7 @@ export class Inspector {
       entry.values = values;
       number.textContent = short(values[this.frame] ?? NaN);
     });
-    const label = this.picked && column.owner === this.picked.name ? column.name.replace(`${column.owner}.`, "").replace(/^(force|driver)\./, "") : column.name;
+    const label = this.picked && column.owner === this.picked.name ? withoutOwner(column.name, column.owner) : column.name;
     return el(
       "li",
       {},
@@ -115,6 +115,12 @@ export class Inspector {
       el("small", {}, column.unit === "1" ? "" : column.unit),
     );
   }
+}
+
+/** `force.x` of `hinge.force.x`, `magnitude` of `force.drive.magnitude`. */
+function withoutOwner(name: string, owner: string): string {
+  const prefix = ["", "force.", "driver."].map((kind) => `${kind}${owner}.`).find((each) => name.startsWith(each));
+  return prefix ? name.slice(prefix.length) : name;
 }
 
 /** Points that can be traced for an element. */

@@ -71,7 +71,7 @@ def test_energy_and_momenta_are_kept_to_the_order_of_the_method(body):
         drift.append(abs(end[0] / begin[0] - 1))
         np.testing.assert_allclose(end[2], begin[2], rtol=1e-4)
         np.testing.assert_allclose(end[3], begin[3], atol=2e-4 * np.linalg.norm(begin[3]))
-    assert drift[1] < 1e-6
+    assert drift[1] < 1e-5  # depends on the signs of the modes
     assert drift[0] / drift[1] > 12  # 2⁴ or more
 
 

@@ -61,8 +61,8 @@ def test_a_machine_that_flies_keeps_its_energy_and_its_momenta(step):
     linear, angular = momenta(machine, r)
     assert np.abs(r.energy_error).max() < 1e-9 * r.kinetic_energy.max()
     # some 1e-12 of the velocities are left in each of up to 2000 steps
-    assert span(linear) < 1e-10 * np.abs(linear).max()
-    assert span(angular) < 1e-10 * np.abs(angular).max()
+    assert span(linear) < 1e-9 * np.abs(linear).max()
+    assert span(angular) < 1e-9 * np.abs(angular).max()
     assert np.abs(r.constraint_violation).max() < 1e-9
     # the machine does move within itself, and its springs do work
     assert np.ptp(r.potential_energy) > 0.1 * r.kinetic_energy.max()
@@ -87,6 +87,7 @@ def test_two_point_masses_on_a_spring():
     forces = (SpringDamper(name="spring", markers=ends, stiffness=50.0, free_length=0.4),)
     machine = MachineRecord(name="two", bodies=bodies, forces=forces)
     r = run(machine, **METHOD, step=1e-2, duration=5.0, output_interval=0.05)
+    assert r.finished.outcome == "done"
     mass = np.array([1.0, 2.0])[:, None]
     angular = np.sum(np.cross(r.position, mass * r.velocity), axis=1)
     assert np.abs(r.energy_error).max() < 1e-9 * r.kinetic_energy.max()
@@ -97,6 +98,7 @@ def test_two_point_masses_on_a_spring():
 def test_in_gravity_a_flying_machine_falls_and_keeps_its_energy():
     machine = flying(gravity=(0.0, -9.81, 0.0))
     r = run(machine, **METHOD, step=5e-3, duration=1.0, output_interval=0.05)
+    assert r.finished.outcome == "done"
     mass = sum(body.mass for body in machine.bodies)
     linear, _ = momenta(machine, r)
     fallen = linear - linear[0] - np.outer(r.time, [0.0, -9.81 * mass, 0.0])
@@ -107,6 +109,7 @@ def test_in_gravity_a_flying_machine_falls_and_keeps_its_energy():
 def test_heavy_top_keeps_energy_and_its_momentum_about_the_vertical():
     machine = machines.heavy_top()
     r = run(machine, **METHOD, step=1e-3, duration=1.0, output_interval=0.01)
+    assert r.finished.outcome == "done"
     _, angular = momenta(machine, r)
     vertical = int(np.argmax(np.abs(machine.gravity)))
     assert span(angular[:, vertical]) < 1e-9 * np.abs(angular).max()
@@ -130,6 +133,7 @@ def test_order_two(machine):
 
 def test_energy_balance_holds_with_dampers():
     r = run(flying(damping=5.0), **METHOD, step=5e-3, duration=2.0, output_interval=0.05)
+    assert r.finished.outcome == "done"
     assert r.dissipated_energy[-1] > 0.01 * r.kinetic_energy.max()
     assert np.abs(r.energy_error).max() < 1e-9 * r.kinetic_energy.max()
 
@@ -148,6 +152,7 @@ def test_constraints_that_are_no_products_keep_the_energy():
     rng = np.random.default_rng(3)
     machine = machines.pair("screw", rng).replace(forces=(), gravity=(0.0, 0.0, 0.0))
     r = run(machine, **METHOD, step=1e-2, duration=2.0, output_interval=0.05)
+    assert r.finished.outcome == "done"
     _, angular = momenta(machine, r)
     assert np.abs(r.energy_error).max() < 1e-9 * r.kinetic_energy.max()
     assert span(angular) < 1e-10 * np.abs(angular).max()
@@ -160,6 +165,7 @@ def test_a_free_body_at_any_step():
     )
     machine = MachineRecord(name="free", bodies=(body,))
     r = run(machine, **METHOD, step=0.4, duration=40.0, output_interval=0.4)
+    assert r.finished.outcome == "done"
     _, angular = momenta(machine, r)
     assert np.abs(r.energy_error).max() < 1e-10 * r.kinetic_energy.max()
     assert span(angular) < 1e-10 * np.abs(angular).max()

@@ -222,7 +222,6 @@ def march(
             prepared.motion, status, float(run.clock[TIME]), step_size, run.previous, chosen=settings.steps == 0
         )
         finished.failure = (message, advice, float(run.clock[TIME]))
-        _give_last_state(prepared, run, sinks)
     finished.timing = {
         "steps": int(run.counter[DONE_STEPS]),
         "evaluations": int(run.counter[EVALUATIONS]),
@@ -361,20 +360,6 @@ def _deflections(system: System) -> Array:
 def _weight_energy(system: System) -> float:
     bodies = system.record.bodies
     return float(bodies.mass.sum() * np.linalg.norm(bodies.gravity) * system.size)
-
-
-def _give_last_state(prepared: Prepared, run: Run, sinks: Sequence[Sink]) -> None:
-    """The accepted state before a failure as a frame, where it is not the last one already and can be evaluated."""
-    time, motion = float(run.clock[TIME]), prepared.motion
-    if not time > run.clock[SHOWN] or not motion.holds(time, run.previous):
-        return
-    frame = np.zeros((1, motion.system.layout.width))
-    frame[0, 0] = time
-    observe: Any = import_module("nivel.kernels.observe").observe
-    observe(motion.handle.address, time, run.previous, frame[0])
-    if np.all(np.isfinite(frame)):
-        for sink in sinks:
-            sink.take(frame)
 
 
 def _give(run: Run, sinks: Sequence[Sink]) -> None:

@@ -9,8 +9,9 @@ from nivel.kernels.analytic import real
 from nivel.kernels.compile import stage
 from nivel.kernels.spatial import cross, dot
 
-# Of the trace of the inertia: enough for what lies on a line, about which nothing turns, to be turned about it by nothing.
-LEAST_INERTIA = 1e-14
+# Of the trace of the inertia: masses on a line, about which nothing turns, have none about it. Its share of the angular momentum is lost to
+# the push, which is itself a small share of the forces; round-off of the solution is the inverse of it times that of numbers.
+LEAST_INERTIA = 1e-9
 
 
 @stage

@@ -1,6 +1,6 @@
 """The energy–momentum method: a fixed step over which energy, and the momenta that the machine's symmetries keep, stay what they are
-(Simo, Tarnow, Wong 1992; with constraints Gonzalez 1999). Order 2; no damping at any frequency, stable at steps that other undamped
-methods do not stand. The equations: `nivel.motion.energy_momentum_residual`.
+(Simo, Tarnow, Wong 1992; with constraints Gonzalez 1999). Order 2; no damping at any frequency.
+The equations: `nivel.motion.energy_momentum_residual`.
 
 Positions are closed at the ends of steps; velocities are only in the mean over a step, so that Ċ is of the order of the step squared.
 """

@@ -25,7 +25,7 @@ from nivel.flexible.records import (
     ShapeFunction,
 )
 from nivel.flexible.reduce import reduce, reduce_model
-from nivel.flexible.section_records import Material, SectionRecord
+from nivel.machine.section import Material, SectionRecord
 from nivel.flexible.solid_records import Part, Solid
 from nivel.machine.record import field_words
 

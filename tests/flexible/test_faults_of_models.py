@@ -9,8 +9,8 @@ from models import STEEL, bar, block, needs, reduced
 from nivel.errors import ModelError
 from nivel.flexible.beam import Beam, mass_matrix, stiffness
 from nivel.flexible.model_file import parse_model
-from nivel.flexible.section import section_of
-from nivel.flexible.section_records import Material, Rectangle
+from nivel.machine.section_properties import section_of
+from nivel.machine.section import Material, Rectangle
 
 
 def faults_of(text, folder="."):

@@ -8,6 +8,7 @@ import nivel
 from nivel.analysis.dynamics import Prepared
 from nivel.analysis.settings import RunSettings
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.scene import scene
 
 
@@ -21,7 +22,7 @@ def run_attributes(
         "machine": machine.name,
         "machine_record": machine.model_dump_json(by_alias=True, exclude_none=True),
         "machine_source": source,
-        "scene": json.dumps(scene(machine, prepared.absolute.system)),  # relative coordinates move body frames
+        "scene": json.dumps(scene(with_nodes(machine), prepared.absolute.system)),  # relative coordinates move body frames
         "settings": json.dumps(settings.as_dict()),
         "nivel_version": nivel.__version__,
         "outcome": "running",

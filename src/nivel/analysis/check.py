@@ -12,6 +12,7 @@ from nivel.analysis.dynamics import prepare
 from nivel.analysis.elements import coupling_in_words, driver_in_words, event_in_words, force_in_words, sensor_in_words
 from nivel.analysis.settings import RunSettings, complete
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.flexible import bending_bodies
 from nivel.system.joints import JOINTS
 from nivel.system.states.relative import tree_of
@@ -150,6 +151,7 @@ def _vector(values: tuple[float, ...]) -> str:
 
 def check(machine: MachineRecord) -> Check:
     """Check and assemble `machine`. Raises ModelError with what is wrong."""
+    machine = with_nodes(machine)
     settings = complete(machine.simulation, choose_coordinates(machine))
     prepared = prepare(machine, settings.formulation, settings.coordinates)
     system = prepared.absolute.system

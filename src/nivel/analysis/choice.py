@@ -16,6 +16,7 @@ from nivel.machine.coordinate_reference import resolve
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
 from nivel.march.catalogue import INTEGRATORS
+from nivel.system.beam_nodes import with_nodes
 
 # relative: a body, a row, a row and a joint velocity, an entry of S; absolute: a body, a row and a body, an entry of S
 TREE_BODY, TREE_ROW, TREE_BLOCK, TREE_ENTRY = 110.0, 40.0, 12.0, 2.0
@@ -28,6 +29,7 @@ def choose_coordinates(machine: MachineRecord) -> str:
     """The coordinates of a run of `machine`: its own; for `auto` relative where joints are named in `cut`, else the ones
     that cost least, of those that its formulation knows.
     """
+    machine = with_nodes(machine)
     settings = machine.simulation
     if settings.coordinates != "auto":
         return settings.coordinates

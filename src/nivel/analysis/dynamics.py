@@ -37,7 +37,7 @@ from nivel.analysis.refusals import (
 from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
-from nivel.kernels.record import WATCH
+from nivel.kernels.record import COMPLETE, WATCH
 from nivel.kernels.saddle import MOST_UNSETTLED
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
 from nivel.machine.machine_record import MachineRecord
@@ -78,6 +78,7 @@ from nivel.march.sink import Sink
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.results.occurrence import Occurrence
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.partition import forget
 from nivel.system.system import Array, System
 
@@ -126,6 +127,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
 
     Raises ModelError where it cannot be closed, starts in a singular position, or has friction of no certain load.
     """
+    machine = with_nodes(machine)
     refuse_for_flexible(machine, formulation, coordinates)
     motion = equations(machine)
     assembly = assemble(machine, motion)
@@ -143,23 +145,42 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
     absolute = MotionEquations(motion.system.known_rank(rank), motion.kernels)
     refuse_deep_starts(machine, absolute, assembly.y)
-    facts = path_of(coordinates, formulation, machine.simulation.rotations, flexible=machine.is_flexible)
+    kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass}
+    facts = path_of(coordinates, formulation, machine.simulation.rotations, **kinds)
     if facts is None:
         raise ModelError(refuse_combinations(machine.simulation.replace(formulation=formulation), coordinates))
     motion.system.record.coordinates.reference[:] = assembly.reference
     arrange = import_module(facts.arrangement).arrange
     system, y = arrange(machine, motion.system, assembly.y, rank, choose_cut(machine))
     prepared = MotionEquations(system, import_module(facts.module))
-    if FORMULATIONS[formulation].factor > 0.0:
+    integrator = INTEGRATORS[machine.simulation.integrator]
+    if machine.shares_mass:
+        prepared = _balanced(machine, prepared, y, coordinates, integrator)
+    elif FORMULATIONS[formulation].factor > 0.0:
         prepared = penalise(prepared, y, machine.simulation, FORMULATIONS[formulation])
     else:
         bound_pivots(prepared, y)
-    integrator = INTEGRATORS[machine.simulation.integrator]
     if integrator.residual:
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
         free = not touches_ground(machine, prepared.system) if integrator.whole else None
-        prepared = equip(prepared, y, coordinates, Wanted(integrator.whole, corners(machine), integrator.shifted, free))
+        wanted = Wanted(integrator.whole, corners(machine), integrator.shifted, machine.shares_mass, free)
+        prepared = equip(prepared, y, coordinates, wanted)
     return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers))
+
+
+def _balanced(
+    machine: MachineRecord, prepared: MotionEquations, y: Array, coordinates: str, integrator: IntegratorFacts
+) -> MotionEquations:
+    """The equations of a machine whose bodies have mass in common. Its pivots are judged by the masses lumped at the bodies."""
+    lumped = path_of(coordinates, "newton-euler", machine.simulation.rotations, flexible=machine.is_flexible)
+    assert lumped is not None
+    bound_pivots(MotionEquations(prepared.system, import_module(lumped.module)), y)
+    if coordinates == "relative":
+        record = prepared.system.record
+        record.hooks.address[COMPLETE] = import_module("nivel.kernels.carried_balance").complete.address
+    if integrator.residual:
+        return prepared
+    return equip(prepared, y, coordinates, Wanted(balance=True))
 
 
 def march(
@@ -265,6 +286,9 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     record.control.iterations[1:] = 0, MOST_UNSETTLED
     forget(record.partition)
     record.newton.kept[:] = 0.0
+    record.newton.balanced[:] = 0.0
+    record.residual.vdot[:] = 0.0
+    record.residual.lam[:] = 0.0
     if settings.corrector is not None:
         record.newton.settings[:2] = settings.corrector.tolerance, settings.corrector.most_iterations
         record.newton.settings[2] = settings.corrector.matrix == "full"

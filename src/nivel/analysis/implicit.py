@@ -34,13 +34,15 @@ class Wanted:
     """What a method asks of a residual.
 
     whole : module of one over a whole step; empty: that at a time. corners : times [s] at which functions of time have corners.
-    shifted : with room for systems of shifted matrices, see `nivel.kernels.shifted_parts`. free : whether nothing joins the machine to the
+    shifted : with room for systems of shifted matrices, see `nivel.kernels.shifted_parts`. balance : with room to find accelerations, see
+    `nivel.kernels.balance`. free : whether nothing joins the machine to the
     ground, for a residual over a whole step.
     """
 
     whole: str = ""
     corners: tuple[float, ...] = ()
     shifted: bool = False
+    balance: bool = False
     free: bool | None = None
 
 
@@ -95,7 +97,8 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     mirrored = wanted.free is None and not len(system.frictions)
     plan = plan_tangent(*_groups(system, velocities, row, part, coordinates), mirrored=mirrored)
     place = places(system.map, velocities, positions)
-    newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, shifted=wanted.shifted)
+    room = {"shifted": wanted.shifted, "balance": wanted.balance}
+    newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, **room)
     newton.settings[3] = ROUNDINGS * _longest_chain(record)
     flexible = len(record.flexible.body) > 0
     path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=flexible)
@@ -128,6 +131,8 @@ def _groups(
     states = len(record.elements.state)
     owners = [system.row_owner[k] for k in row]
     joints = list(dict.fromkeys(owners))
+    if coordinates == "relative" and not system.frictions:
+        return _groups_of_tree(system, row, part)
     if coordinates == "relative":
         sizes = [velocities, *[1] * states, *(owners.count(joint) for joint in joints)]
         constraint = [k > states for k in range(len(sizes))]
@@ -151,6 +156,43 @@ def _groups(
         depending = [*([moving + state] if state != NONE else []), *([number[joint]] if joint in number else [])]
         couples |= {(body, group) for body in _moved_by(system, bodies) for group in depending}
         couples |= set(combinations(depending, 2))
+    return sizes, constraint, couples
+
+
+def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
+    """The same of joint coordinates: velocities of the joint that carries each body, states of forces, joints that are cut.
+
+    A velocity moves the bodies outwards of it, and its row has the forces on these; two of them meet where they have a body in common, or
+    bodies between which a force or a joint that is cut acts.
+    """
+    record, nodes = system.record, system.record.tree.node.tolist()
+    moving, states = len(nodes), len(record.elements.state)
+    parent, node_of = {child: up for child, up, *_ in nodes}, {node[0]: k for k, node in enumerate(nodes)}
+
+    def carriers(bodies: Iterable[int]) -> set[int]:
+        out: set[int] = set()
+        for body in bodies:
+            while body in parent and node_of[body] not in out:
+                out.add(node_of[body])
+                body = parent[body]
+        return out
+
+    owners = [system.row_owner[k] for k in row]
+    joints = list(dict.fromkeys(owners))
+    sizes = [last - first for *_, first, last in nodes] + [1] * states + [owners.count(joint) for joint in joints]
+    constraint = [k >= moving + states for k in range(len(sizes))]
+    bodies_of: dict[int, set[int]] = {}
+    for k, _, _, body in part.tolist():
+        bodies_of.setdefault(moving + states + joints.index(owners[k]), set()).add(body)
+    couples: set[tuple[int, int]] = set()
+    for body in parent:
+        couples |= set(combinations(sorted(carriers([body])), 2))
+    for bodies in {*system.coupled, *(frozenset(each) for each in bodies_of.values())}:
+        couples |= set(combinations(sorted(carriers(bodies)), 2))
+    for joint, bodies in bodies_of.items():
+        couples |= {(node, joint) for node in carriers(bodies)}
+    # bristles belong to frictions; a machine without any has no other states
+    couples |= {(node, moving + state) for node in range(moving) for state in range(states)}
     return sizes, constraint, couples
 
 

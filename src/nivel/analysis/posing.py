@@ -13,6 +13,7 @@ from nivel.analysis.assemble import assemble
 from nivel.analysis.closing import Wishes, close_positions
 from nivel.analysis.equations import MotionEquations, equations, moved
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.beam_nodes import with_nodes
 from nivel.system.scene import scene
 from nivel.system.system import Array
 
@@ -73,6 +74,7 @@ class Posing:
     """
 
     def __init__(self, machine: MachineRecord) -> None:
+        machine = with_nodes(machine)
         self.machine = machine
         self._motion: MotionEquations = equations(machine, measured=True)
         assembled = assemble(machine, self._motion)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from nivel.errors import ModelError
-from nivel.files.placed_bodies import placed_body, placed_joint
+from nivel.files.placed_bodies import placed_beam, placed_body, placed_joint
 from nivel.files.placed_forces import placed_force
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement
 from nivel.files.scene import Scene
@@ -29,6 +29,7 @@ def placed(elements: Elements, placing: Placement) -> dict[str, tuple[Record, ..
     scene = Scene.of(elements, placing)
     rules: dict[str, Callable[[Any], Record]] = {
         "bodies": lambda body: placed_body(body, placing),
+        "beams": lambda beam: placed_beam(beam, placing),
         "markers": scene.marker,
         "joints": lambda joint: placed_joint(joint, scene),
         "couplings": lambda coupling: placed_coupling(coupling, scene),

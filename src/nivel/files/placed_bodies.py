@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from nivel.files.placement import AXIAL, AXIAL_Z, POLAR_Z, Placement, triple
 from nivel.files.scene import Scene
+from nivel.files.substitution import NotRepresentableError
 from nivel.machine import (
+    Beam,
     Body,
     Box,
     Capsule,
@@ -51,6 +55,27 @@ def placed_body(body: Body, placing: Placement) -> Body:
     if body.inertia is not None:
         changes["inertia"] = _mirrored_inertia(body.inertia, placing)
     return body.replace(**changes)
+
+
+def placed_beam(beam: Beam, placing: Placement) -> Beam:
+    """`beam` in the placed part; without `up` its sections keep their axes against it.
+
+    Raises NotRepresentableError where the part is mirrored: sections of a mirrored beam have left-handed axes.
+    """
+    if placing.mirrored:
+        raise NotRepresentableError("a beam cannot be mirrored; write it out where it is to be")
+    changes: dict[str, Any] = {
+        "from_": placing.point(beam.from_),
+        "to": placing.point(beam.to),
+        "through": tuple(placing.point(point) for point in beam.through),
+        "velocity": placing.direction(beam.velocity),
+        "angular_velocity": placing.turning(beam.angular_velocity),
+    }
+    if beam.via is not None:
+        changes["via"] = placing.point(beam.via)
+    if placing.turns:
+        changes["up"] = placing.direction(triple(beam.frames(np.zeros(1))[1][0, :, 2]) if beam.up is None else beam.up)
+    return beam.replace(**changes)
 
 
 def _moved_body(body: Body, placing: Placement) -> Body:

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field
 
-from nivel.flexible.section_records import Material, SectionRecord
+from nivel.machine.section import Material, SectionRecord
 from nivel.flexible.solid_records import Part, Solid
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.machine_record import Title

@@ -15,7 +15,7 @@ from nivel.flexible.mass import PointMass, at_nodes
 from nivel.flexible.mesher import SolidMesh, meshed
 from nivel.flexible.model import Array, FiniteElementModel, Whole
 from nivel.flexible.model_file import Located
-from nivel.flexible.section_records import Material
+from nivel.machine.section import Material
 from nivel.flexible.selection import NodeSets
 from nivel.flexible.sparse import Sparse
 from nivel.flexible.tetrahedra import Tetrahedra, inverted, surface

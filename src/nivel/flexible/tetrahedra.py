@@ -14,7 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from nivel.flexible.model import Array, Whole
-from nivel.flexible.section_records import Material
+from nivel.machine.section import Material
 from nivel.flexible.sparse import Sparse
 
 EDGES: Final = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))

@@ -6,6 +6,7 @@ from nivel.kernels.compile import stage
 from nivel.kernels.floating_dynamics import flexible_kinetic_energy
 from nivel.kernels.record import record_at
 from nivel.kernels.rigid import kinetic_energy, potential_energy
+from nivel.kernels.shared_mass import shared_kinetic_energy
 
 
 @stage
@@ -20,4 +21,6 @@ def energies(machine):
     for f in range(flexible.body.shape[0]):
         # in place of what it would be if it were rigid
         kinetic += flexible_kinetic_energy(bodies, flexible, f) - kinetic_energy(bodies, flexible.body[f])
+    for k in range(record.shared.pair.shape[0]):
+        kinetic += shared_kinetic_energy(bodies, record.markers, record.shared, k)
     return kinetic, potential

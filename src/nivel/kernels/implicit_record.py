@@ -119,5 +119,7 @@ class Newton(NamedTuple):
     # (4,) tolerance of a change as a share of the scales, most iterations, whether each iteration gets a new matrix; roundings between the
     # ground and a constraint, in units in the last place
     settings: F1
+    balance: RealFactors  # of the accelerations, see `nivel.kernels.balance`; without numbers for most machines
+    balanced: F1  # (1,) 1 where it has factors
     level: U1  # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction
     shifted: Shifted

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from numba import types
 
 from nivel.kernels.arrays import A1, F1, F2, F3, U1, U2, W1, W2, W3, numba_type
+from nivel.kernels.beam_record import SharedMass
 from nivel.kernels.flexible_record import Flexible
 from nivel.kernels.handle import address_type, complex_address_type, reader
 from nivel.kernels.implicit_record import Newton, Residual
@@ -359,6 +360,7 @@ class Record(NamedTuple):
     tree: Tree
     frames: Frames
     flexible: Flexible
+    shared: SharedMass
     partition: Partition
     residual: Residual
     newton: Newton

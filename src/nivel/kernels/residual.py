@@ -11,6 +11,7 @@ from __future__ import annotations
 from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import GIVEN_FRICTION, record_at
+from nivel.kernels.shared_mass import add_shared_inertia
 from nivel.kernels.spatial import cross, dot
 
 
@@ -75,6 +76,7 @@ def inertial_wrenches(machine):
         n2 = J[2, 0] * a0 + J[2, 1] * a1 + J[2, 2] * a2 + w0 * h1 - w1 * h0
         for i in range(3):
             out[i] = A[i, 0] * n0 + A[i, 1] * n1 + A[i, 2] * n2 + m * lever[i] - F[3 + i]
+    add_shared_inertia(machine)
 
 
 @stage

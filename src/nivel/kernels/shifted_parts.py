@@ -97,6 +97,14 @@ def factorise_shifted(machine, factors, s):
     record = record_at(machine)
     newton = record.newton
     combine(machine, factors, s)
+    return factorise_entries(machine, factors)
+
+
+@stage
+def factorise_entries(machine, factors):
+    """Factors of factors.value. Returns a status; the unknown without a pivot is left in control.failure."""
+    record = record_at(machine)
+    newton = record.newton
     size = factors.matrix.shape[0]
     if size == 0 and factors.b.shape[0] > 0:
         failed = factorise_sparse_lu(newton.lu, factors.value, factors.L, factors.U, factors.Dinv, factors.work)

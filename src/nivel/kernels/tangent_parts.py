@@ -64,38 +64,48 @@ def write_part(newton, value, j, n, part, out):
 
 
 @stage
-def own_rates(newton, n):
+def own_rates(newton, n, out):
     """The rows of the rates of states are ẋ - g: their derivatives with respect to ẋ are 1."""
     for j in range(n, n + newton.state.shape[0]):
         for e in range(newton.entry_start[j], newton.entry_start[j + 1]):
             if newton.entry[e, 0] == j:
-                newton.shifted.M[newton.entry[e, 1]] = 1.0
+                out[newton.entry[e, 1]] = 1.0
+
+
+@stage
+def differentiate_part(machine, t, part, out):
+    """Fill `out` with the derivatives of one part for `residual.y`, `vdot` and `lam`. Returns a status."""
+    record = record_at(machine)
+    newton, here = record.newton, record.residual
+    twin, moving = load_twin(newton, here)
+    n, states = here.vdot.shape[0], newton.state.shape[0]
+    for g in range(newton.group_start.shape[0] - 1):
+        first, last = np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])
+        count = 0
+        for m in range(first, last):
+            if is_moved(np.int64(newton.group[m]), n, states, part):
+                move_part(newton, moving, np.int64(newton.group[m]), 1j * EPSILON, part)
+                count += 1
+        if count == 0:
+            continue
+        status = call_family(newton.address[1], twin, 0, complex(t))  # type: ignore[call-arg]
+        if status != OK:
+            return status
+        for m in range(first, last):
+            if is_moved(np.int64(newton.group[m]), n, states, part):
+                write_part(newton, moving.value, np.int64(newton.group[m]), n, part, out)
+                still(newton, moving, here, np.int64(newton.group[m]))
+    return OK
 
 
 @stage
 def differentiate_parts(machine, t):
     """Fill newton.shifted.M, D and K for `residual.y`, `vdot` and `lam`. Returns a status."""
-    record = record_at(machine)
-    newton, here = record.newton, record.residual
-    twin, moving = load_twin(newton, here)
-    n, states = here.vdot.shape[0], newton.state.shape[0]
-    own_rates(newton, n)
+    newton = record_at(machine).newton
+    own_rates(newton, np.int64(newton.place.shape[0]), newton.shifted.M)
     for part in range(3):
         out = newton.shifted.M if part == ACCELERATION else (newton.shifted.D if part == VELOCITY else newton.shifted.K)
-        for g in range(newton.group_start.shape[0] - 1):
-            first, last = np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])
-            count = 0
-            for m in range(first, last):
-                if is_moved(np.int64(newton.group[m]), n, states, part):
-                    move_part(newton, moving, np.int64(newton.group[m]), 1j * EPSILON, part)
-                    count += 1
-            if count == 0:
-                continue
-            status = call_family(newton.address[1], twin, 0, complex(t))  # type: ignore[call-arg]
-            if status != OK:
-                return status
-            for m in range(first, last):
-                if is_moved(np.int64(newton.group[m]), n, states, part):
-                    write_part(newton, moving.value, np.int64(newton.group[m]), n, part, out)
-                    still(newton, moving, here, np.int64(newton.group[m]))
+        status = differentiate_part(machine, t, part, out)
+        if status != OK:
+            return status
     return OK

@@ -1,6 +1,7 @@
 """Machines in words: frozen, typed records with units, defaults and bounds. Nothing here computes a motion."""
 
 from nivel.machine.assembly_settings import AssemblySettings
+from nivel.machine.beam import Beam
 from nivel.machine.body import Body
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.coupling import Belt, Coupling, Gear, LinearCoupling, Rack
@@ -42,6 +43,7 @@ __all__ = [
     "KINDS",
     "AssemblySettings",
     "Baumgarte",
+    "Beam",
     "Belt",
     "Body",
     "Box",

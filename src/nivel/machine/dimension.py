@@ -97,6 +97,9 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "force per angular velocity": ("a force per angular velocity", "N*s/rad", dimension(kg=1, m=1, s=-1, rad=-1)),
     "impulse": ("an impulse", "N*s", dimension(kg=1, m=1, s=-1)),
     "stiffness per load": ("a stiffness per load", "1/m", dimension(m=-1)),
+    "mass per length": ("a mass per length", "kg/m", dimension(kg=1, m=-1)),
+    "inertia per length": ("a moment of inertia per length", "kg*m", dimension(kg=1, m=1)),
+    "bending stiffness": ("a bending stiffness", "N*m^2", dimension(kg=1, m=3, s=-2)),
     "damping per load": ("a damping per load", "s/m", dimension(m=-1, s=1)),
 }
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 from nivel.machine.record import GROUND, entry
 
 Place = tuple[str | int, ...]
-SECTIONS: Final = ("bodies", "markers", "joints", "couplings", "drivers", "forces", "sensors", "events")
+SECTIONS: Final = ("bodies", "beams", "markers", "joints", "couplings", "drivers", "forces", "sensors", "events")
 
 
 def elements(machine: Any, section: str) -> Sequence[Any]:
@@ -31,7 +31,7 @@ def as_mapping(value: Any) -> Mapping[str, Any]:
 class Index:
     """What the elements of a machine are, by name.
 
-    bodies : type of the shape ("" without one). point_masses : bodies that are. markers : the body. joints : the
+    bodies : type of the shape ("" without one), also of the stations of beams. point_masses : bodies that are. markers : the body. joints : the
     type. forces, sensors : the element.
     """
 
@@ -47,7 +47,7 @@ class Index:
         """The index of a machine record, or of what it is made of."""
         bodies = _by_name(machine, "bodies")
         return cls(
-            bodies={name: _text(entry(entry(body, "shape"), "type")) for name, body in bodies.items()},
+            bodies={name: _text(entry(entry(body, "shape"), "type")) for name, body in bodies.items()} | _stations(machine),
             point_masses=frozenset(name for name, body in bodies.items() if entry(body, "point_mass") is True),
             markers={name: _text(entry(marker, "body")) for name, marker in _by_name(machine, "markers").items()},
             joints={name: _text(entry(joint, "type")) for name, joint in _by_name(machine, "joints").items()},
@@ -64,6 +64,15 @@ class Index:
         """The body that a marker is on, given by its name or written out; None where that is not known."""
         body = self.markers.get(end) if isinstance(end, str) else entry(end, "body")
         return body if isinstance(body, str) and body else None
+
+
+def _stations(machine: Any) -> dict[str, str]:
+    """The stations of beams, which are bodies without a shape."""
+    return {
+        f"{name}.{station}": ""
+        for name, beam in _by_name(machine, "beams").items()
+        for station in ("start", "end", *as_mapping(entry(beam, "stations")))
+    }
 
 
 def _by_name(machine: Any, section: str) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.marker import TwoMarkers
 from nivel.machine.placement import angle_between
 from nivel.machine.quantity import Angle, AngularVelocity, Direction, Length, Position, PositiveLength, Velocity
-from nivel.machine.record import Name, Record, unknown_word
+from nivel.machine.record import BodyName, Name, Record, unknown_word
 
 JointType = Literal[
     "spherical",
@@ -135,7 +135,7 @@ class Joint(Checked):
 
     name: Name
     type: JointType
-    bodies: tuple[Name, Name] | None = Field(default=None, description="first and second body; one may be `ground`")
+    bodies: tuple[BodyName, BodyName] | None = Field(default=None, description="first and second body; one may be `ground`")
     markers: TwoMarkers | None = Field(default=None, description="on the first and second body: names or markers")
     point: Position | None = Field(default=None, description="of the joint, global")
     points: tuple[Position, Position] | None = Field(

@@ -17,6 +17,7 @@ from pydantic import (
 from pydantic_core import InitErrorDetails
 
 from nivel.machine.assembly_settings import AssemblySettings
+from nivel.machine.beam import Beam
 from nivel.machine.body import Body
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coordinate_uses import with_whole_coordinates
@@ -59,7 +60,8 @@ class MachineRecord(Checked):
     name: Title
     description: str = ""
     gravity: AccelerationVector = (0.0, 0.0, 0.0)
-    bodies: tuple[Body, ...]
+    bodies: tuple[Body, ...] = ()
+    beams: tuple[Beam, ...] = ()
     markers: tuple[Marker, ...] = ()
     joints: tuple[Joint, ...] = ()
     couplings: tuple[Coupling, ...] = ()
@@ -87,7 +89,7 @@ class MachineRecord(Checked):
         data = with_whole_coordinates(data)
         faults = reference_faults(data, parameters_of(info))
         lines = [InitErrorDetails(type=fault(text), loc=place, input=None) for place, text in faults]
-        if entry(data, "bodies") in ((), []):
+        if entry(data, "bodies") in (None, (), []) and entry(data, "beams") in (None, (), []):
             lines.append(InitErrorDetails(type=fault("a machine needs at least one body"), loc=("bodies",), input=None))
         try:
             record = handler(data)
@@ -101,6 +103,11 @@ class MachineRecord(Checked):
     def is_flexible(self) -> bool:
         """Whether a body of it bends."""
         return any(body.flexible is not None for body in self.bodies)
+
+    @property
+    def shares_mass(self) -> bool:
+        """Whether a beam of it has a consistent mass, which its nodes have in common."""
+        return any(beam.mass == "consistent" for beam in self.beams)
 
     def problems(self) -> Iterator[Problem]:
         yield from problems_of_points(self)

@@ -11,7 +11,7 @@ from nivel.machine.axes import bad_axis_pair
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.orientation import Orientation
 from nivel.machine.quantity import Direction, Position, fault, shown
-from nivel.machine.record import GROUND, Name
+from nivel.machine.record import GROUND, BodyName, Name
 
 
 class Marker(Checked):
@@ -24,7 +24,7 @@ class Marker(Checked):
     collection: ClassVar[str] = "markers"
 
     name: Name | None = Field(default=None, description="not needed where the marker stands inside an element")
-    body: Name = Field(description="a body, or `ground`")
+    body: BodyName = Field(description="a body, a station of a beam `BEAM.STATION`, or `ground`")
     position: Position = Field(default=(0.0, 0.0, 0.0), description="in the body frame")
     orientation: Orientation | None = Field(default=None, description="of the marker in the body frame")
     axis: Direction | None = Field(default=None, description="z axis of the marker in the body frame, of any length")

@@ -37,6 +37,19 @@ def _named(value: Any) -> str:
 Name = Annotated[str, BeforeValidator(_named), WithJsonSchema({"type": "string", "pattern": _ROUGHLY})]
 
 
+STATION = re.compile(rf"{NAME.pattern}(\.[\w-]+)?")
+
+
+def _named_body(value: Any) -> str:
+    if isinstance(value, str) and STATION.fullmatch(value):
+        return value
+    return _named(value)
+
+
+# of something that markers can be on: a body, or `BEAM.STATION`
+BodyName = Annotated[str, BeforeValidator(_named_body), WithJsonSchema({"type": "string", "pattern": r"^[^\s\d._-][^\s]*$"})]
+
+
 class Record(BaseModel):
     """A part of a machine in words. Made with keywords; `replace` gives a changed copy. Faults come as a ModelError."""
 

@@ -52,7 +52,7 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
 
 
 def _twice(machine: Any) -> Faults:
-    for sections in (("bodies",), ("markers",), WITH_ROWS, ("forces",), ("sensors",), ("events",)):
+    for sections in (("bodies", "beams"), ("markers",), WITH_ROWS, ("forces",), ("sensors",), ("events",)):
         seen: dict[str, str] = {}
         for section in sections:
             for at, element in enumerate(elements(machine, section)):
@@ -64,9 +64,8 @@ def _twice(machine: Any) -> Faults:
                     continue
                 message = f"the name `{name}` stands twice in {section}"
                 if seen[name] != section:
-                    message = (
-                        f"the name `{name}` stands in {seen[name]}; joints, couplings and drivers share their names"
-                    )
+                    sharing = "bodies and beams" if section == "beams" else "joints, couplings and drivers"
+                    message = f"the name `{name}` stands in {seen[name]}; {sharing} share their names"
                 yield (section, at, "name"), message
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -75,9 +75,22 @@ FORMULATIONS: dict[str, FormulationFacts] = {
 }
 
 
-def path_of(coordinates: str, formulation: str, rotations: str, *, flexible: bool = False) -> PathFacts | None:
-    """The equations of these methods, or None where the combination has no meaning. flexible : for machines with flexible bodies."""
+# accelerations by the residual, where the mass matrix has no blocks of single bodies
+BALANCED = "nivel.motion.balanced"
+
+
+def path_of(
+    coordinates: str, formulation: str, rotations: str, *, flexible: bool = False, shared: bool = False
+) -> PathFacts | None:
+    """The equations of these methods, or None where the combination has no meaning.
+
+    flexible : for machines with flexible bodies. shared : for those with mass that bodies have in common.
+    """
     if flexible:
-        return FLOATING if (coordinates, formulation) == ("absolute", "newton-euler") else None
-    velocities = "lagrange" if formulation == "lagrange" else "newton-euler"
-    return PATHS.get((coordinates, velocities, rotations))
+        path = FLOATING if (coordinates, formulation) == ("absolute", "newton-euler") else None
+    else:
+        velocities = "lagrange" if formulation == "lagrange" else "newton-euler"
+        path = PATHS.get((coordinates, velocities, rotations))
+    if not shared or path is None:
+        return path
+    return replace(path, module=BALANCED) if path.residual and formulation == "newton-euler" else None

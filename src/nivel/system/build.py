@@ -35,6 +35,7 @@ from nivel.machine.body import Body
 from nivel.machine.inertia import mass_properties
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.placement import initial_velocity, placement
+from nivel.system.beams import add_beam, shared_mass
 from nivel.system.draft import Draft, located
 from nivel.system.elimination import plan
 from nivel.system.flexible import flexible_mass, no_flexible
@@ -68,6 +69,8 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
     add_drivers(draft, rows)
     for force in machine.forces:
         _add_force(draft, force)
+    for beam in machine.beams:
+        add_beam(draft, beam)
     for joint in machine.joints:
         for values in (joint.start, joint.start_rates):
             for name in values.given if values is not None else ():
@@ -108,6 +111,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
             tree=empty_tree(constraints),
             frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
             flexible=no_flexible(),
+            shared=shared_mass(draft, machine.beams),
             partition=no_partition(),
             residual=no_residual(),
             newton=no_newton(),

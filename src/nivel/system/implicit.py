@@ -80,32 +80,37 @@ def places(state_map: StateMap, velocities: int, positions: int) -> Index:
 
 def shifted_tables(plan: TangentPlan, velocities: int, state: int) -> Shifted:
     """For the derivatives planned, so many velocities and entries of y."""
-    factor = plan.factor
-    entries, size = len(factor.column), factor.size
-    dense = factor.fill > MOSTLY_FULL
-    full = size if dense else 0
-
-    def factors(kind: type, dtype: type) -> Any:
-        L, U, Dinv, work = factor.workspace(dtype) if not dense else (np.zeros(0, dtype),) * 4
-        return kind(
-            value=np.zeros(entries, dtype),
-            L=L,
-            U=U,
-            Dinv=Dinv,
-            work=work,
-            matrix=np.zeros((full, full), dtype),
-            pivot=np.zeros(full, dtype=np.uint32),
-            b=np.zeros(size, dtype),
-            moved=np.zeros(velocities, dtype),
-            r=np.zeros(state, dtype),
-        )
-
+    entries = len(plan.factor.column)
     return Shifted(
         M=np.zeros(entries),
         D=np.zeros(entries),
         K=np.zeros(entries),
-        real=factors(RealFactors, np.float64),
-        pair=factors(ComplexFactors, np.complex128),
+        real=real_factors(plan, velocities, state),
+        pair=_factors(ComplexFactors, np.complex128, plan, velocities, state),
+    )
+
+
+def real_factors(plan: TangentPlan, velocities: int, state: int) -> RealFactors:
+    """Room for the factors of a matrix with the pattern planned."""
+    return _factors(RealFactors, np.float64, plan, velocities, state)
+
+
+def _factors(kind: type, dtype: type, plan: TangentPlan, velocities: int, state: int) -> Any:
+    factor = plan.factor
+    dense = factor.fill > MOSTLY_FULL
+    full = factor.size if dense else 0
+    L, U, Dinv, work = factor.workspace(dtype) if not dense else (np.zeros(0, dtype),) * 4
+    return kind(
+        value=np.zeros(len(factor.column), dtype),
+        L=L,
+        U=U,
+        Dinv=Dinv,
+        work=work,
+        matrix=np.zeros((full, full), dtype),
+        pivot=np.zeros(full, dtype=np.uint32),
+        b=np.zeros(factor.size, dtype),
+        moved=np.zeros(velocities, dtype),
+        r=np.zeros(state, dtype),
     )
 
 
@@ -118,9 +123,10 @@ def newton_tables(
     corners: Sequence[float] = (),
     *,
     shifted: bool = False,
+    balance: bool = False,
 ) -> Newton:
     """For `place` of the velocities, entries of y, states of forces, constraint rows, the derivatives planned and corners [s]; with room
-    for `Shifted` where a method asks for it."""
+    for `Shifted` and for the balance of accelerations where a method or a machine asks for it."""
     n, factor = len(place), plan.factor
     size = factor.size
     dense = factor.fill > MOSTLY_FULL
@@ -160,6 +166,8 @@ def newton_tables(
         corners=np.array(corners, dtype=float),
         kept=np.zeros(4),
         settings=np.zeros(4),
+        balance=real_factors(plan if balance else EMPTY, 0, 0),
+        balanced=np.zeros(1),
         level=np.zeros(1, dtype=np.uint32),
         shifted=shifted_tables(plan, n, state) if shifted else shifted_tables(EMPTY, 0, 0),
     )

@@ -21,7 +21,7 @@ from nivel.flexible.mass import from_matrix
 from nivel.flexible.model import Array, FiniteElementModel, Whole
 from nivel.flexible.model_file import Located
 from nivel.flexible.records import LENGTHS, MASSES, Matrices
-from nivel.flexible.section_records import Material
+from nivel.machine.section import Material
 from nivel.flexible.selection import NodeSets
 from nivel.flexible.sparse import Sparse
 from nivel.flexible.tetrahedra import Tetrahedra, inverted, surface

@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.quantity import Position, listed
-from nivel.machine.record import GROUND, Name
+from nivel.machine.record import GROUND, BodyName, Name
 from nivel.machine.time_function import ForceComponent, TorqueComponent
 
 Axes = Annotated[Literal["global", "body"], Field(description="axes of the vector: global, or turning with the body")]
@@ -20,7 +20,7 @@ class PointForce(ForceElement):
     """A force on a point of a body: `body` and `position`, or a `marker`."""
 
     type: Literal["force"] = "force"
-    body: Name | None = None
+    body: BodyName | None = None
     position: Position | None = Field(default=None, description="of the point, in the body frame; default the origin")
     marker: Name | None = Field(default=None, description="the point, in place of `body` and `position`")
     vector: Annotated[tuple[ForceComponent, ForceComponent, ForceComponent], BeforeValidator(listed)]
@@ -40,7 +40,7 @@ class Torque(ForceElement):
     """A pure torque on a body."""
 
     type: Literal["torque"] = "torque"
-    body: Name
+    body: BodyName
     vector: Annotated[tuple[TorqueComponent, TorqueComponent, TorqueComponent], BeforeValidator(listed)]
     axes: Axes = "global"
 

@@ -1,4 +1,4 @@
-"""Materials and cross-sections of beams, as a model file says them."""
+"""Materials and cross-sections of beams in words."""
 
 from __future__ import annotations
 

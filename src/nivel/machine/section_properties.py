@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.flexible.section_records import Box, Circle, IBeam, Rectangle, SectionRecord, Tube, Values
+from nivel.machine.section import Box, Circle, IBeam, Rectangle, SectionRecord, Tube, Values
 
 Array = NDArray[np.float64]
 

@@ -1,0 +1,128 @@
+"""Accelerations and multipliers as those for which the residual vanishes: for machines whose mass matrix has no blocks of single bodies.
+
+The residual is linear in them. The matrix [M, C_qᵀ; C_q, 0] of some state before serves as long as it brings the residual down fast
+enough; with that of the state itself one solution and its refinement end at round-off.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import stage
+from nivel.kernels.hook import call_hook
+from nivel.kernels.lu import solve_lu
+from nivel.kernels.record import NONE, RESIDUAL, record_at
+from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.shifted_parts import factorise_entries
+from nivel.kernels.sparse_lu import solve_sparse_lu
+from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
+from nivel.kernels.tangent_parts import ACCELERATION, differentiate_part, own_rates
+
+# A change this small against the accelerations is round-off; with the state's own matrix so is one that gets smaller by no more than SLOW.
+EXACT, SLOW, MOST = 1e-14, 0.2, 40
+
+
+@stage
+def find_matrix(machine, t):
+    """The factors at the state, accelerations and multipliers in `residual`. Returns a status."""
+    newton = record_at(machine).newton
+    own_rates(newton, np.int64(newton.place.shape[0]), newton.balance.value)
+    status = differentiate_part(machine, t, ACCELERATION, newton.balance.value)
+    return factorise_entries(machine, newton.balance) if status == OK else status
+
+
+@stage
+def change_accelerations(machine):
+    """Change v̇ and λ by what the residual asks for. Returns the largest change and the largest value of v̇, turns and others apart."""
+    record = record_at(machine)
+    newton, own = record.newton, record.residual
+    f, value = newton.balance, own.value
+    b, n, states, rows = f.b, own.vdot.shape[0], newton.state.shape[0], own.lam.shape[0]
+    first = n + states
+    for i in range(n):
+        b[i] = -value[i]
+    for i in range(states):
+        b[n + i] = 0.0
+    for k in range(rows):
+        b[first + k] = -value[first + 2 * rows + k]
+    if f.matrix.shape[0] == 0:
+        solve_sparse_lu(newton.lu, f.L, f.U, f.Dinv, b, f.work)
+    else:
+        solve_lu(f.matrix, f.pivot, b)
+    plain, turns, of_plain, of_turns = 0.0, 0.0, 1e-300, 1e-300
+    for k in range(n):
+        own.vdot[k] += b[k]
+        change, size = np.abs(b[k]), np.abs(own.vdot[k])
+        if newton.place[k, 1] == NONE:
+            plain, of_plain = max(plain, change), max(of_plain, size)
+        else:
+            turns, of_turns = max(turns, change), max(of_turns, size)
+    for k in range(rows):
+        own.lam[k] += b[first + k]
+    return max(plain / of_plain, turns / of_turns)
+
+
+@stage
+def balance(machine, t, y):
+    """Fill `residual.vdot` and `residual.lam` for the state y at time t, and all that the residual leaves. Returns a status.
+
+    They start from what they were, which for a step small against the motion is near.
+    """
+    record = record_at(machine)
+    own, newton = record.residual, record.newton
+    for i in range(y.shape[0]):
+        own.y[i] = y[i]
+    for i in range(own.vdot.shape[0]):
+        if not np.abs(own.vdot[i]) < np.inf:
+            own.vdot[i] = 0.0
+    for k in range(own.lam.shape[0]):
+        if not np.abs(own.lam[k]) < np.inf:
+            own.lam[k] = 0.0
+    last, fresh = np.inf, False
+    for _ in range(MOST):
+        status = call_hook(machine, RESIDUAL, 0, t)
+        if status != OK:
+            return status
+        for i in range(own.value.shape[0]):
+            if not np.abs(own.value[i]) < np.inf:
+                return NOT_FINITE
+        if newton.balanced[0] == 0.0:
+            status = find_matrix(machine, t)
+            if status != OK:
+                return status
+            newton.balanced[0], fresh, last = 1.0, True, np.inf
+        size = change_accelerations(machine)
+        if size <= EXACT:
+            return OK
+        if not size <= SLOW * last:
+            if fresh:
+                return OK if size < SLOW else NOT_CONVERGED
+            newton.balanced[0], last = 0.0, np.inf
+        else:
+            last = size
+    return NOT_CONVERGED
+
+
+@stage
+def write_balanced_rates(machine, y, ydot):
+    """ẏ of the state y that is balanced, and the accelerations of the bodies for frames."""
+    record = record_at(machine)
+    bodies, own, newton, rate = record.bodies, record.residual, record.newton, record.elements.state_rate
+    n, states = own.vdot.shape[0], rate.shape[0]
+    positions = np.int64(y.shape[0]) - n - states - 2
+    for k in range(n):
+        p, axis = np.int64(newton.place[k, 0]), newton.place[k, 1]
+        if axis == NONE:
+            ydot[p] = y[positions + k]
+        elif axis == 0:
+            rates_of_parameters(y[p : p + 4], y[positions + k : positions + k + 3], ydot[p : p + 4])
+        ydot[positions + k] = own.vdot[k]
+    for i in range(states):
+        ydot[positions + n + i] = rate[i]
+    ydot[positions + n + states] = record.control.power[0]
+    ydot[positions + n + states + 1] = record.control.power[1]
+    for b in range(bodies.mass.shape[0]):
+        A, x = bodies.A[b], own.acceleration[b]
+        for i in range(3):
+            bodies.Rddot[b, i] = x[3 + i]
+            bodies.alpha_b[b, i] = A[0, i] * x[0] + A[1, i] * x[1] + A[2, i] * x[2]

@@ -1,0 +1,154 @@
+"""A beam of large motion in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Annotated, ClassVar, Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.axes import no_direction
+from nivel.machine.beam_curve import Line, NoCurveError, arc, axes_along, smooth, straight
+from nivel.machine.beam_section import BeamSection, BeamSectionRecord, GeneralSection, beam_section, needs_shear_areas
+from nivel.machine.checked import Checked, Problem, superfluous
+from nivel.machine.quantity import (
+    Angle,
+    AngularVelocityVector,
+    Direction,
+    Length,
+    Position,
+    Quantity,
+    Scalar,
+    VelocityVector,
+    listed,
+)
+from nivel.machine.record import GROUND, Name
+from nivel.machine.section import Material
+
+Array = NDArray[np.float64]
+START, END = "start", "end"
+LEAST: Final = 1e-9  # share of the length by which stations and ends are apart, at least
+
+Points = Annotated[tuple[Position, ...], BeforeValidator(listed)]
+Offset = Annotated[tuple[Length, Length], BeforeValidator(listed)]
+Time = Annotated[float, Quantity("time")]
+
+
+class Beam(Checked):
+    """A slender body that may move and bend by any amount: geometrically exact, with shear (Reissner 1981, Simo 1985).
+
+    Joints, forces and markers take hold of it at stations, which are bodies for them: `BEAM.start`, `BEAM.end`, and those named.
+    The axes of a station are those of the section there: x along the beam.
+    """
+
+    collection: ClassVar[str] = "beams"
+    tagged = {"section": 1}  # noqa: RUF012
+
+    name: Name
+    from_: Position = Field(alias="from", description="where it starts, global")
+    to: Position = Field(description="where it ends, global")
+    via: Position | None = Field(default=None, description="a point on the way: the beam is an arc of a circle")
+    through: Points = Field(default=(), description="points on the way: the beam is a smooth curve through them")
+    up: Direction | None = Field(default=None, description="the z axes of its sections are as near to this as they can be")
+    twist: Angle = Field(default=0.0, description="turn of the last section about the beam, against the first, unstressed")
+    section: BeamSectionRecord
+    material: Material | None = None
+    centroid: Offset = Field(default=(0.0, 0.0), description="y and z of the sections' centroids from the line of the beam")
+    shear_centre: Offset = Field(default=(0.0, 0.0), description="y and z of the shear centres from the line of the beam")
+    elements: Annotated[int, Field(strict=True, ge=1, le=100_000)] = 10
+    order: Annotated[int, Field(strict=True, ge=1, le=3)] = Field(default=1, description="of an element: 1, 2 or 3")
+    mass: Literal["consistent", "lumped"] = "consistent"
+    damping: Time = Field(default=0.0, description="stress from a rate of strain, over that from the strain")
+    stations: dict[Name, Scalar] = Field(default={}, description="name: share of the length, between 0 and 1")
+    velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of its start, global axes")
+    angular_velocity: AngularVelocityVector = Field(default=(0.0, 0.0, 0.0), description="as a rigid body, global axes")
+
+    @cached_property
+    def line(self) -> Line:
+        """Its line. Raises NoCurveError."""
+        if self.via is not None:
+            return arc(self.from_, self.via, self.to)
+        return smooth([self.from_, *self.through, self.to]) if self.through else straight(self.from_, self.to)
+
+    @cached_property
+    def shares(self) -> Array:
+        """(N,) shares of the length at which its nodes are, ascending: stations are nodes, elements between them are equally long."""
+        ends = np.array(sorted({0.0, 1.0, *self.stations.values()}))
+        counts = _divided(np.diff(ends), self.elements)
+        pieces = [np.linspace(a, b, self.order * n, endpoint=False) for a, b, n in zip(ends[:-1], ends[1:], counts, strict=True)]
+        return np.concatenate([*pieces, [1.0]])
+
+    @cached_property
+    def node_names(self) -> tuple[str, ...]:
+        """(N,) names of its nodes as bodies: `BEAM.start`, `BEAM.1`, …, with the names of stations where they have one."""
+        named = {0.0: START, 1.0: END} | {share: name for name, share in self.stations.items()}
+        return tuple(f"{self.name}.{named.get(share, k)}" for k, share in enumerate(self.shares.tolist()))
+
+    def frames(self, shares: Array) -> tuple[Array, Array]:
+        """Places (n, 3) and axes (n, 3, 3), columns x, y, z, of the sections at these shares of the length, global."""
+        s = self.line.length * shares
+        return self.line.at(s)[0], axes_along(self.line, s, None if self.up is None else np.array(self.up), self.twist)
+
+    @property
+    def properties(self) -> BeamSection:
+        """The section in numbers."""
+        return beam_section(self.section, self.material, self.centroid, self.shear_centre)
+
+    def problems(self) -> Iterator[Problem]:
+        if self.name == GROUND:
+            yield Problem((), f"`{GROUND}` is the fixed world and cannot be a beam")
+        zero = [*no_direction("up", self.up)]
+        yield from zero
+        if self.via is not None and self.through:
+            yield superfluous("through", "does not go with `via`, which makes the beam an arc of a circle")
+        elif not zero:
+            yield from self._problems_of_line()
+        yield from self._problems_of_section()
+        yield from self._problems_of_stations()
+        if self.damping < 0.0:
+            yield Problem(("damping",), f"zero or more was expected, got {self.damping:g} s")
+
+    def _problems_of_line(self) -> Iterator[Problem]:
+        try:
+            self.frames(np.linspace(0.0, 1.0, 33))
+        except NoCurveError as problem:
+            place = ("up",) if "`up`" in str(problem) else ("via",) if self.via is not None else ("to",)
+            yield Problem(place, str(problem))
+
+    def _problems_of_section(self) -> Iterator[Problem]:
+        if isinstance(self.section, GeneralSection):
+            if self.material is not None:
+                yield superfluous("material", "does not belong to a general section, which has its own stiffness and mass")
+            if any(self.centroid):
+                yield superfluous("centroid", "belongs to a section of a material; a general one has its `mass_centre`")
+        elif self.material is None:
+            yield Problem((), "`material` is missing: {youngs_modulus: …, poisson_ratio: …, density: …}")
+        if needs_shear_areas(self.section):
+            message = "`shear_area_y` and `shear_area_z` are missing: a beam of large motion deforms by shear too"
+            yield Problem(("section",), message)
+
+    def _problems_of_stations(self) -> Iterator[Problem]:
+        near: dict[float, str] = {0.0: START, 1.0: END}
+        for name, share in self.stations.items():
+            if name in (START, END):
+                yield Problem(("stations", name), f"every beam has a station `{name}`; choose another name")
+            elif not 0.0 < share < 1.0:
+                yield Problem(("stations", name), f"a share of the length between 0 and 1 was expected, got {share:g}")
+            elif close := [other for at, other in near.items() if abs(at - share) < LEAST]:
+                yield Problem(("stations", name), f"it is where `{close[0]}` is")
+            else:
+                near[share] = name
+        if self.elements < len(near) - 1:
+            message = f"{len(near) - 1} at least are needed, one between each two stations; got {self.elements}"
+            yield Problem(("elements",), message)
+
+
+def _divided(lengths: Array, count: int) -> list[int]:
+    """`count` elements over parts of these lengths, at least one each, the longest elements as short as can be."""
+    counts = [1] * len(lengths)
+    for _ in range(count - len(lengths)):
+        counts[int(np.argmax(lengths / counts))] += 1
+    return counts

@@ -1,0 +1,35 @@
+"""Equations of motion of machines with beams of consistent mass, in any coordinates that have a residual: see `nivel.kernels.balance`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.balance import balance, write_balanced_rates
+from nivel.kernels.compile import entry
+from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.status import OK
+
+
+@entry(evaluate_signature)
+def evaluate(machine, t, y, ydot):
+    """ẏ of y = (q, v, x). Leaves everything else in the record."""
+    status = balance(machine, t, y)
+    if status == OK:
+        write_balanced_rates(machine, y, ydot)
+    tree = record_at(machine).tree
+    for k in range(tree.state.shape[0]):
+        tree.state[k] = y[k]
+    return status
+
+
+@entry(correct_signature)
+def keep(machine, t, y):
+    """No correction; Euler parameters are brought back to length one, which moves nothing."""
+    newton = record_at(machine).newton
+    for k in range(newton.place.shape[0]):
+        if newton.place[k, 1] == 0:
+            p = np.int64(newton.place[k, 0])
+            square = y[p] * y[p] + y[p + 1] * y[p + 1] + y[p + 2] * y[p + 2] + y[p + 3] * y[p + 3]
+            for i in range(4):
+                y[p + i] /= np.sqrt(square)
+    return OK

@@ -1,0 +1,49 @@
+"""A machine with the nodes of its beams as bodies: what joints, forces and markers take hold of."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from nivel.machine.beam import Beam
+from nivel.machine.body import Body
+from nivel.machine.inertia import Inertia
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.orientation import Orientation, euler_parameters_from_matrix
+from nivel.system.beam_elements import masses_of
+
+
+def with_nodes(machine: MachineRecord) -> MachineRecord:
+    """The machine with one body a node of its beams, behind its own bodies, with the mass lumped there; the same where it has them."""
+    known = {body.name for body in machine.bodies}
+    missing = [beam for beam in machine.beams if beam.node_names[0] not in known]
+    if not missing:
+        return machine
+    given: dict[str, Any] = {name: getattr(machine, name) for name in type(machine).model_fields}
+    given["bodies"] = (*machine.bodies, *(node for beam in missing for node in _nodes(beam)))
+    return type(machine).model_construct(machine.model_fields_set | {"bodies"}, **given)
+
+
+def _nodes(beam: Beam) -> list[Body]:
+    masses, section = masses_of(beam), beam.properties
+    place, axes = beam.frames(beam.shares)
+    speed = np.array(beam.velocity) + np.cross(np.array(beam.angular_velocity), place - place[0])
+    return [
+        Body.model_construct(
+            name=name,
+            mass=float(masses.mass[k]),
+            centre_of_mass=tuple(section.mass_centre.tolist()),
+            inertia=_inertia(masses.inertia[k]),
+            position=tuple(place[k].tolist()),
+            orientation=Orientation.model_construct(euler_parameters=tuple(euler_parameters_from_matrix(axes[k]).tolist())),
+            velocity=tuple(speed[k].tolist()),
+            angular_velocity=beam.angular_velocity,
+        )
+        for k, name in enumerate(beam.node_names)
+    ]
+
+
+def _inertia(J: Any) -> Inertia:
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = J.tolist()
+    return Inertia.model_construct(xx=xx, yy=yy, zz=zz, xy=xy, xz=xz, yz=yz)

@@ -26,6 +26,7 @@ EXACT, SLOW, MOST = 1e-14, 0.2, 40
 def find_matrix(machine, t):
     """The factors at the state, accelerations and multipliers in `residual`. Returns a status."""
     newton = record_at(machine).newton
+    newton.asked[2] = 1.0
     own_rates(newton, np.int64(newton.place.shape[0]), newton.balance.value)
     status = differentiate_part(machine, t, ACCELERATION, newton.balance.value)
     return factorise_entries(machine, newton.balance) if status == OK else status

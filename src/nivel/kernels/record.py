@@ -13,7 +13,7 @@ from typing import NamedTuple
 from numba import types
 
 from nivel.kernels.arrays import A1, F1, F2, F3, U1, U2, W1, W2, W3, numba_type
-from nivel.kernels.beam_record import SharedMass
+from nivel.kernels.beam_record import BeamTangent, SharedMass
 from nivel.kernels.flexible_record import Flexible
 from nivel.kernels.handle import address_type, complex_address_type, reader
 from nivel.kernels.implicit_record import Newton, Residual
@@ -199,7 +199,7 @@ class Watched(NamedTuple):
 class Hooks(NamedTuple):
     """Addresses of what only some machines need, or zero: see `family_signature`."""
 
-    address: A1  # (7,) measure, friction, sense, complete, watch, residual, friction for given multipliers
+    address: A1  # (8,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams
 
 
 class Saddle(NamedTuple):
@@ -361,6 +361,7 @@ class Record(NamedTuple):
     frames: Frames
     flexible: Flexible
     shared: SharedMass
+    beams: BeamTangent
     partition: Partition
     residual: Residual
     newton: Newton
@@ -385,6 +386,6 @@ complex_family_signature = types.int64(complex_address_type, types.int64, types.
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
-MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION = 0, 1, 2, 3, 4, 5, 6  # entries of Hooks.address
+MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT = 0, 1, 2, 3, 4, 5, 6, 7  # entries of Hooks.address
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions

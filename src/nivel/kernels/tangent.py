@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf, stage
-from nivel.kernels.hook import call_family
-from nivel.kernels.record import NONE, record_at
+from nivel.kernels.hook import call_family, call_hook
+from nivel.kernels.record import NONE, TANGENT, record_at
 from nivel.kernels.spatial import cross, dot
 from nivel.kernels.status import OK
 
@@ -117,7 +117,8 @@ def differentiate(machine, t, cq, cv, cx, level):
         # moved back: a complex number less what was added would keep its imaginary part only to round-off
         for m in range(first, last):
             still(newton, moving, here, np.int64(newton.group[m]))
-    return OK
+    newton.asked[0], newton.asked[1] = cq, cv
+    return call_hook(machine, TANGENT, 0, t)
 
 
 @stage

@@ -24,7 +24,8 @@ def evaluate_residual(machine, t):
 @entry(types.int64(address_type, _number, _number, _number, _number))
 def find_tangent(machine, t, cq, cv, cx):
     """Fill `newton.value`, see `nivel.kernels.tangent.differentiate`. Returns a status."""
-    return differentiate(machine, t, cq, cv, cx, POSITIONS)
+    status = call_hook(machine, RESIDUAL, 0, t)
+    return status if status != OK else differentiate(machine, t, cq, cv, cx, POSITIONS)
 
 
 @entry(types.int64(address_type, _number, state_type, state_type, _number, types.complex128))

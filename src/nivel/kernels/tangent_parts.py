@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import stage
-from nivel.kernels.hook import call_family
-from nivel.kernels.record import NONE, record_at
+from nivel.kernels.hook import call_family, call_hook
+from nivel.kernels.record import NONE, TANGENT, record_at
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import EPSILON, load_twin, still
 
@@ -95,13 +95,14 @@ def differentiate_part(machine, t, part, out):
             if is_moved(np.int64(newton.group[m]), n, states, part):
                 write_part(newton, moving.value, np.int64(newton.group[m]), n, part, out)
                 still(newton, moving, here, np.int64(newton.group[m]))
-    return OK
+    return call_hook(machine, TANGENT, 1 + part, t)
 
 
 @stage
 def differentiate_parts(machine, t):
     """Fill newton.shifted.M, D and K for `residual.y`, `vdot` and `lam`. Returns a status."""
     newton = record_at(machine).newton
+    newton.asked[2] = 0.0
     own_rates(newton, np.int64(newton.place.shape[0]), newton.shifted.M)
     for part in range(3):
         out = newton.shifted.M if part == ACCELERATION else (newton.shifted.D if part == VELOCITY else newton.shifted.K)

@@ -6,13 +6,15 @@ import numpy as np
 
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.residual_newton import iterate
 from nivel.march.run import EVALUATIONS, RESTART, run_at
 
 # entries of run.numbers: the constants; the step before, 0 after a start
 ALPHA_M, ALPHA_F, BETA, GAMMA, DELTA_M, DELTA_F, THETA = 0, 1, 2, 3, 4, 5, 6
 LAST_STEP = 7
+# 1 where accelerations went on to change in the last step as in the one before
+GOES_ON = 8
 # rows of run.stages: a and v̇ of the accepted state, w and ẋ; v̇ and ẋ of the state before; work; rate at the begin of the step
 A, VDOT, W, XDOT, BEFORE, AHEAD, RATE = 0, 1, 2, 3, 4, 5, 6
 # a difference over this share of a step gives v̈ of the start to half the digits
@@ -44,7 +46,7 @@ def start(evaluate, machine, history, t, h):
             stages[VDOT, k], stages[A, k] = rate, rate + (c[ALPHA_M] - c[ALPHA_F]) * slope
         else:
             stages[XDOT, k - n], stages[W, k - n] = rate, rate + (c[DELTA_M] - c[DELTA_F]) * slope
-    newton.kept[0], c[LAST_STEP] = 0.0, 0.0
+    newton.kept[0], c[LAST_STEP], c[GOES_ON] = 0.0, 0.0, 1.0
     run.counter[RESTART] = 0
 
 
@@ -73,9 +75,10 @@ def refresh(machine, run):
 
 @stage
 def predict(run, newton, residual, h):
-    """The unknowns at the end of the step as if they went on to change as in the step before."""
+    """The unknowns at the end of the step as if they went on to change as in the step before, or as they are now: whichever would have
+    been nearer there. Accelerations of stiff parts change their sign from step to step."""
     stages, n, last = run.stages, residual.vdot.shape[0], run.numbers[LAST_STEP]
-    ratio = h / last if last > 0.0 else 0.0
+    ratio = h / last if last > 0.0 and run.numbers[GOES_ON] == 1.0 else 0.0
     for k in range(n):
         residual.vdot[k] = stages[VDOT, k] + ratio * (stages[VDOT, k] - stages[BEFORE, k])
     for k in range(newton.state.shape[0]):
@@ -114,13 +117,48 @@ def prepare(run, newton, n, h):
     return h * h * c[BETA] * share, h * c[GAMMA] * share, h * c[THETA] * share_x
 
 
+@stage
+def move_by_velocity(run, newton, residual, h, cq):
+    """Accelerations with which positions change by h times the velocities at the start of the step."""
+    n = residual.vdot.shape[0]
+    positions = np.int64(run.y.shape[0]) - n - newton.state.shape[0] - 2
+    for k in range(n):
+        residual.vdot[k] = (h * run.y[positions + k] - newton.turn[k]) / cq
+
+
 @leaf
 def attempt(machine, history, h, end, tolerance):
-    """The state after a step h, which ends at time `end`, in `residual.y`. tolerance : see `iterate`. Returns a status."""
+    """The state after a step h, which ends at time `end`, in `residual.y`. tolerance : see `iterate`. Returns a status.
+
+    Accelerations of stiff parts say little about the next ones: where the iteration finds nothing from them, it starts again from the
+    positions that the velocities lead to, and then from those there are.
+    """
     run, record = run_at(history), record_at(machine)
     predict(run, record.newton, record.residual, h)
     cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)
-    return iterate(machine, history, end, cq, cv, cx, tolerance)
+    status = iterate(machine, history, end, cq, cv, cx, tolerance)
+    for share in (1.0, 0.0):
+        if status != NOT_CONVERGED:
+            break
+        predict(run, record.newton, record.residual, h)
+        cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)
+        move_by_velocity(run, record.newton, record.residual, share * h, cq)
+        status = iterate(machine, history, end, cq, cv, cx, tolerance)
+    return status
+
+
+@stage
+def goes_on(run, residual, states, h):
+    """Whether the accelerations of the step just done are nearer to those extrapolated than to those before it."""
+    stages, n, ratio = run.stages, residual.vdot.shape[0], h / run.numbers[LAST_STEP]
+    positions = np.int64(run.scale.shape[0]) - n - states - 2
+    extrapolated, constant = 0.0, 0.0
+    for k in range(n):
+        scale = run.scale[positions + k]
+        change = residual.vdot[k] - stages[VDOT, k]
+        constant = max(constant, np.abs(change) / scale)
+        extrapolated = max(extrapolated, np.abs(change - ratio * (stages[VDOT, k] - stages[BEFORE, k])) / scale)
+    return extrapolated < constant
 
 
 @stage
@@ -130,6 +168,8 @@ def keep_step(machine, run, h):
     newton, residual, c, stages = record.newton, record.residual, run.numbers, run.stages
     n, states, last = residual.vdot.shape[0], newton.state.shape[0], run.y.shape[0] - 2
     ratio = h / c[LAST_STEP] if c[LAST_STEP] > 0.0 else 1.0
+    if c[LAST_STEP] > 0.0:
+        c[GOES_ON] = 1.0 if goes_on(run, residual, states, h) else 0.0
     for k in range(n):
         new, old = residual.vdot[k], stages[VDOT, k]
         a = old + ratio * (stages[A, k] - old)

@@ -6,14 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nivel.kernels.beam_record import SharedMass
+from nivel.kernels.beam_record import BeamTangent, SharedMass
 from nivel.kernels.record import NONE
 from nivel.machine.beam import Beam
 from nivel.system.beam_elements import elements_of, masses_of
 from nivel.system.draft import Draft
 from nivel.system.tables import index_array
 
-FAMILY = "beam"
 MOST_NODES = 4
 
 
@@ -31,9 +30,37 @@ def add_beam(draft: Draft, beam: Beam) -> None:
         points[: len(weight), 5 : 5 + count] = slope
         points[: len(weight), 9:] = strain
         index = [*nodes.tolist(), *[NONE] * (MOST_NODES - count), count, len(weight), elements.reference]
-        number = [beam.damping, *section.stiffness.ravel().tolist(), *points.ravel().tolist(), *[0.0] * 48]
-        draft.elements.add(FAMILY, index, number)
+        number = [beam.damping, *section.stiffness.ravel().tolist(), *points.ravel().tolist(), *[0.0] * 60]
+        draft.elements.add("beam" if beam.damping > 0.0 else "elastic_beam", index, number)
         draft.noted.append(frozenset(draft.markers.body[node] for node in nodes))
+
+
+def no_tangent() -> BeamTangent:
+    """For machines whose derivatives are found otherwise: all arrays empty."""
+    return empty_tangent(0, 0)
+
+
+def empty_tangent(elements: int, unknowns: int) -> BeamTangent:
+    """Room for so many elements, and unknowns of one at most; tables are empty."""
+    empty = index_array([], 1)
+    return BeamTangent(
+        wrench=np.zeros((elements, 6 * MOST_NODES)),
+        first=np.zeros(1, dtype=np.uint32),
+        start=np.zeros(1, dtype=np.uint32),
+        unknown=index_array([], 4),
+        place_start=empty,
+        place=empty,
+        pair=index_array([], 2),
+        plain=index_array([], 8),
+        S=np.zeros((9, 9)),
+        B=np.zeros((6, 9)),
+        k=np.zeros((18, 18)),
+        P=np.zeros(18),
+        twist=np.zeros((unknowns, 6 * MOST_NODES)),
+        change=np.zeros((MOST_NODES, 6)),
+        local=np.zeros(36),
+        psi=np.zeros((MOST_NODES, 3)),
+    )
 
 
 def shared_mass(draft: Draft, beams: Sequence[Beam]) -> SharedMass:

@@ -35,7 +35,7 @@ from nivel.machine.body import Body
 from nivel.machine.inertia import mass_properties
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.placement import initial_velocity, placement
-from nivel.system.beams import add_beam, shared_mass
+from nivel.system.beams import add_beam, no_tangent, shared_mass
 from nivel.system.draft import Draft, located
 from nivel.system.elimination import plan
 from nivel.system.flexible import flexible_mass, no_flexible
@@ -112,6 +112,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
             frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
             flexible=no_flexible(),
             shared=shared_mass(draft, machine.beams),
+            beams=no_tangent(),
             partition=no_partition(),
             residual=no_residual(),
             newton=no_newton(),
@@ -170,7 +171,7 @@ def _watched(draft: Draft) -> Watched:
 
 def _hooks(draft: Draft, sensors: bool) -> Hooks:
     """Addresses of the compiled functions that only some machines need."""
-    address = np.zeros(7, dtype=np.uint64)
+    address = np.zeros(8, dtype=np.uint64)
     if draft.coordinates.what:
         address[MEASURE] = import_module("nivel.kernels.measure").measure.address
     if draft.frictions:

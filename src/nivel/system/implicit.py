@@ -168,6 +168,7 @@ def newton_tables(
         settings=np.zeros(4),
         balance=real_factors(plan if balance else EMPTY, 0, 0),
         balanced=np.zeros(1),
+        asked=np.zeros(3),
         level=np.zeros(1, dtype=np.uint32),
         shifted=shifted_tables(plan, n, state) if shifted else shifted_tables(EMPTY, 0, 0),
     )

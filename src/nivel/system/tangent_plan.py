@@ -7,7 +7,7 @@ evaluations does not grow with a chain.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,11 +32,17 @@ class TangentPlan:
 
 
 def plan_tangent(
-    sizes: Sequence[int], constraint: Sequence[bool], couples: Iterable[tuple[int, int]], *, mirrored: bool
+    sizes: Sequence[int],
+    constraint: Sequence[bool],
+    couples: Iterable[tuple[int, int]],
+    *,
+    mirrored: bool,
+    found: Collection[int] = (),
 ) -> TangentPlan:
     """For groups of so many unknowns, of constraints or not, that are coupled in pairs.
 
     mirrored : derivatives with respect to multipliers are those of the constraints, so they are not found by evaluations of their own.
+    found : groups whose derivatives are found otherwise; their entries are in the plan all the same.
     """
     pairs = {(a, b) for a, b in couples if a != b}
     beside = [{g} for g in range(len(sizes))]
@@ -48,7 +54,7 @@ def plan_tangent(
     moved = [g for g in range(len(sizes)) if not (mirrored and constraint[g])]
     groups = [
         [int(first[g]) + k for g in together if k < sizes[g]]
-        for together in _together(moved, beside)
+        for together in _together([g for g in moved if g not in found], beside)
         for k in range(max(sizes[g] for g in together))
     ]
     rows, columns, copied = [], [], []

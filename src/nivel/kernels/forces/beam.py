@@ -27,10 +27,10 @@ from nivel.kernels.status import OK
 # columns of `columns`: markers of up to four nodes, how many they are, Gauss points, reference node
 NODE, COUNT, POINTS, REFERENCE = 0, 4, 5, 6
 # columns of `number`: time of damping [s], stiffness (36); for each Gauss point its weight [m], shape functions (4), their slopes (4),
-# strain that counts as none (6); then work: rotation vectors of the nodes (12), what they ask for (12), their rates (12), forces on the nodes (12)
-DAMPING, STIFFNESS, POINT, WIDTH, PSI, ASKED, RATE, FORCE = 0, 1, 37, 15, 82, 94, 106, 118
+# strain that counts as none (6); then work: rotation vectors of the nodes (12), what they ask for (12), their rates (12), forces and torques on the nodes (24)
+DAMPING, STIFFNESS, POINT, WIDTH, PSI, ASKED, RATE, FORCE, TORQUE = 0, 1, 37, 15, 82, 94, 106, 118, 130
 WEIGHT, SHAPE, SLOPE, STRAIN = 0, 1, 5, 9
-NUMBERS = 130
+NUMBERS = 142
 
 
 @stage
@@ -189,26 +189,34 @@ def push_node(bodies, markers, m, force, torque):
         F[3 + i] += torque[i] + moment[i]
 
 
+@stage
+def feel_element(bodies, markers, index, n, control):
+    """What an element stores and asks of its nodes, on their bodies; forces and torques on the nodes stay in n[FORCE:], n[TORQUE:]."""
+    find_turns(bodies, markers, index, n)
+    m0, m1, m2 = 0.0 * n[0], 0.0 * n[0], 0.0 * n[0]
+    for g in range(index[POINTS]):
+        m = point_of_element(bodies, markers, index, n, n[POINT + WIDTH * g : POINT + WIDTH * (g + 1)], control)
+        m0, m1, m2 = m0 + m[0], m1 + m[1], m2 + m[2]
+    r = index[REFERENCE]
+    t0, t1, t2 = product(markers.A[index[NODE + r]], (m0, m1, m2))
+    for a in range(index[COUNT]):
+        if a != r:
+            node, psi, torque = index[NODE + a], n[PSI + 3 * a : PSI + 3 * a + 3], n[TORQUE + 3 * a : TORQUE + 3 * a + 3]
+            asked = inverse_tangent_product(psi, n[ASKED + 3 * a : ASKED + 3 * a + 3], -1.0)
+            x, y, z = product(markers.A[node], asked)
+            torque[0], torque[1], torque[2] = -x, -y, -z
+            push_node(bodies, markers, node, n[FORCE + 3 * a : FORCE + 3 * a + 3], torque)
+            t0, t1, t2 = t0 - x, t1 - y, t2 - z
+    torque = n[TORQUE + 3 * r : TORQUE + 3 * r + 3]
+    torque[0], torque[1], torque[2] = -t0, -t1, -t2
+    push_node(bodies, markers, index[NODE + r], n[FORCE + 3 * r : FORCE + 3 * r + 3], torque)
+
+
 @family
 def apply(machine, number, t):
-    """All elements."""
+    """All elements, those with damping: their derivatives are found on complex numbers."""
     record = record_at(machine)
-    bodies, markers, elements, control = record.bodies, record.markers, record.elements, record.control
+    elements = record.elements
     for k in range(elements.span[number, 0], elements.span[number, 1]):
-        index, n = elements.columns[k], elements.number[k]
-        find_turns(bodies, markers, index, n)
-        m0, m1, m2 = 0.0 * n[0], 0.0 * n[0], 0.0 * n[0]
-        for g in range(index[POINTS]):
-            m = point_of_element(bodies, markers, index, n, n[POINT + WIDTH * g : POINT + WIDTH * (g + 1)], control)
-            m0, m1, m2 = m0 + m[0], m1 + m[1], m2 + m[2]
-        r = index[REFERENCE]
-        t0, t1, t2 = product(markers.A[index[NODE + r]], (m0, m1, m2))
-        for a in range(index[COUNT]):
-            if a != r:
-                node, psi = index[NODE + a], n[PSI + 3 * a : PSI + 3 * a + 3]
-                asked = inverse_tangent_product(psi, n[ASKED + 3 * a : ASKED + 3 * a + 3], -1.0)
-                x, y, z = product(markers.A[node], asked)
-                push_node(bodies, markers, node, n[FORCE + 3 * a : FORCE + 3 * a + 3], (-x, -y, -z))
-                t0, t1, t2 = t0 - x, t1 - y, t2 - z
-        push_node(bodies, markers, index[NODE + r], n[FORCE + 3 * r : FORCE + 3 * r + 3], (-t0, -t1, -t2))
+        feel_element(record.bodies, record.markers, elements.columns[k], elements.number[k], record.control)
     return OK

@@ -1,0 +1,116 @@
+"""Unknowns of implicit methods in groups that depend on each other as a whole: what the plan of their matrix is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from importlib import import_module
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.kernels.record import NONE
+from nivel.system.system import System
+
+Index = NDArray[np.integer]
+
+
+def unknown_groups(
+    system: System, velocities: int, row: Index, part: Index, coordinates: str
+) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
+    """Sizes of the groups of unknowns, which are constraints, and which depend on each other: bodies, then modes of flexible ones (or all
+    joint velocities as one), states of forces, joints."""
+    record = system.record
+    states = len(record.elements.state)
+    owners = [system.row_owner[k] for k in row]
+    joints = list(dict.fromkeys(owners))
+    if coordinates == "relative" and not system.frictions:
+        return _groups_of_tree(system, row, part)
+    if coordinates == "relative":
+        sizes = [velocities, *[1] * states, *(owners.count(joint) for joint in joints)]
+        constraint = [k > states for k in range(len(sizes))]
+        return sizes, constraint, {(a, b) for b in range(len(sizes)) for a in range(b)}
+    count = system.body_count
+    modes = [int(last - first) for first, last in record.flexible.mode]
+    moving = count + len(modes)
+    sizes = [*[6] * count, *modes, *[1] * states, *(owners.count(joint) for joint in joints)]
+    constraint = [k >= moving + states for k in range(len(sizes))]
+    number = {joint: moving + states + k for k, joint in enumerate(joints)}
+    couples = {(body, count + f) for f, body in enumerate(record.flexible.body.tolist())}
+    bodies_of: dict[int, set[int]] = {}
+    for k, _, _, body in part.tolist():
+        bodies_of.setdefault(number[owners[k]], set()).add(body)
+    for joint, bodies in bodies_of.items():
+        moved = _moved_by(system, bodies)
+        couples |= {(body, joint) for body in moved} | set(combinations(sorted(moved), 2))
+    for bodies in system.coupled:
+        couples |= set(combinations(sorted(_moved_by(system, bodies)), 2))
+    for bodies, state, joint in _frictions(system):
+        depending = [*([moving + state] if state != NONE else []), *([number[joint]] if joint in number else [])]
+        couples |= {(body, group) for body in _moved_by(system, bodies) for group in depending}
+        couples |= set(combinations(depending, 2))
+    return sizes, constraint, couples
+
+
+def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
+    """The same of joint coordinates: velocities of the joint that carries each body, states of forces, joints that are cut.
+
+    A velocity moves the bodies outwards of it, and its row has the forces on these; two of them meet where they have a body in common, or
+    bodies between which a force or a joint that is cut acts.
+    """
+    record, nodes = system.record, system.record.tree.node.tolist()
+    moving, states = len(nodes), len(record.elements.state)
+    parent, node_of = {child: up for child, up, *_ in nodes}, {node[0]: k for k, node in enumerate(nodes)}
+
+    def carriers(bodies: Iterable[int]) -> set[int]:
+        out: set[int] = set()
+        for body in bodies:
+            while body in parent and node_of[body] not in out:
+                out.add(node_of[body])
+                body = parent[body]
+        return out
+
+    owners = [system.row_owner[k] for k in row]
+    joints = list(dict.fromkeys(owners))
+    sizes = [last - first for *_, first, last in nodes] + [1] * states + [owners.count(joint) for joint in joints]
+    constraint = [k >= moving + states for k in range(len(sizes))]
+    bodies_of: dict[int, set[int]] = {}
+    for k, _, _, body in part.tolist():
+        bodies_of.setdefault(moving + states + joints.index(owners[k]), set()).add(body)
+    couples: set[tuple[int, int]] = set()
+    for body in parent:
+        couples |= set(combinations(sorted(carriers([body])), 2))
+    for bodies in {*system.coupled, *(frozenset(each) for each in bodies_of.values())}:
+        couples |= set(combinations(sorted(carriers(bodies)), 2))
+    for joint, bodies in bodies_of.items():
+        couples |= {(node, joint) for node in carriers(bodies)}
+    # bristles belong to frictions; a machine without any has no other states
+    couples |= {(node, moving + state) for node in range(moving) for state in range(states)}
+    return sizes, constraint, couples
+
+
+def _moved_by(system: System, bodies: Iterable[int]) -> set[int]:
+    """Groups of velocities that move these bodies, or frames at interfaces: of bodies, and behind them of the modes of flexible ones."""
+    flexible, count = system.record.flexible, system.body_count
+    flexible_of = {int(v): int(f) for f, v in flexible.frame} | {int(b): f for f, b in enumerate(flexible.body)}
+    groups: set[int] = set()
+    for body in bodies:
+        if body in flexible_of:
+            groups |= {int(flexible.body[flexible_of[body]]), count + flexible_of[body]}
+        elif body != count:
+            groups.add(body)
+    return groups
+
+
+def _frictions(system: System) -> list[tuple[set[int], int, str]]:
+    """Bodies, state or NONE, and the joint whose reaction is the load (empty: none), of each friction."""
+    if not system.frictions:
+        return []
+    record, columns = system.record, import_module("nivel.kernels.friction")
+    out = []
+    for index in record.friction.columns.tolist():
+        ends = record.coordinates.what[index[columns.COORDINATE], 1:3]
+        loading = index[columns.JOINT]
+        bodies = set(record.markers.body[ends].tolist())
+        out.append((bodies, index[columns.STATE], "" if loading == NONE else system.joints[loading]))
+    return out

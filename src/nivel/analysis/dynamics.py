@@ -27,6 +27,7 @@ from nivel.analysis.refusals import (
     refuse_conserved_drivers,
     refuse_deep_starts,
     refuse_for_flexible,
+    refuse_for_shared_mass,
     refuse_friction_at_jumps,
     refuse_implicit_stiction,
     refuse_redundant_flexible,
@@ -129,6 +130,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     """
     machine = with_nodes(machine)
     refuse_for_flexible(machine, formulation, coordinates)
+    refuse_for_shared_mass(machine, formulation, coordinates)
     motion = equations(machine)
     assembly = assemble(machine, motion)
     redundancy = analyse(motion, 0.0, assembly.y)

@@ -179,6 +179,29 @@ def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: s
         raise ModelError([Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults])
 
 
+def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates: str) -> None:
+    """Methods that need a mass matrix of single bodies, for beams of consistent mass."""
+    if not machine.shares_mass:
+        return
+    names = ", ".join(beam.name for beam in machine.beams if beam.mass == "consistent")
+    why = f"does not go with the consistent mass of {names}: take {{}}, or `mass: lumped` for the beams"
+    faults = []
+    if coordinates not in ("absolute", "relative"):
+        faults.append(("coordinates", f"'{coordinates}' {why.format('absolute or relative')}"))
+    if formulation != "newton-euler":
+        faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
+    if INTEGRATORS[machine.simulation.integrator].whole:
+        faults.append(("integrator", f"'{machine.simulation.integrator}' {why.format('generalised-alpha')}"))
+    out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
+    out += [
+        Fault("", 0, 0, f"forces.{force.name}", f"friction {why.format('no friction')}")
+        for force in machine.forces
+        if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual
+    ]
+    if out:
+        raise ModelError(out)
+
+
 def refuse_redundant_flexible(machine: MachineRecord, redundancy: Redundancy) -> None:
     """Redundant joints of rigid bodies, which may be none of flexible ones: how many are left is not known."""
     if machine.is_flexible and redundancy.redundant_rows:

@@ -227,3 +227,30 @@ def test_energy_momentum_keeps_the_energy_of_a_flying_beam():
     result = simulate({**flying(1, "lumped"), "simulation": simulation})
     assert result.dataset.attrs["outcome"] == "done"
     assert trust(result)["energy_error_max"] < 1e-6 * float(result.dataset["kinetic_energy"][0])
+
+
+def test_total_interpolation_of_rotations_loses_objectivity_with_the_square_of_the_element():
+    """A curved beam turned rigidly: relative interpolation feels nothing, total interpolation strains that fall with h²."""
+    curvatures = []
+    for elements in (2, 4, 8, 16):
+        words = {"elements": elements, "interpolation": "total", "via": [0.5, 0.3, 0.1]}
+        ready = prepared(flying(1, **words))
+        turn = Rotation.from_rotvec([1.1, -0.7, 0.9])
+        energy, _ = forces(ready.motion, moved(ready.motion, ready.start, turn, np.zeros(3)))
+        curvatures.append(np.sqrt(energy))  # strain, as energy is its square
+    slopes = np.log2(np.array(curvatures[:-1]) / curvatures[1:])
+    assert curvatures[0] > 1e-3
+    assert_allclose(slopes[1:], 2.0, atol=0.15)
+
+
+@pytest.mark.parametrize("turns", [0.9, 1.0, 1.5, 2.5])
+def test_total_interpolation_changes_charts(turns):
+    """Turned by whole turns and parts of them, through angles at which rotation vectors have no limit."""
+    ready = prepared(flying(1, interpolation="total", elements=16))
+    axis = np.array([0.2, 0.5, 0.8]) / np.linalg.norm([0.2, 0.5, 0.8])
+    worst = max(
+        forces(ready.motion, moved(ready.motion, ready.start, Rotation.from_rotvec((2 * np.pi * turns + small) * axis), np.zeros(3)))[0]
+        for small in np.linspace(-0.3, 0.3, 13)
+    )
+    once = forces(ready.motion, moved(ready.motion, ready.start, Rotation.from_rotvec(2.0 * axis), np.zeros(3)))[0]
+    assert worst < 20 * once

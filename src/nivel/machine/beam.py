@@ -61,6 +61,9 @@ class Beam(Checked):
     elements: Annotated[int, Field(strict=True, ge=1, le=100_000)] = 10
     order: Annotated[int, Field(strict=True, ge=1, le=3)] = Field(default=1, description="of an element: 1, 2 or 3")
     mass: Literal["consistent", "lumped"] = "consistent"
+    interpolation: Literal["relative", "total"] = Field(
+        default="relative", description="of rotations in an element: relative to a node of it, or total, which is not objective"
+    )
     damping: Time = Field(default=0.0, description="stress from a rate of strain, over that from the strain")
     stations: dict[Name, Scalar] = Field(default={}, description="name: share of the length, between 0 and 1")
     velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of its start, global axes")

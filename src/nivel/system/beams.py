@@ -9,8 +9,10 @@ import numpy as np
 from nivel.kernels.beam_record import BeamTangent, SharedMass
 from nivel.kernels.record import NONE
 from nivel.machine.beam import Beam
+from nivel.machine.orientation import matrix_from_euler_parameters
+from nivel.machine.placement import placement
 from nivel.system.beam_elements import elements_of, masses_of
-from nivel.system.draft import Draft
+from nivel.system.draft import GROUND, Draft
 from nivel.system.tables import index_array
 
 MOST_NODES = 4
@@ -20,7 +22,8 @@ def add_beam(draft: Draft, beam: Beam) -> None:
     """The elements of a beam, whose nodes are bodies; each couples its own nodes."""
     elements, section = elements_of(beam), beam.properties
     marker = np.array([draft.frame(name) for name in beam.node_names])
-    count = beam.order + 1
+    names = dict(zip(marker.tolist(), beam.node_names, strict=True))
+    count, total = beam.order + 1, beam.interpolation == "total"
     for nodes, N, slope, weight, strain in zip(
         marker[elements.nodes], elements.N, elements.slope, elements.weight, elements.strain, strict=True
     ):
@@ -29,9 +32,13 @@ def add_beam(draft: Draft, beam: Beam) -> None:
         points[: len(weight), 1 : 1 + count] = N
         points[: len(weight), 5 : 5 + count] = slope
         points[: len(weight), 9:] = strain
-        index = [*nodes.tolist(), *[NONE] * (MOST_NODES - count), count, len(weight), elements.reference]
+        frame, slot = nodes[elements.reference], elements.reference
+        if total:
+            axes = matrix_from_euler_parameters(placement(draft.machine.body_named[names[frame]])[1])
+            frame, slot = draft.place((GROUND, np.zeros(3), axes)), MOST_NODES
+        index = [*nodes.tolist(), *[NONE] * (MOST_NODES - count), count, len(weight), slot, frame]
         number = [beam.damping, *section.stiffness.ravel().tolist(), *points.ravel().tolist(), *[0.0] * 60]
-        draft.elements.add("beam" if beam.damping > 0.0 else "elastic_beam", index, number)
+        draft.elements.add("beam" if beam.damping > 0.0 or total else "elastic_beam", index, number)
         draft.noted.append(frozenset(draft.markers.body[node] for node in nodes))
 
 

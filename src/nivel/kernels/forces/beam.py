@@ -1,7 +1,7 @@
 """Elements of geometrically exact beams (Reissner 1981; Simo 1985), objective by relative rotations (Crisfield, Jelenić 1999).
 
 Along an element the line is x = Σ N_a x_a and the section turned by R = R_r exp(ψ̃), ψ = Σ N_a ψ_a, where ψ_a is the rotation vector of node a
-seen from the reference node r. Strains in section axes and their variations, with small rotations δθ̄ in section axes:
+seen from the reference node r, or, with total interpolation, from axes fixed in space. Strains in section axes and their variations, with small rotations δθ̄ in section axes:
 
     Γ = Rᵀ x' - Γ_0        δΓ = Rᵀ δx' + Rᵀ x' × δθ̄          δθ̄ = exp(-ψ̃) δθ̄_r + T δψ
     Κ = T ψ' - Κ_0         δΚ = D(T ψ')·δψ + T δψ'            δψ = Σ N_a δψ_a,  δψ_a = T_a⁻¹ (δθ̄_a - exp(-ψ̃_a) δθ̄_r)
@@ -24,8 +24,10 @@ from nivel.kernels.shared_mass import less, product, transposed_product
 from nivel.kernels.spatial import cross, dot
 from nivel.kernels.status import OK
 
-# columns of `columns`: markers of up to four nodes, how many they are, Gauss points, reference node
-NODE, COUNT, POINTS, REFERENCE = 0, 4, 5, 6
+# columns of `columns`: markers of up to four nodes, how many they are, Gauss points, which of them is the reference node (MOST: none), the
+# marker from whose axes the sections turn
+NODE, COUNT, POINTS, REFERENCE, FRAME = 0, 4, 5, 6, 7
+MOST = 4
 # columns of `number`: time of damping [s], stiffness (36); for each Gauss point its weight [m], shape functions (4), their slopes (4),
 # strain that counts as none (6); then work: rotation vectors of the nodes (12), what they ask for (12), their rates (12), forces and torques on the nodes (24)
 DAMPING, STIFFNESS, POINT, WIDTH, PSI, ASKED, RATE, FORCE, TORQUE = 0, 1, 37, 15, 82, 94, 106, 118, 130
@@ -52,16 +54,30 @@ def sum_of(a, x, b, y, c, z):
 
 
 @stage
+def nearest_chart(near, psi):
+    """ψ, or its complement (1 - 2π/ψ) ψ, which is the same rotation: whichever is nearer to the vector `near` (Mäkinen 2007)."""
+    angle = np.sqrt(dot(psi, psi))
+    if real(angle) > 1e-6:
+        factor = 1.0 - 2.0 * np.pi / angle
+        here = less(psi, near)
+        there = factor * psi[0] - near[0], factor * psi[1] - near[1], factor * psi[2] - near[2]
+        if real(dot(there, there)) < real(dot(here, here)):
+            psi[0], psi[1], psi[2] = factor * psi[0], factor * psi[1], factor * psi[2]
+
+
+@stage
 def find_turns(bodies, markers, index, n):
     """Rotation vectors of the nodes relative to the reference node, and where there is damping their rates."""
     r, count = index[REFERENCE], index[COUNT]
-    Ar, wr = markers.A[index[NODE + r]], bodies.omega[markers.body[index[NODE + r]]]
+    Ar, wr = markers.A[index[FRAME]], bodies.omega[markers.body[index[FRAME]]]
     for a in range(count):
         psi, A = n[PSI + 3 * a : PSI + 3 * a + 3], markers.A[index[NODE + a]]
         if a == r:
             psi[0], psi[1], psi[2] = 0.0, 0.0, 0.0
         else:
             rotation_vector(Ar, A, psi)
+            if r == MOST and a > 0:
+                nearest_chart(n[PSI : PSI + 3], psi)
         for i in range(3):
             n[ASKED + 3 * a + i], n[FORCE + 3 * a + i] = 0.0, 0.0
         if real(n[DAMPING]) > 0.0:
@@ -111,8 +127,7 @@ def tangent_product(a, b, c, psi, v):
 def point_of_element(bodies, markers, index, n, q, control):
     """Add what Gauss point q stores, loses and asks of the nodes; returns the moment in section axes of the reference node."""
     count = index[COUNT]
-    reference = index[NODE + index[REFERENCE]]
-    Ar, wr = markers.A[reference], bodies.omega[markers.body[reference]]
+    Ar, wr = markers.A[index[FRAME]], bodies.omega[markers.body[index[FRAME]]]
     shape, slope, unstrained = q[SHAPE : SHAPE + 4], q[SLOPE : SLOPE + 4], q[STRAIN : STRAIN + 6]
     psi, bend = interpolated(n, shape, PSI, count), interpolated(n, slope, PSI, count)
     square = dot(psi, psi)
@@ -198,7 +213,7 @@ def feel_element(bodies, markers, index, n, control):
         m = point_of_element(bodies, markers, index, n, n[POINT + WIDTH * g : POINT + WIDTH * (g + 1)], control)
         m0, m1, m2 = m0 + m[0], m1 + m[1], m2 + m[2]
     r = index[REFERENCE]
-    t0, t1, t2 = product(markers.A[index[NODE + r]], (m0, m1, m2))
+    t0, t1, t2 = product(markers.A[index[FRAME]], (m0, m1, m2))
     for a in range(index[COUNT]):
         if a != r:
             node, psi, torque = index[NODE + a], n[PSI + 3 * a : PSI + 3 * a + 3], n[TORQUE + 3 * a : TORQUE + 3 * a + 3]
@@ -207,9 +222,10 @@ def feel_element(bodies, markers, index, n, control):
             torque[0], torque[1], torque[2] = -x, -y, -z
             push_node(bodies, markers, node, n[FORCE + 3 * a : FORCE + 3 * a + 3], torque)
             t0, t1, t2 = t0 - x, t1 - y, t2 - z
-    torque = n[TORQUE + 3 * r : TORQUE + 3 * r + 3]
-    torque[0], torque[1], torque[2] = -t0, -t1, -t2
-    push_node(bodies, markers, index[NODE + r], n[FORCE + 3 * r : FORCE + 3 * r + 3], torque)
+    if r != MOST:
+        torque = n[TORQUE + 3 * r : TORQUE + 3 * r + 3]
+        torque[0], torque[1], torque[2] = -t0, -t1, -t2
+        push_node(bodies, markers, index[NODE + r], n[FORCE + 3 * r : FORCE + 3 * r + 3], torque)
 
 
 @family

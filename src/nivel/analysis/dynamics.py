@@ -30,6 +30,7 @@ from nivel.analysis.refusals import (
     refuse_for_shared_mass,
     refuse_friction_at_jumps,
     refuse_implicit_stiction,
+    refuse_moved_nodes,
     refuse_redundant_flexible,
     refuse_rough_motions,
     refuse_uncertain_loads,
@@ -133,6 +134,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     refuse_for_shared_mass(machine, formulation, coordinates)
     motion = equations(machine)
     assembly = assemble(machine, motion)
+    refuse_moved_nodes(machine, assembly.moved, motion.system.size)
     redundancy = analyse(motion, 0.0, assembly.y)
     if redundancy.singular_rows:
         rows = ", ".join(redundancy.singular_rows)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from nivel.analysis.corners import corners_of
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.redundancy import Redundancy
@@ -18,6 +20,8 @@ from nivel.system.system import Array
 
 # Stops and contacts may start inside what they touch by this share of the machine's length, or of a radian.
 DEEPEST_START = 0.02
+# The assembly may move a node of a beam by this share of the machine's length, or of a radian.
+FITS = 1e-8
 
 
 def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> None:
@@ -200,6 +204,25 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
     ]
     if out:
         raise ModelError(out)
+
+
+def refuse_moved_nodes(machine: MachineRecord, moved: Sequence[tuple[str, float, float]], size: float) -> None:
+    """Beams that the assembly would stress, by moving single nodes of them. moved : body, distance [m], angle [rad]."""
+    owners = {name: beam.name for beam in machine.beams for name in beam.node_names}
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"beams.{owners[name]}",
+            f"its joints do not fit: the assembly would move its node {name} by {distance:.3g} m and {angle:.3g} rad, and stress it; place "
+            f"the beam, or what is joined to it, so that they meet to {FITS * size:.0e} m, and drivers so that they start there",
+        )
+        for name, distance, angle in moved
+        if name in owners and max(distance / size, angle) > FITS
+    ]
+    if faults:
+        raise ModelError(faults)
 
 
 def refuse_redundant_flexible(machine: MachineRecord, redundancy: Redundancy) -> None:

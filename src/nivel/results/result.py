@@ -102,6 +102,12 @@ class Result:
             return Trust.from_json(str(self.attributes["trust"]))
         return assess(self, Facts(outcome=self.outcome, failure=self.failure))
 
+    def sections(self, beam: str) -> xarray.Dataset:
+        """Strains, forces and moments along a beam at all times; see `nivel.results.beam_sections`."""
+        from nivel.results.beam_sections import beam_sections
+
+        return beam_sections(self, beam)
+
     def _json(self, attribute: str) -> dict[str, Any]:
         return json.loads(str(self.attributes.get(attribute, "{}")))
 

@@ -25,9 +25,9 @@ from nivel.flexible.records import (
     ShapeFunction,
 )
 from nivel.flexible.reduce import reduce, reduce_model
-from nivel.machine.section import Material, SectionRecord
 from nivel.flexible.solid_records import Part, Solid
 from nivel.machine.record import field_words
+from nivel.machine.section import Material, SectionRecord
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "flexible-bodies.md").read_text(encoding="utf-8")

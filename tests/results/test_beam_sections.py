@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from nivel.errors import ModelError
 from numpy.testing import assert_allclose
+
+from nivel.errors import ModelError
 from simulating import simulate
 
 SECTION = {"type": "rectangle", "width": "30 mm", "height": "20 mm"}
@@ -17,7 +18,9 @@ def swinging(request):
     return simulate(
         {
             "beams": {"bar": {**bar, "order": request.param}},
-            "joints": {"hinge": {"type": "revolute", "bodies": ["ground", "bar.start"], "point": [0, 0, 0], "axis": [0, 1, 0]}},
+            "joints": {
+                "hinge": {"type": "revolute", "bodies": ["ground", "bar.start"], "point": [0, 0, 0], "axis": [0, 1, 0]}
+            },
             "forces": {"push": {"type": "force", "body": "bar.end", "vector": [0, 0, 300]}},
             "simulation": {"duration": 0.05, "step": 1e-4, "integrator": "generalised-alpha", "output_interval": 0.005},
         }

@@ -3,6 +3,7 @@
 import json
 
 import numpy as np
+
 from nivel.analysis import implicit
 from nivel.analysis.dynamics import prepare
 from simulating import machine
@@ -26,7 +27,12 @@ def hinged(elements, **simulation):
         },
         "joints": {
             "root": {"type": "cylindrical", "bodies": ["ground", "inner.start"], "point": [0, 0, 0], "axis": [0, 0, 1]},
-            "hinge": {"type": "revolute", "bodies": ["inner.end", "outer.start"], "point": [5, 0, 0], "axis": [0, 0, 1]},
+            "hinge": {
+                "type": "revolute",
+                "bodies": ["inner.end", "outer.start"],
+                "point": [5, 0, 0],
+                "axis": [0, 0, 1],
+            },
         },
         "drivers": {
             "turn": {"coordinate": "root.angle", "value": RAMP},
@@ -92,7 +98,9 @@ def forces(motion, y):
     own.y[:], own.vdot[:], own.lam[:] = y, 0.0, 0.0
     own.y[motion.system.positions :] = 0.0
     assert implicit.evaluate_residual(motion, 0.0) == 0
-    return float(motion.system.record.control.stored[0]), -own.wrench[: motion.system.body_count, [3, 4, 5, 0, 1, 2]].copy()
+    return float(motion.system.record.control.stored[0]), -own.wrench[
+        : motion.system.body_count, [3, 4, 5, 0, 1, 2]
+    ].copy()
 
 
 def trust(result):

@@ -4,12 +4,13 @@ import json
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
+from scipy.spatial.transform import Rotation
+
 from beams import disturb, flying, forces, general, hinged, prepared, trust
 from nivel.analysis import implicit
 from nivel.machine.beam import Beam
 from nivel.system.beam_elements import masses_of
-from numpy.testing import assert_allclose
-from scipy.spatial.transform import Rotation
 from simulating import simulate
 
 ORDERS = (1, 2, 3)
@@ -138,7 +139,9 @@ def test_rigid_motions_have_the_energy_of_the_interpolated_body(order):
     v, w = rng.standard_normal(3), rng.standard_normal(3)
     speed = v + np.cross(w, centre)
     own = np.einsum("nji,j->ni", axes, w)
-    lumped = 0.5 * np.sum(masses.mass * np.sum(speed**2, axis=1)) + 0.5 * np.einsum("ni,nij,nj", own, masses.inertia, own)
+    lumped = 0.5 * np.sum(masses.mass * np.sum(speed**2, axis=1)) + 0.5 * np.einsum(
+        "ni,nij,nj", own, masses.inertia, own
+    )
     a, b = masses.pairs.T
     apart = np.sum((speed[b] - speed[a]) ** 2, axis=1)
     h = np.einsum("mij,mj->mi", masses.moment, own[b] - np.einsum("mij,mj->mi", masses.turn, own[a]))
@@ -168,7 +171,13 @@ def test_free_flight_keeps_energy_to_the_order_of_the_integrator(mass, order):
     """Semi-discrete equations of a potential and a metric on the nodes conserve energy: what is left is RK4's."""
     errors = []
     for step in (8e-5, 4e-5):
-        simulation = {"duration": 0.04, "step": step, "integrator": "rk4", "coordinates": "absolute", "output_interval": 0.04}
+        simulation = {
+            "duration": 0.04,
+            "step": step,
+            "integrator": "rk4",
+            "coordinates": "absolute",
+            "output_interval": 0.04,
+        }
         result = simulate({**flying(order, mass), "simulation": simulation})
         errors.append(trust(result)["energy_error_max"])
         assert json.loads(result.dataset.attrs["timing"])["steps"] > 100
@@ -203,7 +212,13 @@ def momenta(result, masses, section):
 
 @pytest.mark.parametrize("order", ORDERS)
 def test_momenta_of_free_flight_are_kept(order):
-    simulation = {"duration": 0.05, "step": 4e-5, "integrator": "rk4", "coordinates": "absolute", "output_interval": 0.01}
+    simulation = {
+        "duration": 0.05,
+        "step": 4e-5,
+        "integrator": "rk4",
+        "coordinates": "absolute",
+        "output_interval": 0.01,
+    }
     sections = {**flying(order), "simulation": simulation}
     result = simulate(sections)
     words = {"name": "rod", **sections["beams"]["rod"]}
@@ -249,7 +264,10 @@ def test_total_interpolation_changes_charts(turns):
     ready = prepared(flying(1, interpolation="total", elements=16))
     axis = np.array([0.2, 0.5, 0.8]) / np.linalg.norm([0.2, 0.5, 0.8])
     worst = max(
-        forces(ready.motion, moved(ready.motion, ready.start, Rotation.from_rotvec((2 * np.pi * turns + small) * axis), np.zeros(3)))[0]
+        forces(
+            ready.motion,
+            moved(ready.motion, ready.start, Rotation.from_rotvec((2 * np.pi * turns + small) * axis), np.zeros(3)),
+        )[0]
         for small in np.linspace(-0.3, 0.3, 13)
     )
     once = forces(ready.motion, moved(ready.motion, ready.start, Rotation.from_rotvec(2.0 * axis), np.zeros(3)))[0]

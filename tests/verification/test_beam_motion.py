@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from beams import general, hinged
 from numpy.testing import assert_allclose
+
+from beams import general, hinged
 from references import hinged_beams, spin_up
 from simulating import simulate
 
@@ -32,7 +33,9 @@ def test_hinged_beams_with_multipliers():
 
 
 def test_accelerations_do_not_depend_on_who_closes_the_joints():
-    first = [simulate(hinged(8, coordinates=each, duration=0.01)).dataset.isel(time=0) for each in ("absolute", "relative")]
+    first = [
+        simulate(hinged(8, coordinates=each, duration=0.01)).dataset.isel(time=0) for each in ("absolute", "relative")
+    ]
     for name in ("acceleration", "angular_acceleration", "joint_force", "joint_torque"):
         one, other = (each[name].values for each in first)
         assert_allclose(one, other, rtol=1e-9, atol=1e-9 * np.abs(one).max(), err_msg=name)
@@ -52,7 +55,8 @@ def test_trajectories_differ_by_what_falls_as_the_step_squared():
             ends.append(simulate(sections).dataset["position"].values[-1])
         apart.append(np.abs(ends[0] - ends[1]).max())
     assert apart[2] < 1e-3
-    assert apart[1] < apart[0] / 3 and apart[2] < apart[1] / 3
+    assert apart[1] < apart[0] / 3
+    assert apart[2] < apart[1] / 3
 
 
 def swung_up(elements, order, step):
@@ -71,7 +75,9 @@ def swung_up(elements, order, step):
                     "order": order,
                 }
             },
-            "joints": {"root": {"type": "revolute", "bodies": ["ground", "arm.start"], "point": [0, 0, 0], "axis": [0, 0, 1]}},
+            "joints": {
+                "root": {"type": "revolute", "bodies": ["ground", "arm.start"], "point": [0, 0, 0], "axis": [0, 0, 1]}
+            },
             "drivers": {
                 "turn": {"coordinate": "root.angle", "value": {"times": t, "values": angle, "interpolation": "cubic"}}
             },

@@ -12,7 +12,9 @@ from nivel.kernels import cache
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import FLOATING, PATHS, path_of
+from nivel.motion.catalogue import BALANCED, FLOATING, PATHS, path_of
+from nivel.system.beams import FAMILIES as BEAMS
+from nivel.system.beams import family_of
 from nivel.system.forces import FORCES
 
 # in these equations every machine is assembled
@@ -21,6 +23,8 @@ FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
 MEASURE, FRICTION = "nivel.kernels.measure", "nivel.kernels.friction"
 GIVEN_FRICTION = "nivel.kernels.friction_residual"
+ELASTIC, HELD = "nivel.kernels.forces.elastic_beam", "nivel.kernels.forces.held_beam"
+OF_BEAMS = (HELD, "nivel.kernels.beam_tangent")
 RARE = {
     MEASURE: "measured coordinates",
     FRICTION: "friction",
@@ -46,9 +50,10 @@ def compile_path(
     chosen = chooses(integrator, machine.simulation.step_control)
     parts = [("nivel.kernels.observe", "output"), *_rare_parts(machine, chosen)]
     parts.insert(0, (ASSEMBLY, "the equations of motion, newton-euler"))
-    if (facts := path_of(*path, flexible=machine.is_flexible)) is not None:
+    if (facts := path_of(*path, flexible=machine.is_flexible, shared=machine.shares_mass)) is not None:
         if facts.module != ASSEMBLY:
             bending = ", with flexible bodies" if machine.is_flexible else ""
+            bending += ", with beams of consistent mass" if machine.shares_mass else ""
             parts.insert(1, (facts.module, f"the equations of motion, {path[1]} in {path[0]} coordinates{bending}"))
         corrects = stabilisation in STABILISATIONS and STABILISATIONS[stabilisation].CORRECTS
         if corrects and facts.correction != facts.module:
@@ -62,7 +67,8 @@ def compile_path(
             place = f"{missing.index((module, what)) + 1}/{len(missing)}"
             listener.say(f"compiling {what} ({place}; only the first run does this)")
         import_module(module)
-    if integrator in INTEGRATORS and INTEGRATORS[integrator].residual and facts is not None and facts.residual:
+    asks = integrator in INTEGRATORS and (INTEGRATORS[integrator].residual or machine.shares_mass)
+    if asks and facts is not None and facts.residual:
         residual = INTEGRATORS[integrator].whole or facts.residual
         _compile_derivatives(residual, [module for module, _ in parts], listener)
     return perf_counter() - begin
@@ -70,7 +76,7 @@ def compile_path(
 
 def complex_modules() -> list[str]:
     """Modules of families that exact derivatives may need on complex numbers."""
-    families = dict.fromkeys(family for kind in FORCES.values() for family in kind.families)
+    families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])
     residuals = [path.residual for path in (*PATHS.values(), FLOATING) if path.residual]
     residuals += [facts.whole for facts in INTEGRATORS.values() if facts.whole]
     return [*residuals, MEASURE, GIVEN_FRICTION, *(f"nivel.kernels.forces.{family}" for family in families)]
@@ -79,6 +85,8 @@ def complex_modules() -> list[str]:
 def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener) -> None:
     """The residual, and what a run uses of families, for exact derivatives."""
     needed = [residual, *(module for module in complex_modules() if module in used)]
+    if ELASTIC in needed:
+        needed[needed.index(ELASTIC)] = HELD if "energy_momentum" not in residual else ELASTIC
     if FRICTION in used:
         needed.append(GIVEN_FRICTION)
     cold = [module for module in needed if not cache.is_warm_on_complex_numbers(module.rsplit(".", 1)[1])]
@@ -93,8 +101,8 @@ def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener)
 
 def rare_modules() -> list[str]:
     """Modules of all kinds of forces and of everything else that only some machines have."""
-    families = dict.fromkeys(family for kind in FORCES.values() for family in kind.families)
-    return [*(f"nivel.kernels.forces.{family}" for family in families), *RARE]
+    families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])
+    return [*(f"nivel.kernels.forces.{family}" for family in families), *RARE, BALANCED, *OF_BEAMS]
 
 
 def _rare_parts(machine: MachineRecord, chosen: bool) -> list[tuple[str, str]]:
@@ -104,6 +112,7 @@ def _rare_parts(machine: MachineRecord, chosen: bool) -> list[tuple[str, str]]:
     """
     types = {force.type for force in machine.forces}
     families = dict.fromkeys(family for force in types for family in FORCES[force].families)
+    families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
     needed = {
         MEASURE: bool(machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}),
         FRICTION: "friction" in types,
@@ -111,4 +120,6 @@ def _rare_parts(machine: MachineRecord, chosen: bool) -> list[tuple[str, str]]:
         "nivel.kernels.watch": bool(machine.events) or (chosen and bool(types & {*FOLLOWED})),
     }
     parts = [(f"nivel.kernels.forces.{family}", f"forces: {family}") for family in families]
+    if machine.beams:
+        parts += [(module, "beams") for module in OF_BEAMS]
     return parts + [(module, what) for module, what in RARE.items() if needed[module]]

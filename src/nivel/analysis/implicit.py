@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 
 from nivel.analysis.equations import MotionEquations
+from nivel.analysis.unknown_groups import unknown_groups
 from nivel.kernels.arrays import complex_twin
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES
 from nivel.kernels.record import GIVEN_FRICTION, MEASURE, NONE, RESIDUAL, TANGENT, Hooks, Record
 from nivel.motion.catalogue import path_of
-from nivel.analysis.unknown_groups import unknown_groups
 from nivel.system.beam_tangent import elastic_family, has_elastic_beams, plain_nodes, tangent_tables
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws import complex_address
-from nivel.system.system import Array, System
+from nivel.system.system import Array
 from nivel.system.tangent_plan import plan_tangent
 
 Index = NDArray[np.integer]
@@ -140,7 +140,7 @@ def _twin(record: Record, *, held: bool) -> Handle:
         address[hook] = _complex(record.hooks.address[hook])
     families = np.array([_complex(each) for each in record.elements.address], dtype=np.uint64)
     if held:
-        families[elastic_family(record)] = import_module("nivel.kernels.forces.elastic_beam").hold.complex_address
+        families[elastic_family(record)] = import_module("nivel.kernels.forces.held_beam").hold.complex_address
     laws = np.array([complex_address(int(each)) if each else 0 for each in record.functions.address], dtype=np.uint64)
     return Handle(
         twin._replace(

@@ -65,9 +65,10 @@ def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int],
     def carriers(bodies: Iterable[int]) -> set[int]:
         out: set[int] = set()
         for body in bodies:
-            while body in parent and node_of[body] not in out:
-                out.add(node_of[body])
-                body = parent[body]
+            at = body
+            while at in parent and node_of[at] not in out:
+                out.add(node_of[at])
+                at = parent[at]
         return out
 
     owners = [system.row_owner[k] for k in row]

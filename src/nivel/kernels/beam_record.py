@@ -22,7 +22,9 @@ class BeamTangent(NamedTuple):
     A node is plain where nothing but elements of beams takes hold of it: all derivatives with respect to its motion are found here.
     """
 
-    wrench: F2  # (E, 24) force and torque of each element on each of its nodes, global axes, in the state last evaluated
+    wrench: (
+        F2  # (E, 24) force and torque of each element on each of its nodes, global axes, in the state last evaluated
+    )
     first: U1  # (1,) number of the first of these elements among all forces
     start: U1  # (E + 1,) the unknowns that move the nodes of each element
     # (·, 4) unknown, body that it moves first, nodes of the element that it moves (bits), node that is plain and turned by it, or NONE

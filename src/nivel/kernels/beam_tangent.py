@@ -1,22 +1,21 @@
 """Derivatives of elements of beams by hand: material, geometric and inertial tangents (Simo, Vu-Quoc 1986; Crisfield, Jelenić 1999).
 
-Seen from the reference node r, an element has the potential U(y_a, ψ_a), y_a = R_rᵀ (x_a - x_r), with forces P and the symmetric stiffness k.
-At a point, with the potential M·T(ψ) ψ' of given moments and N·exp(-ψ̃) y' of given forces,
+Seen from the reference node r, an element has the potential U(y_a, ψ_a), y_a = R_rᵀ (x_a - x_r), with forces P and the symmetric
+stiffness k. At a point, with the potential M·T(ψ) ψ' of given moments and N·exp(-ψ̃) y' of given forces,
 
     k = Bᵀ C B + ∂²(M·T ψ')/∂(ψ, ψ')² + that of N,        δΓ = Qᵀ δy' + (Qᵀ y')~ T δψ,   δΚ = E δψ + T δψ'
 
-Nodes feel f_a = R_r P_a and t_a = R_a T_a⁻ᵀ P_ψa; the reference node what balances them. Their changes for a motion (δx, δθ) of the nodes follow
-from k and from how these forces turn, and rows are their work on the motions of the unknowns. While the other derivatives are found on
-complex numbers the elements keep their wrenches (`nivel.kernels.forces.elastic_beam`), which gives what turns of rows do to them; for plain
-nodes that is done here too, with their inertia.
+Nodes feel f_a = R_r P_a and t_a = R_a T_a⁻ᵀ P_ψa; the reference node what balances them. Their changes for a motion (δx, δθ) of the nodes
+follow from k and from how these forces turn, and rows are their work on the motions of the unknowns. While the other derivatives are
+found on complex numbers the elements keep their wrenches (`nivel.kernels.forces.held_beam`), which gives what turns of rows do to them; for
+plain nodes that is done here too, with their inertia.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
-from nivel.kernels.forces.beam import (
+from nivel.kernels.beam_element import (
     COUNT,
     NODE,
     POINT,
@@ -34,6 +33,7 @@ from nivel.kernels.forces.beam import (
     tangent_product,
     turned,
 )
+from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.relative_rotation import rotation_vector
@@ -73,8 +73,8 @@ def unit(i):
 
 @stage
 def stiffness_of_point(own, n, q, stretched, psi, bend):
-    """S (9, 9) of (y', ψ, ψ') at a Gauss point with y', ψ, ψ' in axes of the reference node, and what they ask for: (force on y', that on ψ,
-    that on ψ'), all times the weight."""
+    """S (9, 9) of (y', ψ, ψ') at a Gauss point with y', ψ, ψ' in axes of the reference node, and what they ask for: (force on y', that on
+    ψ, that on ψ'), all times the weight."""
     weight, unstrained = q[WEIGHT], q[STRAIN : STRAIN + 6]
     square = dot(psi, psi)
     b, c, b1, c1, b2, c2 = series(square)
@@ -104,13 +104,13 @@ def stiffness_of_point(own, n, q, stretched, psi, bend):
         for i in range(6):
             C = n[STIFFNESS + 6 * i : STIFFNESS + 6 * i + 6]
             total = 0.0
-            for l in range(6):
-                total += C[l] * B[l, j]
+            for m in range(6):
+                total += C[m] * B[m, j]
             f[6 + i] = weight * total
         for i in range(9):
             total = 0.0
-            for l in range(6):
-                total += B[l, i] * f[6 + l]
+            for m in range(6):
+                total += B[m, i] * f[6 + m]
             S[i, j] = total
     moment = cross(N, gamma)
     chi, beta, mu = cross(bend, M), dot(bend, M), dot(psi, M)
@@ -312,11 +312,14 @@ def add_inertial_change(record, index, pair, e, twist, turning, w, cv, cm):
             change[a, i] += cm * m * (twist[6 * b + i] - twist[6 * a + i])
             change[b, i] += cm * m * (twist[6 * a + i] - twist[6 * b + i])
         return
-    if turning != a and turning != b:
+    if turning not in (a, b):
         return
     J, Q = shared.moment[pair], shared.turn[pair]
     A, B = markers.A[shared.pair[pair, 2]], markers.A[shared.pair[pair, 3]]
-    wa, wb = transposed_product(A, bodies.omega[shared.pair[pair, 0]]), transposed_product(B, bodies.omega[shared.pair[pair, 1]])
+    wa, wb = (
+        transposed_product(A, bodies.omega[shared.pair[pair, 0]]),
+        transposed_product(B, bodies.omega[shared.pair[pair, 1]]),
+    )
     zero = (0.0, 0.0, 0.0)
     da, db = (w, zero) if turning == a else (zero, w)
     ha, hb = product(J, less(wb, product(Q, wa))), transposed_product(J, less(wa, transposed_product(Q, wb)))
@@ -331,7 +334,7 @@ def add_inertial_change(record, index, pair, e, twist, turning, w, cv, cm):
 
 @stage
 def turned_by(newton, j, axis, total):
-    """What a unit of unknown j, a turn about an axis of its body, does to the angular velocity: 1 for it apart, T⁻¹ in Newton's iteration."""
+    """What a unit of unknown j, a turn about an axis of its body, does to the angular velocity: T⁻¹ in Newton's iteration, else itself."""
     e = unit(axis)
     first = j - axis
     return inverse_tangent(newton.change[first : first + 3], e) if total else e

@@ -94,8 +94,6 @@ def combine(machine, factors, s):
 @stage
 def factorise_shifted(machine, factors, s):
     """Factors for this s. Returns a status; the unknown without a pivot is left in control.failure."""
-    record = record_at(machine)
-    newton = record.newton
     combine(machine, factors, s)
     return factorise_entries(machine, factors)
 

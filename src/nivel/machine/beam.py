@@ -52,17 +52,26 @@ class Beam(Checked):
     to: Position = Field(description="where it ends, global")
     via: Position | None = Field(default=None, description="a point on the way: the beam is an arc of a circle")
     through: Points = Field(default=(), description="points on the way: the beam is a smooth curve through them")
-    up: Direction | None = Field(default=None, description="the z axes of its sections are as near to this as they can be")
-    twist: Angle = Field(default=0.0, description="turn of the last section about the beam, against the first, unstressed")
+    up: Direction | None = Field(
+        default=None, description="the z axes of its sections are as near to this as they can be"
+    )
+    twist: Angle = Field(
+        default=0.0, description="turn of the last section about the beam, against the first, unstressed"
+    )
     section: BeamSectionRecord
     material: Material | None = None
-    centroid: Offset = Field(default=(0.0, 0.0), description="y and z of the sections' centroids from the line of the beam")
-    shear_centre: Offset = Field(default=(0.0, 0.0), description="y and z of the shear centres from the line of the beam")
+    centroid: Offset = Field(
+        default=(0.0, 0.0), description="y and z of the sections' centroids from the line of the beam"
+    )
+    shear_centre: Offset = Field(
+        default=(0.0, 0.0), description="y and z of the shear centres from the line of the beam"
+    )
     elements: Annotated[int, Field(strict=True, ge=1, le=100_000)] = 10
     order: Annotated[int, Field(strict=True, ge=1, le=3)] = Field(default=1, description="of an element: 1, 2 or 3")
     mass: Literal["consistent", "lumped"] = "consistent"
     interpolation: Literal["relative", "total"] = Field(
-        default="relative", description="of rotations in an element: relative to a node of it, or total, which is not objective"
+        default="relative",
+        description="of rotations in an element: relative to a node of it, or total, which is not objective",
     )
     damping: Time = Field(default=0.0, description="stress from a rate of strain, over that from the strain")
     stations: dict[Name, Scalar] = Field(default={}, description="name: share of the length, between 0 and 1")
@@ -81,7 +90,10 @@ class Beam(Checked):
         """(N,) shares of the length at which its nodes are, ascending: stations are nodes, elements between them are equally long."""
         ends = np.array(sorted({0.0, 1.0, *self.stations.values()}))
         counts = _divided(np.diff(ends), self.elements)
-        pieces = [np.linspace(a, b, self.order * n, endpoint=False) for a, b, n in zip(ends[:-1], ends[1:], counts, strict=True)]
+        pieces = [
+            np.linspace(a, b, self.order * n, endpoint=False)
+            for a, b, n in zip(ends[:-1], ends[1:], counts, strict=True)
+        ]
         return np.concatenate([*pieces, [1.0]])
 
     @cached_property
@@ -124,7 +136,9 @@ class Beam(Checked):
     def _problems_of_section(self) -> Iterator[Problem]:
         if isinstance(self.section, GeneralSection):
             if self.material is not None:
-                yield superfluous("material", "does not belong to a general section, which has its own stiffness and mass")
+                yield superfluous(
+                    "material", "does not belong to a general section, which has its own stiffness and mass"
+                )
             if any(self.centroid):
                 yield superfluous("centroid", "belongs to a section of a material; a general one has its `mass_centre`")
         elif self.material is None:

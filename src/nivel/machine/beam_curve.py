@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +23,7 @@ class NoCurveError(ValueError):
 
 @dataclass(frozen=True)
 class Line:
-    """A line of `length` [m]. at : place (n, 3) and unit tangent (n, 3) at lengths (n,) from its start. up : normal of its plane, or None."""
+    """A line of `length` [m]. at : place (n, 3) and unit tangent (n, 3) at lengths (n,) from its start. up : normal of an arc's plane."""
 
     length: float
     at: Callable[[Array], tuple[Array, Array]]
@@ -75,7 +77,9 @@ def smooth(points: ArrayLike) -> Line:
     chord = np.concatenate([[0.0], np.cumsum(steps)])
     spline = CubicSpline(chord, p)
     slope = spline.derivative()
-    knots = np.concatenate([np.linspace(a, b, PIECES, endpoint=False) for a, b in zip(chord[:-1], chord[1:])] + [chord[-1:]])
+    knots = np.concatenate(
+        [np.linspace(a, b, PIECES, endpoint=False) for a, b in pairwise(chord)] + [chord[-1:]]
+    )
     place, weight = np.polynomial.legendre.leggauss(4)
     half = 0.5 * np.diff(knots)
     inside = (knots[:-1] + half)[:, None] + half[:, None] * place
@@ -87,7 +91,9 @@ def smooth(points: ArrayLike) -> Line:
         for _ in range(4):  # Newton's iteration for the parameter at this length
             k = np.clip(np.searchsorted(knots, u) - 1, 0, len(half) - 1)
             h = 0.5 * (u - knots[k])
-            done = reached[k] + h * (np.linalg.norm(slope((knots[k] + h)[:, None] + h[:, None] * place), axis=2) @ weight)
+            done = reached[k] + h * (
+                np.linalg.norm(slope((knots[k] + h)[:, None] + h[:, None] * place), axis=2) @ weight
+            )
             u = np.clip(u - (done - s) / np.linalg.norm(slope(u), axis=1), chord[0], chord[-1])
         tangent = slope(u)
         return spline(u), tangent / np.linalg.norm(tangent, axis=1)[:, None]
@@ -104,6 +110,7 @@ def axes_along(line: Line, s: Array, up: Array | None, twist: float) -> Array:
     """
     _, tangent = line.at(s)
     up = line.up if up is None else up
+    axes: Any
     if up is None:
         axes = _carried(line, s)
     else:
@@ -113,7 +120,7 @@ def axes_along(line: Line, s: Array, up: Array | None, twist: float) -> Array:
             raise NoCurveError("the beam runs along `up` somewhere; it must point across the beam")
         z = z / size[:, None]
         axes = np.stack([tangent, np.cross(z, tangent), z], axis=2)
-    turn = twist * s / line.length
+    turn: Array = twist * s / line.length
     c, n = np.cos(turn)[:, None], np.sin(turn)[:, None]
     y, z = axes[:, :, 1], axes[:, :, 2]
     return np.stack([axes[:, :, 0], c * y + n * z, c * z - n * y], axis=2)

@@ -31,8 +31,8 @@ def as_mapping(value: Any) -> Mapping[str, Any]:
 class Index:
     """What the elements of a machine are, by name.
 
-    bodies : type of the shape ("" without one), also of the stations of beams. point_masses : bodies that are. markers : the body. joints : the
-    type. forces, sensors : the element.
+    bodies : type of the shape ("" without one), also of the stations of beams. point_masses : bodies that are. markers : the body.
+    joints : the type. forces, sensors : the element.
     """
 
     bodies: Mapping[str, str]

@@ -61,7 +61,11 @@ def beam_sections(result: Result, name: str) -> xr.Dataset:
             "strain": (dims, flat[:, :, :3], {"units": "1", "long_name": "stretch and shears"}),
             "curvature": (dims, flat[:, :, 3:], {"units": "1/m", "long_name": "twist and curvatures"}),
             "force": (dims, felt[:, :, :3], {"units": "N", "long_name": "force in the section, axes of the section"}),
-            "moment": (dims, felt[:, :, 3:], {"units": "N m", "long_name": "moment in the section, axes of the section"}),
+            "moment": (
+                dims,
+                felt[:, :, 3:],
+                {"units": "N m", "long_name": "moment in the section, axes of the section"},
+            ),
             "energy": (("time",), energy, {"units": "J", "long_name": "energy stored in the beam"}),
         },
         {"time": data["time"].values, "point": np.arange(points), "component": list(COMPONENTS)},

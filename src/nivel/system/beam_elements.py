@@ -151,7 +151,9 @@ def masses_of(beam: Beam) -> Masses:
     first, second = np.array([(a, b) for a in range(p + 1) for b in range(a + 1, p + 1)]).T
     shared = section.mass * np.einsum("ng,ga,gb->nab", w, N, N)[:, first, second]
     moment = np.einsum("ng,ga,gb,ngaji,jk,ngbkl->nabil", w, N, N, Q, section.inertia, Q)[:, first, second]
-    turn = np.einsum("nabji,nabjk->nabik", axes[nodes[:, second]][:, :, None], axes[nodes[:, first]][:, :, None])[:, :, 0]
+    turn = np.einsum("nabji,nabjk->nabik", axes[nodes[:, second]][:, :, None], axes[nodes[:, first]][:, :, None])[
+        :, :, 0
+    ]
     pairs = np.stack([nodes[:, first], nodes[:, second]], axis=2)
     return Masses(
         mass,

@@ -36,7 +36,9 @@ def _nodes(beam: Beam) -> list[Body]:
             centre_of_mass=tuple(section.mass_centre.tolist()),
             inertia=_inertia(masses.inertia[k]),
             position=tuple(place[k].tolist()),
-            orientation=Orientation.model_construct(euler_parameters=tuple(euler_parameters_from_matrix(axes[k]).tolist())),
+            orientation=Orientation.model_construct(
+                euler_parameters=tuple(euler_parameters_from_matrix(axes[k]).tolist())
+            ),
             velocity=tuple(speed[k].tolist()),
             angular_velocity=beam.angular_velocity,
         )

@@ -16,7 +16,7 @@ from nivel.system.system import System
 from nivel.system.tables import index_array
 from nivel.system.tangent_plan import TangentPlan
 
-# columns of an element in `Elements.columns`, see `nivel.kernels.forces.beam`
+# columns of an element in `Elements.columns`, see `nivel.kernels.beam_element`
 COUNT = 4
 Index = NDArray[np.integer]
 
@@ -112,6 +112,6 @@ def _movers(branch: Mapping[int, tuple[int, int, int]], body: int) -> list[tuple
 def _plain_table(branch: Mapping[int, tuple[int, int, int]], plan: TangentPlan, plain: Mapping[int, int]) -> Index:
     firsts = [branch[body][1] if branch else 6 * body for body in plain]
     at = np.array(firsts, dtype=np.int64).reshape(-1, 1)
-    places = plan.factor.entry(at + np.arange(6), at) if len(firsts) else np.zeros((0, 6))
+    places = plan.factor.entry(at + np.arange(6), at) if firsts else np.zeros((0, 6))
     table = np.column_stack([np.array(list(plain), dtype=np.int64).reshape(-1, 1), at, places])
     return np.ascontiguousarray(table.astype(np.uint32).reshape(-1, 8))

@@ -16,6 +16,13 @@ from nivel.system.draft import GROUND, Draft
 from nivel.system.tables import index_array
 
 MOST_NODES = 4
+# kernels of elements: those without damping, whose derivatives are found by hand, and all others
+ELASTIC, OTHER = FAMILIES = ("elastic_beam", "beam")
+
+
+def family_of(beam: Beam) -> str:
+    """The kernel of its elements."""
+    return OTHER if beam.damping > 0.0 or beam.interpolation == "total" else ELASTIC
 
 
 def add_beam(draft: Draft, beam: Beam) -> None:
@@ -38,7 +45,7 @@ def add_beam(draft: Draft, beam: Beam) -> None:
             frame, slot = draft.place((GROUND, np.zeros(3), axes)), MOST_NODES
         index = [*nodes.tolist(), *[NONE] * (MOST_NODES - count), count, len(weight), slot, frame]
         number = [beam.damping, *section.stiffness.ravel().tolist(), *points.ravel().tolist(), *[0.0] * 60]
-        draft.elements.add("beam" if beam.damping > 0.0 or total else "elastic_beam", index, number)
+        draft.elements.add(family_of(beam), index, number)
         draft.noted.append(frozenset(draft.markers.body[node] for node in nodes))
 
 

@@ -21,10 +21,10 @@ from nivel.flexible.mass import from_matrix
 from nivel.flexible.model import Array, FiniteElementModel, Whole
 from nivel.flexible.model_file import Located
 from nivel.flexible.records import LENGTHS, MASSES, Matrices
-from nivel.machine.section import Material
 from nivel.flexible.selection import NodeSets
 from nivel.flexible.sparse import Sparse
 from nivel.flexible.tetrahedra import Tetrahedra, inverted, surface
+from nivel.machine.section import Material
 
 HELD = 1e30  # a diagonal element from which on a row is one of a support (Abaqus writes 1e36)
 STIFFNESS_NAMES, MASS_NAMES = ("KAAX", "KAA", "KGG", "KXX"), ("MAAX", "MAA", "MGG", "MXX")

@@ -1,11 +1,8 @@
-"""Elements of beams without damping, whose derivatives are found by hand (`nivel.kernels.beam_tangent`).
-
-On complex numbers they keep the wrenches on their nodes as last evaluated, so that what is left to differentiate is how these act.
-"""
+"""Elements of beams without damping, whose derivatives are found by hand (`nivel.kernels.beam_tangent`)."""
 
 from __future__ import annotations
 
-from nivel.kernels.forces.beam import COUNT, FORCE, NODE, TORQUE, feel_element, push_node
+from nivel.kernels.beam_element import COUNT, FORCE, TORQUE, feel_element
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
@@ -25,17 +22,4 @@ def apply(machine, number, t):
             for a in range(index[COUNT]):
                 for i in range(3):
                     kept[6 * a + i], kept[6 * a + 3 + i] = n[FORCE + 3 * a + i].real, n[TORQUE + 3 * a + i].real
-    return OK
-
-
-@family
-def hold(machine, number, t):
-    """All elements with the wrenches that they had."""
-    record = record_at(machine)
-    elements, wrench = record.elements, record.beams.wrench
-    first = elements.span[number, 0]
-    for k in range(first, elements.span[number, 1]):
-        index, kept = elements.columns[k], wrench[k - first]
-        for a in range(index[COUNT]):
-            push_node(record.bodies, record.markers, index[NODE + a], kept[6 * a : 6 * a + 3], kept[6 * a + 3 : 6 * a + 6])
     return OK

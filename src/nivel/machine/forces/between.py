@@ -11,7 +11,7 @@ from nivel.machine.checked import Problem, superfluous
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.marker import Marker, TwoMarkers
 from nivel.machine.quantity import Position
-from nivel.machine.record import BodyName, Name
+from nivel.machine.record import BodyName
 
 
 @dataclass(frozen=True)

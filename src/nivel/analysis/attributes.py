@@ -22,7 +22,9 @@ def run_attributes(
         "machine": machine.name,
         "machine_record": machine.model_dump_json(by_alias=True, exclude_none=True),
         "machine_source": source,
-        "scene": json.dumps(scene(with_nodes(machine), prepared.absolute.system)),  # relative coordinates move body frames
+        "scene": json.dumps(
+            scene(with_nodes(machine), prepared.absolute.system)
+        ),  # relative coordinates move body frames
         "settings": json.dumps(settings.as_dict()),
         "nivel_version": nivel.__version__,
         "outcome": "running",

@@ -199,7 +199,9 @@ class Watched(NamedTuple):
 class Hooks(NamedTuple):
     """Addresses of what only some machines need, or zero: see `family_signature`."""
 
-    address: A1  # (8,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams
+    address: (
+        A1  # (8,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams
+    )
 
 
 class Saddle(NamedTuple):
@@ -386,6 +388,15 @@ complex_family_signature = types.int64(complex_address_type, types.int64, types.
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
-MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT = 0, 1, 2, 3, 4, 5, 6, 7  # entries of Hooks.address
+MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT = (
+    0,
+    1,
+    2,
+    3,
+    4,
+    5,
+    6,
+    7,
+)  # entries of Hooks.address
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions

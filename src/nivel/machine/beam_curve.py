@@ -77,9 +77,7 @@ def smooth(points: ArrayLike) -> Line:
     chord = np.concatenate([[0.0], np.cumsum(steps)])
     spline = CubicSpline(chord, p)
     slope = spline.derivative()
-    knots = np.concatenate(
-        [np.linspace(a, b, PIECES, endpoint=False) for a, b in pairwise(chord)] + [chord[-1:]]
-    )
+    knots = np.concatenate([np.linspace(a, b, PIECES, endpoint=False) for a, b in pairwise(chord)] + [chord[-1:]])
     place, weight = np.polynomial.legendre.leggauss(4)
     half = 0.5 * np.diff(knots)
     inside = (knots[:-1] + half)[:, None] + half[:, None] * place

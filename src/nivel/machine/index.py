@@ -47,7 +47,8 @@ class Index:
         """The index of a machine record, or of what it is made of."""
         bodies = _by_name(machine, "bodies")
         return cls(
-            bodies={name: _text(entry(entry(body, "shape"), "type")) for name, body in bodies.items()} | _stations(machine),
+            bodies={name: _text(entry(entry(body, "shape"), "type")) for name, body in bodies.items()}
+            | _stations(machine),
             point_masses=frozenset(name for name, body in bodies.items() if entry(body, "point_mass") is True),
             markers={name: _text(entry(marker, "body")) for name, marker in _by_name(machine, "markers").items()},
             joints={name: _text(entry(joint, "type")) for name, joint in _by_name(machine, "joints").items()},

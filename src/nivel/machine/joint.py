@@ -135,7 +135,9 @@ class Joint(Checked):
 
     name: Name
     type: JointType
-    bodies: tuple[BodyName, BodyName] | None = Field(default=None, description="first and second body; one may be `ground`")
+    bodies: tuple[BodyName, BodyName] | None = Field(
+        default=None, description="first and second body; one may be `ground`"
+    )
     markers: TwoMarkers | None = Field(default=None, description="on the first and second body: names or markers")
     point: Position | None = Field(default=None, description="of the joint, global")
     points: tuple[Position, Position] | None = Field(

@@ -47,7 +47,9 @@ def _named_body(value: Any) -> str:
 
 
 # of something that markers can be on: a body, or `BEAM.STATION`
-BodyName = Annotated[str, BeforeValidator(_named_body), WithJsonSchema({"type": "string", "pattern": r"^[^\s\d._-][^\s]*$"})]
+BodyName = Annotated[
+    str, BeforeValidator(_named_body), WithJsonSchema({"type": "string", "pattern": r"^[^\s\d._-][^\s]*$"})
+]
 
 
 class Record(BaseModel):

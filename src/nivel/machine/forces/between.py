@@ -40,7 +40,9 @@ class Between(ForceElement):
     """Acts between two `markers`, or between two `points` (global, as placed) of two `bodies`."""
 
     markers: TwoMarkers | None = Field(default=None, description="on the first and second body: names or markers")
-    bodies: tuple[BodyName, BodyName] | None = Field(default=None, description="first and second body, in place of `markers`")
+    bodies: tuple[BodyName, BodyName] | None = Field(
+        default=None, description="first and second body, in place of `markers`"
+    )
     points: tuple[Position, Position] | None = Field(
         default=None, description="where it acts on the first body and on the second, global, as placed"
     )

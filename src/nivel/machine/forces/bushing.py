@@ -33,9 +33,7 @@ class Bushing(Between):
     stiffness: Stiffness = Field(
         description="three in N/m, three in N*m/rad, along and about x, y, z of the first marker; or 6×6"
     )
-    damping: Damping = Field(
-        default=(0.0,) * 6, description="three in N*s/m, three in N*m*s/rad; or 6×6"
-    )
+    damping: Damping = Field(default=(0.0,) * 6, description="three in N*s/m, three in N*m*s/rad; or 6×6")
 
     @property
     def stiffness_matrix(self) -> Array:
@@ -49,6 +47,9 @@ class Bushing(Between):
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
-        for name, matrix, what in (("stiffness", self.stiffness_matrix, "stores"), ("damping", self.damping_matrix, "loses")):
+        for name, matrix, what in (
+            ("stiffness", self.stiffness_matrix, "stores"),
+            ("damping", self.damping_matrix, "loses"),
+        ):
             for message in symmetry_and_sign(name, matrix, what):
                 yield Problem((name,), message)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from nivel.analysis.changes import changed
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
-from nivel.analysis.compilation import compile_path
+from nivel.analysis.compilation import compile_path, compile_statics
 from nivel.analysis.idle import idle_settings
 from nivel.analysis.listener import Listener
 from nivel.errors import Fault, ModelError
@@ -221,6 +221,69 @@ class Machine:
                 out=out,
                 force=force,
                 verify=verify,
+                listener=listener,
+                compile_seconds=compile_seconds,
+            )
+
+    def statics(
+        self,
+        *,
+        duration: float | str | None = None,
+        step: float | str | None = None,
+        arc_length: bool = False,
+        tolerance: float | str | None = None,
+        most_iterations: int | None = None,
+        line_search: bool = True,
+        modes: int | None = None,
+        buckling: int | None = None,
+        coordinates: str | None = None,
+        out: str | PathLike[str] | None = None,
+        force: bool = False,
+        listener: Listener | None = None,
+    ) -> Result:
+        """Static equilibrium: the states in which the machine rests under its loads, as time, on which loads and drivers depend, goes on.
+
+        duration : to which time [s], or a text with units; default that of the machine, 0 where nothing depends on time: the equilibrium
+        at t = 0 alone. step : of time between states [s], default a twentieth; halved where Newton's method fails.
+        arc_length : follow the path through limit points, where time turns back. tolerance : of the last change, in lengths of the machine
+        and radians. most_iterations : of Newton's method a state. line_search : shorten steps that come no nearer.
+        modes : so many vibrations about every state. buckling : so many linearised buckling loads, from the tangents of the first and
+        the last state. coordinates : auto, absolute or relative. out : result file (NetCDF); in memory if None. force : replace it.
+        Raises ModelError (nothing was computed) or SolveError (its `result` holds the states until then).
+        """
+        from nivel.analysis.statics.settings import statics_settings
+
+        simulation = self.record.simulation
+        given = {
+            "duration": simulation.duration if duration is None else duration,
+            "step": step,
+            "arc_length": arc_length,
+            "tolerance": tolerance,
+            "most_iterations": most_iterations,
+            "line_search": line_search,
+            "modes": modes,
+            "buckling": buckling,
+            "coordinates": coordinates,
+        }
+        settings = statics_settings(given, simulation.coordinates)
+        from nivel.analysis.statics.refusals import for_statics
+
+        chosen = for_statics(self.record, settings)[1]
+        compile_seconds = compile_statics(self.record, chosen, listener or Listener())
+        # after the kernels: what follows imports them
+        from nivel.analysis.statics.run import statics
+        from nivel.results.target import keep_sources
+
+        if out is not None and self.file:
+            keep_sources(Path(fspath(out)), "result file", [Path(self.file)])
+        with self._faults_in_file():
+            return statics(
+                self.record,
+                settings,
+                chosen_duration=duration is not None,
+                source=self.source,
+                out=out,
+                force=force,
                 listener=listener,
                 compile_seconds=compile_seconds,
             )

@@ -74,6 +74,22 @@ def compile_path(
     return perf_counter() - begin
 
 
+def compile_statics(machine: MachineRecord, coordinates: str, listener: Listener) -> float:
+    """The same for the statics of `machine` in these coordinates."""
+    begin = perf_counter()
+    path = (coordinates, "newton-euler", "euler-parameters")
+    compile_path(machine, path, listener)
+    facts = path_of(*path, flexible=machine.is_flexible)
+    if facts is not None and facts.residual:
+        used = [module for module, _ in _rare_parts(machine, False)]
+        if not cache.is_warm("static_entries"):
+            listener.say("compiling the equations of rest (only the first run does this)")
+        _compile_derivatives(facts.residual, used, listener)
+        import_module("nivel.kernels.tangent_entries")
+        import_module("nivel.kernels.static_entries")
+    return perf_counter() - begin
+
+
 def complex_modules() -> list[str]:
     """Modules of families that exact derivatives may need on complex numbers."""
     families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])

@@ -23,11 +23,11 @@ def statements(trust: Trust, failure: str, stopped_by: str = "") -> Iterator[Ite
     yield Item("outcome", verdict, f"{text}: {failure}" if failure else text)
     yield _energy_item(trust)
     if trust.constraint_violation_row:
-        yield _violation_item(trust)
+        yield violation_item(trust)
         yield _rate_item(trust)
     if trust.degrees_of_freedom is not None:
-        yield _freedom_item(trust)
-    yield _redundancy_item(trust)
+        yield freedom_item(trust)
+    yield redundancy_item(trust)
     if trust.accuracy_estimate is not None:
         yield _accuracy_item(trust, trust.accuracy_estimate)
 
@@ -38,52 +38,52 @@ def _energy_item(trust: Trust) -> Item:
     if not math.isfinite(error):
         said = f"the energy is not a number any more from t = {trust.energy_error_time:.6g} s on"
     elif scale > 0.0:
-        said = f"error {_number(fraction)} of the {trust.energy_scale_kind} {_number(scale)} J"
+        said = f"error {number(fraction)} of the {trust.energy_scale_kind} {number(scale)} J"
     elif not trust.energy_scale_kind:
         said = "nothing was computed"
     else:
         said = (
-            "no energy anywhere, and no error" if error == 0.0 else f"error {_number(error)} J where there is no energy"
+            "no energy anywhere, and no error" if error == 0.0 else f"error {number(error)} J where there is no energy"
         )
-    return _numeric("energy", f"Energy: {said}", fraction, trust.energy_error_time)
+    return numeric("energy", f"Energy: {said}", fraction, trust.energy_error_time)
 
 
-def _violation_item(trust: Trust) -> Item:
+def violation_item(trust: Trust) -> Item:
     length = trust.constraint_violation_units == "m"
     fraction = trust.constraint_violation_max / (trust.size if length else 1.0)
-    value = f"{_number(trust.constraint_violation_max)} m, " if length else ""
+    value = f"{number(trust.constraint_violation_max)} m, " if length else ""
     angle = " rad" if trust.constraint_violation_units == "rad" else " as a cosine"
     scale = f" of the {_size(trust)}" if length else angle
-    said = f"Joints: open by at most {value}{_number(fraction)}{scale}"
+    said = f"Joints: open by at most {value}{number(fraction)}{scale}"
     row, time = trust.constraint_violation_row, trust.constraint_violation_time
-    return _numeric("violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
+    return numeric("violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
 
 
 def _rate_item(trust: Trust) -> Item:
     length = trust.constraint_rate_violation_units == "m/s"
     scale = trust.speed if length else trust.speed / trust.size
     fraction = trust.constraint_rate_violation_max / scale
-    said_scale = f"{_number(scale)} {trust.constraint_rate_violation_units}"
+    said_scale = f"{number(scale)} {trust.constraint_rate_violation_units}"
     against = f"the largest speed {'' if length else 'over size '}{said_scale}"
     if trust.at_rest:
         against = f"{said_scale}, the least that counts: the machine is at rest"
     units = trust.constraint_rate_violation_units
-    value = _number(trust.constraint_rate_violation_max)
-    said = f"Joint rates: off by at most {value} {units}, {_number(fraction)} of {against}"
+    value = number(trust.constraint_rate_violation_max)
+    said = f"Joint rates: off by at most {value} {units}, {number(fraction)} of {against}"
     row, time = trust.constraint_rate_violation_row, trust.constraint_rate_violation_time
-    return _numeric("rate_violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
+    return numeric("rate_violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
 
 
 def _accuracy_item(trust: Trust, estimate: float) -> Item:
     fraction = estimate / trust.size
-    moved = f"{trust.accuracy_refinement} moves nothing by more than {_number(estimate)} m"
-    said = f"Accuracy: {moved}, {_number(fraction)} of the {_size(trust)}"
+    moved = f"{trust.accuracy_refinement} moves nothing by more than {number(estimate)} m"
+    said = f"Accuracy: {moved}, {number(fraction)} of the {_size(trust)}"
     where = f", largest at {trust.accuracy_body}" if trust.accuracy_body else ""
     when = f" at t = {trust.accuracy_time:.6g} s" if trust.accuracy_time is not None else ""
-    return _numeric("accuracy", f"{said}{where}{when}", fraction, trust.accuracy_time, trust.accuracy_body)
+    return numeric("accuracy", f"{said}{where}{when}", fraction, trust.accuracy_time, trust.accuracy_body)
 
 
-def _freedom_item(trust: Trust) -> Item:
+def freedom_item(trust: Trust) -> Item:
     count = trust.degrees_of_freedom or 0
     if count < 1 and trust.drivers:
         prescribed = "the driver prescribes" if trust.drivers == 1 else f"{trust.drivers} drivers prescribe"
@@ -94,7 +94,7 @@ def _freedom_item(trust: Trust) -> Item:
     return Item("degrees_of_freedom", "green", f"Freedom: {degrees} (green from 1 on)")
 
 
-def _redundancy_item(trust: Trust) -> Item:
+def redundancy_item(trust: Trust) -> Item:
     if not trust.redundant_rows:
         return Item(
             "redundancy",
@@ -114,10 +114,10 @@ def _redundancy_item(trust: Trust) -> Item:
 
 
 def _size(trust: Trust) -> str:
-    return f"{trust.size_kind} {_number(trust.size)} m"
+    return f"{trust.size_kind} {number(trust.size)} m"
 
 
-def _numeric(name: str, text: str, fraction: float, time: float | None, row: str = "") -> Item:
+def numeric(name: str, text: str, fraction: float, time: float | None, row: str = "") -> Item:
     threshold = THRESHOLDS[name]
     return Item(
         name,
@@ -131,7 +131,7 @@ def _numeric(name: str, text: str, fraction: float, time: float | None, row: str
     )
 
 
-def _number(value: float) -> str:
+def number(value: float) -> str:
     """Two significant digits for what is tiny or huge, three for the sizes one can picture."""
     if value == 0.0 or not math.isfinite(value):
         return f"{value:g}"

@@ -47,6 +47,12 @@ THRESHOLDS = {
         "A joint whose parts slip past each other at 1e-3 of the machine's speed feeds in or loses energy of the same "
         "order; at 1e-5 this is below what the energy balance counts as green.",
     ),
+    "residual": Threshold(
+        1e-8,
+        1e-5,
+        "Of a state of equilibrium: forces that are left over, as a share of its largest load. Loads are rarely known to 1e-3; 1e-5 is two "
+        "decades below, and Newton's method ends far below 1e-8 unless stiff parts hide what holds the soft ones.",
+    ),
     "accuracy": Threshold(
         1e-4,
         1e-2,

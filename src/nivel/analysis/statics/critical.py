@@ -1,0 +1,134 @@
+"""Limit and bifurcation points: where on the path a direction of motion loses its stiffness.
+
+Between two equilibria with different numbers of unstable directions the stiffness of one of them is zero. It is found along the chord
+between the two, to whose points the path is projected, by Brent's method on that stiffness. There loads that do work along the direction
+make a limit point, where time turns back; loads that do none a bifurcation, where a second path crosses this one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from nivel.analysis.statics.equations import Change, Rest, StaticEquations, Tangent
+from nivel.analysis.statics.linear import NoPivot, lowest, negative_directions, solve
+from nivel.analysis.statics.newton import Found, Iteration, NoEquilibrium, equilibrate
+from nivel.analysis.statics.path import Point
+from nivel.kernels.record import NONE
+from nivel.system.system import Array
+
+# The loads do no work along a direction if they do less than this share of what they could.
+NO_WORK = 1e-4
+# A share of the chord between two equilibria, to which critical points are found.
+EXACT = 1e-10
+
+
+@dataclass(frozen=True)
+class CriticalPoint:
+    """kind : limit point or bifurcation. t : its time [s], along : its place on the path [s]; direction (f,) that has no stiffness there.
+
+    found : the equilibrium there; None where it could only be told that it is in a step, of whose time t is the middle.
+    """
+
+    kind: str
+    t: float
+    along: float
+    direction: Array
+    found: Found | None
+
+
+def critical_points(
+    equations: StaticEquations, before: Point, after: Point, counts: tuple[int, int], iteration: Iteration
+) -> list[CriticalPoint]:
+    """The critical points between two neighbouring equilibria of the path, with these numbers of unstable directions, along the path."""
+    found = [_locate(equations, before, after, iteration, k) for k in range(min(counts), max(counts))]
+    return sorted(found, key=lambda each: each.along)
+
+
+def _locate(
+    equations: StaticEquations, before: Point, after: Point, iteration: Iteration, number: int
+) -> CriticalPoint:
+    """Where eigenvalue `number` (from 0, ascending) is zero."""
+    chord = _difference(equations, before.state, after.state)
+    length = float(np.sqrt(chord.q @ chord.q + chord.t**2))
+    border = chord * (1.0 / length)
+    last: dict[str, Found] = {}
+
+    def stiffness(share: float) -> float:
+        begin = equations.moved(before.state, chord * share)
+        last["found"] = equilibrate(equations, begin, iteration, border)
+        return _eigenvalue(last["found"].tangent, number)
+
+    try:
+        ends = _eigenvalue(before.found.tangent, number), _eigenvalue(after.found.tangent, number)
+        if ends[0] * ends[1] > 0.0:
+            raise ValueError
+        share = 0.0 if ends[0] == 0.0 else float(brentq(stiffness, 0.0, 1.0, xtol=EXACT))  # type: ignore[arg-type]
+        stiffness(share)
+        found, exact = last["found"], True
+    except (NoEquilibrium, NoPivot, ValueError):
+        share, exact = 0.5, False
+        found = before.found
+    t = found.state.t if exact else 0.5 * (before.state.t + after.state.t)
+    along = before.along + share * (after.along - before.along)
+    direction = _nearest(found.tangent, number)
+    return CriticalPoint(_kind(found.tangent, direction), t, along, direction, found if exact else None)
+
+
+def _difference(equations: StaticEquations, a: Rest, b: Rest) -> Change:
+    """The change that leads from a to b."""
+    psi = np.zeros(equations.n)
+    place = equations.place
+    plain = place[:, 1] == NONE
+    psi[plain] = b.y[place[plain, 0]] - a.y[place[plain, 0]]
+    first = np.flatnonzero(place[:, 1] == 0)
+    if len(first):
+        at = place[first, 0][:, None] + np.arange(4)
+        psi[(first[:, None] + np.arange(3)).ravel()] = rotation_between(a.y[at], b.y[at]).ravel()
+    free = equations.free
+    lam = (b.lam - a.lam) * equations.row_scale / equations.energy
+    return Change((psi / equations.length)[free], lam, (b.t - a.t) / equations.duration)
+
+
+def rotation_between(p: Array, q: Array) -> Array:
+    """Rotation vectors (·, 3) in the axes of p that lead from Euler parameters p to q, rows (·, 4)."""
+    p, q = (each / np.linalg.norm(each, axis=1, keepdims=True) for each in (p, q))
+    e = p[:, :1] * q[:, 1:] - q[:, :1] * p[:, 1:] - np.cross(p[:, 1:], q[:, 1:])
+    cosine = np.sum(p * q, axis=1, keepdims=True)
+    e, cosine = np.where(cosine < 0.0, -e, e), np.abs(cosine)
+    sine = np.linalg.norm(e, axis=1, keepdims=True)
+    angle = 2.0 * np.arctan2(sine, cosine)
+    return np.divide(e, sine, out=np.zeros_like(e), where=sine > 0.0) * angle
+
+
+def _values(tangent: Tangent, number: int) -> tuple[Array, Array, int]:
+    """Eigenvalues next to zero with their directions, and how many negative ones are not among them."""
+    values, vectors = lowest(tangent, number + 3)
+    return values, vectors, negative_directions(tangent) - int(np.sum(values < 0.0))
+
+
+def _eigenvalue(tangent: Tangent, number: int) -> float:
+    values, _, hidden = _values(tangent, number)
+    return float(values[max(0, number - hidden)])
+
+
+def _nearest(tangent: Tangent, number: int) -> Array:
+    """The direction of eigenvalue `number`; where the tangent is singular to round-off, that next to it."""
+    try:
+        values, vectors, hidden = _values(tangent, number)
+        return vectors[:, min(max(0, number - hidden), len(values) - 1)]
+    except NoPivot:
+        return np.zeros(tangent.K.shape[0])
+
+
+def _kind(tangent: Tangent, direction: Array) -> str:
+    """What the loads, and the forces μ of the constraints that the direction asks for, do along it as time goes on: φᵀ ∂r/∂t + μᵀ ∂C/∂t."""
+    size, rows = len(direction), tangent.C.shape[0]
+    rigid = Tangent(0.0 * tangent.K, tangent.C, tangent.M, tangent.D, tangent.slope, tangent.opening)
+    mu = solve(rigid, -(tangent.K @ direction), np.zeros(rows), 1.0).lam if rows and size else np.zeros(rows)
+    work = abs(float(direction @ tangent.slope + mu @ tangent.opening))
+    could = float(np.linalg.norm(direction) * np.linalg.norm(tangent.slope))
+    could += float(np.linalg.norm(mu) * np.linalg.norm(tangent.opening))
+    return "limit point" if work > NO_WORK * could else "bifurcation"

@@ -1,0 +1,68 @@
+"""Why no equilibrium was found, or no further one, in words, and what to try."""
+
+from __future__ import annotations
+
+from nivel.analysis.statics.equations import NotAState, StaticEquations
+from nivel.analysis.statics.linear import NoPivot
+from nivel.analysis.statics.newton import NoEquilibrium
+from nivel.analysis.statics.path import Point, Steps
+from nivel.analysis.statics.stability import Softest, is_mechanism, limit_ahead, softest
+from nivel.analysis.statics.words import direction_in_words, worst_row
+
+HOLD = "Hold that motion by a joint, a spring, a driver, or a load that brings it back."
+
+
+def without_stiffness(equations: StaticEquations, loose: Softest) -> tuple[str, str]:
+    """(message, advice) where the machine can move without any resistance."""
+    words = direction_in_words(equations, loose.direction)
+    return f"the machine is a mechanism: a motion has no stiffness, in which most moves: {words}", HOLD
+
+
+def no_start(equations: StaticEquations, error: NoEquilibrium) -> tuple[str, str]:
+    """(message, advice) where no equilibrium was found at t = 0."""
+    try:
+        r, C = equations.evaluate(error.state)
+        loose = softest(equations.tangent(error.state))
+    except (NotAState, NoPivot):
+        return f"no equilibrium was found at t = 0: {error.reason}", "Look at the laws of the forces at t = 0."
+    row = worst_row(equations, r, C)
+    message = f"no equilibrium was found at t = 0: {error.reason}; worst is {row}"
+    if loose is not None and is_mechanism(loose):
+        words = direction_in_words(equations, loose.direction)
+        return f"{message}; a motion has no stiffness, in which most moves: {words}", HOLD
+    return message, (
+        "Is the machine held against its loads in every direction? If so draw it nearer to its equilibrium, or let loads grow with "
+        "time from t = 0 (an expression of t, or a table)."
+    )
+
+
+def path_ended(
+    equations: StaticEquations, last: Point, steps: Steps, error: NoEquilibrium, arc_length: bool
+) -> tuple[str, str]:
+    """(message, advice) where the path could not be followed on."""
+    t = last.state.t
+    least = steps.step * 0.5**12
+    message = f"stopped at t = {t:.9g} s: no equilibrium within {least:.3g} s of it: {error.reason}"
+    if not arc_length:
+        ahead = limit_ahead(equations, last, steps)
+        if ahead is not None and ahead.found is not None:
+            words = direction_in_words(equations, ahead.direction)
+            what = "the path turns back at a limit point" if ahead.kind == "limit point" else "there is a bifurcation"
+            return (
+                f"stopped at t = {t:.9g} s: {what} at t = {ahead.t:.9g} s, where a motion loses its stiffness, in which most moves: {words}",
+                "With --arc-length the path is followed on through limit points. With more load than there the machine jumps: a run "
+                "in time shows where to.",
+            )
+    try:
+        r, C = equations.evaluate(error.state)
+        message += f"; worst is {worst_row(equations, r, C)}"
+    except (NotAState, ValueError):
+        pass
+    loose = softest(last.found.tangent)
+    if loose is not None and loose.share < 1e-4:
+        message += f"; softest is a motion in which most moves: {direction_in_words(equations, loose.direction)}"
+    advice = (
+        "Look there for a force that jumps, a joint at the end of its way, or a position that the machine cannot pass. "
+        f"Try a smaller --step, for instance {steps.step / 10:.3g}" + ("." if arc_length else ", or --arc-length.")
+    )
+    return message, advice

@@ -1,0 +1,246 @@
+"""The equations of rest of one machine: r(q, 0, 0, λ, t) = 0 and C(q, t) = 0, with exact derivatives, as sparse matrices.
+
+They are the residual of implicit methods (`nivel.kernels.residual`) with all velocities and accelerations zero: the speed of a driver, which
+stands in Ċ alone, never enters. Positions move by tangent increments: rotations of bodies after the present one, in their own axes.
+
+So that units do not matter, every number is made one without: translations in lengths of the machine, forces and moments along unknowns as
+energies over a scale of energy e, constraints over their own scales.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import bmat, csc_matrix, csr_matrix, diags
+
+from nivel.analysis.equations import MotionEquations
+from nivel.kernels import static_entries, tangent_entries
+from nivel.kernels.record import NONE
+from nivel.kernels.status import OK
+from nivel.system.system import Array
+
+Sparse = Any  # a matrix of scipy.sparse, whose stubs do not know its operators
+GAUGE = 1e-300
+
+
+class NotAState(Exception):
+    """Something in a state is not a number, or its equations cannot be evaluated there."""
+
+
+@dataclass(frozen=True)
+class Rest:
+    """A machine at rest, in equilibrium or not: state y with zero velocities, multipliers λ (K,), time t [s] of all functions of time."""
+
+    y: Array
+    lam: Array
+    t: float
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change of a state without units: of the free unknowns (f,), of the multipliers (K,), and of time over the scale of time."""
+
+    q: Array
+    lam: Array
+    t: float = 0.0
+
+    def __mul__(self, share: float) -> Change:
+        return Change(share * self.q, share * self.lam, share * self.t)
+
+    def __add__(self, other: Change) -> Change:
+        return Change(self.q + other.q, self.lam + other.lam, self.t + other.t)
+
+
+@dataclass(frozen=True)
+class Tangent:
+    """Matrices at a state, without units: K (f, f) stiffness, C (K, f) constraints; M, D (f, f) in units of their own, for vibrations.
+
+    slope, opening : derivatives of r (f,) and C (K,) with respect to time over its scale.
+    """
+
+    K: Sparse
+    C: Sparse
+    M: Sparse
+    D: Sparse
+    slope: Array
+    opening: Array
+
+    def saddle(self, shift: float = 0.0) -> Sparse:
+        """[K + shift, Cᵀ; C, 0]."""
+        K = self.K if shift == 0.0 else self.K + diags(np.full(self.K.shape[0], shift))
+        return csc_matrix(bmat([[K, self.C.T], [self.C, None]])) if self.C.shape[0] else csc_matrix(K)
+
+
+class StaticEquations:
+    """The equations of rest of `motion`, which has the residual of implicit methods; duration : scale of time [s]."""
+
+    def __init__(self, motion: MotionEquations, duration: float) -> None:
+        system = motion.system
+        self.motion, self.system, self.duration = motion, system, duration
+        self.record = system.record
+        self.residual, self.newton = self.record.residual, self.record.newton
+        self.n, self.rows = len(self.residual.vdot), len(self.residual.lam)
+        self.positions = system.positions
+        self.place = self.newton.place.astype(np.int64)
+        units = np.array(system.map.units)[self.place[:, 0]]
+        mass = float(self.record.bodies.mass.sum())
+        lengths = {"m": system.size, "kg^0.5 m": mass**0.5 * system.size}
+        self.length = np.array([lengths.get(unit, 1.0) for unit in units])
+        self.free = np.flatnonzero(~self._idle())
+        self.row_scale = self.record.constraints.scale[self.residual.row]
+        self.energy = 1.0
+
+    @cached_property
+    def _sparsity(self) -> tuple[Array, Array]:
+        return self.newton.column.astype(np.int32), self.newton.row_start.astype(np.int32)
+
+    def _idle(self) -> NDArray[np.bool_]:
+        """Unknowns that mean nothing: turns of point masses."""
+        body = np.full(self.n, -1)
+        nodes = self.record.tree.node
+        if len(nodes):
+            for node in nodes.tolist():
+                body[node[4] : node[5]] = node[0]
+        else:
+            count = 6 * self.system.body_count
+            body[:count] = np.repeat(np.arange(self.system.body_count), 6)
+        points = np.append(self.system.point_masses, False)
+        return points[body] & (self.place[:, 1] != NONE)
+
+    # --- evaluation ---
+
+    def evaluate(self, state: Rest, lam: Array | None = None) -> tuple[Array, Array]:
+        """(r (f,), C (K,)) without units, for the multipliers of the state or others. The record is left evaluated."""
+        self._load(state, state.lam if lam is None else lam)
+        if tangent_entries.evaluate_residual(self.motion.handle.address, state.t) != OK:
+            raise NotAState
+        value = self.residual.value
+        r, C = value[: self.n], value[self.n : self.n + self.rows]
+        if not (np.isfinite(r).all() and np.isfinite(C).all()):
+            raise NotAState
+        return (r * self.length)[self.free] / self.energy, C / self.row_scale
+
+    def _load(self, state: Rest, lam: Array) -> None:
+        own = self.residual
+        own.y[:] = state.y
+        own.y[self.positions : self.positions + self.n] = 0.0
+        own.vdot[:] = 0.0
+        own.lam[:] = lam
+
+    def tangent(self, state: Rest) -> Tangent:
+        """Exact derivatives at a state by complex step."""
+        self._load(state, state.lam)
+        address = self.motion.handle.address
+        if static_entries.find_parts(address, state.t) != OK:
+            raise NotAState
+        slope = np.zeros(len(self.residual.value))
+        if static_entries.find_time_slope(address, state.t, slope) != OK or not np.isfinite(slope).all():
+            raise NotAState
+        n, free = self.n, self.free
+        by_length, by_row = diags(self.length[free]), diags(1.0 / self.row_scale)
+        K, D, M = (self._matrix(part) for part in (self.newton.shifted.K, self.newton.shifted.D, self.newton.shifted.M))
+
+        def inner(matrix: Sparse) -> Sparse:
+            return by_length @ matrix[:n, :n][free][:, free] @ by_length / self.energy
+
+        slope *= self.duration
+        return Tangent(
+            K=csc_matrix(inner(K)),
+            C=csr_matrix(by_row @ M[n:, :n][:, free] @ by_length),
+            M=csc_matrix(inner(M)),
+            D=csc_matrix(inner(D)),
+            slope=(slope[:n] * self.length)[free] / self.energy,
+            opening=slope[n : n + self.rows] / self.row_scale,
+        )
+
+    def _matrix(self, value: Array) -> Sparse:
+        if not np.isfinite(value).all():
+            raise NotAState
+        column, start = self._sparsity
+        size = self.n + self.rows
+        return csr_matrix((value, column, start), shape=(size, size), copy=True)
+
+    def weigh(self, state: Rest) -> None:
+        """Choose the scale of energy e: the largest stiffness at a state, or where there is none the largest force."""
+        self.energy = 1.0
+        stiffness = np.abs(self.tangent(state).K).max() if len(self.free) else 0.0
+        force = np.abs(self.evaluate(state)[0]).max(initial=0.0)
+        self.energy = float(stiffness or force or 1.0)
+
+    # --- movement ---
+
+    def moved(self, state: Rest, change: Change) -> Rest:
+        """The state after a change: q ∘ exp, λ and t added."""
+        psi = np.zeros(self.n)
+        psi[self.free] = change.q * self.length[self.free]
+        y = state.y.copy()
+        plain = self.place[:, 1] == NONE
+        y[self.place[plain, 0]] += psi[plain]
+        first = np.flatnonzero(self.place[:, 1] == 0)
+        if len(first):
+            at = self.place[first, 0][:, None] + np.arange(4)
+            y[at] = turned(y[at], psi[first[:, None] + np.arange(3)])
+        lam = state.lam + self.force_of(change.lam)
+        return Rest(y, lam, state.t + change.t * self.duration)
+
+    def force_of(self, lam: Array) -> Array:
+        """Multipliers [N, N m] from those without units."""
+        return lam * self.energy / self.row_scale
+
+    def follow(self, state: Rest) -> None:
+        """Count the turns of angles, and keep what forces remember, at an accepted state."""
+        self.evaluate(state)
+        static_entries.accept_state(self.motion.handle.address, state.t)
+
+    def loads(self, state: Rest) -> float:
+        """Largest single load [N m]: weights and reactions along an unknown times the machine's length, and what springs and forces push.
+
+        Forces that cancel each other still count: a residual is held against them.
+        """
+        bodies = self.record.bodies
+        weight = float(np.max(bodies.mass, initial=0.0) * np.linalg.norm(bodies.gravity)) * self.system.size
+        applied, _ = self.evaluate(state, np.zeros(self.rows))
+        by_joints, _ = self.evaluate(state)
+        pushed = self._pushed()
+        reacting = float(np.max(np.abs(by_joints - applied), initial=0.0)) * self.energy
+        return max(weight, reacting, pushed, float(np.max(np.abs(applied), initial=0.0)) * self.energy)
+
+    def _pushed(self) -> float:
+        """Largest effort that a force reports [N m]: forces times the machine's length."""
+        outputs = self.record.outputs.value
+        variables = self.system.layout.variables
+        first = len(variables) - len(outputs) - (2 if self.system.modes else 0)
+        scale = {"N": self.system.size, "N m": 1.0}
+        own = variables[first : first + len(outputs)]
+        found = [
+            abs(float(outputs[k])) * scale.get(each.units, 0.0)
+            for k, each in enumerate(own)
+            if each.name.startswith("force.")
+        ]
+        return max(found, default=0.0)
+
+    def start(self, y: Array) -> Rest:
+        """The state y at rest at t = 0, with the multipliers that leave the least residual."""
+        y = y.copy()
+        y[self.positions :] = 0.0
+        state = Rest(y, np.zeros(self.rows), 0.0)
+        self.weigh(state)
+        return state
+
+
+def turned(theta: Array, psi: Array) -> Array:
+    """Euler parameters (·, 4) of A(θ) exp(ψ̃), of unit length, for rows θ and rotation vectors ψ (·, 3) in the turned axes."""
+    half = 0.5 * np.linalg.norm(psi, axis=1, keepdims=True)
+    e = 0.5 * np.sinc(half / np.pi) * psi
+    f0, e0, v = np.cos(half), theta[:, :1], theta[:, 1:]
+    out = np.hstack([e0 * f0 - np.sum(v * e, axis=1, keepdims=True), e0 * e + f0 * v + np.cross(v, e)])
+    return out / np.linalg.norm(out, axis=1, keepdims=True)
+
+
+def with_multipliers(state: Rest, lam: Array) -> Rest:
+    """The same state with other multipliers [N, N m]."""
+    return replace(state, lam=lam)

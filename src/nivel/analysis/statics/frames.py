@@ -1,0 +1,133 @@
+"""Frames of a statics result: those of a run, without what is always zero at rest, and with what only statics knows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from math import prod
+from typing import Any
+
+import numpy as np
+
+from nivel.analysis.statics.equations import Rest, StaticEquations
+from nivel.analysis.statics.vibrations import Vibrations
+from nivel.system.layout import FrameLayout, Variable
+from nivel.system.system import Array
+
+MOVING = frozenset(
+    {
+        "velocity", "angular_velocity", "acceleration", "angular_acceleration", "joint_rate", "constraint_rate_violation",
+        "kinetic_energy", "external_work", "dissipated_energy", "energy_error", "modal_rate",
+    }
+)  # fmt: skip
+RATES = (".rate", ".power")
+ELEMENTS = ("force.", "driver.", "coupling.")
+
+# name, dimensions, units, long name of what comes behind
+OWN: tuple[tuple[str, tuple[str, ...], str, str], ...] = (
+    ("path", ("time",), "s", "place along the path of equilibria: ascending also where time turns back"),
+    ("residual", ("time",), "1", "largest unbalanced force, over the largest load of the state"),
+    ("unstable_directions", ("time",), "1", "directions of negative stiffness; 0: the equilibrium is stable"),
+    ("iterations", ("time",), "1", "iterations of Newton's method"),
+)
+VIBRATION: tuple[tuple[str, tuple[str, ...], str, str], ...] = (
+    ("vibration_stiffness", ("time", "vibration"), "1/s^2", "square of the natural angular frequency; negative: unstable"),
+    ("natural_frequency", ("time", "vibration"), "Hz", "undamped natural frequency; not a number: unstable"),
+    ("damped_frequency", ("time", "vibration"), "Hz", "frequency of the damped vibration; ordered by their magnitudes on their own"),
+    ("decay_rate", ("time", "vibration"), "1/s", "rate at which the damped vibration dies away"),
+    ("mode_shift", ("time", "vibration", "body", "xyz"), "kg^-0.5", "displacement of the body frame, unit modal mass"),
+    ("mode_turn", ("time", "vibration", "body", "xyz"), "kg^-0.5/m", "small rotation of the body, unit modal mass, global axes"),
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What a frame says beside the state. vibrations : None where none were asked for."""
+
+    path: float
+    residual: float
+    unstable: int
+    iterations: int
+    vibrations: Vibrations | None
+
+
+class FrameWriter:
+    """Frames of the equilibria of a machine; modes : number of vibrations in each."""
+
+    def __init__(self, equations: StaticEquations, modes: int) -> None:
+        self.equations, self.modes = equations, modes
+        self._full = equations.system.layout
+        kept = [variable for variable in self._full.variables if not _is_of_motion(variable.name)]
+        self._columns = np.array([k for each in kept for k in range(each.columns.start, each.columns.stop)], dtype=int)
+        self.layout = _layout(self._full, kept, modes)
+        self._observe: Any = import_module("nivel.kernels.observe").observe
+
+    def frame(self, state: Rest, facts: Facts) -> Array:
+        """The frame (1, width) of an equilibrium."""
+        full = self._observed(state, np.zeros(self.equations.n))
+        own = [facts.path, facts.residual, float(facts.unstable), float(facts.iterations)]
+        out = np.concatenate([[state.t], full[self._columns], own])
+        if self.modes:
+            out = np.concatenate([out, self._vibrating(state, facts.vibrations)])
+        return out[None]
+
+    def _observed(self, state: Rest, velocity: Array) -> Array:
+        """A frame of a machine in this state without accelerations, moving at this velocity (n,).
+
+        Reactions follow from the multipliers, so the wrenches of the bodies are those of the forces alone.
+        """
+        equations = self.equations
+        record = equations.record
+        equations.evaluate(state, np.zeros(equations.rows))
+        if np.any(velocity):
+            equations.residual.y[equations.positions : equations.positions + equations.n] = velocity
+            address = equations.motion.handle.address
+            import_module("nivel.kernels.tangent_entries").evaluate_residual(address, state.t)
+        record.constraints.lam[:] = 0.0
+        record.constraints.lam[equations.residual.row] = state.lam
+        record.friction.force[:] = 0.0
+        for still in (record.bodies.Rddot, record.bodies.alpha_b, record.tree.delta, record.tree.alpha0):
+            still[:] = 0.0
+        record.tree.Rddot0[:] = 0.0
+        frame = np.zeros(self._full.width)
+        self._observe(equations.motion.handle.address, state.t, equations.residual.y, frame)
+        return frame
+
+    def _vibrating(self, state: Rest, found: Vibrations | None) -> Array:
+        bodies = len(self._full.coordinates["body"])
+        if found is None:
+            return np.full((4 + 6 * bodies) * self.modes, np.nan)
+        place = {variable.name: variable.columns for variable in self._full.variables}
+        shifts, turns = np.full((2, self.modes, 3 * bodies), np.nan)
+        equations = self.equations
+        for k in range(self.modes):
+            if np.isfinite(found.shapes[:, k]).all():
+                velocity = np.zeros(equations.n)
+                # without units: unit mass is e s² over it
+                velocity[equations.free] = found.shapes[:, k] * equations.length[equations.free]
+                frame = self._observed(state, velocity / np.sqrt(equations.energy))
+                shifts[k], turns[k] = frame[place["velocity"]], frame[place["angular_velocity"]]
+        with np.errstate(invalid="ignore"):
+            frequency = np.sqrt(found.squares) / (2.0 * np.pi)
+        damped = found.rates.imag / (2.0 * np.pi), -found.rates.real
+        return np.concatenate([found.squares, frequency, *damped, shifts.ravel(), turns.ravel()])
+
+
+def _is_of_motion(name: str) -> bool:
+    return name in MOVING or (name.startswith(ELEMENTS) and name.endswith(RATES))
+
+
+def _layout(full: FrameLayout, kept: Sequence[Variable], modes: int) -> FrameLayout:
+    coordinates = dict(full.coordinates)
+    entries = [(each.name, each.dims, each.units, each.long_name) for each in kept]
+    entries += OWN
+    if modes:
+        coordinates["vibration"] = tuple(str(k + 1) for k in range(modes))
+        entries += VIBRATION
+    variables, start = [], 1
+    for name, dims, units, long_name in entries:
+        stop = start + prod(len(coordinates[dim]) for dim in dims[1:])
+        variables.append(Variable(name, dims, units, long_name, slice(start, stop)))
+        start = stop
+    return FrameLayout(start, tuple(variables), coordinates)

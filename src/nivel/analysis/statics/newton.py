@@ -1,0 +1,123 @@
+"""Newton's iteration for a state of equilibrium, with exact tangents: at a given time, or on the way through limit points.
+
+A full step is taken where it comes nearer: the next change that the same tangent asks for has to be smaller than the step itself (natural
+monotonicity test; Deuflhard 2004, section 3.3). Otherwise it is halved. Changes have no units, so neither do the test and the tolerance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from nivel.analysis.statics.equations import Change, NotAState, Rest, StaticEquations, Tangent
+from nivel.analysis.statics.linear import NoPivot, bordered, factors, solve_bordered
+from nivel.system.system import Array
+
+# The least share of a step that is tried.
+LEAST_SHARE = 1.0 / 64.0
+# The longest change of one iteration, in lengths of the machine and radians.
+LONGEST = 0.5
+# Changes that no longer contract are round-off where they are as small as this.
+STALLED, ROUND_OFF = 0.3, 1e-7
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """How Newton's iteration goes: tolerance of the last change, in lengths of the machine and radians; most iterations; line search."""
+
+    tolerance: float = 1e-10
+    most: int = 25
+    search: bool = True
+
+
+@dataclass(frozen=True)
+class Found:
+    """A state of equilibrium, its tangent, the iterations that it took, the whole change of its positions, and all changes in turn."""
+
+    state: Rest
+    tangent: Tangent
+    iterations: int
+    moved: Array
+    sizes: tuple[float, ...]
+
+
+class NoEquilibrium(Exception):
+    """No state of equilibrium was found from where the iteration began. state : the last one; sizes : of all changes in turn."""
+
+    def __init__(self, reason: str, state: Rest, sizes: tuple[float, ...] = ()) -> None:
+        super().__init__(reason)
+        self.reason, self.state, self.sizes = reason, state, sizes
+
+
+def equilibrate(
+    equations: StaticEquations, state: Rest, iteration: Iteration, border: Change | None = None
+) -> Found:
+    """The equilibrium next to `state`, at its time; with a border at the time where the changes are perpendicular to the border.
+
+    (Riks 1979, Wempner 1971: corrections perpendicular to the tangent of the path.)
+    Raises NoEquilibrium.
+    """
+    sizes: list[float] = []
+    moved = np.zeros(len(equations.free))
+    for number in range(1, iteration.most + 1):
+        try:
+            tangent = equations.tangent(state)
+            r, C = equations.evaluate(state)
+            found: Any = factors(tangent.saddle()) if border is None and len(r) + len(C) else None
+            found = bordered(tangent, border) if border is not None else found
+            change = _change(found, r, C, border)
+        except NotAState:
+            raise NoEquilibrium("a force, or the state, is not a number", state, tuple(sizes)) from None
+        except NoPivot:
+            raise NoEquilibrium("nothing resists a motion", state, tuple(sizes)) from None
+        size = _size(change)
+        if not np.isfinite(size):
+            raise NoEquilibrium("nothing resists a motion", state, tuple(sizes))
+        share = min(1.0, LONGEST / size) if size > 0.0 else 1.0
+        nearer = _nearer(equations, state, found, change, share, border) if iteration.search else (share, None)
+        if nearer is None:
+            raise NoEquilibrium("no step comes nearer to equilibrium", state, (*sizes, size))
+        share, _ = nearer
+        state = equations.moved(state, change * share)
+        moved += share * change.q
+        sizes.append(size)
+        stalled = len(sizes) > 1 and size > STALLED * sizes[-2] and size <= ROUND_OFF
+        if share == 1.0 and (size <= iteration.tolerance or stalled):
+            return Found(state, tangent, number, moved, tuple(sizes))
+    raise NoEquilibrium(f"{iteration.most} iterations are not enough", state, tuple(sizes))
+
+
+def _change(found: Any, r: Array, C: Array, border: Change | None) -> Change:
+    if border is not None:
+        return solve_bordered(found, -r, -C, 0.0)
+    x = found.solve(-np.concatenate([r, C])) if found is not None else np.zeros(0)
+    return Change(x[: len(r)], x[len(r) :])
+
+
+def _size(change: Change) -> float:
+    return max(float(np.max(np.abs(change.q), initial=0.0)), abs(change.t))
+
+
+def _nearer(
+    equations: StaticEquations, state: Rest, found: Any, change: Change, share: float, border: Change | None
+) -> tuple[float, float] | None:
+    """The share of a change that comes nearer, and the size of the change that is left; None where none does."""
+    size = _norm(change)
+    if size <= ROUND_OFF:
+        return share, 0.0
+    while share >= LEAST_SHARE:
+        try:
+            r, C = equations.evaluate(equations.moved(state, change * share))
+            left = _norm(_change(found, r, C, border))
+            if left <= (1.0 - 0.25 * share) * size:
+                return share, left
+        except NotAState:
+            pass
+        share *= 0.5
+    return None
+
+
+def _norm(change: Change) -> float:
+    return float(np.sqrt(np.sum(change.q**2) + change.t**2))

@@ -1,0 +1,74 @@
+"""What of a machine has a part in statics: what is refused, what makes no force at rest, and with which coordinates it is solved."""
+
+from __future__ import annotations
+
+from nivel.analysis.choice import choose_coordinates
+from nivel.analysis.statics.settings import StaticsSettings
+from nivel.errors import Fault, ModelError
+from nivel.machine.forces import Friction
+from nivel.machine.machine_record import MachineRecord
+
+
+def refuse_friction(machine: MachineRecord) -> None:
+    """Friction that holds at rest: which of the many equilibria it holds depends on how the machine came there."""
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"forces.{force.name}.model",
+            f"'{force.model}' holds at rest with any force up to static friction, so there are many equilibria, and which one is taken "
+            f"depends on the motion before: leave the friction out, or take coulomb, which makes no force at rest; or let a run with a "
+            f"damper come to rest",
+        )
+        for force in machine.forces
+        if isinstance(force, Friction) and force.model != "coulomb"
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def at_rest(machine: MachineRecord) -> tuple[str, ...]:
+    """Sentences on what makes no force at rest."""
+    rubbing = [force.name for force in machine.forces if isinstance(force, Friction)]
+    damping = [
+        force.name
+        for force in machine.forces
+        if not isinstance(force, Friction) and any(getattr(force, name, None) for name in DAMPING)
+    ]
+    out = []
+    if damping:
+        out.append(f"dampers make no force at rest ({_named(damping)})")
+    if rubbing:
+        out.append(f"coulomb friction goes with speed and makes none ({_named(rubbing)})")
+    if machine.events:
+        out.append("events are not looked for")
+    return tuple(out)
+
+
+DAMPING = ("damping", "rotational_damping", "viscous")
+SHOWN = 4
+
+
+def _named(names: list[str]) -> str:
+    return ", ".join(names[:SHOWN]) + (f" and {len(names) - SHOWN} more" if len(names) > SHOWN else "")
+
+
+def for_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[MachineRecord, str]:
+    """The machine with simulation settings that mean nothing but the equations of statics, and the coordinates."""
+    duration = settings.duration or 1.0
+    simulation = machine.simulation.replace(
+        integrator="generalised-alpha",
+        formulation="newton-euler",
+        coordinates=settings.coordinates,
+        stabilisation="direct",
+        rotations="euler-parameters",
+        baumgarte=None,
+        duration=duration,
+        step=min(settings.step, duration),
+        output_interval=None,
+        step_control="own",
+    )
+    neutral = machine.replace(simulation=simulation)
+    coordinates = choose_coordinates(neutral)
+    return neutral.replace(simulation=simulation.replace(coordinates=coordinates)), coordinates

@@ -1,0 +1,275 @@
+"""A whole statics run: from a machine record to a result with its trust report."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from os import PathLike
+from typing import Any
+
+import numpy as np
+
+import nivel
+from nivel.analysis.attributes import run_attributes
+from nivel.analysis.dynamics import Prepared, prepare
+from nivel.analysis.implicit import Wanted, equip
+from nivel.analysis.interrupt import interruptible
+from nivel.analysis.listener import Listener
+from nivel.analysis.statics.critical import CriticalPoint, critical_points
+from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
+from nivel.analysis.statics.equations import NotAState, Rest, StaticEquations
+from nivel.analysis.statics.frames import Facts, FrameWriter
+from nivel.analysis.statics.linear import NoPivot, negative_directions
+from nivel.analysis.statics.newton import Iteration, NoEquilibrium
+from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
+from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_friction
+from nivel.analysis.statics.search import settle
+from nivel.analysis.statics.settings import StaticsSettings
+from nivel.analysis.statics.stability import is_mechanism, softest
+from nivel.analysis.statics.vibrations import buckling_factors, vibrations
+from nivel.analysis.statics.words import direction_in_words
+from nivel.errors import SolveError
+from nivel.machine.machine_record import MachineRecord
+from nivel.march.sink import Header
+from nivel.results.memory import Memory
+from nivel.results.occurrence import Occurrence, to_json
+from nivel.results.result import Result
+from nivel.results.statics_trust import StaticsFacts, assess_statics
+from nivel.results.store import Store
+
+
+@dataclass
+class Walk:
+    """What is known of a path so far. ended : (message, advice) of a failure."""
+
+    points: list[Point] = field(default_factory=list)
+    counts: list[int] = field(default_factory=list)
+    critical: list[CriticalPoint] = field(default_factory=list)
+    iterations: int = 0
+    rigid: int = 0
+    outcome: str = "done"
+    ended: tuple[str, str] | None = None
+    buckling: list[tuple[float, str]] = field(default_factory=list)
+
+
+def prepare_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Prepared, StaticEquations]:
+    """The machine assembled, and its equations of rest. Raises ModelError."""
+    refuse_friction(machine)
+    neutral, coordinates = for_statics(machine, settings)
+    prepared = prepare(neutral, "newton-euler", coordinates)
+    motion = equip(prepared.motion, prepared.start, coordinates, Wanted(shifted=True))
+    motion.system.record.coordinates.reference[:] = prepared.assembly.reference
+    return replace(prepared, motion=motion), StaticEquations(motion, settings.duration or 1.0)
+
+
+def statics(
+    machine: MachineRecord,
+    settings: StaticsSettings,
+    *,
+    chosen_duration: bool,
+    source: str = "",
+    out: str | PathLike[str] | None = None,
+    force: bool = False,
+    listener: Listener | None = None,
+    compile_seconds: float = 0.0,
+) -> Result:
+    """The equilibria of `machine`; the result is in memory, or in the file `out`.
+
+    chosen_duration : the duration was asked for; otherwise a machine on which time has no influence has one equilibrium, at t = 0.
+    Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails.
+    """
+    listener = listener or Listener()
+    sink = Memory() if out is None else Store(out, force)
+    begin = time.perf_counter()
+    listener.say("preparing")
+    prepared, equations = prepare_statics(machine, settings)
+    start = equations.start(prepared.start)
+    if not chosen_duration and not _depends_on_time(equations, start, settings.duration):
+        settings = replace(settings, duration=0.0, arc_length=False)
+    writer = FrameWriter(equations, settings.modes)
+    sink.begin(Header(writer.layout, _attributes(machine, source, prepared, settings)))
+    seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
+    begin = time.perf_counter()
+    walk = Walk()
+    with interruptible() as interrupted:
+        for point in _follow(equations, start, settings, walk, listener):
+            _take(equations, writer, sink, walk, point, settings)
+            if listener.progress is not None:
+                listener.progress(point.state.t)
+            if interrupted():
+                walk.outcome = "interrupted"
+                break
+    if settings.buckling and walk.outcome == "done":
+        _find_buckling(equations, walk, settings.buckling)
+    seconds["loop_seconds"] = time.perf_counter() - begin
+    return _close(machine, sink, prepared, walk, settings, seconds)
+
+
+def _attributes(
+    machine: MachineRecord, source: str, prepared: Prepared, settings: StaticsSettings
+) -> dict[str, str | float | int]:
+    coordinates = prepared.motion.system
+    shown: Any = _Shown({**settings.as_dict(), "coordinates": "relative" if len(coordinates.record.tree.node) else "absolute"})
+    attributes = run_attributes(machine, source, prepared, shown)
+    return {**attributes, "analysis": "statics", "nivel_version": nivel.__version__}
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """Settings as `run_attributes` asks for them."""
+
+    settings: dict[str, object]
+
+    def as_dict(self) -> dict[str, object]:
+        return self.settings
+
+
+def _depends_on_time(equations: StaticEquations, state: Rest, duration: float) -> bool:
+    """Whether any force or driver changes over the duration, in this state."""
+    try:
+        first = np.concatenate(equations.evaluate(state))
+        return any(
+            not np.array_equal(np.concatenate(equations.evaluate(replace(state, t=t))), first)
+            for t in np.linspace(0.0, duration, 32)
+        )
+    except NotAState:
+        return True
+
+
+def _follow(
+    equations: StaticEquations, start: Rest, settings: StaticsSettings, walk: Walk, listener: Listener
+) -> Iterator[Point]:
+    """The equilibria in turn; how the path ended is left in `walk`."""
+    iteration = Iteration(settings.tolerance, settings.most_iterations, settings.line_search)
+    listener.say("looking for the first equilibrium")
+    try:
+        found = settle(equations, start, iteration)
+    except NoEquilibrium as error:
+        walk.outcome, walk.ended = "failed", no_start(equations, error)
+        return
+    loose = softest(found.tangent)
+    if loose is not None and is_mechanism(loose):
+        walk.outcome, walk.ended = "failed", without_stiffness(equations, loose)
+        return
+    equations.follow(found.state)
+    first = Point(found, 0.0)
+    yield first
+    if not settings.duration:
+        return
+    listener.say("following the equilibria", settings.duration)
+    steps = Steps(settings.duration, settings.step, iteration)
+    try:
+        yield from (by_arc_length if settings.arc_length else by_loads)(equations, first, steps)
+    except NoEquilibrium as error:
+        walk.outcome, walk.ended = "failed", path_ended(equations, walk.points[-1], steps, error, settings.arc_length)
+
+
+def _take(
+    equations: StaticEquations,
+    writer: FrameWriter,
+    sink: Memory | Store,
+    walk: Walk,
+    point: Point,
+    settings: StaticsSettings,
+) -> None:
+    """Frames of the critical points before an equilibrium, and of itself."""
+    count = negative_directions(point.found.tangent)
+    if walk.points and walk.counts[-1] != count:
+        iteration = Iteration(settings.tolerance, settings.most_iterations, settings.line_search)
+        critical = critical_points(equations, walk.points[-1], point, (walk.counts[-1], count), iteration)
+        walk.critical += critical
+        for each in critical:
+            if each.found is not None:
+                _write(equations, writer, sink, walk, Point(each.found, each.along), min(walk.counts[-1], count), settings)
+    _write(equations, writer, sink, walk, point, count, settings)
+    # the first and the last are needed
+    walk.points[1:] = [point] if walk.points else []
+    walk.points = walk.points or [point]
+    walk.counts.append(count)
+    walk.iterations += point.found.iterations
+
+
+def _write(
+    equations: StaticEquations,
+    writer: FrameWriter,
+    sink: Memory | Store,
+    walk: Walk,
+    point: Point,
+    count: int,
+    settings: StaticsSettings,
+) -> None:
+    state = point.state
+    r, _ = equations.evaluate(state)
+    loads = equations.loads(state)
+    left = float(np.max(np.abs(r), initial=0.0)) * equations.energy
+    found = None
+    if settings.modes:
+        try:
+            found = vibrations(point.found.tangent, settings.modes)
+            walk.rigid = max(walk.rigid, found.rigid)
+        except NoPivot:
+            found = None
+    facts = Facts(point.along, left / loads if loads > 0.0 else 0.0, count, point.found.iterations, found)
+    sink.take(writer.frame(state, facts))
+
+
+def _find_buckling(equations: StaticEquations, walk: Walk, count: int) -> None:
+    """Times at which linear extrapolation of the tangents of the first and the last equilibrium loses its stiffness."""
+    first, last = walk.points[0].found, walk.points[-1].found
+    try:
+        factors, directions = buckling_factors(first.tangent, last.tangent, count)
+    except NoPivot:
+        walk.ended = (
+            "the first equilibrium has no positive stiffness, so no buckling loads follow from it",
+            "Give the machine stiffness, or stabilising loads, at t = 0.",
+        )
+        walk.outcome = "failed"
+        return
+    span = last.state.t - first.state.t
+    walk.buckling = [
+        (first.state.t + float(mu) * span, direction_in_words(equations, directions[:, k])) for k, mu in enumerate(factors)
+    ]
+
+
+def _close(
+    machine: MachineRecord,
+    sink: Memory | Store,
+    prepared: Prepared,
+    walk: Walk,
+    settings: StaticsSettings,
+    seconds: dict[str, float],
+) -> Result:
+    message, advice = walk.ended or ("", "")
+    redundancy = prepared.redundancy
+    facts = StaticsFacts(
+        outcome=walk.outcome,
+        failure=message,
+        degrees_of_freedom=redundancy.degrees_of_freedom,
+        drivers=prepared.drivers,
+        redundant_rows=redundancy.redundant_rows,
+        non_unique_joints=redundancy.non_unique_joints,
+        critical=tuple((each.kind, each.t, each.found is not None) for each in walk.critical),
+        at_rest=at_rest(machine),
+        rigid=walk.rigid,
+    )
+    result = sink.result()
+    critical = [{"kind": each.kind, "time": each.t, "path": each.along, "exact": each.found is not None} for each in walk.critical]
+    attributes: dict[str, str | float | int] = {
+        "outcome": walk.outcome,
+        "failure": message,
+        "advice": advice,
+        "events": to_json([Occurrence(each.kind, each.t, "") for each in walk.critical]),
+        "stopped_by": "",
+        "critical_points": json.dumps(critical),
+        "buckling": json.dumps([{"time": t, "moves": words} for t, words in walk.buckling]),
+        "trust": assess_statics(result, facts).to_json(),
+        "timing": json.dumps({"steps": len(walk.counts), "iterations": walk.iterations, **seconds}),
+    }
+    reached = float(result.time[-1]) if len(result.time) else 0.0
+    result = sink.close(attributes)
+    if walk.ended is not None:
+        raise SolveError(message, time=reached, advice=advice, result=result)
+    return result
+

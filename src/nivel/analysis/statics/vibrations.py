@@ -1,0 +1,108 @@
+"""Small vibrations about an equilibrium: natural frequencies, modes, damping, and linearised buckling loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import eig, eigh
+
+from nivel.analysis.statics.equations import Tangent
+from nivel.analysis.statics.linear import DENSE, NoPivot, factors, free_directions, lowest, symmetric
+from nivel.system.system import Array
+
+# Squares of frequencies below this share of the largest one of a machine of full matrices, or of those found, are rigid motions.
+RIGID = 1e-11
+# Machines of up to so many unknowns get their damping: the eigenvalues of a full matrix of twice the size.
+DAMPED = 400
+
+
+@dataclass(frozen=True)
+class Vibrations:
+    """squares : ω² (k,) [1/s²] ascending, negative where the equilibrium is unstable; shapes (f, k) with unit modal mass, without units.
+
+    rates : complex s (k,) [1/s] of the damped motions e^{st}, by |s|, one of each pair; NaN where there are none or the machine is large.
+    rigid : how many of the squares are zero.
+    """
+
+    squares: Array
+    shapes: Array
+    rates: Array
+    rigid: int
+
+
+def vibrations(tangent: Tangent, count: int) -> Vibrations:
+    """The `count` lowest vibrations about the equilibrium of a tangent."""
+    squares, shapes = lowest(tangent, count, tangent.M)
+    scale = max(float(np.max(np.abs(squares), initial=0.0)), _largest(tangent))
+    rigid = int(np.sum(np.abs(squares) <= RIGID * scale))
+    rates = np.full(count, np.nan, dtype=complex)
+    if tangent.K.shape[0] <= DAMPED and tangent.D.count_nonzero():
+        found = _damped(tangent)[:count]
+        rates[: len(found)] = found
+    filled = np.full(count, np.nan)
+    filled[: len(squares)] = squares
+    all_shapes = np.full((tangent.K.shape[0], count), np.nan)
+    all_shapes[:, : len(squares)] = shapes
+    return Vibrations(filled, all_shapes, rates, rigid)
+
+
+def _largest(tangent: Tangent) -> float:
+    """Largest square of a frequency of a small machine; of large ones unknown: zero."""
+    if not 0 < tangent.K.shape[0] <= DENSE:
+        return 0.0
+    Z = free_directions(tangent)
+    if not Z.shape[1]:
+        return 0.0
+    values = eigh(symmetric(Z.T @ (tangent.K @ Z)), symmetric(Z.T @ (tangent.M @ Z)), eigvals_only=True)
+    return float(np.max(np.abs(values)))
+
+
+def _damped(tangent: Tangent) -> Array:
+    """s of (s² M + s D + K) φ = 0 on the motions that all constraints allow, one of each pair, by |s|."""
+    Z = free_directions(tangent)
+    m = Z.shape[1]
+    if not m:
+        return np.zeros(0, dtype=complex)
+    M, D, K = (Z.T @ (matrix @ Z) for matrix in (tangent.M, tangent.D, tangent.K))
+    inverse = np.linalg.inv(M)
+    first = np.block([[np.zeros((m, m)), np.eye(m)], [-inverse @ K, -inverse @ D]])
+    found = np.asarray(eig(first, right=False), dtype=complex)
+    found = found[found.imag >= 0.0]
+    return found[np.argsort(np.abs(found), kind="stable")]
+
+
+def buckling_factors(before: Tangent, after: Tangent, count: int) -> tuple[Array, Array]:
+    """(μ (k,), directions (f, k)): the smallest positive μ for which K₀ + μ (K₁ - K₀) has no stiffness in a direction, ascending.
+
+    before, after : tangents K₀, K₁ at two loads; constraints as before. Raises NoPivot where K₀ itself has no stiffness somewhere.
+    """
+    size, rows = before.K.shape[0], before.C.shape[0]
+    K0, dK = symmetric(before.K), symmetric(after.K - before.K)
+    if size <= DENSE:
+        Z = free_directions(before)
+        if not Z.shape[1]:
+            return np.zeros(0), np.zeros((size, 0))
+        try:
+            values, vectors = eigh(symmetric(-(Z.T @ (dK @ Z))), symmetric(Z.T @ (K0 @ Z)))
+        except np.linalg.LinAlgError:
+            raise NoPivot from None
+        return _positive(values, Z @ vectors, count)
+    from scipy.sparse.linalg import LinearOperator, eigsh
+
+    found = factors(before.saddle())
+
+    def inverse(b: Array) -> Array:
+        return found.solve(np.concatenate([np.ravel(b), np.zeros(rows)]))[:size]
+
+    begin = inverse(np.random.default_rng(0).standard_normal(size))
+    operator = LinearOperator((size, size), matvec=inverse, dtype=float)  # type: ignore[call-arg]
+    values, vectors = eigsh(-dK, k=min(count, size - rows - 1), M=K0, Minv=operator, v0=begin, which="LA")
+    return _positive(values, vectors, count)
+
+
+def _positive(inverses: Array, vectors: Array, count: int) -> tuple[Array, Array]:
+    """μ = 1/θ of the largest positive θ."""
+    chosen = np.flatnonzero(inverses > 1e-12 * np.max(np.abs(inverses), initial=0.0))
+    chosen = chosen[np.argsort(-inverses[chosen], kind="stable")][:count]
+    return 1.0 / inverses[chosen], vectors[:, chosen]

@@ -1,0 +1,113 @@
+"""How far a statics result can be trusted: equilibrium, closed joints, and how stable what was found is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nivel.results.scales import Readable, machine_size
+from nivel.results.statements import freedom_item, number, numeric, redundancy_item, violation_item
+from nivel.results.trust import peak, worst_row
+from nivel.results.verdicts import Item, Trust, Verdict, worst
+
+SHOWN = 6
+
+OUTCOMES: dict[str, tuple[Verdict, str]] = {
+    "done": ("green", "Outcome: every state of equilibrium was found"),
+    "interrupted": ("amber", "Outcome: interrupted; the states until then are here"),
+    "failed": ("red", "Outcome: the computation failed; the states until then are here"),
+}
+
+
+@dataclass(frozen=True)
+class StaticsFacts:
+    """What only the run itself knows; see `nivel.results.trust.Facts`.
+
+    critical : (kind, t [s], whether found to round-off) of limit and bifurcation points, along the path. at_rest : sentences on what makes
+    no force at rest. rigid : vibrations of no frequency.
+    """
+
+    outcome: str
+    failure: str = ""
+    degrees_of_freedom: int | None = None
+    drivers: int = 0
+    redundant_rows: tuple[str, ...] = ()
+    non_unique_joints: tuple[str, ...] = ()
+    critical: tuple[tuple[str, float, bool], ...] = ()
+    at_rest: tuple[str, ...] = ()
+    rigid: int = 0
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def assess_statics(result: Readable, facts: StaticsFacts) -> Trust:
+    """The trust report of a statics run."""
+    size, size_kind = machine_size(result)
+    violation, units = worst_row(result, "constraint_violation", {"m": 1.0 / size, "1": 1.0})
+    trust = Trust(
+        verdict="green",
+        outcome=facts.outcome,
+        energy_error_max=0.0,
+        energy_error_time=0.0,
+        energy_scale=0.0,
+        energy_scale_kind="",
+        size=size,
+        speed=1.0,
+        constraint_violation_max=violation.value,
+        constraint_violation_row=violation.row,
+        constraint_violation_time=violation.time,
+        constraint_violation_units=units,
+        degrees_of_freedom=facts.degrees_of_freedom,
+        drivers=facts.drivers,
+        redundant_rows=tuple(facts.redundant_rows),
+        non_unique_joints=tuple(facts.non_unique_joints),
+        size_kind=size_kind,
+        at_rest=True,
+    )
+    items = tuple(_items(result, trust, facts))
+    return replace(trust, items=items, verdict=worst(items))
+
+
+def _items(result: Readable, trust: Trust, facts: StaticsFacts) -> Iterator[Item]:
+    verdict, text = OUTCOMES.get(facts.outcome, ("red", f"Outcome: {facts.outcome}"))
+    yield Item("outcome", verdict, f"{text}: {facts.failure}" if facts.failure else text)
+    if len(result.time):
+        left = peak(result, "residual")
+        said = f"Equilibrium: forces left over are at most {number(left.value)} of the largest load, at t = {left.time:.6g} s"
+        yield numeric("residual", said, left.value, left.time)
+    if trust.constraint_violation_row:
+        yield violation_item(trust)
+    if len(result.time):
+        yield _stability(result)
+    if facts.critical:
+        yield _critical(facts)
+    if facts.rigid:
+        said = f"Vibrations: {facts.rigid} of no frequency: the machine moves freely in as many ways"
+        yield Item("vibrations", "amber", f"{said} (green when none)")
+    if facts.at_rest:
+        yield Item("at_rest", "green", f"At rest: {'; '.join(facts.at_rest)} (said, always green)")
+    if trust.degrees_of_freedom is not None:
+        yield freedom_item(trust)
+    yield redundancy_item(trust)
+
+
+def _stability(result: Readable) -> Item:
+    counts, time = result.array("unstable_directions"), result.time
+    unstable = np.flatnonzero(counts > 0)
+    if not len(unstable):
+        return Item("stability", "green", "Stability: every state is stable: no direction of negative stiffness (green so)")
+    first, total = int(unstable[0]), len(counts)
+    most = int(counts.max())
+    directions = "1 direction" if most == 1 else f"up to {most} directions"
+    text = (
+        f"Stability: {len(unstable)} of {total} states are unstable, in {directions}, the first at t = {time[first]:.6g} s: left alone, a "
+        f"machine does not stay there (amber)"
+    )
+    return Item("stability", "amber", text, time=float(time[first]))
+
+
+def _critical(facts: StaticsFacts) -> Item:
+    named = [f"{kind} at t = {'' if exact else 'about '}{t:.9g} s" for kind, t, exact in facts.critical]
+    more = f" and {len(named) - SHOWN} more" if len(named) > SHOWN else ""
+    return Item("critical", "amber", f"Critical points: {', '.join(named[:SHOWN])}{more} (amber where there are any)")

@@ -57,8 +57,8 @@ def command(
 
     loaded = load(machine, overrides, allow_code=allow_code)
     target = Path(out) if out is not None else Path(f"{loaded.name}.nc")
-    report = None if no_report else _beside(target)
-    _refuse_to_replace(report, target, force, Path(machine))
+    report = None if no_report else beside(target)
+    refuse_to_replace(report, target, force, Path(machine))
     failure: SolveError | None = None
     unwritten: ModelError | None = None
     with progress_listener(quiet) as listener:
@@ -93,7 +93,7 @@ def command(
         raise KeyboardInterrupt
 
 
-def _beside(target: Path) -> Path:
+def beside(target: Path) -> Path:
     """The report of the result file `target`."""
     from nivel.errors import ModelError
 
@@ -102,7 +102,7 @@ def _beside(target: Path) -> Path:
     return target.with_suffix(".html")
 
 
-def _refuse_to_replace(report: Path | None, target: Path, force: bool, machine: Path) -> None:
+def refuse_to_replace(report: Path | None, target: Path, force: bool, machine: Path) -> None:
     """Refuse files that exist, unless they may be replaced; the machine file is never written over."""
     from nivel.errors import ModelError
     from nivel.results.target import check_target
@@ -130,7 +130,7 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
         per_step = 1e6 * timing["loop_seconds"] / max(timing["steps"], 1)
         done += f" in {timing['steps']} steps, {timing['loop_seconds']:.3g} s of computing ({per_step:.1f} µs a step)"
     console.print(done)
-    for line in _assembly_lines(result):
+    for line in assembly_lines(result):
         console.print(line)
     for line in in_words(result.events, result.stopped_by):
         console.print(f"event: {line}", markup=False)
@@ -140,7 +140,7 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
     console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
 
 
-def _assembly_lines(result: Result) -> Iterator[str]:
+def assembly_lines(result: Result) -> Iterator[str]:
     """What the start differs from the file in: nothing is changed silently."""
     assembly = json.loads(str(result.attributes.get("assembly", "{}")))
     for name, distance, angle in assembly.get("moved", []):

@@ -143,7 +143,7 @@
         { ...axis, size: axisWidth, ...(panel.log ? { splits: decades, filter: (u, splits) => splits } : {}), values: (u, splits) => splits.map((v) => (v == null ? "" : short(v))) },
       ],
       series: [
-        { label: "time", value: (u, v) => (v == null ? "" : `${+v.toPrecision(6)} s`) },
+        { label: data.abscissa, value: (u, v) => (v == null ? "" : `${+v.toPrecision(6)} s`) },
         ...group.curves.map((curve) => ({
           label: curve.label,
           stroke: () => colour(`tone-${/\d/.test(curve.tone) ? Number(curve.tone) % 8 : curve.tone}`),

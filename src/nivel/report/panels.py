@@ -56,6 +56,8 @@ def _joint_coordinates(result: Result) -> Panel | None:
         ("joint_coordinate", {"rad": "angles", "m": "displacements"}),
         ("joint_rate", {"rad/s": "angular rates", "m/s": "rates"}),
     ):
+        if variable not in result.variables:
+            continue
         values = result.array(variable)
         suffix = "" if variable == "joint_coordinate" else ".rate"
         units = [result.units(f"{name}{suffix}") for name in names]

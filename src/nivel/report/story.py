@@ -37,6 +37,11 @@ NAMES = {
     "degrees_of_freedom": "Freedom",
     "redundancy": "Redundancy",
     "accuracy": "Accuracy",
+    "residual": "Equilibrium",
+    "stability": "Stability",
+    "critical": "Critical points",
+    "vibrations": "Vibrations",
+    "at_rest": "At rest",
 }
 
 
@@ -72,8 +77,7 @@ class TrustLine:
 def headline(result: Result) -> Headline:
     """What happened and whether to believe it, in a few words."""
     verdict, outcome = HEADLINES.get(result.outcome, ("red", result.outcome))
-    time = result.time
-    reached = f"{_seconds(float(time[-1] - time[0]))} simulated" if len(time) else "nothing was computed"
+    reached = _reached(result)
     seconds = result.timing.get("loop_seconds")
     took = f" in {_seconds(float(seconds))} of computing" if seconds else ""
     if result.stopped_by:
@@ -84,6 +88,16 @@ def headline(result: Result) -> Headline:
         "failed": f"{reached}{took}. {_sentence(result.failure)}",
     }.get(result.outcome, f"{reached}{took}")
     return Headline(outcome, verdict, text, VERDICTS[result.trust.verdict])
+
+
+def _reached(result: Result) -> str:
+    """How far the run came."""
+    time = result.time
+    if not len(time):
+        return "nothing was computed"
+    if result.is_statics:
+        return f"{_plural(len(time), 'equilibrium', 'equilibria')} from t = {_seconds(float(time[0]))} to {_seconds(float(time[-1]))}"
+    return f"{_seconds(float(time[-1] - time[0]))} simulated"
 
 
 def facts(result: Result) -> list[str]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.looks.poses import upwards
+from nivel.report.load_path import load_paths, vibration_table
 from nivel.report.panel import Group, Panel
 from nivel.report.panels import panels
 from nivel.report.peaks import peak_reactions
@@ -70,6 +71,9 @@ def report_html(result: Result) -> str:
         rules=RULES,
         picture_style=STYLE,
         picture=_picture(result, record),
+        paths=load_paths(result),
+        vibrations=vibration_table(result),
+        buckling=json.loads(str(result.attributes.get("buckling", "[]"))),
         motion=_motion(result),
         peaks=peak_reactions(result),
         icon=joint_icon,
@@ -115,11 +119,12 @@ def _motion(result: Result) -> str:
 def _data(result: Result, shown: list[Panel]) -> str:
     """JSON for the page: arrays as base64 of little-endian floats, the time in 64 bits, the rest in 32."""
     curves = sum(len(group.curves) for panel in shown for group in panel.groups)
-    thin = Thinning(result.time, int(np.clip(ALL_POINTS // max(curves, 1), *POINTS)))
+    thin = Thinning(result.abscissa, int(np.clip(ALL_POINTS // max(curves, 1), *POINTS)))
     data = {
         "time": _packed(thin.time, "<f8"),
         "thinned": thin.frames,
-        "events": [{"name": event.name, "time": event.time} for event in result.events[:MARKED_EVENTS]],
+        "abscissa": "path" if result.is_statics else "time",
+        "events": [{"name": name, "time": at} for name, at in result.marks[:MARKED_EVENTS]],
         "panels": [
             {"title": panel.title, "log": panel.log, "groups": [_group(group, thin) for group in panel.groups]}
             for panel in shown

@@ -128,6 +128,24 @@ class Result:
         return self._contents.read("time")
 
     @property
+    def is_statics(self) -> bool:
+        """Whether these are states of equilibrium, and time no more than what their loads depend on."""
+        return self.attributes.get("analysis") == "statics"
+
+    @property
+    def abscissa(self) -> NDArray[np.float64]:
+        """(n,) [s] what ascends from frame to frame: time; of equilibria, whose time may turn back, the place along their path."""
+        return self.array("path") if "path" in self.variables else self.time
+
+    @property
+    def marks(self) -> list[tuple[str, float]]:
+        """Names of the events, and where each stands on the abscissa [s]."""
+        if self.is_statics:
+            found = json.loads(str(self.attributes.get("critical_points", "[]")))
+            return [(each["kind"], float(each["path"])) for each in found]
+        return [(event.name, event.time) for event in self.events]
+
+    @property
     def variables(self) -> Mapping[str, Variable]:
         """Name → dimensions, units and meaning of every variable but the time."""
         return self._contents.variables

@@ -92,9 +92,9 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         markers=players.markers,
         arrows=drawn.arrows,
         columns=columns(result, frames, block, budget.columns) if number == 0 or budget.columns else [],
-        moments=[Moment(event.name, float(event.time)) for event in result.events[:MOST_MOMENTS]],
+        moments=[Moment(name, at) for name, at in result.marks[:MOST_MOMENTS]],
         notes=_notes(result, position, frames),
-        motion=Motion(block.add(result.time[frames], "f8"), block.add(rows.T), len(result.time), frames.step),
+        motion=Motion(block.add(result.abscissa[frames], "f8"), block.add(rows.T), len(result.time), frames.step),
     )
 
 

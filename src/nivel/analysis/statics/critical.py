@@ -7,7 +7,7 @@ make a limit point, where time turns back; loads that do none a bifurcation, whe
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import brentq
@@ -21,6 +21,8 @@ from nivel.system.system import Array
 
 # The loads do no work along a direction if they do less than this share of what they could.
 NO_WORK = 1e-4
+# Forces left over at a critical point, as a share of the loads.
+BALANCED = 1e-13
 # A share of the chord between two equilibria, to which critical points are found.
 EXACT = 1e-10
 
@@ -55,6 +57,7 @@ def _locate(
     length = float(np.sqrt(chord.q @ chord.q + chord.t**2))
     border = chord * (1.0 / length)
     last: dict[str, Found] = {}
+    iteration = replace(iteration, balanced=BALANCED)
 
     def stiffness(share: float) -> float:
         begin = equations.moved(before.state, chord * share)

@@ -25,11 +25,15 @@ STALLED, ROUND_OFF = 0.3, 1e-7
 
 @dataclass(frozen=True)
 class Iteration:
-    """How Newton's iteration goes: tolerance of the last change, in lengths of the machine and radians; most iterations; line search."""
+    """How Newton's iteration goes: tolerance of the last change, in lengths of the machine and radians; most iterations; line search.
+
+    balanced : unbalanced forces of this share of the loads end it as well: next to a critical point changes are no measure.
+    """
 
     tolerance: float = 1e-10
     most: int = 25
     search: bool = True
+    balanced: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -65,6 +69,8 @@ def equilibrate(
         try:
             tangent = equations.tangent(state)
             r, C = equations.evaluate(state)
+            if iteration.balanced and _is_balanced(equations, state, r, C, iteration.balanced):
+                return Found(state, tangent, number, moved, tuple(sizes))
             found: Any = factors(tangent.saddle()) if border is None and len(r) + len(C) else None
             found = bordered(tangent, border) if border is not None else found
             change = _change(found, r, C, border)
@@ -87,6 +93,11 @@ def equilibrate(
         if share == 1.0 and (size <= iteration.tolerance or stalled):
             return Found(state, tangent, number, moved, tuple(sizes))
     raise NoEquilibrium(f"{iteration.most} iterations are not enough", state, tuple(sizes))
+
+
+def _is_balanced(equations: StaticEquations, state: Rest, r: Array, C: Array, share: float) -> bool:
+    left = float(np.max(np.abs(r), initial=0.0)) * equations.energy
+    return float(np.max(np.abs(C), initial=0.0)) <= share and left <= share * equations.loads(state)
 
 
 def _change(found: Any, r: Array, C: Array, border: Change | None) -> Change:

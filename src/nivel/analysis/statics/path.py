@@ -95,7 +95,7 @@ def _load_step(equations: StaticEquations, before: Found, until: float, iteratio
 
 
 def by_arc_length(equations: StaticEquations, first: Point, steps: Steps) -> Iterator[Point]:
-    """Equilibria along the path until its time is the duration, or before the start; the last one at the duration itself.
+    """Equilibria along the path until its time is the duration, or as long before the start; the last one at the duration itself.
 
     Raises NoEquilibrium where no step goes on.
     """
@@ -120,7 +120,7 @@ def by_arc_length(equations: StaticEquations, first: Point, steps: Steps) -> Ite
         equations.follow(found.state)
         point = Point(found, point.along + length * steps.duration)
         yield point
-        if found.state.t < -NEAR * steps.duration:
+        if found.state.t < -steps.duration:
             return
         count += 1
         if count > steps.most:

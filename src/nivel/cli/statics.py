@@ -1,0 +1,125 @@
+"""`nivel statics MACHINE`: where a machine rests under its loads; a result file, a report beside it, a summary."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import click
+
+from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
+from nivel.cli.progress import progress_listener
+from nivel.cli.run import COLOURS, assembly_lines, beside, refuse_to_replace
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+
+SHOWN: Final = 12  # vibrations in the terminal
+
+
+@click.command(short_help="Find where a machine rests under its loads.")
+@file_argument("machine")
+@click.option("--duration", metavar="TIME", help="To which time loads and drivers go on, e.g. 1; 0: only t = 0.")
+@click.option("--step", metavar="TIME", help="Of time, between states; default: a twentieth of the duration.")
+@click.option("--arc-length", is_flag=True, help="Follow the path through limit points, where time turns back.")
+@click.option("--tolerance", metavar="NUMBER", help="Of the last change, in lengths of the machine and radians; default 1e-10.")
+@click.option("--most-iterations", metavar="NUMBER", help="Of Newton's method for a state; default 25.")
+@click.option("--no-line-search", is_flag=True, help="Take full steps of Newton's method always.")
+@click.option("--modes", metavar="NUMBER", help="Natural frequencies and modes about every state: so many.")
+@click.option("--buckling", metavar="NUMBER", help="Linearised buckling loads from the first and the last state: so many.")
+@click.option("--coordinates", metavar="NAME", help="What the equations are written in: auto, absolute, relative.")
+@override_option
+@allow_code_option
+@click.option("--out", metavar="FILE.nc", type=click.Path(), help="Result file. Default: NAME-statics.nc in the working directory.")
+@click.option("--force", is_flag=True, help="Replace an existing result.")
+@click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
+@quiet_option
+@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")
+def command(
+    machine: str,
+    overrides: dict[str, str],
+    allow_code: bool,
+    out: str | None,
+    force: bool,
+    no_report: bool,
+    quiet: bool,
+    as_json: bool,
+    no_line_search: bool,
+    **options: Any,
+) -> None:
+    """Find the static equilibrium of MACHINE, and how it changes while time, on which its loads and drivers depend, goes on.
+
+    Velocities are zero: dampers and the speeds of drivers have no part. Exit code 0 done, 2 the input is at fault, 3 no equilibrium was
+    found, 130 interrupted; what was computed is kept in every case.
+    """
+    from nivel.api import load
+    from nivel.errors import ModelError, SolveError
+
+    loaded = load(machine, overrides, allow_code=allow_code)
+    target = Path(out) if out is not None else Path(f"{loaded.name}-statics.nc")
+    report = None if no_report else beside(target)
+    refuse_to_replace(report, target, force, Path(machine))
+    failure: SolveError | None = None
+    with progress_listener(quiet) as listener:
+        try:
+            result = loaded.statics(**options, line_search=not no_line_search, out=target, force=force, listener=listener)
+        except SolveError as error:
+            failure = error
+            result: Any = error.result
+        if report is not None and result is not None:
+            listener.say("writing the report")
+            try:
+                result.report(report)
+            except ModelError:
+                if failure is None:
+                    raise
+    if as_json and result is not None:
+        click.echo(json.dumps(result.summary(), indent=2))
+    if not quiet and result is not None:
+        _say(result, target, report)
+    if failure is not None:
+        raise failure
+    if result is not None and result.outcome == "interrupted":
+        raise KeyboardInterrupt
+
+
+def _say(result: Result, target: Path, report: Path | None) -> None:
+    from rich.console import Console
+
+    console = Console(stderr=True, highlight=False)
+    time, timing = result.time, result.timing
+    reached = f"t = {time[-1]:.6g} s" if len(time) else "no state"
+    states = f"{len(time)} state{'s' * (len(time) != 1)}"
+    console.print(
+        f"[bold]{result.name}[/bold]: {result.outcome}, {states} up to {reached}, {timing.get('iterations', 0)} iterations, "
+        f"{timing.get('loop_seconds', 0.0):.3g} s of computing"
+    )
+    for line in assembly_lines(result):
+        console.print(line)
+    for line in vibration_lines(result):
+        console.print(line, markup=False)
+    for each in json.loads(str(result.attributes.get("buckling", "[]"))):
+        console.print(f"buckling: at t = {each['time']:.6g} s by extrapolation; most moves: {each['moves']}", markup=False)
+    console.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
+    for item in result.trust.items:
+        console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
+    console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
+
+
+def vibration_lines(result: Result) -> list[str]:
+    """The vibrations about the last state, a line each."""
+    from math import isnan, sqrt
+
+    if "vibration_stiffness" not in result.variables or not len(result.time):
+        return []
+    last = slice(len(result.time) - 1, None)
+    squares = result.array("vibration_stiffness", last)[0]
+    known = [float(value) for value in squares if not isnan(value)]
+    lines = []
+    for k, value in enumerate(known[:SHOWN]):
+        said = f"{sqrt(value) / 6.283185307179586:.6g} Hz" if value > 0.0 else f"unstable, grows as exp({sqrt(-value):.4g} t/s)"
+        lines.append(f"vibration {k + 1}: {said}")
+    if len(known) > SHOWN:
+        lines.append(f"and {len(known) - SHOWN} more in the result")
+    return lines

@@ -108,7 +108,7 @@ def rotation_between(p: Array, q: Array) -> Array:
 
 def _values(tangent: Tangent, number: int) -> tuple[Array, Array, int]:
     """Eigenvalues next to zero with their directions, and how many negative ones are not among them."""
-    values, vectors = lowest(tangent, number + 3)
+    values, vectors = lowest(tangent, number + 3, tangent.M, nearest=True)
     return values, vectors, negative_directions(tangent) - int(np.sum(values < 0.0))
 
 
@@ -129,8 +129,7 @@ def _nearest(tangent: Tangent, number: int) -> Array:
 def _kind(tangent: Tangent, direction: Array) -> str:
     """What the loads, and the forces μ of the constraints that the direction asks for, do along it as time goes on: φᵀ ∂r/∂t + μᵀ ∂C/∂t."""
     size, rows = len(direction), tangent.C.shape[0]
-    rigid = Tangent(0.0 * tangent.K, tangent.C, tangent.M, tangent.D, tangent.slope, tangent.opening)
-    mu = solve(rigid, -(tangent.K @ direction), np.zeros(rows), 1.0).lam if rows and size else np.zeros(rows)
+    mu = solve(tangent.rigid(), -(tangent.K @ direction), np.zeros(rows), 1.0).lam if rows and size else np.zeros(rows)
     work = abs(float(direction @ tangent.slope + mu @ tangent.opening))
     could = float(np.linalg.norm(direction) * np.linalg.norm(tangent.slope))
     could += float(np.linalg.norm(mu) * np.linalg.norm(tangent.opening))

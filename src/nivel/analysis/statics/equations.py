@@ -9,22 +9,23 @@ energies over a scale of energy e, constraints over their own scales.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import bmat, csc_matrix, csr_matrix, diags
+from scipy.sparse import bmat, csc_matrix, diags
 
 from nivel.analysis.equations import MotionEquations
+from nivel.analysis.statics.pattern import Block
 from nivel.kernels import static_entries, tangent_entries
 from nivel.kernels.record import NONE
 from nivel.kernels.status import OK
 from nivel.system.system import Array
 
 Sparse = Any  # a matrix of scipy.sparse, whose stubs do not know its operators
-GAUGE = 1e-300
 
 
 class NotAState(Exception):
@@ -57,22 +58,36 @@ class Change:
 
 @dataclass(frozen=True)
 class Tangent:
-    """Matrices at a state, without units: K (f, f) stiffness, C (K, f) constraints; M, D (f, f) in units of their own, for vibrations.
+    """Matrices at a state, without units: K (f, f) stiffness, C (K, f) constraints; M, D (f, f) of their own units, made when asked for.
 
     slope, opening : derivatives of r (f,) and C (K,) with respect to time over its scale.
     """
 
     K: Sparse
     C: Sparse
-    M: Sparse
-    D: Sparse
     slope: Array
     opening: Array
+    inertia: Callable[[], Sparse]
+    damping: Callable[[], Sparse]
+
+    @cached_property
+    def M(self) -> Sparse:
+        """(f, f) mass."""
+        return self.inertia()
+
+    @cached_property
+    def D(self) -> Sparse:
+        """(f, f) damping."""
+        return self.damping()
 
     def saddle(self, shift: float = 0.0) -> Sparse:
         """[K + shift, Cᵀ; C, 0]."""
         K = self.K if shift == 0.0 else self.K + diags(np.full(self.K.shape[0], shift))
         return csc_matrix(bmat([[K, self.C.T], [self.C, None]])) if self.C.shape[0] else csc_matrix(K)
+
+    def rigid(self) -> Tangent:
+        """The same constraints without any stiffness."""
+        return replace(self, K=0.0 * self.K)
 
 
 class StaticEquations:
@@ -93,10 +108,6 @@ class StaticEquations:
         self.free = np.flatnonzero(~self._idle())
         self.row_scale = self.record.constraints.scale[self.residual.row]
         self.energy = 1.0
-
-    @cached_property
-    def _sparsity(self) -> tuple[Array, Array]:
-        return self.newton.column.astype(np.int32), self.newton.row_start.astype(np.int32)
 
     def _idle(self) -> NDArray[np.bool_]:
         """Unknowns that mean nothing: turns of point masses."""
@@ -140,29 +151,35 @@ class StaticEquations:
         slope = np.zeros(len(self.residual.value))
         if static_entries.find_time_slope(address, state.t, slope) != OK or not np.isfinite(slope).all():
             raise NotAState
-        n, free = self.n, self.free
-        by_length, by_row = diags(self.length[free]), diags(1.0 / self.row_scale)
-        K, D, M = (self._matrix(part) for part in (self.newton.shifted.K, self.newton.shifted.D, self.newton.shifted.M))
-
-        def inner(matrix: Sparse) -> Sparse:
-            return by_length @ matrix[:n, :n][free][:, free] @ by_length / self.energy
-
-        slope *= self.duration
+        K, D, M = (self._numbers(part) for part in (self.newton.shifted.K, self.newton.shifted.D, self.newton.shifted.M))
+        slope, n, share = slope * self.duration, self.n, 1.0 / self.energy
+        inner, rows = self._blocks
         return Tangent(
-            K=csc_matrix(inner(K)),
-            C=csr_matrix(by_row @ M[n:, :n][:, free] @ by_length),
-            M=csc_matrix(inner(M)),
-            D=csc_matrix(inner(D)),
-            slope=(slope[:n] * self.length)[free] / self.energy,
+            K=inner.of(K, share),
+            C=rows.of(M),
+            slope=(slope[:n] * self.length)[self.free] / self.energy,
             opening=slope[n : n + self.rows] / self.row_scale,
+            inertia=lambda: inner.of(M, share),
+            damping=lambda: inner.of(D, share),
         )
 
-    def _matrix(self, value: Array) -> Sparse:
+    @cached_property
+    def _blocks(self) -> tuple[Block, Block]:
+        """Forces over free unknowns, and constraints over free unknowns."""
+        start = self.newton.row_start.astype(np.int64)
+        row = np.repeat(np.arange(self.n + self.rows), np.diff(start))
+        column = self.newton.column.astype(np.int64)
+        by_row, by_column = np.append(self.length, 1.0 / self.row_scale), np.append(self.length, np.ones(self.rows))
+        constraints = self.n + np.arange(self.rows)
+        inner = Block(row, column, self.free, self.free, (by_row, by_column))
+        return inner, Block(row, column, constraints, self.free, (by_row, by_column))
+
+    @staticmethod
+    def _numbers(value: Array) -> Array:
+        """A copy of the entries of a derivative."""
         if not np.isfinite(value).all():
             raise NotAState
-        column, start = self._sparsity
-        size = self.n + self.rows
-        return csr_matrix((value, column, start), shape=(size, size), copy=True)
+        return value.copy()
 
     def weigh(self, state: Rest) -> None:
         """Choose the scale of energy e: the largest stiffness at a state, or where there is none the largest force."""

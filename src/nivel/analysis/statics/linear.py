@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.linalg import eigh, eigvalsh, null_space
+from scipy.linalg import LinAlgWarning, eigh, eigvalsh, lu_factor, lu_solve, null_space
 from scipy.sparse import bmat, csc_matrix, diags
 from scipy.sparse.linalg import splu
 
@@ -15,8 +16,12 @@ from nivel.system.system import Array
 
 # Up to so many unknowns the null space of the constraints is made as a full matrix.
 DENSE = 240
+# Up to so many rows matrices are factorised as full ones.
+FULL = 60
 # Stiffness of the constraints in the count of the negative pivots of large machines, as a share of the largest stiffness.
 STIFF = 1e7
+# Eigenvalues next to zero that are looked at where pivots do not tell.
+FEW = 6
 # Pivots below this share of the largest are none.
 NO_PIVOT = 1e-15
 
@@ -27,16 +32,33 @@ class NoPivot(Exception):
 
 def factors(matrix: Sparse) -> Any:
     """LU factors with exchange of rows. Raises NoPivot where the matrix is singular to round-off."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            found = splu(csc_matrix(matrix))
-        except RuntimeError as error:
-            raise NoPivot from error
-    pivots = np.abs(found.U.diagonal())
-    if not len(pivots) or not pivots.min() > NO_PIVOT * pivots.max():
-        raise NoPivot
+    if matrix.shape[0] <= FULL:
+        return _Full(matrix.toarray())
+    try:
+        found = splu(csc_matrix(matrix))
+    except RuntimeError as error:
+        raise NoPivot from error
+    _refuse_small(found.U.diagonal())
     return found
+
+
+class _Full:
+    """Factors of a small matrix."""
+
+    def __init__(self, matrix: Array) -> None:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", LinAlgWarning)  # a pivot of zero is told below
+            self._factors = lu_factor(matrix)
+        _refuse_small(np.diagonal(self._factors[0]))
+
+    def solve(self, b: Array) -> Array:
+        return lu_solve(self._factors, b)
+
+
+def _refuse_small(pivots: Array) -> None:
+    size = np.abs(pivots)
+    if not len(size) or not size.min() > NO_PIVOT * size.max():
+        raise NoPivot
 
 
 def solve(tangent: Tangent, r: Array, C: Array, shift: float = 0.0) -> Change:
@@ -76,8 +98,8 @@ def symmetric(matrix: Any) -> Any:
 def negative_directions(tangent: Tangent, shift: float = 0.0) -> int:
     """Number of negative eigenvalues of K + shift on the motions that all constraints allow.
 
-    Of small machines by these eigenvalues; of large ones by Sylvester's law of inertia, from the signs of the pivots of
-    [K + shift, Cᵀ; C, -1/s], whose constraints are springs of a large stiffness s, eliminated without exchange of rows.
+    Of small machines by these eigenvalues; of large ones by Sylvester's law of inertia, from the signs of the pivots of K + shift + s Cᵀ C,
+    in which constraints are springs of a large stiffness s, eliminated without exchange of rows.
     """
     size = tangent.K.shape[0]
     if not size:
@@ -87,13 +109,11 @@ def negative_directions(tangent: Tangent, shift: float = 0.0) -> int:
         values = eigvalsh(symmetric(Z.T @ (tangent.K @ Z)) + shift * np.eye(Z.shape[1])) if Z.shape[1] else np.zeros(0)
         return int(np.sum(values < 0.0))
     K = symmetric(tangent.K) + shift * diags(np.ones(size))
-    rows = tangent.C.shape[0]
-    matrix = bmat([[K, tangent.C.T], [tangent.C, diags(np.full(rows, -1.0 / STIFF))]]) if rows else K
-    signs = _pivot_signs(csc_matrix(matrix))
-    if signs is None:
-        values, _ = lowest(tangent, 6)
-        return int(np.sum(values + shift < 0.0))
-    return int(np.sum(signs < 0)) - rows
+    signs = _pivot_signs(csc_matrix(K + STIFF * (tangent.C.T @ tangent.C)))
+    if signs is not None:
+        return int(np.sum(signs < 0))
+    values, _ = lowest(replace(tangent, K=csc_matrix(K)), FEW, tangent.M)
+    return int(np.sum(values < 0.0))
 
 
 def _pivot_signs(matrix: Sparse) -> Array | None:
@@ -109,10 +129,10 @@ def _pivot_signs(matrix: Sparse) -> Array | None:
     return np.sign(found.U.diagonal())
 
 
-def lowest(tangent: Tangent, count: int, metric: Sparse = None) -> tuple[Array, Array]:
-    """(values (k,), directions (f, k)): eigenvalues of K φ = ω² M φ on the motions that all constraints allow, those next to zero, ascending.
+def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool = False) -> tuple[Array, Array]:
+    """(values (k,), directions (f, k)): the lowest eigenvalues of K φ = ω² M φ on the motions that all constraints allow, ascending.
 
-    metric : M; absent, the unit matrix. Directions have φᵀ M φ = 1.
+    metric : M; absent, the unit matrix. Directions have φᵀ M φ = 1. nearest : those next to zero; of large machines always.
     Of large machines by inverse iteration with the factors of the saddle (Lanczos; shift and invert).
     """
     size = tangent.K.shape[0]
@@ -122,8 +142,8 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None) -> tuple[Array, 
         if not Z.shape[1]:
             return np.zeros(0), np.zeros((size, 0))
         values, vectors = eigh(symmetric(Z.T @ (tangent.K @ Z)), symmetric(Z.T @ (M @ Z)))
-        chosen = np.sort(np.argsort(np.abs(values), kind="stable")[:count]) if metric is None else np.arange(count)
-        chosen = chosen[chosen < len(values)]
+        order = np.argsort(np.abs(values), kind="stable") if nearest else np.arange(len(values))
+        chosen = np.sort(order[:count])
         return values[chosen], Z @ vectors[:, chosen]
     return _lanczos(tangent, count, M)
 

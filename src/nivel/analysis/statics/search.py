@@ -49,8 +49,7 @@ def _balanced(equations: StaticEquations, state: Rest) -> tuple[Rest, Array]:
     tangent = equations.tangent(state)
     applied, _ = equations.evaluate(state, np.zeros(equations.rows))
     if equations.rows:
-        rigid = Tangent(0.0 * tangent.K, tangent.C, tangent.M, tangent.D, tangent.slope, tangent.opening)
-        lam = solve(rigid, -applied, np.zeros(equations.rows), 1.0).lam
+        lam = solve(tangent.rigid(), -applied, np.zeros(equations.rows), 1.0).lam
         state = with_multipliers(state, equations.force_of(lam))
     return state, equations.evaluate(state)[0]
 

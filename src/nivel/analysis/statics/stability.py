@@ -34,12 +34,14 @@ def softest(tangent: Tangent) -> Softest | None:
         return None
     largest = float(np.abs(tangent.K).max())
     try:
-        values, vectors = lowest(tangent, 1)
+        values, vectors = lowest(tangent, 1, tangent.M, nearest=True)
     except NoPivot:
         return Softest(0.0, np.zeros(size))
     if not len(values):
         return None
-    return Softest(abs(float(values[0])) / largest if largest > 0.0 else 0.0, vectors[:, 0])
+    direction = vectors[:, 0]
+    stiffness = abs(float(direction @ (tangent.K @ direction))) / float(direction @ direction)
+    return Softest(stiffness / largest if largest > 0.0 else 0.0, direction)
 
 
 def is_mechanism(found: Softest | None) -> bool:

@@ -54,7 +54,7 @@ def failure(
         told = _singular_rotation(motion.system.bodies[number])
     else:
         # what is not a number spoils pivots as well, so look for it first
-        told = _broken_function(motion, time, step, y)
+        told = broken_function(motion, time, step, y)
         if told is None and chosen:
             told = _no_step(motion, status, time, step, y)
         elif told is None and status == SINGULAR:
@@ -209,7 +209,7 @@ def _singular_rotation(body: str) -> tuple[str, str]:
     return message, advice
 
 
-def _broken_function(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str] | None:
+def broken_function(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str] | None:
     """The first force or driver that is not a finite number at a time that the step from `time` looks at."""
     system, record = motion.system, motion.system.record
     outputs, constraints = record.outputs.value, record.constraints

@@ -23,15 +23,24 @@ SHOWN: Final = 12  # vibrations in the terminal
 @click.option("--duration", metavar="TIME", help="To which time loads and drivers go on, e.g. 1; 0: only t = 0.")
 @click.option("--step", metavar="TIME", help="Of time, between states; default: a twentieth of the duration.")
 @click.option("--arc-length", is_flag=True, help="Follow the path through limit points, where time turns back.")
-@click.option("--tolerance", metavar="NUMBER", help="Of the last change, in lengths of the machine and radians; default 1e-10.")
+@click.option(
+    "--tolerance", metavar="NUMBER", help="Of the last change, in lengths of the machine and radians; default 1e-10."
+)
 @click.option("--most-iterations", metavar="NUMBER", help="Of Newton's method for a state; default 25.")
 @click.option("--no-line-search", is_flag=True, help="Take full steps of Newton's method always.")
 @click.option("--modes", metavar="NUMBER", help="Natural frequencies and modes about every state: so many.")
-@click.option("--buckling", metavar="NUMBER", help="Linearised buckling loads from the first and the last state: so many.")
+@click.option(
+    "--buckling", metavar="NUMBER", help="Linearised buckling loads from the first and the last state: so many."
+)
 @click.option("--coordinates", metavar="NAME", help="What the equations are written in: auto, absolute, relative.")
 @override_option
 @allow_code_option
-@click.option("--out", metavar="FILE.nc", type=click.Path(), help="Result file. Default: NAME-statics.nc in the working directory.")
+@click.option(
+    "--out",
+    metavar="FILE.nc",
+    type=click.Path(),
+    help="Result file. Default: NAME-statics.nc in the working directory.",
+)
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 @click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
 @quiet_option
@@ -63,7 +72,9 @@ def command(
     failure: SolveError | None = None
     with progress_listener(quiet) as listener:
         try:
-            result = loaded.statics(**options, line_search=not no_line_search, out=target, force=force, listener=listener)
+            result = loaded.statics(
+                **options, line_search=not no_line_search, out=target, force=force, listener=listener
+            )
         except SolveError as error:
             failure = error
             result: Any = error.result
@@ -100,7 +111,9 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
     for line in vibration_lines(result):
         console.print(line, markup=False)
     for each in json.loads(str(result.attributes.get("buckling", "[]"))):
-        console.print(f"buckling: at t = {each['time']:.6g} s by extrapolation; most moves: {each['moves']}", markup=False)
+        console.print(
+            f"buckling: at t = {each['time']:.6g} s by extrapolation; most moves: {each['moves']}", markup=False
+        )
     console.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
     for item in result.trust.items:
         console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
@@ -118,7 +131,11 @@ def vibration_lines(result: Result) -> list[str]:
     known = [float(value) for value in squares if not isnan(value)]
     lines = []
     for k, value in enumerate(known[:SHOWN]):
-        said = f"{sqrt(value) / 6.283185307179586:.6g} Hz" if value > 0.0 else f"unstable, grows as exp({sqrt(-value):.4g} t/s)"
+        said = (
+            f"{sqrt(value) / 6.283185307179586:.6g} Hz"
+            if value > 0.0
+            else f"unstable, grows as exp({sqrt(-value):.4g} t/s)"
+        )
         lines.append(f"vibration {k + 1}: {said}")
     if len(known) > SHOWN:
         lines.append(f"and {len(known) - SHOWN} more in the result")

@@ -6,6 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.report.panel import Array
 
@@ -104,7 +105,9 @@ def _grid(place: _Place, horizontal: Array, vertical: Array) -> str:
     for value in vertical:
         y = place.y(value)
         lines.append(f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y:.1f}" y2="{y:.1f}"/>')
-        lines.append(f'<text class="tick" x="{LEFT - 6}" y="{y + 4:.1f}" style="text-anchor:end">{_short(value)}</text>')
+        lines.append(
+            f'<text class="tick" x="{LEFT - 6}" y="{y + 4:.1f}" style="text-anchor:end">{_short(value)}</text>'
+        )
     return "".join(lines)
 
 
@@ -112,7 +115,7 @@ def _short(value: float) -> str:
     return f"{value:.4g}".replace("e-0", "e-").replace("e+0", "e") if abs(value) > 1e-14 else "0"
 
 
-def _stretches(unstable: Array) -> list[tuple[bool, int, int]]:
+def _stretches(unstable: NDArray[np.bool_]) -> list[tuple[bool, int, int]]:
     """(unstable, first, last) of the stretches of states of one kind; a line between two kinds is dashed."""
     between = unstable[:-1] | unstable[1:]
     edges = np.flatnonzero(np.diff(between.astype(int))) + 1
@@ -143,4 +146,3 @@ def _frequency(square: float) -> str:
     if square < 0.0:
         return f"unstable, grows by e in {1.0 / np.sqrt(-square):.4g} s"
     return f"{np.sqrt(square) / (2.0 * np.pi):.6g} Hz"
-

@@ -96,7 +96,9 @@ def _stability(result: Readable) -> Item:
     counts, time = result.array("unstable_directions"), result.time
     unstable = np.flatnonzero(counts > 0)
     if not len(unstable):
-        return Item("stability", "green", "Stability: every state is stable: no direction of negative stiffness (green so)")
+        return Item(
+            "stability", "green", "Stability: every state is stable: no direction of negative stiffness (green so)"
+        )
     first, total = int(unstable[0]), len(counts)
     most = int(counts.max())
     directions = "1 direction" if most == 1 else f"up to {most} directions"

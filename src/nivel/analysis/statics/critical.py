@@ -13,8 +13,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from nivel.analysis.statics.equations import Change, Rest, StaticEquations, Tangent
-from nivel.analysis.statics.linear import NoPivot, lowest, negative_directions, solve
-from nivel.analysis.statics.newton import Found, Iteration, NoEquilibrium, equilibrate
+from nivel.analysis.statics.linear import PivotError, lowest, negative_directions, solve
+from nivel.analysis.statics.newton import Found, Iteration, EquilibriumError, equilibrate
 from nivel.analysis.statics.path import Point
 from nivel.kernels.record import NONE
 from nivel.system.system import Array
@@ -66,12 +66,11 @@ def _locate(
 
     try:
         ends = _eigenvalue(before.found.tangent, number), _eigenvalue(after.found.tangent, number)
-        if ends[0] * ends[1] > 0.0:
-            raise ValueError
+        # of stiffnesses of one sign at both ends Brent's method says that it cannot begin
         share = 0.0 if ends[0] == 0.0 else float(brentq(stiffness, 0.0, 1.0, xtol=EXACT))  # type: ignore[arg-type]
         stiffness(share)
         found, exact = last["found"], True
-    except (NoEquilibrium, NoPivot, ValueError):
+    except (EquilibriumError, PivotError, ValueError):
         share, exact = 0.5, False
         found = before.found
     t = found.state.t if exact else 0.5 * (before.state.t + after.state.t)
@@ -122,7 +121,7 @@ def _nearest(tangent: Tangent, number: int) -> Array:
     try:
         values, vectors, hidden = _values(tangent, number)
         return vectors[:, min(max(0, number - hidden), len(values) - 1)]
-    except NoPivot:
+    except PivotError:
         return np.zeros(tangent.K.shape[0])
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from nivel.analysis.statics.equations import NotAState, StaticEquations
-from nivel.analysis.statics.linear import NoPivot
-from nivel.analysis.statics.newton import NoEquilibrium
+from nivel.analysis.statics.equations import StateError, StaticEquations
+from nivel.analysis.statics.linear import PivotError
+from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps
+from nivel.analysis.statics.search import MOVES_ON
 from nivel.analysis.statics.stability import Softest, is_mechanism, limit_ahead, softest
 from nivel.analysis.statics.words import direction_in_words, worst_row
 
@@ -18,18 +19,20 @@ def without_stiffness(equations: StaticEquations, loose: Softest) -> tuple[str, 
     return f"the machine is a mechanism: a motion has no stiffness, in which most moves: {words}", HOLD
 
 
-def no_start(equations: StaticEquations, error: NoEquilibrium) -> tuple[str, str]:
+def no_start(equations: StaticEquations, error: EquilibriumError) -> tuple[str, str]:
     """(message, advice) where no equilibrium was found at t = 0."""
     try:
         r, C = equations.evaluate(error.state)
         loose = softest(equations.tangent(error.state))
-    except (NotAState, NoPivot):
+    except (StateError, PivotError):
         return f"no equilibrium was found at t = 0: {error.reason}", "Look at the laws of the forces at t = 0."
     row = worst_row(equations, r, C)
     message = f"no equilibrium was found at t = 0: {error.reason}; worst is {row}"
     if loose is not None and is_mechanism(loose):
         words = direction_in_words(equations, loose.direction)
         return f"{message}; a motion has no stiffness, in which most moves: {words}", HOLD
+    if error.reason == MOVES_ON:
+        return message, "Some load drives it on and on: hold the machine against it by a joint, a spring or a driver."
     return message, (
         "Is the machine held against its loads in every direction? If so draw it nearer to its equilibrium, or let loads grow with "
         "time from t = 0 (an expression of t, or a table)."
@@ -37,7 +40,7 @@ def no_start(equations: StaticEquations, error: NoEquilibrium) -> tuple[str, str
 
 
 def path_ended(
-    equations: StaticEquations, last: Point, steps: Steps, error: NoEquilibrium, arc_length: bool
+    equations: StaticEquations, last: Point, steps: Steps, error: EquilibriumError, arc_length: bool
 ) -> tuple[str, str]:
     """(message, advice) where the path could not be followed on."""
     t = last.state.t
@@ -48,15 +51,16 @@ def path_ended(
         if ahead is not None and ahead.found is not None:
             words = direction_in_words(equations, ahead.direction)
             what = "the path turns back at a limit point" if ahead.kind == "limit point" else "there is a bifurcation"
+            where = f"{what} at t = {ahead.t:.9g} s, where a motion loses its stiffness, in which most moves: {words}"
             return (
-                f"stopped at t = {t:.9g} s: {what} at t = {ahead.t:.9g} s, where a motion loses its stiffness, in which most moves: {words}",
+                f"stopped at t = {t:.9g} s: {where}",
                 "With --arc-length the path is followed on through limit points. With more load than there the machine jumps: a run "
                 "in time shows where to.",
             )
     try:
         r, C = equations.evaluate(error.state)
         message += f"; worst is {worst_row(equations, r, C)}"
-    except (NotAState, ValueError):
+    except (StateError, ValueError):
         pass
     loose = softest(last.found.tangent)
     if loose is not None and loose.share < 1e-4:

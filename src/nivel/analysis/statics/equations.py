@@ -1,7 +1,7 @@
 """The equations of rest of one machine: r(q, 0, 0, λ, t) = 0 and C(q, t) = 0, with exact derivatives, as sparse matrices.
 
-They are the residual of implicit methods (`nivel.kernels.residual`) with all velocities and accelerations zero: the speed of a driver, which
-stands in Ċ alone, never enters. Positions move by tangent increments: rotations of bodies after the present one, in their own axes.
+They are the residual of implicit methods (`nivel.kernels.residual`) with all velocities and accelerations zero: the speed of a driver,
+which stands in Ċ alone, never enters. Positions move by tangent increments: rotations of bodies after the present one, in their own axes.
 
 So that units do not matter, every number is made one without: translations in lengths of the machine, forces and moments along unknowns as
 energies over a scale of energy e, constraints over their own scales.
@@ -28,7 +28,7 @@ from nivel.system.system import Array
 Sparse = Any  # a matrix of scipy.sparse, whose stubs do not know its operators
 
 
-class NotAState(Exception):
+class StateError(Exception):
     """Something in a state is not a number, or its equations cannot be evaluated there."""
 
 
@@ -128,11 +128,11 @@ class StaticEquations:
         """(r (f,), C (K,)) without units, for the multipliers of the state or others. The record is left evaluated."""
         self._load(state, state.lam if lam is None else lam)
         if tangent_entries.evaluate_residual(self.motion.handle.address, state.t) != OK:
-            raise NotAState
+            raise StateError
         value = self.residual.value
         r, C = value[: self.n], value[self.n : self.n + self.rows]
         if not (np.isfinite(r).all() and np.isfinite(C).all()):
-            raise NotAState
+            raise StateError
         return (r * self.length)[self.free] / self.energy, C / self.row_scale
 
     def _load(self, state: Rest, lam: Array) -> None:
@@ -147,11 +147,13 @@ class StaticEquations:
         self._load(state, state.lam)
         address = self.motion.handle.address
         if static_entries.find_parts(address, state.t) != OK:
-            raise NotAState
+            raise StateError
         slope = np.zeros(len(self.residual.value))
         if static_entries.find_time_slope(address, state.t, slope) != OK or not np.isfinite(slope).all():
-            raise NotAState
-        K, D, M = (self._numbers(part) for part in (self.newton.shifted.K, self.newton.shifted.D, self.newton.shifted.M))
+            raise StateError
+        K, D, M = (
+            self._numbers(part) for part in (self.newton.shifted.K, self.newton.shifted.D, self.newton.shifted.M)
+        )
         slope, n, share = slope * self.duration, self.n, 1.0 / self.energy
         inner, rows = self._blocks
         return Tangent(
@@ -178,7 +180,7 @@ class StaticEquations:
     def _numbers(value: Array) -> Array:
         """A copy of the entries of a derivative."""
         if not np.isfinite(value).all():
-            raise NotAState
+            raise StateError
         return value.copy()
 
     def weigh(self, state: Rest) -> None:

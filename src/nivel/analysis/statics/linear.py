@@ -26,18 +26,18 @@ FEW = 6
 NO_PIVOT = 1e-15
 
 
-class NoPivot(Exception):
+class PivotError(Exception):
     """A matrix has no inverse."""
 
 
 def factors(matrix: Sparse) -> Any:
-    """LU factors with exchange of rows. Raises NoPivot where the matrix is singular to round-off."""
+    """LU factors with exchange of rows. Raises PivotError where the matrix is singular to round-off."""
     if matrix.shape[0] <= FULL:
         return _Full(matrix.toarray())
     try:
         found = splu(csc_matrix(matrix))
     except RuntimeError as error:
-        raise NoPivot from error
+        raise PivotError from error
     _refuse_small(found.U.diagonal())
     return found
 
@@ -58,7 +58,7 @@ class _Full:
 def _refuse_small(pivots: Array) -> None:
     size = np.abs(pivots)
     if not len(size) or not size.min() > NO_PIVOT * size.max():
-        raise NoPivot
+        raise PivotError
 
 
 def solve(tangent: Tangent, r: Array, C: Array, shift: float = 0.0) -> Change:
@@ -90,6 +90,12 @@ def free_directions(tangent: Tangent) -> Array:
     return null_space(tangent.C.toarray()) if tangent.C.shape[0] else np.eye(tangent.K.shape[0])
 
 
+def is_small(tangent: Tangent, count: int = 0) -> bool:
+    """Whether full matrices are the way to `count` eigenvalues: few unknowns, or few motions, among which Lanczos's method goes astray."""
+    size, rows = tangent.K.shape[0], tangent.C.shape[0]
+    return size <= DENSE or (count > 0 and size - rows <= max(2 * count + 1, 20) + FEW)
+
+
 def symmetric(matrix: Any) -> Any:
     """Its symmetric part: of a stiffness at an equilibrium of conservative forces, all of it."""
     return 0.5 * (matrix + matrix.T)
@@ -104,7 +110,7 @@ def negative_directions(tangent: Tangent, shift: float = 0.0) -> int:
     size = tangent.K.shape[0]
     if not size:
         return 0
-    if size <= DENSE:
+    if is_small(tangent):
         Z = free_directions(tangent)
         values = eigvalsh(symmetric(Z.T @ (tangent.K @ Z)) + shift * np.eye(Z.shape[1])) if Z.shape[1] else np.zeros(0)
         return int(np.sum(values < 0.0))
@@ -137,7 +143,7 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
     """
     size = tangent.K.shape[0]
     M = diags(np.ones(size)) if metric is None else metric
-    if size <= DENSE:
+    if is_small(tangent, count):
         Z = free_directions(tangent)
         if not Z.shape[1]:
             return np.zeros(0), np.zeros((size, 0))
@@ -161,10 +167,10 @@ def _lanczos(tangent: Tangent, count: int, M: Sparse) -> tuple[Array, Array]:
             matrix = K - shift * M
             found = factors(bmat([[matrix, tangent.C.T], [tangent.C, None]]) if rows else matrix)
             break
-        except NoPivot:
+        except PivotError:
             continue
     if found is None:
-        raise NoPivot
+        raise PivotError
     last: Any = found
 
     def inverse(b: Array) -> Array:

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from nivel.analysis.statics.equations import Change, NotAState, Rest, StaticEquations, Tangent
-from nivel.analysis.statics.linear import NoPivot, bordered, factors, solve_bordered
+from nivel.analysis.statics.equations import Change, StateError, Rest, StaticEquations, Tangent
+from nivel.analysis.statics.linear import PivotError, bordered, factors, solve_bordered
 from nivel.system.system import Array
 
 # The least share of a step that is tried.
@@ -47,7 +47,7 @@ class Found:
     sizes: tuple[float, ...]
 
 
-class NoEquilibrium(Exception):
+class EquilibriumError(Exception):
     """No state of equilibrium was found from where the iteration began. state : the last one; sizes : of all changes in turn."""
 
     def __init__(self, reason: str, state: Rest, sizes: tuple[float, ...] = ()) -> None:
@@ -55,13 +55,11 @@ class NoEquilibrium(Exception):
         self.reason, self.state, self.sizes = reason, state, sizes
 
 
-def equilibrate(
-    equations: StaticEquations, state: Rest, iteration: Iteration, border: Change | None = None
-) -> Found:
+def equilibrate(equations: StaticEquations, state: Rest, iteration: Iteration, border: Change | None = None) -> Found:
     """The equilibrium next to `state`, at its time; with a border at the time where the changes are perpendicular to the border.
 
     (Riks 1979, Wempner 1971: corrections perpendicular to the tangent of the path.)
-    Raises NoEquilibrium.
+    Raises EquilibriumError.
     """
     sizes: list[float] = []
     moved = np.zeros(len(equations.free))
@@ -74,17 +72,17 @@ def equilibrate(
             found: Any = factors(tangent.saddle()) if border is None and len(r) + len(C) else None
             found = bordered(tangent, border) if border is not None else found
             change = _change(found, r, C, border)
-        except NotAState:
-            raise NoEquilibrium("a force, or the state, is not a number", state, tuple(sizes)) from None
-        except NoPivot:
-            raise NoEquilibrium("nothing resists a motion", state, tuple(sizes)) from None
+        except StateError:
+            raise EquilibriumError("a force, or the state, is not a number", state, tuple(sizes)) from None
+        except PivotError:
+            raise EquilibriumError("nothing resists a motion", state, tuple(sizes)) from None
         size = _size(change)
         if not np.isfinite(size):
-            raise NoEquilibrium("nothing resists a motion", state, tuple(sizes))
+            raise EquilibriumError("nothing resists a motion", state, tuple(sizes))
         share = min(1.0, LONGEST / size) if size > 0.0 else 1.0
         nearer = _nearer(equations, state, found, change, share, border) if iteration.search else (share, None)
         if nearer is None:
-            raise NoEquilibrium("no step comes nearer to equilibrium", state, (*sizes, size))
+            raise EquilibriumError("no step comes nearer to equilibrium", state, (*sizes, size))
         share, _ = nearer
         state = equations.moved(state, change * share)
         moved += share * change.q
@@ -92,7 +90,7 @@ def equilibrate(
         stalled = len(sizes) > 1 and size > STALLED * sizes[-2] and size <= ROUND_OFF
         if share == 1.0 and (size <= iteration.tolerance or stalled):
             return Found(state, tangent, number, moved, tuple(sizes))
-    raise NoEquilibrium(f"{iteration.most} iterations are not enough", state, tuple(sizes))
+    raise EquilibriumError(f"{iteration.most} iterations are not enough", state, tuple(sizes))
 
 
 def _is_balanced(equations: StaticEquations, state: Rest, r: Array, C: Array, share: float) -> bool:
@@ -124,7 +122,7 @@ def _nearer(
             left = _norm(_change(found, r, C, border))
             if left <= (1.0 - 0.25 * share) * size:
                 return share, left
-        except NotAState:
+        except StateError:
             pass
         share *= 0.5
     return None

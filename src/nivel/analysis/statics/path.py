@@ -1,8 +1,8 @@
 """The path of equilibria: how the state of rest changes as time, on which loads and drivers depend, goes on.
 
-By load steps time is given and the state is found. By arc length both are found: every step is as long in (positions, time), and corrections
-are perpendicular to the tangent of the path (Riks 1979, Wempner 1971), so limit points, where loads have to fall for equilibrium to go on,
-are passed. Positions count as much as time does at the start, whatever the stiffness: the scale is the first tangent.
+By load steps time is given and the state is found. By arc length both are found: every step is as long in (positions, time), and
+corrections are perpendicular to the tangent of the path (Riks 1979, Wempner 1971), so limit points, where loads have to fall for
+equilibrium to go on, are passed. Positions count as much as time does at the start, whatever the stiffness: the scale is the first tangent.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nivel.analysis.statics.equations import Change, Rest, StaticEquations, Tangent
-from nivel.analysis.statics.linear import NoPivot, bordered, solve, solve_bordered
-from nivel.analysis.statics.newton import Found, Iteration, NoEquilibrium, equilibrate
+from nivel.analysis.statics.linear import PivotError, bordered, solve, solve_bordered
+from nivel.analysis.statics.newton import Found, Iteration, EquilibriumError, equilibrate
 
 # Steps are halved so often, at most.
 HALVINGS = 12
@@ -56,7 +56,7 @@ class Steps:
 def by_loads(equations: StaticEquations, first: Point, steps: Steps) -> Iterator[Point]:
     """Equilibria at multiples of the step after `first`, and between them where a step had to be halved.
 
-    Raises NoEquilibrium where no step goes on.
+    Raises EquilibriumError where no step goes on.
     """
     count = max(1, round(steps.duration / steps.step + 0.5 - 1e-9))
     point, share = first, 1.0
@@ -67,7 +67,7 @@ def by_loads(equations: StaticEquations, first: Point, steps: Steps) -> Iterator
             until = goal if share * steps.step >= rest * (1.0 - 1e-9) else point.state.t + share * steps.step
             try:
                 found = _load_step(equations, point.found, until, steps.iteration)
-            except NoEquilibrium:
+            except EquilibriumError:
                 share = 0.5 * min(share, rest / steps.step)
                 if share < 0.5**HALVINGS:
                     raise
@@ -79,25 +79,25 @@ def by_loads(equations: StaticEquations, first: Point, steps: Steps) -> Iterator
 
 
 def _load_step(equations: StaticEquations, before: Found, until: float, iteration: Iteration) -> Found:
-    """The equilibrium at the time `until`, next to where the tangent leads. Raises NoEquilibrium, also where it is on another path."""
+    """The equilibrium at the time `until`, next to where the tangent leads. Raises EquilibriumError, also where it is on another path."""
     tangent, dt = before.tangent, (until - before.state.t) / equations.duration
     try:
         ahead = solve(tangent, -dt * tangent.slope, -dt * tangent.opening)
-    except NoPivot:
-        raise NoEquilibrium("nothing resists a motion", before.state) from None
+    except PivotError:
+        raise EquilibriumError("nothing resists a motion", before.state) from None
     promised = float(np.max(np.abs(ahead.q), initial=0.0))
     share = min(1.0, 0.5 / promised) if promised > 0.0 else 1.0
     begin = replace(equations.moved(before.state, ahead * share), t=until)
     found = equilibrate(equations, begin, iteration)
     if float(np.max(np.abs(found.moved), initial=0.0)) > max(BESIDE * promised, JUMP):
-        raise NoEquilibrium("the next equilibrium is far away", before.state, found.sizes)
+        raise EquilibriumError("the next equilibrium is far away", before.state, found.sizes)
     return found
 
 
 def by_arc_length(equations: StaticEquations, first: Point, steps: Steps) -> Iterator[Point]:
     """Equilibria along the path until its time is the duration, or as long before the start; the last one at the duration itself.
 
-    Raises NoEquilibrium where no step goes on.
+    Raises EquilibriumError where no step goes on.
     """
     zero = np.zeros(len(equations.free))
     scale = _scale(equations, first.found.tangent)
@@ -106,11 +106,8 @@ def by_arc_length(equations: StaticEquations, first: Point, steps: Steps) -> Ite
     length, point, count = full, first, 0
     while point.state.t < steps.duration * (1.0 - NEAR):
         try:
-            found = follow_path(equations, point.found, direction, length, scale, steps.iteration)
-            after = path_tangent(found.tangent, direction, scale)
-            if path_product(direction, after, scale) < BEND:
-                raise NoEquilibrium("the path turns sharply", point.state, found.sizes)
-        except NoEquilibrium:
+            found, after = _along(equations, point.found, direction, length, scale, steps.iteration)
+        except EquilibriumError:
             length *= 0.5
             if length < full * 0.5**HALVINGS:
                 raise
@@ -124,9 +121,11 @@ def by_arc_length(equations: StaticEquations, first: Point, steps: Steps) -> Ite
             return
         count += 1
         if count > steps.most:
-            raise NoEquilibrium(f"the path has not come to its end after {steps.most} steps", point.state)
+            raise EquilibriumError(f"the path has not come to its end after {steps.most} steps", point.state)
         direction = after
-        length = min(full, 2.0 * length) if found.iterations <= FEW else 0.5 * length if found.iterations > MANY else length
+        length = (
+            min(full, 2.0 * length) if found.iterations <= FEW else 0.5 * length if found.iterations > MANY else length
+        )
 
 
 def _land(equations: StaticEquations, before: Found, after: Found, steps: Steps) -> Found:
@@ -138,19 +137,26 @@ def _land(equations: StaticEquations, before: Found, after: Found, steps: Steps)
         dt = (after.state.t - steps.duration) / equations.duration
         begin = equations.moved(after.state, Change(back.q * dt, back.lam * dt))
         return equilibrate(equations, replace(begin, t=steps.duration), steps.iteration)
-    except (NoPivot, NoEquilibrium):
+    except (PivotError, EquilibriumError):
         # the end is next to a limit point: from the side before it
         if beyond > 1.0 - 1e-9:
             raise
         return _load_step(equations, before, steps.duration, steps.iteration)
 
 
-def follow_path(
+def _along(
     equations: StaticEquations, before: Found, direction: Change, length: float, scale: float, iteration: Iteration
-) -> Found:
-    """The equilibrium a step of this length along `direction` of the path, of length one. Raises NoEquilibrium."""
+) -> tuple[Found, Change]:
+    """The equilibrium a step of this length along `direction` of the path, of length one, and the direction there.
+
+    Raises EquilibriumError.
+    """
     begin = equations.moved(before.state, direction * length)
-    return equilibrate(equations, begin, iteration, border_of(direction, scale))
+    found = equilibrate(equations, begin, iteration, border_of(direction, scale))
+    after = path_tangent(found.tangent, direction, scale)
+    if path_product(direction, after, scale) < BEND:
+        raise EquilibriumError("the path turns sharply", before.state, found.sizes)
+    return found, after
 
 
 def border_of(direction: Change, scale: float) -> Change:
@@ -164,12 +170,12 @@ def path_product(a: Change, b: Change, scale: float) -> float:
 
 
 def path_tangent(tangent: Tangent, before: Change, scale: float) -> Change:
-    """The tangent of the path, of length one, onwards from the direction `before`. Raises NoEquilibrium at a bifurcation itself."""
+    """The tangent of the path, of length one, onwards from the direction `before`. Raises EquilibriumError at a bifurcation itself."""
     zero = np.zeros(len(before.q))
     try:
         found = bordered(tangent, border_of(before, scale))
-    except NoPivot:
-        raise NoEquilibrium("two paths cross here", Rest(zero, zero, 0.0)) from None
+    except PivotError:
+        raise EquilibriumError("two paths cross here", Rest(zero, zero, 0.0)) from None
     ahead = solve_bordered(found, zero, np.zeros(tangent.C.shape[0]), 1.0)
     return ahead * (1.0 / float(np.sqrt(path_product(ahead, ahead, scale))))
 
@@ -178,8 +184,7 @@ def _scale(equations: StaticEquations, tangent: Tangent) -> float:
     """What positions count, so that at the start they change as much as time."""
     try:
         ahead = solve(tangent, -tangent.slope, -tangent.opening)
-    except NoPivot:
-        raise NoEquilibrium("nothing resists a motion", Rest(np.zeros(0), np.zeros(0), 0.0)) from None
+    except PivotError:
+        raise EquilibriumError("nothing resists a motion", Rest(np.zeros(0), np.zeros(0), 0.0)) from None
     motion = float(np.linalg.norm(ahead.q))
     return 1.0 / motion if motion > LEAST_MOTION else 1.0
-

@@ -21,7 +21,9 @@ class Block:
 
     def __init__(self, row: Index, column: Index, rows: Index, columns: Index, scales: tuple[Array, Array]) -> None:
         self.shape = (len(rows), len(columns))
-        new_row, new_column = (_renumbered(each, len(scale)) for each, scale in zip((rows, columns), scales, strict=True))
+        new_row, new_column = (
+            _renumbered(each, len(scale)) for each, scale in zip((rows, columns), scales, strict=True)
+        )
         taken = np.flatnonzero((new_row[row] >= 0) & (new_column[column] >= 0))
         r, c = new_row[row[taken]], new_column[column[taken]]
         order = np.lexsort((r, c))

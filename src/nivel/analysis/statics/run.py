@@ -17,12 +17,13 @@ from nivel.analysis.dynamics import Prepared, prepare
 from nivel.analysis.implicit import Wanted, equip
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Listener
+from nivel.analysis.outcome import broken_function
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
-from nivel.analysis.statics.equations import NotAState, Rest, StaticEquations
+from nivel.analysis.statics.equations import StateError, Rest, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
-from nivel.analysis.statics.linear import NoPivot, negative_directions
-from nivel.analysis.statics.newton import Iteration, NoEquilibrium
+from nivel.analysis.statics.linear import PivotError, negative_directions
+from nivel.analysis.statics.newton import Iteration, EquilibriumError
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
 from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_friction
 from nivel.analysis.statics.search import settle
@@ -85,7 +86,7 @@ def statics(
     begin = time.perf_counter()
     listener.say("preparing")
     prepared, equations = prepare_statics(machine, settings)
-    start = equations.start(prepared.start)
+    start = _start(equations, prepared)
     if not chosen_duration and not _depends_on_time(equations, start, settings.duration):
         settings = replace(settings, duration=0.0, arc_length=False)
     writer = FrameWriter(equations, settings.modes)
@@ -107,11 +108,23 @@ def statics(
     return _close(machine, sink, prepared, walk, settings, seconds)
 
 
+def _start(equations: StaticEquations, prepared: Prepared) -> Rest:
+    """The assembled machine at rest. Raises SolveError where its forces are not numbers."""
+    try:
+        return equations.start(prepared.start)
+    except StateError:
+        broken = broken_function(prepared.motion, 0.0, 0.0, prepared.start)
+        message, advice = broken or ("the forces at t = 0 are not numbers", "Look at their laws.")
+        raise SolveError(message, time=0.0, advice=advice) from None
+
+
 def _attributes(
     machine: MachineRecord, source: str, prepared: Prepared, settings: StaticsSettings
 ) -> dict[str, str | float | int]:
     coordinates = prepared.motion.system
-    shown: Any = _Shown({**settings.as_dict(), "coordinates": "relative" if len(coordinates.record.tree.node) else "absolute"})
+    shown: Any = _Shown(
+        {**settings.as_dict(), "coordinates": "relative" if len(coordinates.record.tree.node) else "absolute"}
+    )
     attributes = run_attributes(machine, source, prepared, shown)
     return {**attributes, "analysis": "statics", "nivel_version": nivel.__version__}
 
@@ -134,7 +147,7 @@ def _depends_on_time(equations: StaticEquations, state: Rest, duration: float) -
             not np.array_equal(np.concatenate(equations.evaluate(replace(state, t=t))), first)
             for t in np.linspace(0.0, duration, 32)
         )
-    except NotAState:
+    except StateError:
         return True
 
 
@@ -146,7 +159,7 @@ def _follow(
     listener.say("looking for the first equilibrium")
     try:
         found = settle(equations, start, iteration)
-    except NoEquilibrium as error:
+    except EquilibriumError as error:
         walk.outcome, walk.ended = "failed", no_start(equations, error)
         return
     loose = softest(found.tangent)
@@ -162,7 +175,7 @@ def _follow(
     steps = Steps(settings.duration, settings.step, iteration)
     try:
         yield from (by_arc_length if settings.arc_length else by_loads)(equations, first, steps)
-    except NoEquilibrium as error:
+    except EquilibriumError as error:
         walk.outcome, walk.ended = "failed", path_ended(equations, walk.points[-1], steps, error, settings.arc_length)
 
 
@@ -182,7 +195,9 @@ def _take(
         walk.critical += critical
         for each in critical:
             if each.found is not None:
-                _write(equations, writer, sink, walk, Point(each.found, each.along), min(walk.counts[-1], count), settings)
+                _write(
+                    equations, writer, sink, walk, Point(each.found, each.along), min(walk.counts[-1], count), settings
+                )
     _write(equations, writer, sink, walk, point, count, settings)
     # the first and the last are needed
     walk.points[1:] = [point] if walk.points else []
@@ -209,7 +224,7 @@ def _write(
         try:
             found = vibrations(point.found.tangent, settings.modes)
             walk.rigid = max(walk.rigid, found.rigid)
-        except NoPivot:
+        except PivotError:
             found = None
     facts = Facts(point.along, left / loads if loads > 0.0 else 0.0, count, point.found.iterations, found)
     sink.take(writer.frame(state, facts))
@@ -220,7 +235,7 @@ def _find_buckling(equations: StaticEquations, walk: Walk, count: int) -> None:
     first, last = walk.points[0].found, walk.points[-1].found
     try:
         factors, directions = buckling_factors(first.tangent, last.tangent, count)
-    except NoPivot:
+    except PivotError:
         walk.ended = (
             "the first equilibrium has no positive stiffness, so no buckling loads follow from it",
             "Give the machine stiffness, or stabilising loads, at t = 0.",
@@ -229,7 +244,8 @@ def _find_buckling(equations: StaticEquations, walk: Walk, count: int) -> None:
         return
     span = last.state.t - first.state.t
     walk.buckling = [
-        (first.state.t + float(mu) * span, direction_in_words(equations, directions[:, k])) for k, mu in enumerate(factors)
+        (first.state.t + float(mu) * span, direction_in_words(equations, directions[:, k]))
+        for k, mu in enumerate(factors)
     ]
 
 
@@ -255,7 +271,10 @@ def _close(
         rigid=walk.rigid,
     )
     result = sink.result()
-    critical = [{"kind": each.kind, "time": each.t, "path": each.along, "exact": each.found is not None} for each in walk.critical]
+    critical = [
+        {"kind": each.kind, "time": each.t, "path": each.along, "exact": each.found is not None}
+        for each in walk.critical
+    ]
     attributes: dict[str, str | float | int] = {
         "outcome": walk.outcome,
         "failure": message,
@@ -272,4 +291,3 @@ def _close(
     if walk.ended is not None:
         raise SolveError(message, time=reached, advice=advice, result=result)
     return result
-

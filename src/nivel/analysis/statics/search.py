@@ -1,7 +1,7 @@
 """The first equilibrium, from a machine as it was drawn: where it would settle if it moved as through a thick fluid.
 
-In every step [K + σ, Cᵀ; C, 0] is solved, σ > 0 so large that no direction is unstable and that the equations are nearly linear over the step:
-a step along which the forces do work. σ falls as these allow, and vanishes near an equilibrium, where the iteration is Newton's. So what is
+In every step [K + σ, Cᵀ; C, 0] is solved, σ > 0 so large that no direction is unstable and that the equations are nearly linear over the
+step: a step along which the forces do work. σ falls as these allow, and vanishes near an equilibrium, where the iteration is Newton's. So what is
 found is stable, unlike what Newton's iteration alone would find from far away. A machine that is in equilibrium as drawn stays there,
 stable or not. (Levenberg 1944; pseudo-transient continuation, Kelley, Keyes 1998.)
 """
@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.statics.equations import Change, NotAState, Rest, StaticEquations, Tangent, with_multipliers
-from nivel.analysis.statics.linear import NoPivot, factors, negative_directions, solve
-from nivel.analysis.statics.newton import Found, Iteration, NoEquilibrium, equilibrate
+from nivel.analysis.statics.equations import Change, StateError, Rest, StaticEquations, Tangent, with_multipliers
+from nivel.analysis.statics.linear import PivotError, factors, negative_directions, solve
+from nivel.analysis.statics.newton import Found, Iteration, EquilibriumError, equilibrate
 from nivel.system.system import Array
 
-MOST_STEPS = 400
+MOST_STEPS = 600
 # Longest step, in lengths of the machine and radians.
 LONGEST = 0.3
 # What is left of the forces beyond the linear ones, as a share of what the step was made for: more is tried again, less makes σ smaller.
@@ -29,18 +29,19 @@ BALANCED = 1e-9
 # Steps this small are Newton's to end; those of σ = 0 from this on.
 STILL, NEAR = 1e-8, 0.05
 # A machine that went this many lengths or radians is held by nothing.
-FAR = 100.0
+FAR = 50.0
+MOVES_ON = "the machine moves on for ever"
 
 
 def settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Found:
-    """The equilibrium at the time of `state` where the machine settles. Raises NoEquilibrium."""
+    """The equilibrium at the time of `state` where the machine settles. Raises EquilibriumError."""
     try:
         state, r = _balanced(equations, state)
         if float(np.max(np.abs(r), initial=0.0)) * equations.energy <= BALANCED * equations.loads(state):
             return Found(state, equations.tangent(state), 0, np.zeros(len(r)), ())
         state = _descend(equations, state)
-    except NotAState:
-        raise NoEquilibrium("a force, or the state, is not a number", state) from None
+    except StateError:
+        raise EquilibriumError("a force, or the state, is not a number", state) from None
     return equilibrate(equations, state, iteration)
 
 
@@ -56,11 +57,8 @@ def _balanced(equations: StaticEquations, state: Rest) -> tuple[Rest, Array]:
 
 def _descend(equations: StaticEquations, state: Rest) -> Rest:
     """Steps until Newton's iteration is at home: σ is zero and the step small."""
-    sigma, way = 1.0, 0.0
-    tangent, fresh = equations.tangent(state), True
+    sigma, way, tangent = 1.0, 0.0, equations.tangent(state)
     for _ in range(MOST_STEPS):
-        tangent = tangent if fresh else equations.tangent(state)
-        fresh = True
         if sigma > LARGEST:
             break
         more = max(MORE * sigma, SMALLEST * MORE)
@@ -69,53 +67,58 @@ def _descend(equations: StaticEquations, state: Rest) -> Rest:
             continue
         try:
             tried = _try(equations, state, tangent, sigma)
-        except NoPivot:
+        except PivotError:
             sigma = more
+            continue
+        if tried.size > LONGEST:
+            sigma = max(1.5 * sigma, sigma * tried.size / LONGEST, SMALLEST * MORE)
             continue
         if tried.size <= STILL:
             return tried.state
         if tried.crooked > CROOKED:
             sigma = more
             continue
-        state, fresh = tried.state, False
-        way += tried.share * tried.size
-        if sigma == 0.0 and tried.share == 1.0 and tried.size < NEAR and tried.crooked < STRAIGHT:
+        state = tried.state
+        equations.follow(state)
+        tangent = equations.tangent(state)
+        way += tried.size
+        if sigma == 0.0 and tried.size < NEAR and tried.crooked < STRAIGHT:
             return state
         if way > FAR:
-            raise NoEquilibrium("the machine moves on for ever", state)
-        if tried.crooked < STRAIGHT:
-            sigma = LESS * sigma if LESS * sigma > SMALLEST else 0.0
-    raise NoEquilibrium(f"the machine has not settled after {MOST_STEPS} steps", state)
+            raise EquilibriumError(MOVES_ON, state)
+        if tried.crooked < STRAIGHT and tried.size < 0.5 * LONGEST:
+            less = sigma * (LESS if tried.size < NEAR else 0.5)
+            sigma = less if less > SMALLEST else 0.0
+    raise EquilibriumError(f"the machine has not settled after {MOST_STEPS} steps", state)
 
 
 @dataclass(frozen=True)
 class _Tried:
-    """The state after a share of a step of this size, and the step that is asked for by what is not linear in it, over the step itself."""
+    """The state after a step of this size, and the step that is asked for by what is not linear in it, over the step itself."""
 
     state: Rest
     size: float
-    share: float
     crooked: float
 
 
 def _try(equations: StaticEquations, state: Rest, tangent: Tangent, sigma: float) -> _Tried:
-    """A step, in which multipliers are found as well. Raises NoPivot."""
+    """A step, in which multipliers are found as well. Raises PivotError."""
     applied, C = equations.evaluate(state, np.zeros(equations.rows))
     f = len(applied)
     if not f:
-        return _Tried(state, 0.0, 1.0, 0.0)
+        return _Tried(state, 0.0, 0.0)
     found = factors(tangent.saddle(sigma))
     x = found.solve(-np.concatenate([applied, C]))
     q, lam = x[:f], equations.force_of(x[f:])
     size = float(np.max(np.abs(q), initial=0.0))
-    share = min(1.0, LONGEST / size) if size > 0.0 else 1.0
-    after = equations.moved(with_multipliers(state, lam), Change(share * q, np.zeros(len(lam))))
+    if size > LONGEST:
+        return _Tried(state, size, np.inf)
+    after = equations.moved(with_multipliers(state, lam), Change(q, np.zeros(len(lam))))
     try:
         r, opened = equations.evaluate(after)
-    except NotAState:
-        return _Tried(state, size, share, np.inf)
-    # of linear equations K x + σ x + r₀ + Cᵀ λ = 0 this would be left
-    linear = -(1.0 - share) * (tangent.K @ q + sigma * q) - share * sigma * q
-    beyond = found.solve(np.concatenate([r - linear, opened - (1.0 - share) * C]))[:f]
-    length = share * float(np.linalg.norm(q))
-    return _Tried(after, size, share, float(np.linalg.norm(beyond)) / length if length > 0.0 else 0.0)
+    except StateError:
+        return _Tried(state, size, np.inf)
+    # of linear equations K x + σ x + r₀ + Cᵀ λ = 0 that much would be left: -σ x
+    beyond = found.solve(np.concatenate([r + sigma * q, opened]))[:f]
+    length = float(np.linalg.norm(q))
+    return _Tried(after, size, float(np.linalg.norm(beyond)) / length if length > 0.0 else 0.0)

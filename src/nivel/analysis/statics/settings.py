@@ -75,11 +75,17 @@ def statics_settings(given: Mapping[str, Any], coordinates: str) -> StaticsSetti
     duration = time("duration", 1.0)
     step = time("step", duration / STEPS if duration else 1.0)
     if 0.0 < duration < SHORTEST:
-        faults.append(_fault("duration", f"{duration:g} s is shorter than {SHORTEST:g} s; use 0 for the equilibrium at t = 0 alone"))
+        faults.append(
+            _fault(
+                "duration", f"{duration:g} s is shorter than {SHORTEST:g} s; use 0 for the equilibrium at t = 0 alone"
+            )
+        )
     if duration and step > duration:
         faults.append(_fault("step", f"{step:g} s is longer than the duration of {duration:g} s"))
     if duration and duration / step > MOST_STEPS:
-        faults.append(_fault("step", f"{step:g} s makes more than {MOST_STEPS} steps in {duration:g} s; use a larger one"))
+        faults.append(
+            _fault("step", f"{step:g} s makes more than {MOST_STEPS} steps in {duration:g} s; use a larger one")
+        )
     tolerance = _number(given.get("tolerance"), 1e-10)
     if tolerance is None or not 1e-14 <= tolerance <= 1e-2:
         faults.append(_fault("tolerance", f"a number from 1e-14 to 1e-2 was expected, got {given.get('tolerance')!r}"))

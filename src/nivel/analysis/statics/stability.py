@@ -8,8 +8,8 @@ import numpy as np
 
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.equations import StaticEquations, Tangent
-from nivel.analysis.statics.linear import NoPivot, lowest, negative_directions
-from nivel.analysis.statics.newton import NoEquilibrium
+from nivel.analysis.statics.linear import PivotError, lowest, negative_directions
+from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps, by_arc_length
 from nivel.system.system import Array
 
@@ -35,7 +35,7 @@ def softest(tangent: Tangent) -> Softest | None:
     largest = float(np.abs(tangent.K).max())
     try:
         values, vectors = lowest(tangent, 1, tangent.M, nearest=True)
-    except NoPivot:
+    except PivotError:
         return Softest(0.0, np.zeros(size))
     if not len(values):
         return None
@@ -59,7 +59,6 @@ def limit_ahead(equations: StaticEquations, last: Point, steps: Steps) -> Critic
             if own != count:
                 return next(iter(critical_points(equations, before, after, (count, own), steps.iteration)), None)
             before = after
-    except (NoEquilibrium, NoPivot):
+    except (EquilibriumError, PivotError):
         pass
     return None
-

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.linalg import eig, eigh
 
 from nivel.analysis.statics.equations import Tangent
-from nivel.analysis.statics.linear import DENSE, NoPivot, factors, free_directions, lowest, symmetric
+from nivel.analysis.statics.linear import PivotError, factors, free_directions, is_small, lowest, symmetric
 from nivel.system.system import Array
 
 # Squares of frequencies below this share of the largest one of a machine of full matrices, or of those found, are rigid motions.
@@ -49,7 +50,7 @@ def vibrations(tangent: Tangent, count: int) -> Vibrations:
 
 def _largest(tangent: Tangent) -> float:
     """Largest square of a frequency of a small machine; of large ones unknown: zero."""
-    if not 0 < tangent.K.shape[0] <= DENSE:
+    if not tangent.K.shape[0] or not is_small(tangent):
         return 0.0
     Z = free_directions(tangent)
     if not Z.shape[1]:
@@ -67,26 +68,27 @@ def _damped(tangent: Tangent) -> Array:
     M, D, K = (Z.T @ (matrix @ Z) for matrix in (tangent.M, tangent.D, tangent.K))
     inverse = np.linalg.inv(M)
     first = np.block([[np.zeros((m, m)), np.eye(m)], [-inverse @ K, -inverse @ D]])
-    found = np.asarray(eig(first, right=False), dtype=complex)
-    found = found[found.imag >= 0.0]
+    values: Any = eig(first, right=False)
+    found = np.asarray(values, dtype=complex)
+    found = found[np.imag(found) >= 0.0]
     return found[np.argsort(np.abs(found), kind="stable")]
 
 
 def buckling_factors(before: Tangent, after: Tangent, count: int) -> tuple[Array, Array]:
     """(μ (k,), directions (f, k)): the smallest positive μ for which K₀ + μ (K₁ - K₀) has no stiffness in a direction, ascending.
 
-    before, after : tangents K₀, K₁ at two loads; constraints as before. Raises NoPivot where K₀ itself has no stiffness somewhere.
+    before, after : tangents K₀, K₁ at two loads; constraints as before. Raises PivotError where K₀ itself has no stiffness somewhere.
     """
     size, rows = before.K.shape[0], before.C.shape[0]
     K0, dK = symmetric(before.K), symmetric(after.K - before.K)
-    if size <= DENSE:
+    if is_small(before, count):
         Z = free_directions(before)
         if not Z.shape[1]:
             return np.zeros(0), np.zeros((size, 0))
         try:
             values, vectors = eigh(symmetric(-(Z.T @ (dK @ Z))), symmetric(Z.T @ (K0 @ Z)))
         except np.linalg.LinAlgError:
-            raise NoPivot from None
+            raise PivotError from None
         return _positive(values, Z @ vectors, count)
     from scipy.sparse.linalg import LinearOperator, eigsh
 

@@ -19,7 +19,7 @@ def direction_in_words(equations: StaticEquations, direction: Array) -> str:
         return "an unknown direction"
     order = np.argsort(-size, kind="stable")
     chosen = [k for k in order[: MOST + 1] if size[k] >= NAMED * size[order[0]]]
-    names = [unknown_name(equations.system, int(equations.free[k])) for k in chosen[:MOST]]
+    names = list(dict.fromkeys(unknown_name(equations.system, int(equations.free[k])) for k in chosen[:MOST]))
     return "; ".join(names) + ("; and more" if len(chosen) > MOST else "")
 
 
@@ -34,5 +34,5 @@ def worst_row(equations: StaticEquations, r: Array, C: Array) -> str:
     k = int(np.argmax(np.abs(r)))
     number = int(equations.free[k])
     force = r[k] * equations.energy / equations.length[number]
-    units = "N m" if equations.length[number] == 1.0 else "N"
+    units = "N" if equations.system.map.units[equations.place[number, 0]] == "m" else "N m"
     return f"{unknown_name(equations.system, number)}, unbalanced by {force:.3g} {units}"

@@ -22,7 +22,7 @@ from nivel.report.story import assembly_lines, event_lines, facts, headline, set
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
 from nivel.results.target import keep_sources
-from nivel.results.verdicts import RULES, THRESHOLDS
+from nivel.results.verdicts import RESIDUAL, RULES, THRESHOLDS
 from nivel.view.export import scene_html
 from nivel.view.playback import SMALL
 
@@ -67,7 +67,7 @@ def report_html(result: Result) -> str:
         trust_lines=trust_lines(result.trust),
         assembly=assembly_lines(result),
         events=event_lines(result),
-        thresholds=THRESHOLDS,
+        thresholds={"residual": RESIDUAL, "violation": THRESHOLDS["violation"]} if result.is_statics else THRESHOLDS,
         rules=RULES,
         picture_style=STYLE,
         picture=_picture(result, record),

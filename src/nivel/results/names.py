@@ -1,7 +1,7 @@
 """The names by which the numbers of a result are asked for.
 
 A variable is asked for by its own name (`position`) or for one element (`crank.position`, `hinge.force`, `hinge.angle`,
-`hinge.angle.rate`, `hinge.s.x.violation`), and either for one component (`crank.position.x`).
+`hinge.angle.rate`, `hinge.s.x.violation`; of two, `vibration_1.crank.mode_shift`), and either for one component (`crank.position.x`).
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import product
 
 from nivel.errors import ModelError
 from nivel.system.layout import Variable
@@ -31,11 +32,14 @@ def selections(variables: Mapping[str, Variable], coordinates: Mapping[str, tupl
     found = {name: Selection(name, ()) for name in variables}
     for variable in variables.values():
         dims = variable.dims[1:]
-        element = dims[0] if dims and dims[0] not in COMPONENTS else None
+        elements = [dim for dim in dims if dim not in COMPONENTS]
         starts: list[tuple[str, tuple[slice | int, ...]]] = [(variable.name, (every,))]
-        if element is not None:
-            suffix = _suffix(variable.name, element)
-            starts = [(f"{name}{suffix}", (every, i)) for i, name in enumerate(coordinates[element])]
+        if elements:
+            suffix = _suffix(variable.name, elements[0])
+            starts = [
+                (".".join(name for _, name in chosen) + suffix, (every, *(i for i, _ in chosen)))
+                for chosen in product(*(enumerate(coordinates[element]) for element in elements))
+            ]
         components = coordinates[dims[-1]] if dims and dims[-1] in COMPONENTS else ()
         for name, where in starts:
             found.setdefault(name, Selection(variable.name, where))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from nivel.results.verdicts import THRESHOLDS, Item, Trust, Verdict
+from nivel.results.verdicts import THRESHOLDS, Item, Threshold, Trust, Verdict
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
     "done": ("green", "Outcome: the run reached its end"),
@@ -49,6 +49,7 @@ def _energy_item(trust: Trust) -> Item:
 
 
 def violation_item(trust: Trust) -> Item:
+    """How far joints are open."""
     length = trust.constraint_violation_units == "m"
     fraction = trust.constraint_violation_max / (trust.size if length else 1.0)
     value = f"{number(trust.constraint_violation_max)} m, " if length else ""
@@ -84,6 +85,7 @@ def _accuracy_item(trust: Trust, estimate: float) -> Item:
 
 
 def freedom_item(trust: Trust) -> Item:
+    """Degrees of freedom."""
     count = trust.degrees_of_freedom or 0
     if count < 1 and trust.drivers:
         prescribed = "the driver prescribes" if trust.drivers == 1 else f"{trust.drivers} drivers prescribe"
@@ -95,6 +97,7 @@ def freedom_item(trust: Trust) -> Item:
 
 
 def redundancy_item(trust: Trust) -> Item:
+    """Constraints that repeat others."""
     if not trust.redundant_rows:
         return Item(
             "redundancy",
@@ -117,8 +120,11 @@ def _size(trust: Trust) -> str:
     return f"{trust.size_kind} {number(trust.size)} m"
 
 
-def numeric(name: str, text: str, fraction: float, time: float | None, row: str = "") -> Item:
-    threshold = THRESHOLDS[name]
+def numeric(
+    name: str, text: str, fraction: float, time: float | None, row: str = "", threshold: Threshold | None = None
+) -> Item:
+    """An item held against its threshold."""
+    threshold = threshold or THRESHOLDS[name]
     return Item(
         name,
         threshold.verdict(fraction),

@@ -10,7 +10,7 @@ import numpy as np
 from nivel.results.scales import Readable, machine_size
 from nivel.results.statements import freedom_item, number, numeric, redundancy_item, violation_item
 from nivel.results.trust import peak, worst_row
-from nivel.results.verdicts import Item, Trust, Verdict, worst
+from nivel.results.verdicts import RESIDUAL, Item, Trust, Verdict, worst
 
 SHOWN = 6
 
@@ -75,7 +75,7 @@ def _items(result: Readable, trust: Trust, facts: StaticsFacts) -> Iterator[Item
     if len(result.time):
         left = peak(result, "residual")
         said = f"Equilibrium: forces left over are at most {number(left.value)} of the largest load, at t = {left.time:.6g} s"
-        yield numeric("residual", said, left.value, left.time)
+        yield numeric("residual", said, left.value, left.time, threshold=RESIDUAL)
     if trust.constraint_violation_row:
         yield violation_item(trust)
     if len(result.time):

@@ -47,12 +47,6 @@ THRESHOLDS = {
         "A joint whose parts slip past each other at 1e-3 of the machine's speed feeds in or loses energy of the same "
         "order; at 1e-5 this is below what the energy balance counts as green.",
     ),
-    "residual": Threshold(
-        1e-8,
-        1e-5,
-        "Of a state of equilibrium: forces that are left over, as a share of its largest load. Loads are rarely known to 1e-3; 1e-5 is two "
-        "decades below, and Newton's method ends far below 1e-8 unless stiff parts hide what holds the soft ones.",
-    ),
     "accuracy": Threshold(
         1e-4,
         1e-2,
@@ -60,6 +54,14 @@ THRESHOLDS = {
         "metre: finer than manufacturing tolerances. Above 1e-2 the curves of the two runs are seen apart.",
     ),
 }
+# of states of equilibrium
+RESIDUAL = Threshold(
+    1e-8,
+    1e-5,
+    "Forces that are left over, as a share of the largest load. Loads are rarely known to 1e-3; 1e-5 is two decades below, and Newton's "
+    "method ends far below 1e-8 unless stiff parts hide what holds the soft ones.",
+)
+
 
 EXTENT_FLOOR = 1e-12  # of the distance from the global origin: round-off of points that are one
 REST = 1e-3  # of the size, travelled in the time of the run: a machine that stays below it is at rest

@@ -123,7 +123,7 @@ def _layout(full: FrameLayout, kept: Sequence[Variable], modes: int) -> FrameLay
     entries = [(each.name, each.dims, each.units, each.long_name) for each in kept]
     entries += OWN
     if modes:
-        coordinates["vibration"] = tuple(str(k + 1) for k in range(modes))
+        coordinates["vibration"] = tuple(f"vibration_{k + 1}" for k in range(modes))
         entries += VIBRATION
     variables, start = [], 1
     for name, dims, units, long_name in entries:

@@ -151,6 +151,7 @@ class Machine:
         coordinates: str | None = None,
         rotations: str | None = None,
         stabilisation: str | None = None,
+        start: str | None = None,
         step_control: str | None = None,
         tolerance: float | str | None = None,
         largest_step: float | str | None = None,
@@ -168,7 +169,8 @@ class Machine:
     ) -> Result:
         """Motion in time. Options given here go before those of the machine's `simulation`.
 
-        duration, step, output_interval, largest_step : [s], or texts with units. step_control : fixed, or error: steps chosen for the
+        duration, step, output_interval, largest_step : [s], or texts with units. start : as-given, or equilibrium: at rest where the
+        machine settles. step_control : fixed, or error: steps chosen for the
         tolerance, where the integrator can do both. tolerance : of integrators that choose their steps.
         cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte, newmark,
         hht, generalised_alpha : mappings as in a machine file.
@@ -186,6 +188,7 @@ class Machine:
             "coordinates": coordinates,
             "rotations": rotations,
             "stabilisation": stabilisation,
+            "start": start,
             "step_control": step_control,
             "tolerance": tolerance,
             "largest_step": largest_step,
@@ -208,6 +211,8 @@ class Machine:
             integrator=settings.integrator,
             stabilisation=settings.stabilisation,
         )
+        if settings.start == "equilibrium":
+            compile_seconds += compile_statics(chosen.record, "absolute", listener or Listener())
         # after the kernels: what follows imports them
         from nivel.analysis.simulate import simulate
         from nivel.results.target import keep_sources

@@ -135,6 +135,12 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     motion = equations(machine)
     assembly = assemble(machine, motion)
     refuse_moved_nodes(machine, assembly.moved, motion.system.size)
+    rest = None
+    if machine.simulation.start == "equilibrium":
+        from nivel.analysis.statics.start import settled  # is built of what is prepared here
+
+        rest = settled(machine)
+        assembly = rest.assembled(motion, assembly)
     redundancy = analyse(motion, 0.0, assembly.y)
     if redundancy.singular_rows:
         rows = ", ".join(redundancy.singular_rows)
@@ -156,6 +162,8 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     motion.system.record.coordinates.reference[:] = assembly.reference
     arrange = import_module(facts.arrangement).arrange
     system, y = arrange(machine, motion.system, assembly.y, rank, choose_cut(machine))
+    if rest is not None and machine.is_flexible:
+        y[: len(rest.q)] = rest.q  # with the modes bent by the loads
     prepared = MotionEquations(system, import_module(facts.module))
     integrator = INTEGRATORS[machine.simulation.integrator]
     if machine.shares_mass:

@@ -45,11 +45,14 @@ class RunSettings:
     penalty: Penalty | None
     baumgarte: tuple[float, float] | None
     constants: tuple[float, ...] = ()
+    start: str = "as-given"
 
     def as_dict(self) -> dict[str, object]:
         """For the result's `settings`."""
         names = ("duration", "step", "output_interval", "integrator", "formulation", "coordinates", "stabilisation")
         out: dict[str, object] = {name: getattr(self, name) for name in names}
+        if self.start != "as-given":
+            out["start"] = self.start
         if self.formulation == "lagrange":
             out["rotations"] = self.rotations
         if self.tolerance is not None:
@@ -119,6 +122,7 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         penalty=settings.penalty if FORMULATIONS[settings.formulation].factor > 0.0 else None,
         baumgarte=None if own is None else (own.alpha, own.beta),
         constants=_constants(settings),
+        start=settings.start,
     )
 
 

@@ -71,6 +71,7 @@ METHODS: Final[dict[str, str]] = {
     "coordinates": "What the equations are written in:",
     "rotations": "Rotation coordinates of lagrange in absolute coordinates:",
     "stabilisation": "What keeps the joints closed:",
+    "start": "What the run starts from:",
     "step_control": "Steps of implicit integrators, fixed or chosen for the tolerance:",
 }
 

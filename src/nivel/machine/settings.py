@@ -28,6 +28,7 @@ Formulation = Literal["newton-euler", "lagrange", "penalty", "augmented-lagrangi
 Coordinates = Literal["auto", "absolute", "relative", "independent"]
 Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]
 Stabilisation = Literal["none", "baumgarte", "direct", "geometric"]
+Start = Literal["as-given", "equilibrium"]
 Tolerance = Annotated[float, Field(gt=0.0, lt=1.0)]
 
 
@@ -104,6 +105,7 @@ class SimulationSettings(Record):
     formulation: Formulation = "newton-euler"
     coordinates: Coordinates = "auto"
     stabilisation: Stabilisation = "direct"
+    start: Start = Field(default="as-given", description="the assembled machine, or the equilibrium where it settles, at rest")
     rotations: Rotations = Field(default="euler-parameters", description="of lagrange in absolute coordinates")
     cut: tuple[str, ...] = Field(default=(), description="joints that stay constraints in relative coordinates")
     step_control: StepControl = Field(

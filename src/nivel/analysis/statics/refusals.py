@@ -64,6 +64,7 @@ def for_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Mach
         stabilisation="direct",
         rotations="euler-parameters",
         baumgarte=None,
+        start="as-given",
         duration=duration,
         step=min(settings.step, duration),
         output_interval=None,

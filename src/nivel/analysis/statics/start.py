@@ -1,0 +1,92 @@
+"""The equilibrium from which a run in time starts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nivel.analysis.assemble import Assembly
+from nivel.analysis.equations import MotionEquations
+from nivel.analysis.statics.ends import no_start, without_stiffness
+from nivel.analysis.statics.equations import StateError
+from nivel.analysis.statics.newton import EquilibriumError, Iteration
+from nivel.analysis.statics.run import prepare_statics
+from nivel.analysis.statics.search import settle
+from nivel.analysis.statics.settings import StaticsSettings
+from nivel.analysis.statics.stability import is_mechanism, softest
+from nivel.errors import Fault, ModelError, SolveError
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.system import Array
+
+# A constraint that changes by more than this share of its scale in a second moves at the start.
+AT_REST = 1e-9
+
+
+@dataclass(frozen=True)
+class Settled:
+    """The positions q of all bodies (and modes) in equilibrium at t = 0, absolute coordinates, and the angles of joints there."""
+
+    q: Array
+    reference: Array
+
+    def assembled(self, motion: MotionEquations, assembly: Assembly) -> Assembly:
+        """The assembly with the bodies there, at rest. Raises ModelError where a driver moves at t = 0."""
+        system = motion.system
+        y = np.zeros_like(assembly.y)
+        y[: system.positions] = self.q[: system.positions]
+        system.record.coordinates.reference[:] = self.reference
+        motion.evaluate(0.0, y)
+        constraints = system.record.constraints
+        moving = np.abs(constraints.Cdot / constraints.scale)[: system.machine_rows] > AT_REST
+        if np.any(moving):
+            faults = [
+                _fault(f"drivers.{name}.value", f"{name} moves at t = 0, and a run from equilibrium starts at rest: let it start slowly")
+                for name in dict.fromkeys(np.array(system.row_owner)[moving].tolist())
+            ]
+            raise ModelError(faults)
+        return replace(assembly, y=y, reference=self.reference.copy(), velocity_change=())
+
+
+def settled(machine: MachineRecord) -> Settled:
+    """The equilibrium of `machine` at t = 0.
+
+    Raises ModelError where bodies or joints are given velocities, SolveError where there is no equilibrium.
+    """
+    _refuse_velocities(machine)
+    prepared, equations = prepare_statics(machine, StaticsSettings(duration=0.0, step=1.0, coordinates="absolute"))
+    try:
+        found = settle(equations, equations.start(prepared.start), Iteration())
+    except EquilibriumError as error:
+        message, advice = no_start(equations, error)
+        raise SolveError(f"the run starts from equilibrium, and {message}", time=0.0, advice=advice) from None
+    except StateError:
+        raise SolveError("the forces at t = 0 are not numbers", time=0.0, advice="Look at their laws.") from None
+    loose = softest(found.tangent)
+    if loose is not None and is_mechanism(loose):
+        message, advice = without_stiffness(equations, loose)
+        raise SolveError(f"the run starts from equilibrium, and {message}", time=0.0, advice=advice)
+    equations.follow(found.state)
+    reference = equations.record.coordinates.reference.copy()
+    return Settled(found.state.y[: equations.positions].copy(), reference)
+
+
+def _refuse_velocities(machine: MachineRecord) -> None:
+    said = "`start: equilibrium` starts at rest: take the velocity away, or start as given"
+    faults = [
+        _fault(f"bodies.{body.name}.{key}", said)
+        for body in machine.bodies
+        for key in ("velocity", "angular_velocity", "angular_velocity_body")
+        if np.any(np.array(getattr(body, key) or 0.0))
+    ]
+    faults += [
+        _fault(f"joints.{joint.name}.start_rates", said)
+        for joint in machine.joints
+        if joint.start_rates is not None and any(joint.start_rates.given.values())
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def _fault(path: str, message: str) -> Fault:
+    return Fault("", 0, 0, path, message)

@@ -114,3 +114,26 @@ def test_explain_export_and_stills_take_statics_results(folder):
     assert "Equilibrium" in explained.output
     assert nivel("export", "pendulum-statics.nc", "--csv").exit_code == 0
     assert nivel("view", "pendulum-statics.nc", "--export", "scene.html").exit_code == 0
+
+
+def test_vibrations_can_be_played(folder):
+    assert nivel("statics", "pendulum.yaml", "--modes", "2", "--no-report").exit_code == 0
+    assert nivel("view", "pendulum-statics.nc", "--mode", "1", "--export", "mode.html").exit_code == 0
+    motion = Result.open(folder / "pendulum-statics.nc").mode(1)
+    position = motion.array("bar.position")
+    # the bar hangs at (0, -0.5): it swings along x, and the hinge stays on its axis in the first order
+    assert abs(position[:, 0]).max() == pytest.approx(0.08 * Result.open(folder / "pendulum-statics.nc").trust.size, rel=1e-6)
+    assert abs(position[:, 1] + 0.5).max() < 1e-9
+    for options, said in ((["--mode", "2"], "fewer freedoms"), (["--mode", "7"], "no vibration 7")):
+        done = nivel("view", "pendulum-statics.nc", *options, "--export", "other.html")
+        assert done.exit_code == 2
+        assert said in done.stderr
+    assert nivel("view", "pendulum.yaml", "--mode", "1", "--export", "other.html").exit_code == 2
+
+
+def test_a_run_may_start_from_equilibrium(folder):
+    done = nivel("run", "pendulum.yaml", "--start", "equilibrium", "--duration", "0.1", "--step", "1 ms", "--no-report")
+    assert done.exit_code == 0, done.stderr
+    position = Result.open(folder / "pendulum.nc").array("bar.position")
+    assert abs(position - [0, -0.5, 0]).max() < 1e-9
+    assert nivel("run", "pendulum.yaml", "--start", "anywhere", "--out", "b.nc").exit_code == 2

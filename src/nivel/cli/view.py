@@ -28,6 +28,7 @@ MACHINES = (".yaml", ".yml")
     type=click.Path(dir_okay=False),
     help="Write FILE.html, one page with everything inside, or a film FILE.mp4 or FILE.gif; nothing is opened.",
 )
+@click.option("--mode", "vibration", type=int, metavar="N", help="Play vibration N about the last state of a statics result.")
 @click.option("--still", type=click.Path(dir_okay=False), help="Write a picture FILE.png; nothing is opened.")
 @click.option("--at", "moment", type=float, help="Time of the still [s]; default: the start.")
 @click.option("--size", default="1280x720", show_default=True, metavar="WxH", help="Of stills and films, in pixels.")
@@ -55,6 +56,7 @@ def command(
     file: str,
     ghosts: tuple[str, ...],
     exports: tuple[str, ...],
+    vibration: int | None,
     still: str | None,
     moment: float | None,
     size: str,
@@ -75,6 +77,7 @@ def command(
     Results after the first are laid over it as ghosts. The page is served on this machine only, unless --host says otherwise; it needs
     no network. With --export or --still files are written and nothing is opened.
     """
+    from nivel.errors import ModelError
     from nivel.view.capture import Look
     from nivel.view.opening import serve
 
@@ -84,9 +87,11 @@ def command(
     written = [*exports, *([still] if still else [])]
     _refuse_targets(written, [file, *ghosts], force)
     if Path(file).suffix.lower() in MACHINES:
+        if vibration is not None:
+            raise ModelError("--mode is for results of `nivel statics --modes`; a machine file has none yet")
         source = _machine(file, ghosts, overrides, allow_code, quiet)
     else:
-        source = _results(file, ghosts, overrides, alone=bool(written))
+        source = _results(file, ghosts, overrides, vibration, alone=bool(written))
     for target in exports:
         _export(source, Path(target), look, quiet)
     if still:
@@ -131,7 +136,9 @@ def _machine(file: str, ghosts: tuple[str, ...], overrides: dict[str, str], allo
         return machine.shown(listener=listener)
 
 
-def _results(file: str, ghosts: tuple[str, ...], overrides: dict[str, str], *, alone: bool) -> Source:
+def _results(
+    file: str, ghosts: tuple[str, ...], overrides: dict[str, str], vibration: int | None, *, alone: bool
+) -> Source:
     from nivel.errors import Fault, ModelError
     from nivel.results import Result
     from nivel.view.playback import ALONE, SERVED
@@ -148,6 +155,8 @@ def _results(file: str, ghosts: tuple[str, ...], overrides: dict[str, str], *, a
             faults += error.faults
     if faults:
         raise ModelError(faults)
+    if vibration is not None:
+        results = [each.mode(vibration) for each in results]
     return Playback(results, ALONE if alone else SERVED)
 
 

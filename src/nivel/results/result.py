@@ -216,6 +216,12 @@ class Result:
 
         return plot(self, names)
 
+    def mode(self, number: int, frame: int = -1) -> Result:
+        """Vibration `number` (from 1) about an equilibrium of a statics run as a motion of its own, slow and large enough to be seen."""
+        from nivel.results.mode_motion import mode_motion
+
+        return mode_motion(self, number, frame)
+
     def report(self, path: str | os.PathLike[str]) -> Path:
         """Write the report as one HTML file that needs no network; an existing file is replaced."""
         from nivel.report.write import write_report

@@ -39,6 +39,7 @@ VIBRATION: tuple[tuple[str, tuple[str, ...], str, str], ...] = (
     ("mode_shift", ("time", "vibration", "body", "xyz"), "kg^-0.5", "displacement of the body frame, unit modal mass"),
     ("mode_turn", ("time", "vibration", "body", "xyz"), "kg^-0.5/m", "small rotation of the body, unit modal mass, global axes"),
 )  # fmt: skip
+BENDING = ("mode_bending", ("time", "vibration", "mode"), "m", "modal coordinates of flexible bodies in the vibration, unit modal mass")
 
 
 @dataclass(frozen=True)
@@ -60,6 +61,7 @@ class FrameWriter:
         self._full = equations.system.layout
         kept = [variable for variable in self._full.variables if not _is_of_motion(variable.name)]
         self._columns = np.array([k for each in kept for k in range(each.columns.start, each.columns.stop)], dtype=int)
+        self._bending = len(self._full.coordinates.get("mode", ()))
         self.layout = _layout(self._full, kept, modes)
         self._observe: Any = import_module("nivel.kernels.observe").observe
 
@@ -97,9 +99,10 @@ class FrameWriter:
     def _vibrating(self, state: Rest, found: Vibrations | None) -> Array:
         bodies = len(self._full.coordinates["body"])
         if found is None:
-            return np.full((4 + 6 * bodies) * self.modes, np.nan)
+            return np.full((4 + 6 * bodies + self._bending) * self.modes, np.nan)
         place = {variable.name: variable.columns for variable in self._full.variables}
         shifts, turns = np.full((2, self.modes, 3 * bodies), np.nan)
+        bending = np.full((self.modes, self._bending), np.nan)
         equations = self.equations
         for k in range(self.modes):
             if np.isfinite(found.shapes[:, k]).all():
@@ -108,10 +111,12 @@ class FrameWriter:
                 velocity[equations.free] = found.shapes[:, k] * equations.length[equations.free]
                 frame = self._observed(state, velocity / np.sqrt(equations.energy))
                 shifts[k], turns[k] = frame[place["velocity"]], frame[place["angular_velocity"]]
+                if self._bending:
+                    bending[k] = frame[place["modal_rate"]]
         with np.errstate(invalid="ignore"):
             frequency = np.sqrt(found.squares) / (2.0 * np.pi)
         damped = found.rates.imag / (2.0 * np.pi), -found.rates.real
-        return np.concatenate([found.squares, frequency, *damped, shifts.ravel(), turns.ravel()])
+        return np.concatenate([found.squares, frequency, *damped, shifts.ravel(), turns.ravel(), bending.ravel()])
 
 
 def _is_of_motion(name: str) -> bool:
@@ -124,7 +129,7 @@ def _layout(full: FrameLayout, kept: Sequence[Variable], modes: int) -> FrameLay
     entries += OWN
     if modes:
         coordinates["vibration"] = tuple(f"vibration_{k + 1}" for k in range(modes))
-        entries += VIBRATION
+        entries += [*VIBRATION, BENDING] if "mode" in coordinates else VIBRATION
     variables, start = [], 1
     for name, dims, units, long_name in entries:
         stop = start + prod(len(coordinates[dim]) for dim in dims[1:])

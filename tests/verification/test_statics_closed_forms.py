@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
+from scipy.spatial.transform import Rotation
 
 from nivel.errors import SolveError
 from simulating import G, hinge, machine, slide, solid
@@ -384,3 +385,64 @@ def test_coordinates_do_not_matter():
     np.testing.assert_allclose(found[0].array("joint_force"), found[1].array("joint_force"), atol=1e-8)
     np.testing.assert_allclose(found[0].array("natural_frequency"), found[1].array("natural_frequency"), rtol=1e-9)
     np.testing.assert_allclose(found[0].array("potential_energy"), found[1].array("potential_energy"), rtol=1e-12)
+
+
+# --- large rotations ---
+
+
+def clamped_chain(links, stiffness, joined, tip):
+    """Links of 1/links m along x from a clamp; each turns against the one before about z with `stiffness`; `tip` loads the last."""
+    each = 1.0 / links
+    bodies = {f"b{k}": solid(0.01, 1e-5, position=[(k + 0.5) * each, 0, 0]) for k in range(links)}
+    joints, forces = {}, {"tip": {"body": f"b{links - 1}", **tip}}
+    for k in range(links):
+        pair, point = ["ground" if k == 0 else f"b{k - 1}", f"b{k}"], [k * each, 0, 0]
+        if joined == "hinges":
+            joints[f"j{k}"] = hinge(*pair, tuple(point))
+            forces[f"s{k}"] = {"type": "joint-spring-damper", "coordinate": f"j{k}.angle", "stiffness": stiffness}
+        else:
+            forces[f"s{k}"] = {
+                "type": "bushing",
+                "bodies": pair,
+                "points": [point, point],
+                "stiffness": [1e6 * stiffness] * 3 + [stiffness] * 3,
+            }
+    return {"bodies": bodies, "joints": joints, "forces": forces}
+
+
+@pytest.mark.parametrize(("joined", "coordinates"), [("hinges", "relative"), ("hinges", "absolute"), ("bushings", "absolute")])
+def test_chain_is_rolled_up_to_two_full_circles_by_a_moment(joined, coordinates):
+    """Every angle is M/k; at M = 4 π k/n the chain of n links has turned by 4 π."""
+    links, stiffness = 16, 3.0
+    full = 4 * np.pi * stiffness / links
+    torque = {"type": "torque", "vector": [0, 0, f"{full}*time"]}
+    result = machine(clamped_chain(links, stiffness, joined, torque)).statics(duration=1, step=0.05, coordinates=coordinates)
+    assert len(result.time) == 21
+    angle = np.outer(result.time, 4 * np.pi / links * np.arange(1, links + 1))
+    ends = np.cumsum(np.exp(1j * angle), axis=1) / links
+    centres = ends - 0.5 * np.exp(1j * angle) / links
+    np.testing.assert_allclose(result.array("position")[:, :, 0], centres.real, atol=1e-9)
+    np.testing.assert_allclose(result.array("position")[:, :, 1], centres.imag, atol=1e-9)
+    assert np.all(result.array("unstable_directions") == 0)
+
+
+@pytest.mark.parametrize("coordinates", ["relative", "absolute"])
+def test_follower_load_bends_a_chain_as_the_shooting_method_says(coordinates):
+    """A force that follows the last link, across it: moments from the tip inwards, where the frame of the last link is fixed."""
+    links, stiffness, each = 12, 4.0, 1.0 / 12
+    force = {"type": "force", "vector": [0, "25*time", 0], "axes": "body", "position": [0.5 / 12, 0, 0]}
+    result = machine(clamped_chain(links, stiffness, "hinges", force)).statics(
+        duration=1, step=0.1, coordinates=coordinates
+    )
+    # in the axes of the last link: moment about each joint gives its angle, which places the joint before it
+    angles, joint, direction = [], -each + 0j, 1.0 + 0j
+    for _ in range(links):
+        moment = (joint.conjugate() * -1).real * 25.0  # (tip - joint) × (0, 25)
+        angles.append(moment / stiffness)
+        direction *= np.exp(-1j * angles[-1])
+        joint -= each * direction
+    total = sum(angles)
+    A = Rotation.from_quat(result.array("orientation")[-1, -1], scalar_first=True)
+    turns = result.array("joint_coordinate")[-1]
+    np.testing.assert_allclose(turns, angles[::-1], atol=1e-9)
+    np.testing.assert_allclose(A.as_matrix()[:2, 0], [np.cos(total), np.sin(total)], atol=1e-9)

@@ -42,6 +42,7 @@ NAMES = {
     "critical": "Critical points",
     "vibrations": "Vibrations",
     "at_rest": "At rest",
+    "potential": "Potential",
 }
 
 

@@ -26,7 +26,7 @@ class StaticsFacts:
     """What only the run itself knows; see `nivel.results.trust.Facts`.
 
     critical : (kind, t [s], whether found to round-off) of limit and bifurcation points, along the path. at_rest : sentences on what makes
-    no force at rest. rigid : vibrations of no frequency.
+    no force at rest. rigid : vibrations of no frequency. without_potential : some force has none, as one that follows a body.
     """
 
     outcome: str
@@ -38,6 +38,7 @@ class StaticsFacts:
     critical: tuple[tuple[str, float, bool], ...] = ()
     at_rest: tuple[str, ...] = ()
     rigid: int = 0
+    without_potential: bool = False
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -82,6 +83,9 @@ def _items(result: Readable, trust: Trust, facts: StaticsFacts) -> Iterator[Item
         yield _stability(result)
     if facts.critical:
         yield _critical(facts)
+    if facts.without_potential:
+        said = "Potential: some loads have none, as forces that follow a body or torques that keep their axis: flutter is not looked for"
+        yield Item("potential", "amber", f"{said} (green when all have one)")
     if facts.rigid:
         said = f"Vibrations: {facts.rigid} of no frequency: the machine moves freely in as many ways"
         yield Item("vibrations", "amber", f"{said} (green when none)")

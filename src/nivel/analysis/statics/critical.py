@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from nivel.analysis.statics.equations import Change, Rest, StaticEquations, Tangent
-from nivel.analysis.statics.linear import PivotError, lowest, negative_directions, solve
+from nivel.analysis.statics.linear import PivotError, lowest, unstable_directions, solve
 from nivel.analysis.statics.newton import Found, Iteration, EquilibriumError, equilibrate
 from nivel.analysis.statics.path import Point
 from nivel.kernels.record import NONE
@@ -108,7 +108,7 @@ def rotation_between(p: Array, q: Array) -> Array:
 def _values(tangent: Tangent, number: int) -> tuple[Array, Array, int]:
     """Eigenvalues next to zero with their directions, and how many negative ones are not among them."""
     values, vectors = lowest(tangent, number + 3, tangent.M, nearest=True)
-    return values, vectors, negative_directions(tangent) - int(np.sum(values < 0.0))
+    return values, vectors, unstable_directions(tangent) - int(np.sum(values < 0.0))
 
 
 def _eigenvalue(tangent: Tangent, number: int) -> float:

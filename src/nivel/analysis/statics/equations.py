@@ -141,6 +141,9 @@ class StaticEquations:
         own.y[self.positions : self.positions + self.n] = 0.0
         own.vdot[:] = 0.0
         own.lam[:] = lam
+        tree = self.record.tree  # what frames show of relative coordinates follows from these
+        if len(tree.node):
+            tree.state[: self.positions] = state.y[: self.positions]
 
     def tangent(self, state: Rest) -> Tangent:
         """Exact derivatives at a state by complex step."""

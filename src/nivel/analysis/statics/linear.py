@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.linalg import LinAlgWarning, eigh, eigvalsh, lu_factor, lu_solve, null_space
+from scipy.linalg import LinAlgWarning, eig, eigh, eigvalsh, lu_factor, lu_solve, null_space
 from scipy.sparse import bmat, csc_matrix, diags
 from scipy.sparse.linalg import splu
 
@@ -20,6 +20,10 @@ DENSE = 240
 FULL = 60
 # Stiffness of the constraints in the count of the negative pivots of large machines, as a share of the largest stiffness.
 STIFF = 1e7
+# Forces without a potential make a stiffness that is unsymmetric by more than this share.
+UNSYMMETRIC = 1e-8
+# Eigenvalues with larger imaginary parts than this share are pairs of complex ones.
+REAL = 1e-7
 # Eigenvalues next to zero that are looked at where pivots do not tell.
 FEW = 6
 # Pivots below this share of the largest are none.
@@ -96,6 +100,24 @@ def is_small(tangent: Tangent, count: int = 0) -> bool:
     return size <= DENSE or (count > 0 and size - rows <= max(2 * count + 1, 20) + FEW)
 
 
+def has_potential(tangent: Tangent) -> bool:
+    """Whether the stiffness is symmetric, as it is in equilibrium where all forces have a potential."""
+    largest = float(np.abs(tangent.K).max()) if tangent.K.nnz else 0.0
+    return not tangent.K.nnz or float(np.abs(tangent.K - tangent.K.T).max()) <= UNSYMMETRIC * largest
+
+
+def unstable_directions(tangent: Tangent) -> int:
+    """Number of directions in which an equilibrium is unstable: of negative stiffness.
+
+    Where forces have no potential (they follow a body, or moments keep their axis), the number of real negative eigenvalues of K φ = ω² M φ,
+    in large machines of those next to zero.
+    """
+    if has_potential(tangent):
+        return negative_directions(tangent)
+    values, _ = lowest(tangent, tangent.K.shape[0] if is_small(tangent) else FEW, tangent.M)
+    return int(np.sum(values < 0.0))
+
+
 def symmetric(matrix: Any) -> Any:
     """Its symmetric part: of a stiffness at an equilibrium of conservative forces, all of it."""
     return 0.5 * (matrix + matrix.T)
@@ -139,6 +161,7 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
     """(values (k,), directions (f, k)): the lowest eigenvalues of K φ = ω² M φ on the motions that all constraints allow, ascending.
 
     metric : M; absent, the unit matrix. Directions have φᵀ M φ = 1. nearest : those next to zero; of large machines always.
+    Of an unsymmetric K the real eigenvalues, and the real parts of complex pairs where these are positive.
     Of large machines by inverse iteration with the factors of the saddle (Lanczos; shift and invert).
     """
     size = tangent.K.shape[0]
@@ -147,21 +170,41 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
         Z = free_directions(tangent)
         if not Z.shape[1]:
             return np.zeros(0), np.zeros((size, 0))
-        values, vectors = eigh(symmetric(Z.T @ (tangent.K @ Z)), symmetric(Z.T @ (M @ Z)))
+        inner = Z.T @ (tangent.K @ Z), symmetric(Z.T @ (M @ Z))
+        values, vectors = eigh(symmetric(inner[0]), inner[1]) if has_potential(tangent) else _general(*inner)
         order = np.argsort(np.abs(values), kind="stable") if nearest else np.arange(len(values))
         chosen = np.sort(order[:count])
         return values[chosen], Z @ vectors[:, chosen]
     return _lanczos(tangent, count, M)
 
 
+def _general(K: Array, M: Array) -> tuple[Array, Array]:
+    """Real eigenvalues and complex pairs (their positive real parts, once) of an unsymmetric matrix, ascending, with real directions."""
+    found: Any = eig(K, M)
+    return _real(np.asarray(found[0]), np.asarray(found[1]), M)
+
+
+def _real(values: Any, vectors: Any, M: Any) -> tuple[Array, Array]:
+    real = np.abs(values.imag) <= REAL * np.abs(values)
+    kept = real | ((values.imag > 0.0) & (values.real > 0.0))
+    values, vectors = values[kept], vectors[:, kept]
+    # a complex direction is turned so that its largest part is real
+    largest = vectors[np.argmax(np.abs(vectors), axis=0), np.arange(vectors.shape[1])]
+    shapes = (vectors / np.where(largest == 0.0, 1.0, largest)).real
+    shapes = shapes / np.sqrt(np.einsum("ik,ik->k", shapes, M @ shapes))
+    order = np.argsort(values.real, kind="stable")
+    return values.real[order], shapes[:, order]
+
+
 def _lanczos(tangent: Tangent, count: int, M: Sparse) -> tuple[Array, Array]:
-    from scipy.sparse.linalg import LinearOperator, eigsh
+    from scipy.sparse.linalg import LinearOperator, eigs, eigsh
 
     size, rows = tangent.K.shape[0], tangent.C.shape[0]
     count = min(count, size - rows - 1)
     if count < 1:
         return np.zeros(0), np.zeros((size, 0))
-    K, shift, found = symmetric(tangent.K), 0.0, None
+    even = has_potential(tangent)
+    K, shift, found = symmetric(tangent.K) if even else tangent.K, 0.0, None
     for shift in (0.0, -1e-9, -1e-7, -1e-5):
         try:
             matrix = K - shift * M
@@ -178,6 +221,10 @@ def _lanczos(tangent: Tangent, count: int, M: Sparse) -> tuple[Array, Array]:
 
     begin = inverse(M @ np.random.default_rng(0).standard_normal(size))
     operator = LinearOperator((size, size), matvec=inverse, dtype=float)  # type: ignore[call-arg]
-    values, vectors = eigsh(K, k=count, M=csc_matrix(M), sigma=shift, OPinv=operator, v0=begin, which="LM")
+    mass = csc_matrix(M)
+    if not even:
+        found_pairs: Any = eigs(K, k=count, M=mass, sigma=shift, OPinv=operator, v0=begin, which="LM")
+        return _real(found_pairs[0], found_pairs[1], mass)
+    values, vectors = eigsh(K, k=count, M=mass, sigma=shift, OPinv=operator, v0=begin, which="LM")
     order = np.argsort(values)
     return values[order], vectors[:, order]

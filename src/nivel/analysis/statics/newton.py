@@ -1,7 +1,9 @@
 """Newton's iteration for a state of equilibrium, with exact tangents: at a given time, or on the way through limit points.
 
-A full step is taken where it comes nearer: the next change that the same tangent asks for has to be smaller than the step itself (natural
-monotonicity test; Deuflhard 2004, section 3.3). Otherwise it is halved. Changes have no units, so neither do the test and the tolerance.
+Full steps are taken. Parts that are stiff along and soft across, as slender beams, need that: their first steps lead away, the next ones
+back. Where full steps find nothing, the iteration is begun again with a line search: a step is halved until the next change that the same
+tangent asks for is smaller than the step itself (natural monotonicity test; Deuflhard 2004, section 3.3). Changes have no units, so neither
+do the test and the tolerance.
 """
 
 from __future__ import annotations
@@ -19,6 +21,8 @@ from nivel.system.system import Array
 LEAST_SHARE = 1.0 / 64.0
 # The longest change of one iteration, in lengths of the machine and radians.
 LONGEST = 0.5
+# Full steps that are still as long as this after so many iterations lead nowhere.
+PATIENCE, LONG = 10, 0.05
 # Changes that no longer contract are round-off where they are as small as this.
 STALLED, ROUND_OFF = 0.3, 1e-7
 
@@ -61,6 +65,18 @@ def equilibrate(equations: StaticEquations, state: Rest, iteration: Iteration, b
     (Riks 1979, Wempner 1971: corrections perpendicular to the tangent of the path.)
     Raises EquilibriumError.
     """
+    try:
+        return _iterate(equations, state, iteration, border, shortened=False)
+    except EquilibriumError:
+        if not iteration.search:
+            raise
+    return _iterate(equations, state, iteration, border, shortened=True)
+
+
+def _iterate(
+    equations: StaticEquations, state: Rest, iteration: Iteration, border: Change | None, *, shortened: bool
+) -> Found:
+    """The same with full steps, or with shortened ones."""
     sizes: list[float] = []
     moved = np.zeros(len(equations.free))
     for number in range(1, iteration.most + 1):
@@ -80,17 +96,19 @@ def equilibrate(equations: StaticEquations, state: Rest, iteration: Iteration, b
         if not np.isfinite(size):
             raise EquilibriumError("nothing resists a motion", state, tuple(sizes))
         share = min(1.0, LONGEST / size) if size > 0.0 else 1.0
-        nearer = _nearer(equations, state, found, change, share, border) if iteration.search else (share, None)
+        nearer = _nearer(equations, state, found, change, share, border) if shortened else share
         if nearer is None:
             raise EquilibriumError("no step comes nearer to equilibrium", state, (*sizes, size))
-        share, _ = nearer
+        share = nearer
         state = equations.moved(state, change * share)
         moved += share * change.q
         sizes.append(size)
         stalled = len(sizes) > 1 and size > STALLED * sizes[-2] and size <= ROUND_OFF
         if share == 1.0 and (size <= iteration.tolerance or stalled):
             return Found(state, tangent, number, moved, tuple(sizes))
-    raise EquilibriumError(f"{iteration.most} iterations are not enough", state, tuple(sizes))
+        if not shortened and number > PATIENCE and size > LONG:
+            break
+    raise EquilibriumError(f"{len(sizes)} iterations are not enough", state, tuple(sizes))
 
 
 def _is_balanced(equations: StaticEquations, state: Rest, r: Array, C: Array, share: float) -> bool:
@@ -111,17 +129,17 @@ def _size(change: Change) -> float:
 
 def _nearer(
     equations: StaticEquations, state: Rest, found: Any, change: Change, share: float, border: Change | None
-) -> tuple[float, float] | None:
-    """The share of a change that comes nearer, and the size of the change that is left; None where none does."""
+) -> float | None:
+    """The share of a change that comes nearer; None where none does."""
     size = _norm(change)
     if size <= ROUND_OFF:
-        return share, 0.0
+        return share
     while share >= LEAST_SHARE:
         try:
             r, C = equations.evaluate(equations.moved(state, change * share))
             left = _norm(_change(found, r, C, border))
             if left <= (1.0 - 0.25 * share) * size:
-                return share, left
+                return share
         except StateError:
             pass
         share *= 0.5

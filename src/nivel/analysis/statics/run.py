@@ -22,7 +22,7 @@ from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import StateError, Rest, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
-from nivel.analysis.statics.linear import PivotError, negative_directions
+from nivel.analysis.statics.linear import PivotError, has_potential, unstable_directions
 from nivel.analysis.statics.newton import Iteration, EquilibriumError
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
 from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_friction
@@ -50,6 +50,7 @@ class Walk:
     critical: list[CriticalPoint] = field(default_factory=list)
     iterations: int = 0
     rigid: int = 0
+    without_potential: bool = False
     outcome: str = "done"
     ended: tuple[str, str] | None = None
     buckling: list[tuple[float, str]] = field(default_factory=list)
@@ -188,7 +189,8 @@ def _take(
     settings: StaticsSettings,
 ) -> None:
     """Frames of the critical points before an equilibrium, and of itself."""
-    count = negative_directions(point.found.tangent)
+    count = unstable_directions(point.found.tangent)
+    walk.without_potential |= not has_potential(point.found.tangent)
     if walk.points and walk.counts[-1] != count:
         iteration = Iteration(settings.tolerance, settings.most_iterations, settings.line_search)
         critical = critical_points(equations, walk.points[-1], point, (walk.counts[-1], count), iteration)
@@ -269,6 +271,7 @@ def _close(
         critical=tuple((each.kind, each.t, each.found is not None) for each in walk.critical),
         at_rest=at_rest(machine),
         rigid=walk.rigid,
+        without_potential=walk.without_potential,
     )
     result = sink.result()
     critical = [

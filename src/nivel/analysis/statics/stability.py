@@ -8,7 +8,7 @@ import numpy as np
 
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.equations import StaticEquations, Tangent
-from nivel.analysis.statics.linear import PivotError, lowest, negative_directions
+from nivel.analysis.statics.linear import PivotError, lowest, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps, by_arc_length
 from nivel.system.system import Array
@@ -52,10 +52,10 @@ def is_mechanism(found: Softest | None) -> bool:
 def limit_ahead(equations: StaticEquations, last: Point, steps: Steps) -> CriticalPoint | None:
     """The limit point at which a path that could not be followed by load steps turns back; None where none is near."""
     short = Steps(steps.duration, SHORT * steps.step, steps.iteration, LOOKED)
-    before, count = last, negative_directions(last.found.tangent)
+    before, count = last, unstable_directions(last.found.tangent)
     try:
         for after in by_arc_length(equations, last, short):
-            own = negative_directions(after.found.tangent)
+            own = unstable_directions(after.found.tangent)
             if own != count:
                 return next(iter(critical_points(equations, before, after, (count, own), steps.iteration)), None)
             before = after

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-import nivel.analysis.statics.linear as linear
+from nivel.analysis.statics import linear
 from nivel.analysis.statics.newton import Iteration, equilibrate
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle

@@ -40,7 +40,10 @@ def mode_motion(result: Result, number: int, frame: int = -1) -> Result:
         (position + wave[:, None, None] * shift).reshape(FRAMES, -1),
         np.stack([_turned(orientation, share * turn) for share in wave]).reshape(FRAMES, -1),
     ]
-    entries = [("position", ("time", "body", "xyz"), "m"), ("orientation", ("time", "body", "euler_parameter"), "1")]
+    entries: list[tuple[str, tuple[str, ...], str]] = [
+        ("position", ("time", "body", "xyz"), "m"),
+        ("orientation", ("time", "body", "euler_parameter"), "1"),
+    ]
     if bent is not None:
         blocks.append(bent + wave[:, None] * bending)
         entries.append(("modal_coordinate", ("time", "mode"), "kg^0.5 m"))

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from nivel.analysis.statics.equations import Change, Rest, StaticEquations, Tangent
-from nivel.analysis.statics.linear import PivotError, lowest, unstable_directions, solve
-from nivel.analysis.statics.newton import Found, Iteration, EquilibriumError, equilibrate
+from nivel.analysis.statics.linear import PivotError, lowest, solve, unstable_directions
+from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate
 from nivel.analysis.statics.path import Point
 from nivel.kernels.record import NONE
 from nivel.system.system import Array

@@ -91,7 +91,10 @@ class Tangent:
 
 
 class StaticEquations:
-    """The equations of rest of `motion`, which has the residual of implicit methods; duration : scale of time [s]."""
+    """The equations of rest of `motion`, which has the residual of implicit methods; duration : scale of time [s].
+
+    held : forces (f,) without units that hold the machine besides all others, on the way to its first equilibrium; else zero.
+    """
 
     def __init__(self, motion: MotionEquations, duration: float) -> None:
         system = motion.system
@@ -108,6 +111,7 @@ class StaticEquations:
         self.free = np.flatnonzero(~self._idle())
         self.row_scale = self.record.constraints.scale[self.residual.row]
         self.energy = 1.0
+        self.held: Array | float = 0.0
 
     def _idle(self) -> NDArray[np.bool_]:
         """Unknowns that mean nothing: turns of point masses."""
@@ -133,7 +137,7 @@ class StaticEquations:
         r, C = value[: self.n], value[self.n : self.n + self.rows]
         if not (np.isfinite(r).all() and np.isfinite(C).all()):
             raise StateError
-        return (r * self.length)[self.free] / self.energy, C / self.row_scale
+        return (r * self.length)[self.free] / self.energy - self.held, C / self.row_scale
 
     def _load(self, state: Rest, lam: Array) -> None:
         own = self.residual

@@ -109,8 +109,8 @@ def has_potential(tangent: Tangent) -> bool:
 def unstable_directions(tangent: Tangent) -> int:
     """Number of directions in which an equilibrium is unstable: of negative stiffness.
 
-    Where forces have no potential (they follow a body, or moments keep their axis), the number of real negative eigenvalues of K φ = ω² M φ,
-    in large machines of those next to zero.
+    Where forces have no potential (they follow a body, or moments keep their axis), the number of real negative eigenvalues of
+    K φ = ω² M φ, in large machines of those next to zero.
     """
     if has_potential(tangent):
         return negative_directions(tangent)

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.analysis.statics.equations import Change, StateError, Rest, StaticEquations, Tangent
+from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent
 from nivel.analysis.statics.linear import PivotError, bordered, factors, solve_bordered
 from nivel.system.system import Array
 
@@ -21,6 +21,8 @@ from nivel.system.system import Array
 LEAST_SHARE = 1.0 / 64.0
 # The longest change of one iteration, in lengths of the machine and radians.
 LONGEST = 0.5
+# What the iteration may add to what a tangent promised: a share of it, or this in lengths and radians. More is another path.
+BESIDE, JUMP = 2.0, 0.02
 # Full steps that are still as long as this after so many iterations lead nowhere.
 PATIENCE, LONG = 10, 0.05
 # Changes that no longer contract are round-off where they are as small as this.
@@ -71,6 +73,19 @@ def equilibrate(equations: StaticEquations, state: Rest, iteration: Iteration, b
         if not iteration.search:
             raise
     return _iterate(equations, state, iteration, border, shortened=True)
+
+
+def step_to(equations: StaticEquations, state: Rest, ahead: Change, iteration: Iteration) -> Found:
+    """The equilibrium at the time of `state`, next to where the change `ahead` along a tangent leads.
+
+    Raises EquilibriumError, also where it is on another path.
+    """
+    promised = float(np.max(np.abs(ahead.q), initial=0.0))
+    share = min(1.0, LONGEST / promised) if promised > 0.0 else 1.0
+    found = equilibrate(equations, equations.moved(state, ahead * share), iteration)
+    if float(np.max(np.abs(found.moved), initial=0.0)) > max(BESIDE * promised, JUMP):
+        raise EquilibriumError("the next equilibrium is far away", state, found.sizes)
+    return found
 
 
 def _iterate(

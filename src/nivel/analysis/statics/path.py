@@ -14,12 +14,10 @@ import numpy as np
 
 from nivel.analysis.statics.equations import Change, Rest, StaticEquations, Tangent
 from nivel.analysis.statics.linear import PivotError, bordered, solve, solve_bordered
-from nivel.analysis.statics.newton import Found, Iteration, EquilibriumError, equilibrate
+from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 
 # Steps are halved so often, at most.
 HALVINGS = 12
-# What Newton's iteration may add to what the tangent promised: a share of it, or this in lengths and radians. More is another path.
-BESIDE, JUMP = 2.0, 0.02
 # Iterations after which a step along the path becomes shorter, and below which it becomes longer.
 MANY, FEW = 7, 5
 # The tangent turns by no more than this in a step along the path, as a cosine.
@@ -85,13 +83,7 @@ def _load_step(equations: StaticEquations, before: Found, until: float, iteratio
         ahead = solve(tangent, -dt * tangent.slope, -dt * tangent.opening)
     except PivotError:
         raise EquilibriumError("nothing resists a motion", before.state) from None
-    promised = float(np.max(np.abs(ahead.q), initial=0.0))
-    share = min(1.0, 0.5 / promised) if promised > 0.0 else 1.0
-    begin = replace(equations.moved(before.state, ahead * share), t=until)
-    found = equilibrate(equations, begin, iteration)
-    if float(np.max(np.abs(found.moved), initial=0.0)) > max(BESIDE * promised, JUMP):
-        raise EquilibriumError("the next equilibrium is far away", before.state, found.sizes)
-    return found
+    return step_to(equations, replace(before.state, t=until), ahead, iteration)
 
 
 def by_arc_length(equations: StaticEquations, first: Point, steps: Steps) -> Iterator[Point]:

@@ -20,10 +20,10 @@ from nivel.analysis.listener import Listener
 from nivel.analysis.outcome import broken_function
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
-from nivel.analysis.statics.equations import StateError, Rest, StaticEquations
+from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
 from nivel.analysis.statics.linear import PivotError, has_potential, unstable_directions
-from nivel.analysis.statics.newton import Iteration, EquilibriumError
+from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
 from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_friction
 from nivel.analysis.statics.search import settle

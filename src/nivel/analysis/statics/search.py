@@ -1,9 +1,12 @@
 """The first equilibrium, from a machine as it was drawn: where it would settle if it moved as through a thick fluid.
 
-In every step [K + σ, Cᵀ; C, 0] is solved, σ > 0 so large that no direction is unstable and that the equations are nearly linear over the
-step: a step along which the forces do work. σ falls as these allow, and vanishes near an equilibrium, where the iteration is Newton's. So what is
-found is stable, unlike what Newton's iteration alone would find from far away. A machine that is in equilibrium as drawn stays there,
-stable or not. (Levenberg 1944; pseudo-transient continuation, Kelley, Keyes 1998.)
+A machine that is stiff as drawn is held there by the forces that it lacks, and let go in steps: these forces are taken away little by
+little, along stable equilibria. Where that leads nowhere, and with machines that move freely, it goes on otherwise.
+
+There in every step [K + σ, Cᵀ; C, 0] is solved, σ > 0 so large that no direction is unstable and that the equations are nearly linear over
+the step: a step along which the forces do work. σ falls as these allow, and vanishes near an equilibrium, where the iteration is Newton's.
+So what is found is stable, unlike what Newton's iteration alone would find from far away. A machine that is in equilibrium as drawn stays
+there, stable or not. (Levenberg 1944; pseudo-transient continuation, Kelley, Keyes 1998.)
 """
 
 from __future__ import annotations
@@ -12,9 +15,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.statics.equations import Change, StateError, Rest, StaticEquations, Tangent, with_multipliers
+from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent, with_multipliers
 from nivel.analysis.statics.linear import PivotError, factors, negative_directions, solve
-from nivel.analysis.statics.newton import Found, Iteration, EquilibriumError, equilibrate
+from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.system.system import Array
 
 MOST_STEPS = 600
@@ -28,6 +31,8 @@ LARGEST, SMALLEST = 1e6, 1e-10
 BALANCED = 1e-9
 # Steps this small are Newton's to end; those of σ = 0 from this on.
 STILL, NEAR = 1e-8, 0.05
+# Shares of the forces that hold a machine that are taken away at first, and at least.
+FIRST, LEAST = 0.5, 1.0 / 64.0
 # A machine that went this many lengths or radians is held by nothing.
 FAR = 50.0
 MOVES_ON = "the machine moves on for ever"
@@ -39,6 +44,9 @@ def settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Fou
         state, r = _balanced(equations, state)
         if float(np.max(np.abs(r), initial=0.0)) * equations.energy <= BALANCED * equations.loads(state):
             return Found(state, equations.tangent(state), 0, np.zeros(len(r)), ())
+        found = _let_go(equations, state, iteration)
+        if found is not None:
+            return found
         state = _descend(equations, state)
     except StateError:
         raise EquilibriumError("a force, or the state, is not a number", state) from None
@@ -53,6 +61,37 @@ def _balanced(equations: StaticEquations, state: Rest) -> tuple[Rest, Array]:
         lam = solve(tangent.rigid(), -applied, np.zeros(equations.rows), 1.0).lam
         state = with_multipliers(state, equations.force_of(lam))
     return state, equations.evaluate(state)[0]
+
+
+def _let_go(equations: StaticEquations, state: Rest, iteration: Iteration) -> Found | None:
+    """The equilibrium along stable ones, under ever less of the forces that hold `state`; None where there is no such way."""
+    tangent = equations.tangent(state)
+    if negative_directions(tangent) > 0:
+        return None
+    whole, still = equations.evaluate(state)[0], np.zeros(equations.rows)
+    held, step, found = 1.0, FIRST, Found(state, tangent, 0, np.zeros(len(whole)), ())
+    reference = equations.record.coordinates.reference.copy()
+    try:
+        while held > 0.0:
+            less = max(held - step, 0.0)
+            try:
+                ahead = solve(found.tangent, (less - held) * whole, still)
+                equations.held = less * whole
+                after = step_to(equations, found.state, ahead, iteration)
+                stable = negative_directions(after.tangent) == 0
+            except (EquilibriumError, PivotError):
+                after, stable = found, False
+            if not stable:
+                step *= 0.5
+                if step < LEAST:
+                    equations.record.coordinates.reference[:] = reference
+                    return None
+                continue
+            equations.follow(after.state)
+            held, found, step = less, after, min(2.0 * step, 1.0)
+    finally:
+        equations.held = 0.0
+    return found
 
 
 def _descend(equations: StaticEquations, state: Rest) -> Rest:

@@ -317,6 +317,29 @@ def test_tension_stiffens_a_string_of_masses():
     np.testing.assert_allclose(2 * np.pi * result.array("natural_frequency")[0], np.repeat(across, 2), rtol=1e-9)
 
 
+@BOTH
+def test_free_machines_have_rigid_vibrations_that_are_counted(coordinates):
+    """Two masses with a spring between them, free on a rail: ω² = 0 and k (1/m + 1/M)."""
+    sections = {
+        "bodies": {"a": solid(2.0, 0.1), "b": solid(3.0, 0.1, position=[1, 0, 0])},
+        "joints": {"ra": slide("ground", "a"), "rb": slide("ground", "b", point=[1, 0, 0])},
+        "forces": {
+            "s": {
+                "type": "spring-damper",
+                "bodies": ["a", "b"],
+                "points": [[0, 0, 0], [1, 0, 0]],
+                "stiffness": 600.0,
+                "free_length": 1.0,
+            }
+        },
+    }
+    result = machine(sections).statics(coordinates=coordinates, modes=2)
+    np.testing.assert_allclose(result.array("vibration_stiffness")[0], [0, 600 / 2 + 600 / 3], atol=1e-10)
+    assert "1 of no frequency" in next(item.text for item in result.trust.items if item.name == "vibrations")
+    with pytest.raises(SolveError, match="no stiffness"):
+        machine(sections).statics(coordinates=coordinates)
+
+
 # --- closed loops ---
 
 

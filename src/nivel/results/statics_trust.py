@@ -74,9 +74,7 @@ def _items(result: Readable, trust: Trust, facts: StaticsFacts) -> Iterator[Item
     verdict, text = OUTCOMES.get(facts.outcome, ("red", f"Outcome: {facts.outcome}"))
     yield Item("outcome", verdict, f"{text}: {facts.failure}" if facts.failure else text)
     if len(result.time):
-        left = peak(result, "residual")
-        said = f"Equilibrium: forces left over are at most {number(left.value)} of the largest load, at t = {left.time:.6g} s"
-        yield numeric("residual", said, left.value, left.time, threshold=RESIDUAL)
+        yield _residual(result)
     if trust.constraint_violation_row:
         yield violation_item(trust)
     if len(result.time):
@@ -94,6 +92,17 @@ def _items(result: Readable, trust: Trust, facts: StaticsFacts) -> Iterator[Item
     if trust.degrees_of_freedom is not None:
         yield freedom_item(trust)
     yield redundancy_item(trust)
+
+
+def _residual(result: Readable) -> Item:
+    """Forces left over; those that round-off explains are as good as none."""
+    left = peak(result, "residual")
+    values, rounded = result.array("residual"), result.array("residual_round_off")
+    said = f"Equilibrium: forces left over are at most {number(left.value)} of the largest load, at t = {left.time:.6g} s"
+    if RESIDUAL.verdict(left.value) != "green" and np.all(values <= np.maximum(rounded, RESIDUAL.green)):
+        said += "; round-off of the positions makes as much of them, with parts so stiff"
+        return replace(numeric("residual", said, left.value, left.time, threshold=RESIDUAL), verdict="green")
+    return numeric("residual", said, left.value, left.time, threshold=RESIDUAL)
 
 
 def _stability(result: Readable) -> Item:

@@ -28,6 +28,10 @@ from nivel.system.system import Array
 Sparse = Any  # a matrix of scipy.sparse, whose stubs do not know its operators
 
 
+# Units in the last place by which a place is wrong.
+ROUNDINGS = 4.0
+
+
 class StateError(Exception):
     """Something in a state is not a number, or its equations cannot be evaluated there."""
 
@@ -234,6 +238,14 @@ class StaticEquations:
         pushed = self._pushed()
         reacting = float(np.max(np.abs(by_joints - applied), initial=0.0)) * self.energy
         return max(weight, reacting, pushed, float(np.max(np.abs(applied), initial=0.0)) * self.energy)
+
+    def round_off(self, tangent: Tangent, state: Rest) -> float:
+        """What round-off of the positions makes of the forces of the stiffest parts [N m]."""
+        if not len(self.free):
+            return 0.0
+        position = state.y[self.place[self.free, 0]] / self.length[self.free]
+        known = ROUNDINGS * np.finfo(float).eps * np.maximum(np.abs(position), 1.0)
+        return float((abs(tangent.K) @ known).max()) * self.energy
 
     def _pushed(self) -> float:
         """Largest effort that a force reports [N m]: forces times the machine's length."""

@@ -28,6 +28,7 @@ ELEMENTS = ("force.", "driver.", "coupling.")
 OWN: tuple[tuple[str, tuple[str, ...], str, str], ...] = (
     ("path", ("time",), "s", "place along the path of equilibria: ascending also where time turns back"),
     ("residual", ("time",), "1", "largest unbalanced force, over the largest load of the state"),
+    ("residual_round_off", ("time",), "1", "what round-off of the positions makes of the stiffest forces, likewise"),
     ("unstable_directions", ("time",), "1", "directions of negative stiffness; 0: the equilibrium is stable"),
     ("iterations", ("time",), "1", "iterations of Newton's method"),
 )
@@ -48,6 +49,7 @@ class Facts:
 
     path: float
     residual: float
+    round_off: float
     unstable: int
     iterations: int
     vibrations: Vibrations | None
@@ -68,7 +70,7 @@ class FrameWriter:
     def frame(self, state: Rest, facts: Facts) -> Array:
         """The frame (1, width) of an equilibrium."""
         full = self._observed(state, np.zeros(self.equations.n))
-        own = [facts.path, facts.residual, float(facts.unstable), float(facts.iterations)]
+        own = [facts.path, facts.residual, facts.round_off, float(facts.unstable), float(facts.iterations)]
         out = np.concatenate([[state.t], full[self._columns], own])
         if self.modes:
             out = np.concatenate([out, self._vibrating(state, facts.vibrations)])

@@ -26,6 +26,8 @@ UNSYMMETRIC = 1e-8
 REAL = 1e-7
 # Eigenvalues next to zero that are looked at where pivots do not tell.
 FEW = 6
+# Stiffness below this share of the largest is round-off.
+NO_STIFFNESS = 3e-14
 # Pivots below this share of the largest are none.
 NO_PIVOT = 1e-15
 
@@ -135,7 +137,7 @@ def negative_directions(tangent: Tangent, shift: float = 0.0) -> int:
     if is_small(tangent):
         Z = free_directions(tangent)
         values = eigvalsh(symmetric(Z.T @ (tangent.K @ Z)) + shift * np.eye(Z.shape[1])) if Z.shape[1] else np.zeros(0)
-        return int(np.sum(values < 0.0))
+        return int(np.sum(values < -NO_STIFFNESS * np.max(np.abs(values), initial=0.0)))
     K = symmetric(tangent.K) + shift * diags(np.ones(size))
     signs = _pivot_signs(csc_matrix(K + STIFF * (tangent.C.T @ tangent.C)))
     if signs is not None:

@@ -164,7 +164,8 @@ def _follow(
         walk.outcome, walk.ended = "failed", no_start(equations, error)
         return
     loose = softest(found.tangent)
-    if loose is not None and is_mechanism(loose):
+    as_drawn = found.iterations == 0 and not settings.duration
+    if loose is not None and is_mechanism(loose) and not (settings.modes and as_drawn):
         walk.outcome, walk.ended = "failed", without_stiffness(equations, loose)
         return
     equations.follow(found.state)
@@ -228,7 +229,9 @@ def _write(
             walk.rigid = max(walk.rigid, found.rigid)
         except PivotError:
             found = None
-    facts = Facts(point.along, left / loads if loads > 0.0 else 0.0, count, point.found.iterations, found)
+    rounded = equations.round_off(point.found.tangent, state)
+    shares = [each / loads if loads > 0.0 else 0.0 for each in (left, rounded)]
+    facts = Facts(point.along, shares[0], shares[1], count, point.found.iterations, found)
     sink.take(writer.frame(state, facts))
 
 

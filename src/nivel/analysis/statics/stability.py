@@ -8,13 +8,11 @@ import numpy as np
 
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.equations import StaticEquations, Tangent
-from nivel.analysis.statics.linear import PivotError, lowest, unstable_directions
+from nivel.analysis.statics.linear import NO_STIFFNESS, PivotError, lowest, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps, by_arc_length
 from nivel.system.system import Array
 
-# Stiffness below this share of the largest is round-off.
-NO_STIFFNESS = 3e-14
 # A path that ends is followed on by so many steps, this share of a step long.
 LOOKED, SHORT = 40, 0.05
 

@@ -154,8 +154,8 @@ class StaticEquations:
             tree.state[: self.positions] = state.y[: self.positions]
 
     def tangent(self, state: Rest) -> Tangent:
-        """Exact derivatives at a state by complex step."""
-        self._load(state, state.lam)
+        """Exact derivatives at a state; those by hand of beams are of the state last evaluated."""
+        self.evaluate(state)
         address = self.motion.handle.address
         if static_entries.find_parts(address, state.t) != OK:
             raise StateError

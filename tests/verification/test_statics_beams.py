@@ -1,0 +1,115 @@
+"""Statics of geometrically exact beams: closed forms, and published load-displacement paths."""
+
+import numpy as np
+import pytest
+from beams import general
+from simulating import machine
+
+EI, LENGTH = 100.0, 10.0
+
+
+def cantilever(load, elements=10, **beam):
+    section = general(1e5, 1e5, EI, EI, 1.0, (0.1, 0.1, 0.1))
+    return {
+        "beams": {"rod": {"from": [0, 0, 0], "to": [LENGTH, 0, 0], "section": section, "elements": elements, **beam}},
+        "joints": {"wall": {"type": "fixed", "bodies": ["ground", "rod.start"], "point": [0, 0, 0]}},
+        "forces": {"load": {"body": "rod.end", **load}},
+    }
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_cantilever_is_rolled_up_to_a_circle_in_ten_steps(coordinates):
+    """M = 2 π EI/L: uniform curvature, which elements of one point hold exactly; every node turns by its share of t 2 π."""
+    torque = {"type": "torque", "vector": [0, 0, f"{2 * np.pi * EI / LENGTH}*time"]}
+    result = machine(cantilever(torque)).statics(duration=1, step=0.1, coordinates=coordinates)
+    assert len(result.time) == 11
+    assert result.array("iterations").max() < 12
+    turned = np.outer(result.time, 2 * np.pi * np.linspace(0, 1, 11))
+    # sections turn evenly: chords of a regular polygon
+    half = 0.5 * np.diff(turned, axis=1)
+    nodes = np.cumsum(np.exp(1j * (turned[:, :-1] + half)), axis=1) * LENGTH / 10
+    np.testing.assert_allclose(result.array("position")[:, 1:, 0], nodes.real, atol=1e-8)
+    np.testing.assert_allclose(result.array("position")[:, 1:, 1], nodes.imag, atol=1e-8)
+    assert np.abs(result.array("position")[-1, -1]).max() < 1e-8
+
+
+def test_small_tip_load_bends_and_shears():
+    """w = P L³/3EI + P L/GA; curvature of elements of order 2 is linear, as the moment is."""
+    result = machine(cantilever({"type": "force", "vector": [0, -1e-5, 0]}, elements=4, order=2)).statics()
+    expected = 1e-5 * LENGTH**3 / (3 * EI) + 1e-5 * LENGTH / 1e5
+    assert -result.array("position")[0, -1, 1] == pytest.approx(expected, rel=1e-6)
+
+
+def test_euler_column_buckles():
+    """Clamped and free: P = π² EI/4 L², less what shear and shortening take (P/GA and P/EA: 2e-4 together)."""
+    P = np.pi**2 * EI / (4 * LENGTH**2)
+    sections = cantilever({"type": "force", "vector": [f"-{1.2 * P}*time", 0, 0]}, elements=12, order=3)
+    result = machine(sections).statics(duration=1, step=0.25)
+    assert {event.name for event in result.events} == {"bifurcation"}
+    np.testing.assert_allclose([event.time for event in result.events], 1 / 1.2, rtol=1e-3)
+    assert len(result.events) == 2  # in both planes
+
+
+def test_curved_cantilever_bends_out_of_its_plane():
+    """45° of a circle of 100, loaded across at its tip by 600: Bathe, Bolourchi 1979; tip (15.79, 47.23, 53.37) of Simo, Vu-Quoc 1986 with
+    eight linear elements."""
+    s, E = np.sqrt(0.5), 1e7
+    section = {
+        "type": "general",
+        "stiffness": [E, E / 2, E / 2, E / 12, E / 12, E / 12],
+        "mass": 1.0,
+        "inertia": [1, 1, 1],
+    }
+    middle = [100 * (1 - np.cos(np.pi / 8)), 100 * np.sin(np.pi / 8), 0]
+    arc = {"from": [0, 0, 0], "to": [100 * (1 - s), 100 * s, 0], "via": middle, "section": section, "elements": 8}
+    sections = {
+        "beams": {"arc": arc},
+        "joints": {"wall": {"type": "fixed", "bodies": ["ground", "arc.start"], "point": [0, 0, 0]}},
+        "forces": {"load": {"type": "force", "body": "arc.end", "vector": [0, 0, "600*time"]}},
+    }
+    result = machine(sections).statics(duration=1, step=0.5)
+    np.testing.assert_allclose(result.array("position")[-1, -1], [15.79, 47.23, 53.37], rtol=5e-3)
+
+
+def lee_frame(elements, order):
+    """Two beams of 120 at a right angle, hinged at their far ends, loaded 24 from the corner; held in its plane by stiffness."""
+    E, area, second = 7.2e6, 6.0, 2.0
+    G = E / 2.6
+    section = {
+        "type": "general",
+        "stiffness": [E * area, G * area, G * area, 1e3 * E * second, 1e3 * E * second, E * second],
+        "mass": 1.0,
+        "inertia": [1, 1, 1],
+    }
+
+    def beam(a, b, count):
+        return {"from": a, "to": b, "section": section, "elements": count, "order": order}
+
+    def pair(kind, a, b, point, **more):
+        return {"type": kind, "bodies": [a, b], "point": point, **more}
+
+    return {
+        "beams": {
+            "column": beam([0, 0, 0], [0, 120, 0], 5 * elements),
+            "left": beam([0, 120, 0], [24, 120, 0], elements),
+            "right": beam([24, 120, 0], [120, 120, 0], 4 * elements),
+        },
+        "joints": {
+            "foot": pair("revolute", "ground", "column.start", [0, 0, 0], axis=[0, 0, 1]),
+            "corner": pair("fixed", "column.end", "left.start", [0, 120, 0]),
+            "middle": pair("fixed", "left.end", "right.start", [24, 120, 0]),
+            "head": pair("revolute", "ground", "right.end", [120, 120, 0], axis=[0, 0, 1]),
+        },
+        "forces": {"load": {"type": "force", "body": "left.end", "vector": [0, "-20000*time", 0]}},
+    }
+
+
+def test_frame_snaps_back():
+    """Lee, Manuel, Rossow 1968; loads at the limit points 18 552 and -9 440 of Simo, Vu-Quoc 1986. Between them displacements under the load
+    turn back too."""
+    result = machine(lee_frame(1, 3)).statics(duration=1.5, step=0.1, arc_length=True)
+    limits = [20000 * event.time for event in result.events if event.name == "limit point"]
+    np.testing.assert_allclose(limits[:2], [18552, -9440], rtol=0.02)
+    place = result.coordinates["body"].index("left.end")
+    down = result.array("position")[:, place, 1]
+    assert np.any(np.diff(down) > 0) and down[-1] < down[0]  # snap-back

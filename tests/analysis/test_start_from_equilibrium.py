@@ -16,7 +16,9 @@ METHODS = [
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("sections", [hanging_mass(), torsion_pendulum(6.0), four_bar()], ids=["mass", "coil", "four-bar"])
+@pytest.mark.parametrize(
+    "sections", [hanging_mass(), torsion_pendulum(6.0), four_bar()], ids=["mass", "coil", "four-bar"]
+)
 def test_machine_stays_where_it_started(sections, method):
     result = simulate(sections, duration=0.2, step=1e-3, start="equilibrium", **method)
     moved = np.abs(result.array("position") - result.array("position")[0]).max()

@@ -122,7 +122,9 @@ def test_vibrations_can_be_played(folder):
     motion = Result.open(folder / "pendulum-statics.nc").mode(1)
     position = motion.array("bar.position")
     # the bar hangs at (0, -0.5): it swings along x, and the hinge stays on its axis in the first order
-    assert abs(position[:, 0]).max() == pytest.approx(0.08 * Result.open(folder / "pendulum-statics.nc").trust.size, rel=1e-6)
+    assert abs(position[:, 0]).max() == pytest.approx(
+        0.08 * Result.open(folder / "pendulum-statics.nc").trust.size, rel=1e-6
+    )
     assert abs(position[:, 1] + 0.5).max() < 1e-9
     for options, said in ((["--mode", "2"], "fewer freedoms"), (["--mode", "7"], "no vibration 7")):
         done = nivel("view", "pendulum-statics.nc", *options, "--export", "other.html")

@@ -2,6 +2,9 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import fsolve
+
 from beams import general
 from simulating import machine
 
@@ -104,12 +107,48 @@ def lee_frame(elements, order):
     }
 
 
+def shoot(load, guess):
+    """The same frame as a boundary value problem of the planar beam of Reissner: places (2,) of the corner and under the load.
+
+    With the internal force n, r' = (1 + n·d₁/EA) d₁ + (n·d₂/GA) d₂, m' = -r' × n, θ' = m/EI; unknown are the force and the direction at the
+    foot.
+    """
+    E, second = 7.2e6, 2.0
+    EA, GA, EI = 6 * E, 6 * E / 2.6, E * second
+
+    def part(begin, n, length):
+        def rates(_, y):
+            d1, d2 = np.array([np.cos(y[2]), np.sin(y[2])]), np.array([-np.sin(y[2]), np.cos(y[2])])
+            r = (1 + n @ d1 / EA) * d1 + (n @ d2 / GA) * d2
+            return [r[0], r[1], y[3] / EI, -(r[0] * n[1] - r[1] * n[0])]
+
+        return solve_ivp(rates, (0, length), begin, method="DOP853", rtol=1e-11, atol=1e-9).y[:, -1]
+
+    def ends(unknown):
+        n = np.array(unknown[:2]) * 1e4
+        corner = part([0, 0, unknown[2], 0], n, 120.0)
+        middle = part(corner - [0, 0, np.pi / 2, 0], n, 24.0)
+        head = part(middle, n - [0, load], 96.0)
+        return corner, middle, head
+
+    found = fsolve(lambda x: np.array(ends(x)[2])[[0, 1, 3]] / [120, 120, 1e5] - [1, 1, 0], guess, xtol=1e-8)
+    corner, middle, _ = ends(found)
+    return corner[:2], middle[:2]
+
+
 def test_frame_snaps_back():
-    """Lee, Manuel, Rossow 1968; loads at the limit points 18 552 and -9 440 of Simo, Vu-Quoc 1986. Between them displacements under the load
-    turn back too."""
+    """Lee, Manuel, Rossow 1968: first limit load 18 552 of Simo, Vu-Quoc 1986; all the way against the boundary value problem."""
     result = machine(lee_frame(1, 3)).statics(duration=1.5, step=0.1, arc_length=True)
-    limits = [20000 * event.time for event in result.events if event.name == "limit point"]
-    np.testing.assert_allclose(limits[:2], [18552, -9440], rtol=0.02)
-    place = result.coordinates["body"].index("left.end")
-    down = result.array("position")[:, place, 1]
-    assert np.any(np.diff(down) > 0) and down[-1] < down[0]  # snap-back
+    assert [event.name for event in result.events] == ["limit point", "limit point"]
+    assert 20000 * result.events[0].time == pytest.approx(18552, rel=1e-3)
+    assert result.time[-1] == 1.5
+    names, position = result.coordinates["body"], result.array("position")
+    turned = result.array("foot.angle")
+    for k in range(4, len(result.time), 12):
+        reaction = result.array("foot.force")[k, :2] / 1e4  # on the ground: what the beam pulls with
+        corner, middle = shoot(-20000 * result.time[k], [*reaction, np.pi / 2 + turned[k]])
+        np.testing.assert_allclose(position[k, names.index("column.end"), :2], corner, atol=0.02)
+        np.testing.assert_allclose(position[k, names.index("left.end"), :2], middle, atol=0.02)
+    down = position[:, names.index("left.end"), 1]
+    assert np.any(np.diff(down) > 0)  # snap-back
+    assert down[-1] < down[0]

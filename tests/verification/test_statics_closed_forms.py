@@ -433,13 +433,17 @@ def clamped_chain(links, stiffness, joined, tip):
     return {"bodies": bodies, "joints": joints, "forces": forces}
 
 
-@pytest.mark.parametrize(("joined", "coordinates"), [("hinges", "relative"), ("hinges", "absolute"), ("bushings", "absolute")])
+@pytest.mark.parametrize(
+    ("joined", "coordinates"), [("hinges", "relative"), ("hinges", "absolute"), ("bushings", "absolute")]
+)
 def test_chain_is_rolled_up_to_two_full_circles_by_a_moment(joined, coordinates):
     """Every angle is M/k; at M = 4 π k/n the chain of n links has turned by 4 π."""
     links, stiffness = 16, 3.0
     full = 4 * np.pi * stiffness / links
     torque = {"type": "torque", "vector": [0, 0, f"{full}*time"]}
-    result = machine(clamped_chain(links, stiffness, joined, torque)).statics(duration=1, step=0.05, coordinates=coordinates)
+    result = machine(clamped_chain(links, stiffness, joined, torque)).statics(
+        duration=1, step=0.05, coordinates=coordinates
+    )
     assert len(result.time) == 21
     angle = np.outer(result.time, 4 * np.pi / links * np.arange(1, links + 1))
     ends = np.cumsum(np.exp(1j * angle), axis=1) / links

@@ -28,7 +28,9 @@ MACHINES = (".yaml", ".yml")
     type=click.Path(dir_okay=False),
     help="Write FILE.html, one page with everything inside, or a film FILE.mp4 or FILE.gif; nothing is opened.",
 )
-@click.option("--mode", "vibration", type=int, metavar="N", help="Play vibration N about the last state of a statics result.")
+@click.option(
+    "--mode", "vibration", type=int, metavar="N", help="Play vibration N about the last state of a statics result."
+)
 @click.option("--still", type=click.Path(dir_okay=False), help="Write a picture FILE.png; nothing is opened.")
 @click.option("--at", "moment", type=float, help="Time of the still [s]; default: the start.")
 @click.option("--size", default="1280x720", show_default=True, metavar="WxH", help="Of stills and films, in pixels.")

@@ -24,7 +24,12 @@ def command(quiet: bool) -> None:
     from nivel.motion.catalogue import FLOATING, PATHS
 
     console = Console(stderr=True, highlight=False, quiet=quiet)
-    modules = ["nivel.kernels.observe", "nivel.march.loop", "nivel.kernels.tangent_entries", "nivel.kernels.static_entries"]
+    modules = [
+        "nivel.kernels.observe",
+        "nivel.march.loop",
+        "nivel.kernels.tangent_entries",
+        "nivel.kernels.static_entries",
+    ]
     modules += [module for facts in (*PATHS.values(), FLOATING) for module in (facts.module, facts.correction)]
     modules += [facts.module for facts in INTEGRATORS.values()]
     modules += rare_modules()

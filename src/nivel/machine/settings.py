@@ -105,7 +105,9 @@ class SimulationSettings(Record):
     formulation: Formulation = "newton-euler"
     coordinates: Coordinates = "auto"
     stabilisation: Stabilisation = "direct"
-    start: Start = Field(default="as-given", description="the assembled machine, or the equilibrium where it settles, at rest")
+    start: Start = Field(
+        default="as-given", description="the assembled machine, or the equilibrium where it settles, at rest"
+    )
     rotations: Rotations = Field(default="euler-parameters", description="of lagrange in absolute coordinates")
     cut: tuple[str, ...] = Field(default=(), description="joints that stay constraints in relative coordinates")
     step_control: StepControl = Field(

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from nivel.results.result import Result
 
 WIDTH, HEIGHT = 420.0, 300.0
-LEFT, RIGHT, TOP, BOTTOM = 64.0, 16.0, 14.0, 44.0
+LEFT, RIGHT, TOP, BOTTOM = 64.0, 16.0, 28.0, 44.0
 DIAGRAMS = 3
 # Less motion than this share of the machine's size, or of a radian, is none.
 STILL = 1e-9
@@ -67,7 +67,7 @@ def _diagram(result: Result, name: str, unit: str, x: Array) -> str:
     parts += [_mark(place, kind, x, t, result.abscissa, at) for kind, at in result.marks]
     bottom = HEIGHT - 6
     parts.append(f'<text class="axis" x="{(LEFT + WIDTH - RIGHT) / 2}" y="{bottom}">{escape(name)} [{unit}]</text>')
-    parts.append(f'<text class="axis" x="14" y="{TOP + 8}" style="text-anchor:start">t [s]</text>')
+    parts.append(f'<text class="axis" x="{LEFT - 30}" y="{TOP - 12}" style="text-anchor:start">t [s]</text>')
     label = escape(f"time over {name}")
     return f'<svg class="load-path" viewBox="0 0 {WIDTH:.0f} {HEIGHT:.0f}" role="img" aria-label="{label}">{"".join(parts)}</svg>'
 

@@ -55,9 +55,13 @@ def mode_motion(result: Result, number: int, frame: int = -1) -> Result:
     wanted = {dim for _, dims, _ in entries for dim in dims[1:]}
     coordinates = {dim: names for dim, names in result.coordinates.items() if dim in wanted}
     layout = FrameLayout(start, tuple(variables), coordinates)
-    attributes = {key: result.attributes[key] for key in ("machine_record", "scene", "nivel_version") if key in result.attributes}
+    attributes = {
+        key: result.attributes[key] for key in ("machine_record", "scene", "nivel_version") if key in result.attributes
+    }
     name = f"{result.name}, {_name(result, number, frame)}"
-    header = Header(layout, {**attributes, "machine": name, "settings": json.dumps({"vibration": number}), "outcome": "done"})
+    header = Header(
+        layout, {**attributes, "machine": name, "settings": json.dumps({"vibration": number}), "outcome": "done"}
+    )
     return Result(MemoryContents(header, np.hstack(blocks), header.attributes))
 
 

@@ -98,7 +98,9 @@ def _residual(result: Readable) -> Item:
     """Forces left over; those that round-off explains are as good as none."""
     left = peak(result, "residual")
     values, rounded = result.array("residual"), result.array("residual_round_off")
-    said = f"Equilibrium: forces left over are at most {number(left.value)} of the largest load, at t = {left.time:.6g} s"
+    said = (
+        f"Equilibrium: forces left over are at most {number(left.value)} of the largest load, at t = {left.time:.6g} s"
+    )
     if RESIDUAL.verdict(left.value) != "green" and np.all(values <= np.maximum(rounded, RESIDUAL.green)):
         said += "; round-off of the positions makes as much of them, with parts so stiff"
         return replace(numeric("residual", said, left.value, left.time, threshold=RESIDUAL), verdict="green")

@@ -40,7 +40,12 @@ VIBRATION: tuple[tuple[str, tuple[str, ...], str, str], ...] = (
     ("mode_shift", ("time", "vibration", "body", "xyz"), "kg^-0.5", "displacement of the body frame, unit modal mass"),
     ("mode_turn", ("time", "vibration", "body", "xyz"), "kg^-0.5/m", "small rotation of the body, unit modal mass, global axes"),
 )  # fmt: skip
-BENDING = ("mode_bending", ("time", "vibration", "mode"), "m", "modal coordinates of flexible bodies in the vibration, unit modal mass")
+BENDING = (
+    "mode_bending",
+    ("time", "vibration", "mode"),
+    "m",
+    "modal coordinates of flexible bodies in the vibration, unit modal mass",
+)
 
 
 @dataclass(frozen=True)

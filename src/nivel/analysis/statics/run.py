@@ -7,12 +7,9 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from os import PathLike
-from typing import Any
 
 import numpy as np
 
-import nivel
-from nivel.analysis.attributes import run_attributes
 from nivel.analysis.dynamics import Prepared, prepare
 from nivel.analysis.implicit import Wanted, equip
 from nivel.analysis.interrupt import interruptible
@@ -22,6 +19,7 @@ from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
+from nivel.analysis.statics.heading import statics_attributes
 from nivel.analysis.statics.linear import PivotError, has_potential, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
@@ -39,6 +37,9 @@ from nivel.results.occurrence import Occurrence, to_json
 from nivel.results.result import Result
 from nivel.results.statics_trust import StaticsFacts, assess_statics
 from nivel.results.store import Store
+
+# A state whose loads are this many times what round-off makes of them, or less, has none.
+UNLOADED = 10.0
 
 
 @dataclass
@@ -91,7 +92,7 @@ def statics(
     if not chosen_duration and not _depends_on_time(equations, start, settings.duration):
         settings = replace(settings, duration=0.0, arc_length=False)
     writer = FrameWriter(equations, settings.modes)
-    sink.begin(Header(writer.layout, _attributes(machine, source, prepared, settings)))
+    sink.begin(Header(writer.layout, statics_attributes(machine, source, prepared, settings)))
     seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
     begin = time.perf_counter()
     walk = Walk()
@@ -117,27 +118,6 @@ def _start(equations: StaticEquations, prepared: Prepared) -> Rest:
         broken = broken_function(prepared.motion, 0.0, 0.0, prepared.start)
         message, advice = broken or ("the forces at t = 0 are not numbers", "Look at their laws.")
         raise SolveError(message, time=0.0, advice=advice) from None
-
-
-def _attributes(
-    machine: MachineRecord, source: str, prepared: Prepared, settings: StaticsSettings
-) -> dict[str, str | float | int]:
-    coordinates = prepared.motion.system
-    shown: Any = _Shown(
-        {**settings.as_dict(), "coordinates": "relative" if len(coordinates.record.tree.node) else "absolute"}
-    )
-    attributes = run_attributes(machine, source, prepared, shown)
-    return {**attributes, "analysis": "statics", "nivel_version": nivel.__version__}
-
-
-@dataclass(frozen=True)
-class _Shown:
-    """Settings as `run_attributes` asks for them."""
-
-    settings: dict[str, object]
-
-    def as_dict(self) -> dict[str, object]:
-        return self.settings
 
 
 def _depends_on_time(equations: StaticEquations, state: Rest, duration: float) -> bool:
@@ -230,7 +210,8 @@ def _write(
         except PivotError:
             found = None
     rounded = equations.round_off(point.found.tangent, state)
-    shares = [each / loads if loads > 0.0 else 0.0 for each in (left, rounded)]
+    # loads that are round-off themselves are none
+    shares = [each / loads if loads > UNLOADED * rounded else 0.0 for each in (left, rounded)]
     facts = Facts(point.along, shares[0], shares[1], count, point.found.iterations, found)
     sink.take(writer.frame(state, facts))
 

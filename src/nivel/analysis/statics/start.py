@@ -41,7 +41,10 @@ class Settled:
         moving = np.abs(constraints.Cdot / constraints.scale)[: system.machine_rows] > AT_REST
         if np.any(moving):
             faults = [
-                _fault(f"drivers.{name}.value", f"{name} moves at t = 0, and a run from equilibrium starts at rest: let it start slowly")
+                _fault(
+                    f"drivers.{name}.value",
+                    f"{name} moves at t = 0, and a run from equilibrium starts at rest: let it start slowly",
+                )
                 for name in dict.fromkeys(np.array(system.row_owner)[moving].tolist())
             ]
             raise ModelError(faults)

@@ -7,6 +7,7 @@ import contextlib
 import json
 import sys
 import time
+from itertools import pairwise
 
 import numpy as np
 
@@ -31,7 +32,7 @@ def beams(elements: int, load: float) -> tuple[exu.SystemContainer, exu.MainSyst
             mbs.AddNode(items.NodeRigidBodyEP(referenceCoordinates=[start + 5.0 * k / count, 0, 0, 1, 0, 0, 0]))
             for k in range(count + 1)
         ]
-        for pair in zip(nodes[:-1], nodes[1:], strict=True):
+        for pair in pairwise(nodes):
             mbs.AddObject(
                 items.ObjectBeamGeometricallyExact(nodeNumbers=list(pair), length=5.0 / count, sectionData=section)
             )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from beams import general, hinged
+from beams import flying, general, hinged
 from references import hinged_beams, spin_up
 from simulating import simulate
 
@@ -101,3 +101,13 @@ def test_spin_up_ends_with_the_stretch_of_the_centrifugal_force():
     steady = swung_up(10, 1, 0.01)[SPIN_UP[:, 0] > 15.0, 0].mean()
     # ω² ρA L³/(3 EA), and 1e-4 of it for what the stretched beam is longer
     assert_allclose(steady, 36 * 1.2 * 1000 / (3 * 2.8e7), rtol=2e-3)
+
+
+def test_rotation_vectors_with_their_charts_and_euler_parameters_give_the_same_motion():
+    """A flying beam that turns 1.7 times around, so that every node changes its chart."""
+    base = {"duration": 1.0, "step": 1e-4, "integrator": "rk4", "coordinates": "absolute", "output_interval": 0.1}
+    ways = ({}, {"formulation": "lagrange", "rotations": "rotation-vector"})
+    one, other = (simulate({**flying(1, "lumped"), "simulation": {**base, **way}}).dataset for way in ways)
+    turned = np.linalg.norm(one["angular_velocity"].values[:, 0], axis=1).mean()
+    assert turned > 3.2 * np.pi  # [rad] in 1 s
+    assert_allclose(other["position"].values, one["position"].values, atol=1e-7)

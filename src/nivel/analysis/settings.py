@@ -19,6 +19,8 @@ FRAMES = 1000
 MOST_STEPS = 1e12
 # The round-off of some thousand steps; a verification runs with a tenth of the tolerance.
 LEAST_TOLERANCE = 1e-12
+# Of the changes of an iteration, as shares of the scales: below, they are round-off.
+LEAST_CHANGE = 1e-15
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,9 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         wanted = f"a duration of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
         faults.append(_fault("step", f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step"))
         raise ModelError(faults)
+    if facts is not None and facts.implicit and settings.corrector.tolerance < LEAST_CHANGE:
+        message = f"{settings.corrector.tolerance:.3g} is below {LEAST_CHANGE:.0e}, where round-off rules; ask for no less"
+        faults.append(_fault("corrector.tolerance", message))
     steps, every = 0, 0
     if chosen_steps:
         interval = settings.output_interval or settings.duration / FRAMES

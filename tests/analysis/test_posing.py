@@ -4,9 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 import nivel
 from nivel.analysis.posing import Posing
+from nivel.analysis.turned_frame import cardan, nearest_angles, rates_of_angles
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 OPEN = 1e-9
@@ -75,8 +79,110 @@ def test_driven_machines_move_with_the_time():
     assert machine.values()[-1] == 0.0
 
 
-def test_a_machine_without_joints_is_shown_as_well():
+def test_a_body_that_nothing_holds_has_six_numbers():
     ball = nivel.Machine("ball", bodies=[nivel.Body(name="ball", mass=1, inertia=(1, 1, 1), position=(1, 2, 3))])
     machine = ball.posed()
-    assert machine.movements == ()
     np.testing.assert_array_equal(machine.pose()[0], [[1, 2, 3]])
+    assert [each.name for each in machine.movements if each.free] == [
+        f"ball.{name}" for name in ("x", "y", "z", "angle_x", "angle_y", "angle_z")
+    ]
+    wanted = {"ball.y": -0.5, "ball.angle_z": 2.9, "ball.angle_y": -2.6, "ball.angle_x": 1.1, "ball.z": 3.5}
+    for name, value in wanted.items():
+        assert machine.move(name, value) == ""
+    position, parameters = machine.pose()
+    np.testing.assert_allclose(position, [[1.0, -0.5, 3.5]], atol=1e-9)
+    expected = Rotation.from_euler("XYZ", [1.1, -2.6, 2.9])
+    turned = Rotation.from_quat(parameters[0], scalar_first=True)
+    assert (expected.inv() * turned).magnitude() < 1e-9
+
+
+def on_a_ball(bodies=("ground", "bob")):
+    body = nivel.Body(name="bob", mass=1, inertia=(0.1, 0.1, 0.1), position=(0, 0, -1))
+    joint = nivel.Joint(name="ball", type="spherical", bodies=bodies, point=(0, 0, 0))
+    return nivel.Machine("ball", bodies=[body], joints=[joint])
+
+
+def test_a_spherical_joint_has_three_angles_that_go_all_round():
+    machine = on_a_ball().posed()
+    assert [each.name for each in machine.movements] == ["ball.angle_x", "ball.angle_y", "ball.angle_z"]
+    for each in machine.movements:
+        assert (each.low, each.high) == pytest.approx((-np.pi, np.pi))
+    angles = [0.0, 0.0, 0.0]
+    for axis, value in ((1, 0.4), (0, -1.2), (1, 0.5 * np.pi), (1, 2.4), (2, 3.0), (0, 2.0)):
+        assert machine.move(machine.movements[axis].name, value) == ""
+        angles[axis] = value
+        assert machine.values() == pytest.approx(angles, abs=1e-9)
+        expected = Rotation.from_euler("XYZ", angles)
+        np.testing.assert_allclose(machine.pose()[0][0], expected.apply([0, 0, -1]), atol=1e-9)
+        assert gaps(machine) < OPEN
+
+
+def test_a_ball_between_ground_and_body_turns_the_same_whichever_is_named_first():
+    poses = []
+    for each in (on_a_ball(), on_a_ball(("bob", "ground"))):
+        machine = each.posed()
+        assert machine.move("ball.angle_x", 0.7) == ""
+        poses.append(machine.pose()[0])
+    np.testing.assert_allclose(*poses, atol=1e-9)
+
+
+def test_numbers_of_balls_and_coordinates_stay_while_another_moves():
+    link = {"mass": 1, "inertia": (0.1, 0.1, 0.1)}
+    bodies = [nivel.Body(name=f"link_{k}", position=(0, 0, -0.5 - k), **link) for k in range(3)]
+    joints = [
+        nivel.Joint(name="top", type="spherical", bodies=("ground", "link_0"), point=(0, 0, 0)),
+        nivel.Joint(name="knee", type="revolute", bodies=("link_0", "link_1"), point=(0, 0, -1), axis=(0, 1, 0)),
+        nivel.Joint(name="low", type="spherical", bodies=("link_1", "link_2"), point=(0, 0, -2)),
+    ]
+    machine = nivel.Machine("chain", bodies=bodies, joints=joints).posed()
+    wanted = {"top.angle_x": 0.3, "low.angle_z": -1.0, "knee.angle": 0.8, "low.angle_x": 0.2, "top.angle_y": 1.3}
+    for name, value in wanted.items():
+        assert machine.move(name, value) == ""
+    values = dict(zip([each.name for each in machine.movements], machine.values(), strict=True))
+    assert values == pytest.approx({"top.angle_z": 0.0, "low.angle_y": 0.0} | wanted, abs=1e-8)
+    machine.reset()
+    assert machine.values() == pytest.approx([0.0] * 7, abs=1e-12)
+
+
+def test_a_rod_between_two_balls_gets_one_angle_for_its_spin():
+    bodies = [
+        nivel.Body(name="crank", mass=1, inertia=(0.1, 0.1, 0.1), position=(0, 0, 0)),
+        nivel.Body(name="rod", mass=1, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.5, 0)),
+        nivel.Body(name="slider", mass=1, inertia=(0.1, 0.1, 0.1), position=(2.0, 0, 0)),
+    ]
+    joints = [
+        nivel.Joint(name="pin", type="revolute", bodies=("ground", "crank"), point=(0, 0, 0), axis=(0, 0, 1)),
+        nivel.Joint(name="near", type="spherical", bodies=("crank", "rod"), point=(0, 1, 0)),
+        nivel.Joint(name="far", type="spherical", bodies=("rod", "slider"), point=(2, 0, 0)),
+        nivel.Joint(name="rail", type="translational", bodies=("ground", "slider"), point=(2, 0, 0), axis=(1, 0, 0)),
+    ]
+    machine = nivel.Machine("crank", bodies=bodies, joints=joints).posed()
+    names = [each.name for each in machine.movements if each.free]
+    assert names[:2] == ["pin.angle", "rail.displacement"]
+    (spin,) = names[2:]
+    assert spin.startswith("near.angle_")
+    before = dict(zip([each.name for each in machine.movements], machine.values(), strict=True))
+    assert machine.move(spin, 0.5) == ""
+    after = dict(zip([each.name for each in machine.movements], machine.values(), strict=True))
+    assert after[spin] == pytest.approx(0.5, abs=1e-9)
+    assert after["pin.angle"] == pytest.approx(before["pin.angle"], abs=1e-8)
+    assert gaps(machine) < OPEN
+
+
+@given(st.tuples(*[st.floats(-3.1, 3.1)] * 3))
+def test_angles_are_those_that_the_turn_was_made_of(angles):
+    R = cardan(np.array(angles))
+    np.testing.assert_allclose(R, Rotation.from_euler("XYZ", angles).as_matrix(), atol=1e-12)
+    found = nearest_angles(R, np.array(angles))
+    np.testing.assert_allclose(cardan(found), R, atol=1e-9)
+    if abs(np.cos(angles[1])) > 1e-3:
+        np.testing.assert_allclose(found, angles, atol=1e-9)
+
+
+def test_rates_of_angles_are_their_derivatives():
+    angles, h = np.array([0.3, -0.7, 1.9]), 1e-6
+    for k in range(3):
+        step = h * np.eye(3)[k]
+        spin = (cardan(angles + step) - cardan(angles - step)) @ cardan(angles).T / (2 * h)
+        omega = np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
+        np.testing.assert_allclose(rates_of_angles(angles) @ omega, np.eye(3)[k], atol=1e-8)

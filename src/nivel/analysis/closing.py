@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,18 +26,36 @@ OPEN = 1e-9
 DENSE_ENTRIES = 1_000_000
 
 
+class Aim(Protocol):
+    """Something else that positions q (7 B,) are to fulfil: k numbers that are to be zero."""
+
+    @property
+    def scale(self) -> Array:
+        """(k,) what counts as one of each number."""
+        ...
+
+    def error(self, q: Array) -> Array:
+        """(k,) the numbers."""
+        ...
+
+    def rows(self, q: Array) -> Iterator[tuple[int, int, Array]]:
+        """Row, body and (6,) derivatives of the number for (Ṙ, ω̄) of the body."""
+        ...
+
+
 @dataclass(frozen=True)
 class Wishes:
     """What the assembly has to respect beside the constraints.
 
     weight : (B,) how unwilling each body is to move. hold : (B,) bodies that are not moved. values, rates : of joint coordinates,
-    (name, coordinate, wanted).
+    (name, coordinate, wanted). aims : what else positions are to fulfil.
     """
 
     weight: Array
     hold: NDArray[np.bool_]
     values: tuple[tuple[str, int, float], ...] = ()
     rates: tuple[tuple[str, int, float], ...] = ()
+    aims: tuple[Aim, ...] = ()
 
 
 def close_positions(motion: MotionEquations, t: float, y: Array, wishes: Wishes | None = None) -> bool:
@@ -47,16 +66,22 @@ def close_positions(motion: MotionEquations, t: float, y: Array, wishes: Wishes 
     system = motion.system
     rows, coordinates = slice(0, system.machine_rows), system.record.coordinates
     C, scale = system.record.constraints.C, system.record.constraints.scale[rows]
-    values = wishes.values if wishes is not None else ()
+    values, aims = (wishes.values, wishes.aims) if wishes is not None else ((), ())
     scale = np.append(
         scale, [1.0 if name.partition(".")[2].startswith("angle") else system.size for name, _, _ in values]
     )
+    scale = np.concatenate([scale, *(aim.scale for aim in aims)])
     chosen, wanted = [q for _, q, _ in values], np.array([value for _, _, value in values])
+
+    def violations() -> Array:
+        errors = (aim.error(y[: system.positions]) for aim in aims)
+        return np.concatenate([C[rows], coordinates.value[chosen] - wanted, *errors])
+
     best, least, steps, budget = y.copy(), np.inf, 0, ITERATIONS
     while steps < budget:
         steps += 1
         _evaluate_and_follow(motion, t, y)
-        violation = np.append(C[rows], coordinates.value[chosen] - wanted)
+        violation = violations()
         if not np.all(np.isfinite(violation)):
             return False
         size = float(np.linalg.norm(violation / scale))
@@ -67,7 +92,8 @@ def close_positions(motion: MotionEquations, t: float, y: Array, wishes: Wishes 
             best, least = y.copy(), size
         if np.max(np.abs(violation) / scale, initial=0.0) <= CLOSED:
             return True
-        change = least_change(motion, -violation, chosen, scale, wishes, hold=True)
+        further = _blocks(aims, y[: system.positions], system.machine_rows + len(chosen))
+        change = least_change(motion, -violation, chosen, scale, wishes, hold=True, further=further)
         # a step of more than half a radian or half the machine is outside the linear range
         length = float(np.abs(change).max())
         change *= min(1.0, LONGEST / length) if length > 0.0 else 0.0
@@ -75,8 +101,23 @@ def close_positions(motion: MotionEquations, t: float, y: Array, wishes: Wishes 
         y[: system.positions] = moved(y[: system.positions], change)
     y[:] = best
     _evaluate_and_follow(motion, t, y)
-    violation = np.append(C[rows], coordinates.value[chosen] - wanted)
-    return bool(np.max(np.abs(violation) / scale, initial=0.0) <= OPEN)
+    return bool(np.max(np.abs(violations()) / scale, initial=0.0) <= OPEN)
+
+
+Blocks = tuple[Index, Index, Array]  # row (n,), body (n,), entries (n, 6)
+NOTHING: Blocks = (np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 6)))
+
+
+def _blocks(aims: tuple[Aim, ...], q: Array, first: int) -> Blocks:
+    """Derivatives of aims whose rows stand from row `first` on."""
+    row, body, block = [], [], []
+    for aim in aims:
+        for k, of, entries in aim.rows(q):
+            row.append(first + k)
+            body.append(of)
+            block.append(entries)
+        first += len(aim.scale)
+    return (np.array(row, np.int64), np.array(body, np.int64), np.array(block)) if row else NOTHING
 
 
 def _evaluate_and_follow(motion: MotionEquations, t: float, y: Array) -> None:
@@ -95,15 +136,17 @@ def least_change(
     wishes: Wishes | None,
     *,
     hold: bool,
+    further: Blocks = NOTHING,
 ) -> Array:
-    """Least weighted x with [C_q; derivatives of the coordinates] x = target, lengths of x in units of the machine's length.
+    """Least weighted x with [C_q; derivatives of the coordinates; further] x = target, lengths of x in units of the machine's length.
 
-    Rows are weighed by their scales. hold : bodies that are held do not move.
+    Rows are weighed by their scales. hold : bodies that are held do not move. further : blocks of the rows after the coordinates.
     """
     system = motion.system
     if not np.any(target):
         return np.zeros(6 * system.body_count)
     row, body, block = motion.jacobian_blocks(coordinates)
+    row, body, block = np.append(row, further[0]), np.append(body, further[1]), np.vstack([block, further[2]])
     willing = np.ones(system.body_count)
     if wishes is not None:
         willing = np.where(wishes.hold & hold, 0.0, 1.0 / wishes.weight)

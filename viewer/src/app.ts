@@ -66,11 +66,12 @@ export class App {
     document.title = `${stage.name} – nivel`;
     this.motion = stage.motion ? new Motion(stage, arrays) : null;
     this.world = new World(holder, stage);
-    this.actor = new Actor(stage, arrays, this.world.look, false);
+    this.actor = new Actor(stage, arrays, this.world.look, this.motion, false);
     for (const other of others) {
-      const ghost = new Actor(other, arrays, this.world.look, true);
+      const motion = new Motion(other, arrays);
+      const ghost = new Actor(other, arrays, this.world.look, motion, true);
       ghost.root.position.set(...other.origin).sub({ x: stage.origin[0], y: stage.origin[1], z: stage.origin[2] });
-      this.ghosts.push({ actor: ghost, motion: new Motion(other, arrays) });
+      this.ghosts.push({ actor: ghost, motion });
       this.world.scene.add(ghost.root);
     }
     if (this.motion) {
@@ -177,6 +178,7 @@ export class App {
       this.refreshFrame();
     }
     const { clientWidth, clientHeight } = this.world.holder;
+    for (const actor of [this.actor, ...this.ghosts.map((ghost) => ghost.actor)]) actor.look(this.world.camera, clientHeight);
     this.labels.update(this.world.camera, clientWidth, clientHeight);
   }
 

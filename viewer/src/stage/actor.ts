@@ -1,15 +1,24 @@
 // A machine in the picture: groups that follow the frames, with bodies, joint signs and what stretches between bodies.
 import * as THREE from "three";
 import type { Body, Stage } from "../generated/records";
+import type { Motion } from "../motion";
 import type { Arrays } from "../package";
+import { Batch, COARSE, FINE, HIDDEN, LINES, noPieces, type Piece } from "./batch";
+import { Bones } from "./bones";
 import { Deforming } from "./deforming";
-import { Palette, type Look } from "./look";
-import { bodyFrame, jointSign } from "./signs";
+import { Palette, TONES, type Look, type Tone } from "./look";
+import { Nearness } from "./nearness";
+import { bodyFrame, jointSigns } from "./signs";
 import { bar, edgesOf, partGeometry } from "./solids";
 import { stretching, type Stretching } from "./stretching";
 
-const LINK = 0.013; // radius of automatic links, of the machine's size
+const LINK = 0.013; // radius of automatic links, of the size near the body
 const THIN = 0.008; // where a shape is there too
+const MANY = 40; // a machine of more bodies is drawn coarser where it is far away
+const ROUND = 20; // facets of round solids
+const ROUGH = 6; // and from afar
+const NEAR = 6; // pixels of a link's radius from which on it is drawn finely
+const FAR = 0.75; // and below which it is a line
 
 export type Kind = "body" | "joint" | "force";
 export interface Picked {
@@ -23,34 +32,54 @@ export class Actor {
   readonly ground = new THREE.Group();
   readonly palette: Palette;
   readonly deforming: Deforming[];
-  readonly signs = new THREE.Group(); // joint signs, each in its body's group
+  readonly nearness: Nearness;
   readonly frame: Float32Array; // as shown
   readonly isBad: boolean[];
+  readonly solids: Piece[] = []; // of the bodies
+  private readonly pieces: readonly Piece[]; // all
+  private readonly levels: Uint8Array; // how much is seen of each body
+  private readonly bones: Bones | null;
   private readonly stretching: Stretching[];
-  private readonly signObjects: THREE.Object3D[] = [];
-  private readonly triads: THREE.Object3D[] = [];
-  private readonly centres: THREE.Object3D[] = [];
+  private readonly batches: Batch[] = [];
+  private readonly signBatches: Batch[] = [];
   private readonly edges: THREE.Object3D[] = [];
+  private readonly extras = { triads: new Extra(() => this.triads()), centres: new Extra(() => this.centres()) };
   private marked: THREE.Object3D[] = [];
 
   constructor(
     readonly stage: Stage,
     arrays: Arrays,
     look: Look,
+    motion: Motion | null,
     readonly isGhost: boolean,
   ) {
     this.palette = new Palette(look, isGhost);
+    this.nearness = new Nearness(stage);
     this.frame = new Float32Array(stage.layout.width);
     this.isBad = stage.bodies.map(() => false);
-    for (const body of stage.bodies) {
-      const group = this.build(body, arrays);
-      this.bodies.push(group);
-      this.root.add(group);
-    }
+    this.levels = new Uint8Array(stage.bodies.length);
+    this.ground.position.copy(this.origin).negate();
     this.root.add(this.ground);
-    if (!isGhost) this.furnish();
-    this.stretching = stretching(this, this.palette);
-    for (const each of this.stretching) this.root.add(each.object);
+    for (const [k, body] of stage.bodies.entries()) {
+      this.bodies.push(new THREE.Group());
+      this.root.add(this.bodies[k]!);
+      this.build(k, body, arrays);
+    }
+    motion?.sample(motion.start, this.frame); // springs are as long as at the start
+    this.pose();
+    const { moving, pieces } = stretching(this);
+    this.stretching = moving;
+    for (const each of moving) this.root.add(each.object);
+    this.fill(this.solids, this.palette.body, this.batches);
+    const signs = this.signs();
+    for (const tone of TONES) {
+      this.fill(signs[tone], this.palette[tone], this.signBatches);
+      this.fill(pieces[tone], this.palette[tone], this.batches);
+    }
+    this.pieces = [...this.solids, ...TONES.flatMap((tone) => [...signs[tone], ...pieces[tone]])];
+    this.bones = this.isLarge ? new Bones(this, isGhost) : null;
+    if (this.bones) this.root.add(this.bones.object);
+    this.recolour(look);
     this.deforming = stage.flexible.map((each) => new Deforming(each, arrays, isGhost));
     for (const each of this.deforming) this.holder(each.record.body).add(each.mesh);
   }
@@ -62,9 +91,8 @@ export class Actor {
 
   /** A point of a body in space, into `out`. */
   place(body: number, point: readonly [number, number, number], out: THREE.Vector3): THREE.Vector3 {
-    out.set(...point);
-    const group = this.bodies[body];
-    return group ? out.applyQuaternion(group.quaternion).add(group.position) : out.sub(this.origin);
+    const group = this.holder(body);
+    return out.set(...point).applyQuaternion(group.quaternion).add(group.position);
   }
 
   private get origin(): THREE.Vector3 {
@@ -78,10 +106,51 @@ export class Actor {
     return out.set(this.frame[first]!, this.frame[first + 1]!, this.frame[first + 2]!);
   }
 
-  /** Show the frame that stands in `this.frame`. Bodies whose pose is not finite are hidden. */
+  /** Show the frame that stands in `this.frame`. */
   apply(): void {
+    this.pose();
+    for (const each of this.stretching) each.update();
+    this.arrange();
+    this.bones?.update();
+    const first = 7 * this.stage.layout.bodies;
+    for (const each of this.deforming) each.update(this.frame, first);
+  }
+
+  /** Draw as much of each body as is seen from the camera; of a machine of few bodies all is drawn. height : of the picture, in pixels. */
+  look(camera: THREE.PerspectiveCamera, height: number): void {
+    if (!this.isLarge) return;
+    const at = new THREE.Vector3();
+    const focal = (0.5 * height) / Math.tan(THREE.MathUtils.degToRad(camera.fov / 2));
+    let changed = false;
+    camera.updateMatrixWorld();
+    this.bodies.forEach((group, k) => {
+      const size = this.nearness.body(k);
+      at.copy(group.position).add(this.root.position).applyMatrix4(camera.matrixWorldInverse);
+      const depth = Math.max(-at.z, 0.1 * size);
+      const pixels = (LINK * size * focal) / depth;
+      // a body is about as long as a sixth of the size near it, what shows of it reaches twice as far
+      const wide = (0.5 * size + depth * Math.tan(THREE.MathUtils.degToRad(camera.fov / 2))) * 1.05;
+      const out = at.z > size || Math.abs(at.y) > wide || Math.abs(at.x) > wide * Math.max(camera.aspect, 1);
+      const level = out ? HIDDEN : pixels > NEAR ? FINE : pixels > FAR ? COARSE : LINES;
+      if (level !== this.levels[k]) changed = true;
+      this.levels[k] = level;
+    });
+    if (changed) this.arrange();
+  }
+
+  private get isLarge(): boolean {
+    return this.stage.bodies.length > MANY;
+  }
+
+  private arrange(): void {
+    for (const batch of [...this.batches, ...this.signBatches]) batch.update(this.levels);
+  }
+
+  /** Bring the bodies to their places; those whose pose is not finite are hidden. */
+  private pose(): void {
     this.bodies.forEach((group, body) => {
-      const [x, y, z, e0, e1, e2, e3] = this.frame.subarray(7 * body, 7 * body + 7) as unknown as [number, number, number, number, number, number, number];
+      const first = 7 * body;
+      const [x, y, z, e0, e1, e2, e3] = [0, 1, 2, 3, 4, 5, 6].map((k) => this.frame[first + k]!) as [number, number, number, number, number, number, number];
       const fit = Number.isFinite(x + y + z + e0 + e1 + e2 + e3);
       this.isBad[body] = !fit;
       group.visible = fit;
@@ -89,18 +158,17 @@ export class Actor {
       group.position.set(x, y, z);
       group.quaternion.set(e1, e2, e3, e0).normalize();
     });
-    for (const each of this.stretching) each.update();
-    const first = 7 * this.stage.layout.bodies;
-    for (const each of this.deforming) each.update(this.frame, first);
   }
 
   show(what: "signs" | "triads" | "centres" | "edges", on: boolean): void {
-    const objects = { signs: this.signObjects, triads: this.triads, centres: this.centres, edges: this.edges }[what];
-    for (const each of objects) each.visible = on;
+    if (what === "signs") for (const each of this.signBatches) each.mesh.visible = on;
+    else if (what === "edges") for (const each of this.edges) each.visible = on;
+    else this.extras[what].show(on);
   }
 
   recolour(look: Look): void {
     this.palette.recolour(look);
+    this.bones?.recolour(look.soft);
   }
 
   /** Light up an element. */
@@ -109,86 +177,109 @@ export class Actor {
     this.marked = [];
     if (!picked) return;
     const material = new THREE.MeshBasicMaterial({ color: look.accent, transparent: true, opacity: 0.34, depthTest: true, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
-    const found: THREE.Mesh[] = [];
+    const is = (said: unknown) => (said as Picked).kind === picked.kind && (said as Picked).name === picked.name;
+    const found: [THREE.BufferGeometry, THREE.Object3D][] = this.pieces.filter(({ said }) => is(said)).map(({ geometry, holder }) => [geometry, holder]);
     this.root.traverse((object) => {
-      if (object instanceof THREE.Mesh && object.userData.kind === picked.kind && object.userData.name === picked.name) found.push(object);
+      if (object instanceof THREE.Mesh && is(object.userData)) found.push([object.geometry, object]);
     });
-    for (const mesh of found) {
-      const glow = new THREE.Mesh(mesh.geometry, material);
-      mesh.add(glow);
+    for (const [geometry, holder] of found) {
+      const glow = new THREE.Mesh(geometry, material);
+      holder.add(glow);
       this.marked.push(glow);
     }
   }
 
-  private build(body: Body, arrays: Arrays): THREE.Group {
-    const group = new THREE.Group();
-    const said = { kind: "body", name: body.name };
-    const material = this.palette.solid(body.colour);
+  /** What is under a ray, of one of its hits. */
+  said(hit: THREE.Intersection): Picked | null {
+    const batch = [...this.batches, ...this.signBatches].find(({ mesh }) => mesh === hit.object);
+    if (batch) return batch.said(hit.batchId ?? -1);
+    return hit.object instanceof THREE.Mesh && hit.object.userData.name ? (hit.object.userData as Picked) : null;
+  }
+
+  private fill(pieces: Piece[], material: THREE.Material, into: Batch[]): void {
+    if (!pieces.length) return;
+    const batch = new Batch(pieces, material);
+    this.root.add(batch.mesh);
+    into.push(batch);
+  }
+
+  private build(k: number, body: Body, arrays: Arrays): void {
+    const holder = this.bodies[k]!;
+    const said: Picked = { kind: "body", name: body.name };
+    const colour = this.isGhost ? undefined : body.colour;
+    const add = (made: (facets: number) => THREE.BufferGeometry, facets: number, thin: boolean) => {
+      const coarse = this.isLarge && facets > ROUGH ? { coarse: made(ROUGH) } : {};
+      this.solids.push({ geometry: made(facets), ...coarse, thin, body: k, holder, said, ...(colour ? { colour } : {}) });
+    };
     for (const part of body.parts) {
-      const geometry = partGeometry(part, arrays);
-      const mesh = solid(geometry, material, said);
-      group.add(mesh);
-      const edges = edgesOf(part, geometry);
+      add((facets) => partGeometry(part, arrays, 2 * facets), part.kind === "mesh" ? ROUGH : ROUND, false);
+      const edges = edgesOf(part, partGeometry(part, arrays));
       if (edges) {
         const lines = new THREE.LineSegments(edges, this.palette.edge);
-        group.add(lines);
+        holder.add(lines);
         this.edges.push(lines);
       }
     }
     const centre = new THREE.Vector3(...body.centre_of_mass);
-    const size = this.stage.size;
+    const size = this.nearness.body(k);
     const radius = (body.parts.length ? THIN : LINK) * size;
     for (const point of body.links) {
       const to = new THREE.Vector3(...point);
       if (to.distanceTo(centre) < 1e-6 * size) continue;
-      group.add(solid(bar(centre, to, radius), material, said));
-      group.add(ball(to, radius, material, said));
+      add((facets) => bar(centre, to, radius, facets), ROUND, true);
+      add((facets) => ball(to, radius, facets), ROUND, true);
     }
-    if (!body.parts.length) group.add(ball(centre, body.links.length > 1 ? 1.5 * radius : 2.2 * radius, material, said));
-    return group;
+    if (!body.parts.length) add((facets) => ball(centre, (body.links.length > 1 ? 1.5 : 2.2) * radius, facets), ROUND, true);
   }
 
-  private furnish(): void {
-    const size = this.stage.size;
-    for (const joint of this.stage.joints) {
-      const holder = this.holder(joint.bodies[joint.place]);
-      const sign = jointSign(joint, this.stage, this.palette);
-      for (const each of sign.moving) {
-        if (holder === this.ground) each.position.sub(this.origin);
-        holder.add(each);
-        this.signObjects.push(each);
-      }
-      for (const each of sign.standing) {
-        each.position.sub(this.origin);
-        this.ground.add(each);
-        this.signObjects.push(each);
-      }
+  /** Of the joints; a ghost has none. */
+  private signs(): Record<Tone, Piece[]> {
+    const out = noPieces();
+    for (const joint of this.isGhost ? [] : this.stage.joints) {
+      const said: Picked = { kind: "joint", name: joint.name };
+      const size = this.nearness.joint(joint);
+      const coarse = this.isLarge ? jointSigns(joint, this.stage, size, ROUGH) : [];
+      jointSigns(joint, this.stage, size, ROUND + 4).forEach(({ tone, geometry, standing }, k) => {
+        const body = standing ? -1 : joint.bodies[joint.place];
+        const far = coarse[k] ? { coarse: coarse[k].geometry } : {};
+        out[tone].push({ geometry, ...far, thin: true, body, holder: this.holder(body), said });
+      });
     }
-    for (const [k, body] of this.stage.bodies.entries()) {
-      const triad = bodyFrame(0.09 * size);
-      triad.visible = false;
-      this.bodies[k]!.add(triad);
-      this.triads.push(triad);
-      const centre = ball(new THREE.Vector3(...body.centre_of_mass), 0.014 * size, this.palette.signDark, { kind: "body", name: body.name });
-      (centre.material as THREE.Material).depthTest = true;
+    return out;
+  }
+
+  private triads(): THREE.Object3D[] {
+    return this.bodies.map((group, k) => {
+      const triad = bodyFrame(0.09 * this.nearness.body(k));
+      group.add(triad);
+      return triad;
+    });
+  }
+
+  private centres(): THREE.Object3D[] {
+    return this.bodies.map((group, k) => {
+      const body = this.stage.bodies[k]!;
+      const centre = new THREE.Mesh(ball(new THREE.Vector3(...body.centre_of_mass), 0.014 * this.nearness.body(k), ROUND), this.palette.signDark);
+      centre.userData = { kind: "body", name: body.name };
       centre.renderOrder = 2;
-      centre.visible = false;
-      this.bodies[k]!.add(centre);
-      this.centres.push(centre);
-    }
+      group.add(centre);
+      return centre;
+    });
   }
 }
 
-export function solid(geometry: THREE.BufferGeometry, material: THREE.Material, said: Picked | { kind: string; name: string }): THREE.Mesh {
-  const mesh = new THREE.Mesh(geometry, material);
-  mesh.castShadow = !material.transparent;
-  mesh.receiveShadow = false;
-  mesh.userData = { ...said };
-  return mesh;
+function ball(at: THREE.Vector3, radius: number, facets: number): THREE.BufferGeometry {
+  return new THREE.SphereGeometry(radius, facets, Math.round(0.7 * facets)).translate(at.x, at.y, at.z);
 }
 
-export function ball(at: THREE.Vector3, radius: number, material: THREE.Material, said: { kind: string; name: string }): THREE.Mesh {
-  const mesh = solid(new THREE.SphereGeometry(radius, 20, 14), material, said);
-  mesh.position.copy(at);
-  return mesh;
+/** Objects that are made when they are first wanted. */
+class Extra {
+  private made: THREE.Object3D[] | null = null;
+
+  constructor(private readonly make: () => THREE.Object3D[]) {}
+
+  show(on: boolean): void {
+    if (on) this.made ??= this.make();
+    for (const each of this.made ?? []) each.visible = on;
+  }
 }

@@ -9,7 +9,7 @@ const MOST = 8000; // points
 
 /** Corners of the boxes around all bodies, at some moments; and what stands on the ground. */
 export function cloudOf(actor: Actor, motion: Motion): THREE.Vector3[] {
-  const boxes = actor.bodies.map((group) => localBox(group));
+  const boxes = localBoxes(actor);
   const moments = Math.max(Math.min(MOMENTS, motion.count, Math.floor(MOST / (8 * Math.max(boxes.length, 1)))), 1);
   const frame = new Float32Array(motion.layout.width);
   const turn = new THREE.Quaternion();
@@ -36,14 +36,14 @@ export function cloudOf(actor: Actor, motion: Motion): THREE.Vector3[] {
   return out;
 }
 
-/** The box around what a group holds, in its own axes; signs of joints do not count. */
-function localBox(group: THREE.Group): THREE.Box3 {
-  const box = new THREE.Box3();
-  for (const child of group.children) {
-    if (!(child instanceof THREE.Mesh) || child.userData.kind !== "body" || !child.visible) continue;
-    child.updateMatrix();
-    child.geometry.computeBoundingBox();
-    if (child.geometry.boundingBox) box.union(child.geometry.boundingBox.clone().applyMatrix4(child.matrix));
-  }
-  return box;
+/** The box around each body, in its own axes; signs of joints do not count. */
+function localBoxes(actor: Actor): THREE.Box3[] {
+  const boxes = new Map(actor.bodies.map((group) => [group as THREE.Object3D, new THREE.Box3()]));
+  const add = (holder: THREE.Object3D, geometry: THREE.BufferGeometry) => {
+    geometry.computeBoundingBox();
+    if (geometry.boundingBox) boxes.get(holder)?.union(geometry.boundingBox);
+  };
+  for (const { holder, geometry } of actor.solids) add(holder, geometry);
+  for (const { record, mesh } of actor.deforming) add(actor.holder(record.body), mesh.geometry);
+  return [...boxes.values()];
 }

@@ -35,9 +35,13 @@ export function readLook(): Look {
   };
 }
 
-/** Materials that all bodies share by colour; a ghost's let the machine shine through. */
+/** What is drawn in one colour that light and dark decide: signs, feet on the ground, wires. */
+export const TONES = ["sign", "signDark", "foot", "wire"] as const;
+export type Tone = (typeof TONES)[number];
+
+/** Materials that all bodies share; a ghost's let the machine shine through. */
 export class Palette {
-  private readonly solids = new Map<string, THREE.MeshPhongMaterial>();
+  readonly body: THREE.MeshPhongMaterial; // takes the colours of the pieces
   readonly edge: THREE.LineBasicMaterial;
   readonly sign: THREE.MeshLambertMaterial;
   readonly signDark: THREE.MeshLambertMaterial;
@@ -45,9 +49,20 @@ export class Palette {
   readonly wire: THREE.MeshLambertMaterial;
 
   constructor(
-    private look: Look,
+    look: Look,
     private readonly ghost: boolean,
   ) {
+    this.body = new THREE.MeshPhongMaterial({
+      shininess: 28,
+      specular: 0x222222,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+      transparent: ghost,
+      opacity: ghost ? 0.24 : 1,
+      depthWrite: !ghost,
+      side: THREE.DoubleSide,
+    });
     this.edge = new THREE.LineBasicMaterial({ transparent: true, opacity: ghost ? 0.35 : 0.5 });
     this.sign = new THREE.MeshLambertMaterial();
     this.signDark = new THREE.MeshLambertMaterial();
@@ -57,41 +72,12 @@ export class Palette {
     this.recolour(look);
   }
 
-  solid(colour: string): THREE.MeshPhongMaterial {
-    let material = this.solids.get(colour);
-    if (!material) {
-      material = new THREE.MeshPhongMaterial({
-        shininess: 28,
-        specular: 0x222222,
-        polygonOffset: true,
-        polygonOffsetFactor: 1,
-        polygonOffsetUnits: 1,
-        transparent: this.ghost,
-        opacity: this.ghost ? 0.24 : 1,
-        depthWrite: !this.ghost,
-        side: THREE.DoubleSide,
-      });
-      this.solids.set(colour, material);
-      this.paint(material, colour);
-    }
-    return material;
-  }
-
   recolour(look: Look): void {
-    this.look = look;
     this.edge.color.set(look.dark ? "#0b0f14" : "#1b2430");
     this.sign.color.set(look.dark ? "#dfe6ee" : "#ffffff");
     this.signDark.color.set(look.dark ? "#aab6c4" : "#39434f");
     this.foot.color.set(look.dark ? "#566272" : "#9aa5b2");
     this.wire.color.set(look.dark ? "#c2ccd8" : "#56616f");
-    for (const [colour, material] of this.solids) this.paint(material, colour);
-  }
-
-  private paint(material: THREE.MeshPhongMaterial, colour: string): void {
-    material.color.set(this.ghost ? this.look.soft : colour);
-  }
-
-  dispose(): void {
-    for (const each of [...this.solids.values(), this.edge, this.sign, this.signDark, this.foot, this.wire]) each.dispose();
+    if (this.ghost) this.body.color.set(look.soft);
   }
 }

@@ -21,11 +21,18 @@ export function listenToPicks(world: World, actor: Actor, arrows: THREE.Object3D
     caster.setFromCamera(at, world.camera);
     const hits = caster.intersectObjects([actor.root, arrows], true);
     // a joint sign half inside a bar is meant where it is nearly as near
-    const named = hits.filter((hit) => hit.object instanceof THREE.Mesh && hit.object.userData.name && seen(hit.object));
+    const named = hits.flatMap((hit) => {
+      const said = seen(hit.object) ? actor.said(hit) : null;
+      return said ? [{ said, distance: hit.distance, size: sizeOf(said) }] : [];
+    });
     const first = named[0];
     if (!first) return null;
-    const near = named.find((hit) => hit.object.userData.kind !== "body" && hit.distance < first.distance + 0.02 * actor.stage.size) ?? first;
-    return { kind: near.object.userData.kind, name: near.object.userData.name };
+    return (named.find(({ said, distance, size }) => said.kind !== "body" && distance < first.distance + 0.02 * size) ?? first).said;
+  }
+
+  function sizeOf(said: Picked): number {
+    const joint = said.kind === "joint" && actor.stage.joints.find(({ name }) => name === said.name);
+    return joint ? actor.nearness.joint(joint) : actor.stage.size;
   }
 }
 

@@ -14,10 +14,10 @@ function alongAxis(geometry: THREE.BufferGeometry, along: string): THREE.BufferG
   return geometry;
 }
 
-function tube(outer: number, inner: number, length: number): THREE.BufferGeometry {
+function tube(outer: number, inner: number, length: number, facets: number): THREE.BufferGeometry {
   const h = length / 2;
   const corners = [[inner, -h], [outer, -h], [outer, h], [inner, h], [inner, -h]] as const;
-  const geometry = new THREE.LatheGeometry(corners.map(([r, y]) => new THREE.Vector2(r, y)), ROUND).toNonIndexed();
+  const geometry = new THREE.LatheGeometry(corners.map(([r, y]) => new THREE.Vector2(r, y)), facets).toNonIndexed();
   geometry.computeVertexNormals();
   smoothRound(geometry);
   return geometry;
@@ -62,7 +62,8 @@ function creased(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   return flat;
 }
 
-export function partGeometry(part: Part, arrays: Arrays): THREE.BufferGeometry {
+/** facets : of round bars and spheres. */
+export function partGeometry(part: Part, arrays: Arrays, facets = ROUND): THREE.BufferGeometry {
   const [a = 1, b = 1, c = 1] = part.size;
   let geometry: THREE.BufferGeometry;
   switch (part.kind) {
@@ -70,16 +71,16 @@ export function partGeometry(part: Part, arrays: Arrays): THREE.BufferGeometry {
       geometry = new THREE.BoxGeometry(a, b, c);
       break;
     case "cylinder":
-      geometry = alongAxis(new THREE.CylinderGeometry(a, a, b, ROUND), part.along);
+      geometry = alongAxis(new THREE.CylinderGeometry(a, a, b, facets), part.along);
       break;
     case "capsule":
-      geometry = alongAxis(new THREE.CapsuleGeometry(a, b, 12, ROUND), part.along);
+      geometry = alongAxis(new THREE.CapsuleGeometry(a, b, Math.ceil(0.3 * facets), facets), part.along);
       break;
     case "tube":
-      geometry = alongAxis(tube(a, b, c), part.along);
+      geometry = alongAxis(tube(a, b, c, facets), part.along);
       break;
     case "sphere":
-      geometry = new THREE.SphereGeometry(a, ROUND, ROUND / 2);
+      geometry = new THREE.SphereGeometry(a, facets, facets / 2);
       break;
     case "extrusion":
       geometry = prism(part);
@@ -100,10 +101,10 @@ export function edgesOf(part: Part, geometry: THREE.BufferGeometry): THREE.Buffe
 
 const Y = new THREE.Vector3(0, 1, 0);
 
-/** A round bar between two points. */
-export function bar(from: THREE.Vector3, to: THREE.Vector3, radius: number, facets = 14): THREE.BufferGeometry {
+/** A round bar between two points, open at its ends. */
+export function bar(from: THREE.Vector3, to: THREE.Vector3, radius: number, facets: number): THREE.BufferGeometry {
   const length = from.distanceTo(to);
-  const geometry = new THREE.CylinderGeometry(radius, radius, length || 1e-9, facets);
+  const geometry = new THREE.CylinderGeometry(radius, radius, length || 1e-9, facets, 1, true);
   const turn = new THREE.Quaternion().setFromUnitVectors(Y, to.clone().sub(from).normalize());
   const middle = from.clone().add(to).multiplyScalar(0.5);
   return geometry.applyMatrix4(new THREE.Matrix4().compose(middle, turn, new THREE.Vector3(1, 1, 1)));

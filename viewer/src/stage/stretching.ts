@@ -1,32 +1,40 @@
 // What stretches between two bodies: springs, dampers, cylinders, rods of massless links; coils, bushings and planes of contacts.
 import * as THREE from "three";
 import type { Force, Joint } from "../generated/records";
-import type { Actor } from "./actor";
-import type { Palette } from "./look";
+import type { Actor, Picked } from "./actor";
+import { noPieces, type Piece } from "./batch";
+import type { Tone } from "./look";
 
-const WIRE = 0.0042; // radii, of the machine's size
+const WIRE = 0.0042; // radii, of the size near the element
 const COIL = 0.021;
 const ROD = 0.0075;
 const BARREL = 0.0135;
 const TURNS = 9;
+const MANY = 20; // springs from which on each is drawn with fewer facets
 
 export interface Stretching {
   object: THREE.Object3D;
   update(): void;
 }
 
+/** moving : what has to be brought to its place at every frame; pieces : what hangs on it, or on bodies. */
+export interface Stretched {
+  moving: Stretching[];
+  pieces: Record<Tone, Piece[]>;
+}
+
 type Point = readonly [number, number, number];
 const Z = new THREE.Vector3(0, 0, 1);
 
-export function stretching(actor: Actor, palette: Palette): Stretching[] {
-  const out: Stretching[] = [];
-  for (const joint of actor.stage.joints) if (joint.rod) out.push(rod(actor, joint, palette));
+export function stretching(actor: Actor): Stretched {
+  const out: Stretched = { moving: [], pieces: noPieces() };
+  for (const joint of actor.stage.joints) if (joint.rod) rod(actor, joint, out);
   for (const force of actor.stage.forces) {
     if (force.points.length !== 2) continue;
-    if (force.look === "plane") out.push(plane(actor, force));
-    else if (force.look === "coil") out.push(coil(actor, force, palette));
-    else if (force.look === "bushing") out.push(bushing(actor, force, palette));
-    else if (force.look !== "nothing") out.push(between(actor, force, palette));
+    if (force.look === "plane") out.moving.push(plane(actor, force));
+    else if (force.look === "coil") coil(actor, force, out);
+    else if (force.look === "bushing") bushing(actor, force, out);
+    else if (force.look !== "nothing") between(actor, force, out);
   }
   return out;
 }
@@ -51,33 +59,35 @@ function laid(actor: Actor, bodies: readonly number[], points: readonly Point[],
   };
 }
 
-function mesh(geometry: THREE.BufferGeometry, material: THREE.Material, said: { kind: string; name: string }): THREE.Mesh {
-  const made = new THREE.Mesh(geometry, material);
-  made.castShadow = !material.transparent;
-  made.userData = said;
-  return made;
+/** A holder in a group, for a piece whose length or place in the group changes. */
+function part(group: THREE.Group, tone: Tone, geometry: THREE.BufferGeometry, said: Picked, out: Stretched): THREE.Object3D {
+  const holder = new THREE.Object3D();
+  group.add(holder);
+  out.pieces[tone].push({ geometry, body: -1, holder, parent: group, said });
+  return holder;
 }
 
 /** A cylinder from z = 0 to 1. */
 const unit = (radius: number) => new THREE.CylinderGeometry(radius, radius, 1, 18).rotateX(Math.PI / 2).translate(0, 0, 0.5);
 
-function rod(actor: Actor, joint: Joint, palette: Palette): Stretching {
-  const size = actor.stage.size;
-  const said = { kind: "joint", name: joint.name };
+function rod(actor: Actor, joint: Joint, out: Stretched): void {
+  const size = actor.nearness.atMost(distance(actor, joint.bodies, joint.points));
+  const said: Picked = { kind: "joint", name: joint.name };
   const group = new THREE.Group();
-  const shaft = mesh(unit(ROD * size), palette.foot, said);
-  const ends = [0, 1].map(() => mesh(new THREE.SphereGeometry(0.016 * size, 20, 14), palette.sign, said));
-  group.add(shaft, ...ends);
-  return laid(actor, joint.bodies, joint.points, group, (length) => {
-    shaft.scale.z = length;
-    ends[1]!.position.z = length;
-  });
+  const shaft = part(group, "foot", unit(ROD * size), said, out);
+  const ends = [0, 1].map(() => part(group, "sign", new THREE.SphereGeometry(0.016 * size, 20, 14), said, out));
+  out.moving.push(
+    laid(actor, joint.bodies, joint.points, group, (length) => {
+      shaft.scale.z = length;
+      ends[1]!.position.z = length;
+    }),
+  );
 }
 
 /** A helix about z from 0 to 1 with straight ends; its length scales, its wire keeps about its thickness. */
-function helix(radius: number, wire: number, natural: number): THREE.BufferGeometry {
+function helix(radius: number, wire: number, natural: number, isOneOfMany: boolean): THREE.BufferGeometry {
   const points: THREE.Vector3[] = [];
-  const steps = TURNS * 16;
+  const steps = TURNS * (isOneOfMany ? 8 : 16);
   for (let k = 0; k <= steps; k++) {
     const share = k / steps;
     const angle = 2 * Math.PI * TURNS * share;
@@ -87,71 +97,68 @@ function helix(radius: number, wire: number, natural: number): THREE.BufferGeome
   points.unshift(new THREE.Vector3(0, 0, 0));
   points.push(new THREE.Vector3(0, 0, natural));
   const path = new THREE.CatmullRomCurve3(points, false, "catmullrom", 0.3);
-  return new THREE.TubeGeometry(path, steps, wire, 6).scale(1, 1, 1 / natural);
+  return new THREE.TubeGeometry(path, steps, wire, isOneOfMany ? 4 : 6).scale(1, 1, 1 / natural);
 }
 
-function between(actor: Actor, force: Force, palette: Palette): Stretching {
-  const size = actor.stage.size;
-  const said = { kind: "force", name: force.name };
-  const group = new THREE.Group();
+function between(actor: Actor, force: Force, out: Stretched): void {
   const natural = naturalLength(actor, force);
+  const size = actor.nearness.atMost(natural);
+  const said: Picked = { kind: "force", name: force.name };
+  const group = new THREE.Group();
   const sprung = force.look === "spring" || force.look === "spring-damper";
   const hydraulic = force.look === "cylinder";
-  const spring = sprung ? mesh(helix(COIL * size, WIRE * size, natural), palette.wire, said) : null;
-  const barrel = force.look === "spring" ? null : mesh(unit((hydraulic ? 1.35 : 0.8) * BARREL * size), palette.foot, said);
-  const piston = barrel ? mesh(unit(0.55 * ROD * size * (hydraulic ? 1.5 : 1)), palette.sign, said) : null;
-  for (const each of [spring, barrel, piston]) if (each) group.add(each);
-  const pins = [0, 1].map(() => mesh(new THREE.SphereGeometry(0.008 * size, 14, 10), palette.signDark, said));
-  group.add(...pins);
+  const many = actor.stage.forces.length > MANY;
+  const spring = sprung ? part(group, "wire", helix(COIL * size, WIRE * size, natural, many), said, out) : null;
+  const barrel = force.look === "spring" ? null : part(group, "foot", unit((hydraulic ? 1.35 : 0.8) * BARREL * size), said, out);
+  const piston = barrel ? part(group, "sign", unit(0.55 * ROD * size * (hydraulic ? 1.5 : 1)), said, out) : null;
+  const pins = [0, 1].map(() => part(group, "signDark", new THREE.SphereGeometry(0.008 * size, 14, 10), said, out));
   const least = 0.58 * natural;
-  return laid(actor, force.bodies, force.points, group, (length) => {
-    if (spring) spring.scale.z = length;
-    if (barrel && piston) {
-      barrel.scale.z = Math.min(least, 0.92 * length);
-      piston.scale.z = length;
-    }
-    pins[1]!.position.z = length;
-  });
+  out.moving.push(
+    laid(actor, force.bodies, force.points, group, (length) => {
+      if (spring) spring.scale.z = length;
+      if (barrel && piston) {
+        barrel.scale.z = Math.min(least, 0.92 * length);
+        piston.scale.z = length;
+      }
+      pins[1]!.position.z = length;
+    }),
+  );
 }
 
-/** [m] the length at the start, or of the whole machine where both ends lie on each other. */
+/** [m] the length at the start, or a share of the machine's where both ends lie on each other. */
 function naturalLength(actor: Actor, force: Force): number {
-  const [a, b] = [0, 1].map((k) => actor.place(force.bodies[k]!, force.points[k]!, new THREE.Vector3()));
-  const length = a!.distanceTo(b!);
+  const length = distance(actor, force.bodies, force.points);
   return length > 1e-6 * actor.stage.size ? length : 0.2 * actor.stage.size;
 }
 
+/** [m] between two points in the frame that is shown. */
+function distance(actor: Actor, bodies: readonly number[], points: readonly Point[]): number {
+  const [a, b] = [0, 1].map((k) => actor.place(bodies[k]!, points[k]!, new THREE.Vector3()));
+  return a!.distanceTo(b!);
+}
+
 /** A flat spiral about the axis, fixed in the first body. */
-function coil(actor: Actor, force: Force, palette: Palette): Stretching {
-  const size = actor.stage.size;
+function coil(actor: Actor, force: Force, out: Stretched): void {
+  const size = actor.nearness.between(force.bodies);
+  const steps = actor.stage.forces.length > MANY ? 50 : 120;
   const points = Array.from({ length: 80 }, (_, k) => {
     const angle = (k / 79) * 5 * Math.PI;
     const radius = size * (0.012 + 0.026 * (k / 79));
     return new THREE.Vector3(radius * Math.cos(angle), radius * Math.sin(angle), 0);
   });
-  const spiral = mesh(new THREE.TubeGeometry(new THREE.CatmullRomCurve3(points), 120, 0.0036 * size, 6), palette.wire, { kind: "force", name: force.name });
-  return carried(actor, force, spiral);
+  carried(actor, force, "wire", new THREE.TubeGeometry(new THREE.CatmullRomCurve3(points), steps, 0.0036 * size, steps > 50 ? 6 : 4), out);
 }
 
-function bushing(actor: Actor, force: Force, palette: Palette): Stretching {
-  const ring = mesh(new THREE.TorusGeometry(0.02 * actor.stage.size, 0.009 * actor.stage.size, 12, 28), palette.signDark, { kind: "force", name: force.name });
-  return carried(actor, force, ring);
+function bushing(actor: Actor, force: Force, out: Stretched): void {
+  const size = actor.nearness.between(force.bodies);
+  carried(actor, force, "signDark", new THREE.TorusGeometry(0.02 * size, 0.009 * size, 12, 28), out);
 }
 
-/** An object that stands at the first end, its z along the force's axis. */
-function carried(actor: Actor, force: Force, object: THREE.Object3D): Stretching {
-  const group = new THREE.Group();
-  object.quaternion.setFromUnitVectors(Z, new THREE.Vector3(...(force.axis ?? [0, 0, 1])).normalize());
-  group.add(object);
-  const body = force.bodies[0]!;
-  return {
-    object: group,
-    update() {
-      group.visible = !actor.isBad[body];
-      actor.place(body, force.points[0]!, group.position);
-      group.quaternion.copy(actor.holder(body).quaternion);
-    },
-  };
+/** A solid that stands at the first end, its z along the force's axis. */
+function carried(actor: Actor, force: Force, tone: Tone, geometry: THREE.BufferGeometry, out: Stretched): void {
+  const turn = new THREE.Quaternion().setFromUnitVectors(Z, new THREE.Vector3(...(force.axis ?? [0, 0, 1])).normalize());
+  geometry.applyMatrix4(new THREE.Matrix4().compose(new THREE.Vector3(...force.points[0]!), turn, new THREE.Vector3(1, 1, 1)));
+  out.pieces[tone].push({ geometry, thin: true, body: force.bodies[0]!, holder: actor.holder(force.bodies[0]!), said: { kind: "force", name: force.name } });
 }
 
 /** The plane of a contact, on the second body. */

@@ -238,7 +238,9 @@ export class World {
   private near(): void {
     const distance = this.camera.position.distanceTo(this.middle());
     const reach = 0.5 * this.low.distanceTo(this.high) + 12 * this.stage.size;
-    this.camera.near = Math.max(distance - reach, 0.004 * (distance + this.stage.size));
+    // whoever looks at one link of a long chain is nearer to it than the chain is long
+    const close = this.camera.position.distanceTo(this.controls.target);
+    this.camera.near = Math.max(distance - reach, 0.02 * Math.min(close, 0.2 * this.stage.size));
     this.camera.far = distance + 4 * reach;
     this.camera.updateProjectionMatrix();
   }

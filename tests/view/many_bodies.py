@@ -1,11 +1,13 @@
-"""A synthetic scene: 50 boxes that circle, and a plate of 1000 vertices that vibrates in its modes, coloured by its deflection."""
+"""Synthetic scenes: 50 boxes that circle, and a plate of 1000 vertices that vibrates in its modes, coloured by its deflection; a chain of
+300 links that waves."""
 
 import numpy as np
 
 from nivel.view.frames import layout
 from nivel.view.package import Block
-from nivel.view.records import Body, Flexible, Part, Stage, Viewpoint
+from nivel.view.records import Body, Flexible, Joint, Part, Stage, Viewpoint
 
+LINKS = 300
 BODIES, ALONG, ACROSS, MODES = 50, 40, 25, 12
 
 
@@ -66,3 +68,39 @@ def moment(t: float):
     orientation = np.stack([np.cos(angle / 2), 0 * angle, 0 * angle, np.sin(angle / 2)], axis=1)
     orientation[0] = 1.0, 0.0, 0.0, 0.0
     return position, orientation, 0.15 * np.sin((2 + np.arange(MODES)) * t) / (1 + np.arange(MODES))
+
+
+def chain(block: Block) -> Stage:
+    """A chain of links 1 m long between revolute joints, the first of them on the ground."""
+    ends = [(-0.5, 0.0, 0.0), (0.5, 0.0, 0.0)]
+    bodies = [Body(f"link_{k}", "#5b86b4", (0, 0, 0), links=ends, held=ends) for k in range(LINKS)]
+    across = ((0.0, 1.0, 0.0), (0.0, 1.0, 0.0))
+    joints = [
+        Joint(f"pin_{k}", "revolute", (k - 1, k), (ends[1] if k else (0.0, 0.0, 0.0), ends[0]), across)
+        for k in range(LINKS)
+    ]
+    return Stage(
+        name="chain",
+        title="chain",
+        up=(0, 0, 1),
+        viewpoint=Viewpoint((1, 0, 0), (0, 0, 1), (0, -1, 0), True),
+        origin=(0, 0, 0),
+        low=(0, -1, -60),
+        high=(LINKS, 1, 60),
+        size=float(LINKS),
+        layout=layout(LINKS),
+        bodies=bodies,
+        joints=joints,
+        forces=[],
+        markers=[],
+        arrows=[],
+    )
+
+
+def wave(t: float):
+    """Position (B, 3) and orientation (B, 4) of the chain at the time t."""
+    slope = 0.9 * np.sin(2 * np.pi * np.arange(LINKS) / 60 - t)
+    steps = np.stack([np.cos(slope), 0 * slope, -np.sin(slope)], axis=1)  # turned about y
+    position = np.cumsum(steps, axis=0) - 0.5 * steps
+    orientation = np.stack([np.cos(slope / 2), 0 * slope, np.sin(slope / 2), 0 * slope], axis=1)
+    return position, orientation

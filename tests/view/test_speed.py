@@ -1,61 +1,105 @@
-"""50 bodies and a deforming mesh of 1000 vertices: pictures a second in software rendering, server time a frame."""
+"""50 bodies with a deforming mesh of 1000 vertices, and a chain of 300 links: pictures a second in software rendering, server time a frame.
 
+The middle one of several windows of time counts. Where other programs keep the processors busy, as much less is asked as they take.
+"""
+
+import statistics
 import threading
 import time
+from contextlib import contextmanager
 
+import numpy as np
 import pytest
 
+import many_bodies
 from browsing import chromium, served, watched
-from many_bodies import moment, stage
 from nivel.view.package import Block
 from nivel.view.sources import Live
+from pace import frame_rates, free_share
 
 ENOUGH = 30.0  # frames a second
-ATTEMPTS = 15  # a busy machine spoils some
 SERVER_TIME = 0.3e-3  # [s] a frame
 
 
-@pytest.fixture
-def live():
+@contextmanager
+def going(stage, moment):
+    """A source of a stage with a new moment a hundred times a second."""
     block = Block()
-    source, going = Live(stage(block), block), threading.Event()
-    going.set()
+    source, running = Live(stage(block), block), threading.Event()
+    running.set()
     source.show(0.0, *moment(0.0))
 
     def run():
         begin = time.perf_counter()
-        while going.is_set():
+        while running.is_set():
             t = time.perf_counter() - begin
             source.show(t, *moment(t))
             time.sleep(1 / 100)
 
     thread = threading.Thread(target=run, daemon=True)
     thread.start()
-    yield source
-    going.clear()
-    thread.join()
+    try:
+        yield source
+    finally:
+        running.clear()
+        thread.join()
 
 
-def test_fifty_bodies_and_a_deforming_mesh_are_shown_at_thirty_frames_a_second(live):
-    with served(live) as viewing, chromium() as browser, watched(browser, width=1024, height=640) as page:
-        page.open(viewing.address.url)
-        page.page.wait_for_timeout(2500)  # it finds out what this machine can do
-        rates = []
-        for _ in range(ATTEMPTS):
-            before, begin = page.page.evaluate("nivel.frames()"), time.perf_counter()
-            page.page.wait_for_timeout(2000)
-            rates.append((page.page.evaluate("nivel.frames()") - before) / (time.perf_counter() - begin))
-            if rates[-1] >= ENOUGH:
-                break
+@contextmanager
+def opened(stage, moment):
+    """The page that shows a stage while it moves, and the way of its frames to it."""
+    with (
+        going(stage, moment) as live,
+        served(live) as viewing,
+        chromium() as browser,
+        watched(browser, width=1024, height=640) as seen,
+    ):
+        page = seen.open(viewing.address.url)
+        page.wait_for_timeout(3000)  # it finds out what this machine can do
         (stream,) = viewing.streams
-        shown, made = stream.frame_count, stream.send_seconds
-        print(f"{rates} frames a second, {1e3 * made / shown:.3f} ms of server time a frame")
-        # frames are new: the mesh moves, and its vertices have colours
-        seen = page.page.evaluate(
-            "() => { const m = nivel.app.actor.deforming[0].mesh.geometry; return [m.attributes.position.count,"
-            "new Set(Array.from(m.attributes.color.array).map((c) => c.toFixed(2))).size] }"
+        yield page, stream
+
+
+def assert_fast(page, before):
+    rates = frame_rates(page)
+    middle = statistics.median(rates)
+    print(f"{middle:.1f} of {np.round(rates, 1)} frames a second; {before:.2f} of the processors were free")
+    assert middle >= ENOUGH * before
+
+
+@pytest.mark.parametrize(
+    ("stage", "moment"),
+    [(many_bodies.stage, many_bodies.moment), (many_bodies.chain, many_bodies.wave)],
+    ids=["fifty bodies and a mesh", "a chain of 300 links"],
+)
+def test_large_scenes_are_shown_at_thirty_frames_a_second(stage, moment):
+    before = free_share()
+    with opened(stage, moment) as (page, stream):
+        assert_fast(page, before)
+        assert stream.send_seconds / stream.frame_count <= SERVER_TIME
+
+
+def test_frames_are_new_and_vertices_have_their_colours():
+    count = "(() => { const m = nivel.app.actor.deforming[0].mesh.geometry; return [m.attributes.position.count,"
+    colours = "new Set(Array.from(m.attributes.color.array).map((c) => c.toFixed(2))).size, Array.from(m.attributes.position.array)] })()"
+    with opened(many_bodies.stage, many_bodies.moment) as (page, _):
+        vertices, tones, first = page.evaluate(count + colours)
+        page.wait_for_timeout(300)
+        *_, later = page.evaluate(count + colours)
+    assert vertices == 1000
+    assert tones > 20
+    assert np.abs(np.array(first) - later).max() > 1e-3
+
+
+def test_links_of_a_chain_are_solids_near_by_and_lines_from_afar():
+    levels = "Array.from(nivel.app.actor.levels)"
+    with opened(many_bodies.chain, many_bodies.wave) as (page, _):
+        far = page.evaluate(levels)
+        page.evaluate(
+            "() => { nivel.app.choose({ kind: 'body', name: 'link_150' }); nivel.app.followOrFit(); nivel.app.world.zoom(0.01) }"
         )
-    assert max(rates) >= ENOUGH
-    assert made / shown <= SERVER_TIME
-    assert seen[0] == 1000
-    assert seen[1] > 20
+        page.wait_for_timeout(500)
+        near = page.evaluate(levels)
+    assert set(far) == {2}  # lines
+    assert near[150] == 0  # everything is drawn of the link that is looked at
+    assert near[0] == near[299] == 3  # nothing of those out of sight

@@ -5,7 +5,7 @@ import numpy as np
 
 from nivel.view.frames import layout
 from nivel.view.package import Block
-from nivel.view.records import Body, Flexible, Joint, Part, Stage, Viewpoint
+from nivel.view.records import Body, Flexible, Joint, Part, Stage, Sweep, Viewpoint
 
 LINKS = 300
 BODIES, ALONG, ACROSS, MODES = 50, 40, 25, 12
@@ -104,3 +104,41 @@ def wave(t: float):
     position = np.cumsum(steps, axis=0) - 0.5 * steps
     orientation = np.stack([np.cos(slope / 2), 0 * slope, np.sin(slope / 2), 0 * slope], axis=1)
     return position, orientation
+
+
+ARC, NODES, RADIUS = 0.5 * np.pi, 5, 2.0
+
+
+def beam(*, smooth: bool = True) -> Stage:
+    """A hollow beam through the frames of five bodies on a quarter of a circle in the xz plane, and a ball beside it."""
+    section = [(-0.1, -0.05), (0.1, -0.05), (0.1, 0.05), (-0.1, 0.05)]
+    hollow = [(-0.06, -0.03), (0.06, -0.03), (0.06, 0.03), (-0.06, 0.03)]
+    nodes = list(range(NODES))
+    bodies = [Body(f"boom.{k + 1}", "#cf7f4f", (0, 0, 0), automatic=False) for k in nodes]
+    along, across = [(1.0, 0.0, 0.0)] * NODES, [(0.0, 1.0, 0.0)] * NODES
+    sweep = Sweep("boom", "#cf7f4f", nodes, [(0.0, 0.0, 0.0)] * NODES, along, across, section, hollow, smooth)
+    return Stage(
+        name="boom",
+        title="boom",
+        up=(0, 0, 1),
+        viewpoint=Viewpoint((1, 0, 0), (0, 0.4, 0.917), (0, -0.917, 0.4), False),
+        origin=(0, 0, 0),
+        low=(0, -0.1, 0),
+        high=(RADIUS, 0.1, RADIUS),
+        size=2.0 * RADIUS,
+        layout=layout(NODES + 1),
+        bodies=[*bodies, Body("ball", "#5b86b4", (0, 0, 0))],
+        joints=[],
+        forces=[],
+        markers=[],
+        arrows=[],
+        sweeps=[sweep],
+    )
+
+
+def arc():
+    """Position (B, 3) and orientation (B, 4) of the beam's bodies: from the origin along x, bent upwards about (0, 0, RADIUS)."""
+    angle = np.append(ARC * np.arange(NODES) / (NODES - 1), 0.0)
+    position = RADIUS * np.stack([np.sin(angle), 0 * angle, 1 - np.cos(angle)], axis=1)
+    position[-1] = 1.8, 0.0, 0.0
+    return position, np.stack([np.cos(angle / 2), 0 * angle, -np.sin(angle / 2), 0 * angle], axis=1)

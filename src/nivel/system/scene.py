@@ -13,6 +13,10 @@ a body (`ground` among them) is in that body's frame, which `position` and `orie
 ``markers``        named markers: list of ``name``, ``body``, ``position``
 ``forces``         what acts between two bodies at two points: list of ``name``, ``type``, ``bodies``, ``points``;
                    ``axis`` too where it has one, see below
+``sweeps``         may be missing; one solid drawn through the frames of bodies in a row, as of a beam: list of ``name``,
+                   ``bodies`` (names, two or more), ``section`` (corners (y, z), counter-clockwise), and if they are not these:
+                   ``hollow`` (corners of a hole; none), ``points`` (of the line, in each body; their origins), ``axes`` (of the line;
+                   x), ``across`` (y of the section; y), ``smooth`` (curved between the frames; true)
 =================  ====================================================================================================
 
 Of the forces those are here that have two ends: spring-dampers, torsional ones, pair-forces, bushings, and contacts. A torsional

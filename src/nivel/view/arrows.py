@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.looks.poses import rotation
+from nivel.view.acting import place_of
+from nivel.view.coordinate_places import coordinate_place
 from nivel.view.records import Arrow, Triple
-from nivel.view.stage import Cast, triple
+from nivel.view.stage import Cast
 
 Array = NDArray[np.float64]
 Read = Callable[[str], Array | None]  # a variable of the result by name (n, …), None where it has none
@@ -120,12 +122,11 @@ def _on_coordinate(
     cast: Cast, moments: Moments, record: dict[str, Any], read: Read, effort: _CoordinateEffort
 ) -> Iterator[Traced]:
     """An effort on a joint coordinate along or about the joint's axis, shown on the second body."""
-    name = record.get("coordinate")
-    joint_name, _, coordinate = str(name).partition(".")
-    joint = next((each for each in cast.joints if each.name == joint_name), None)
-    rate = read(f"{name}.rate")
-    if joint is None or rate is None or coordinate not in ALONG_Z:
+    place = coordinate_place(record.get("coordinate"), cast.joints)
+    rate = read(f"{place.name}.rate") if place else None
+    if place is None or rate is None or place.word not in ALONG_Z:
         return
+    joint, coordinate = place.joint, place.word
     vectors = _signed(effort.magnitude, effort.power, rate)[:, None] * moments.turned(joint.bodies[0], joint.axes[0])
     second = int(joint.bodies[1] >= 0)
     vectors = vectors if second else -vectors
@@ -137,7 +138,7 @@ def _load(
     cast: Cast, moments: Moments, record: dict[str, Any], magnitude: Array, power: Array, read: Read
 ) -> Iterator[Traced]:
     """A force or torque on one body. Its direction is known where it is constant, or has one component only."""
-    place = _place(cast, record)
+    place = place_of(record, cast.record, cast.places, cast.bodies)
     if place is None:
         return
     body, point = place
@@ -162,19 +163,6 @@ def _load(
     yield Traced(
         record["name"], "applied", kind, body, point, _signed(signed, power, np.sum(moving * along, 1))[:, None] * along
     )
-
-
-def _place(cast: Cast, record: dict[str, Any]) -> tuple[int, Triple] | None:
-    """Body and point of a load in the machine's record; a torque stands at the centre of mass."""
-    marker = record.get("marker")
-    if isinstance(marker, str):
-        marker = next((each for each in cast.record.get("markers", []) if each.get("name") == marker), None)
-    named = marker if isinstance(marker, dict) else record
-    body = cast.places.get(str(named.get("body")), -1)
-    if body < 0:
-        return None
-    point = cast.bodies[body].centre_of_mass if record.get("type") == "torque" else named.get("position") or (0, 0, 0)
-    return body, triple(point)
 
 
 def _signed(magnitude: Array, power: Array, rate: Array) -> Array:

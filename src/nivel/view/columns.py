@@ -12,6 +12,7 @@ from nivel.view.package import Block
 from nivel.view.records import Column
 
 MOST: Final = 20_000  # variables that are listed
+PREFIXES: Final = ("force.", "driver.", "coupling.")  # of variables that belong to what is named after them
 # what is carried first where not all has room; of equal ones those that stand first in the result
 FIRST: Final = (
     "joint_coordinate",
@@ -64,12 +65,12 @@ def _elements(result: Result) -> set[str]:
     """Names of bodies, joints, and what else owns variables."""
     scene = result.scene
     found = {each["name"] for section in ("bodies", "joints", "forces") for each in scene.get(section, [])}
-    return found | {name.split(".")[1] for name in result.variables if name.startswith(("force.", "driver."))}
+    return found | {name.split(".")[1] for name in result.variables if name.startswith(PREFIXES)}
 
 
 def _owner(name: str, elements: set[str]) -> str:
     """The element whose name a variable begins with, after a word for its kind; empty for the whole machine."""
     parts = name.split(".")
-    if parts[0] in ("force", "driver") and len(parts) > 2:
+    if f"{parts[0]}." in PREFIXES and len(parts) > 2:
         return parts[1] if parts[1] in elements else ""
     return parts[0] if len(parts) > 1 and parts[0] in elements else ""

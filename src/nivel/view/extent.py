@@ -14,7 +14,8 @@ from nivel.looks.poses import Pose, body_poses, in_space, upwards
 from nivel.looks.solids import reach
 from nivel.looks.viewpoint import choose_view, is_planar
 from nivel.view.records import Triple, Viewpoint
-from nivel.view.stage import Cast, triple
+from nivel.view.stage import Cast
+from nivel.view.triples import triple
 
 Array = NDArray[np.float64]
 FAR_AWAY: Final = 1e3  # machine lengths from the global origin from which on positions are counted from the machine

@@ -15,6 +15,7 @@ from nivel.results.result import Result
 from nivel.view import frames as frame_plan
 from nivel.view.arrows import Moments, arrows, described
 from nivel.view.columns import columns
+from nivel.view.couplings import couplings
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.records import PROTOCOL, Arrow, Joint, Moment, Motion, Package, Stage
@@ -91,6 +92,9 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         forces=players.forces,
         markers=players.markers,
         arrows=drawn.arrows,
+        drivers=players.drivers,
+        sweeps=players.sweeps,
+        couplings=couplings(players, position, orientation),
         columns=columns(result, frames, block, budget.columns) if number == 0 or budget.columns else [],
         moments=[Moment(name, at) for name, at in result.marks[:MOST_MOMENTS]],
         notes=_notes(result, position, frames),

@@ -13,6 +13,20 @@ from dataclasses import dataclass, field
 from typing import Final, Literal
 
 Triple = tuple[float, float, float]
+ForceLook = Literal[
+    "nothing",
+    "spring",
+    "damper",
+    "spring-damper",
+    "cylinder",
+    "coil",
+    "bushing",
+    "plane",
+    "turn",
+    "slide",
+    "ring",
+    "dot",
+]
 
 PROTOCOL: Final = 1  # version of all that stands here
 PACKAGE: Final = 1  # binary message: a package (package.py)
@@ -52,7 +66,10 @@ class Part:
 
 @dataclass(frozen=True)
 class Body:
-    """A body. links : points of its frame to which automatic links lead from the centre of mass. held : where joints hold it."""
+    """A body. links : points of its frame to which automatic links lead from the centre of mass. held : where joints hold it.
+
+    automatic : it is drawn as a ball with links where it has no parts; not so where it deforms or is part of a sweep.
+    """
 
     name: str
     colour: str
@@ -60,6 +77,7 @@ class Body:
     parts: list[Part] = field(default_factory=list)
     links: list[Triple] = field(default_factory=list)
     held: list[Triple] = field(default_factory=list)
+    automatic: bool = True
     facts: list[tuple[str, str]] = field(default_factory=list)
 
 
@@ -110,9 +128,12 @@ class Joint:
 
 @dataclass(frozen=True)
 class Force:
-    """A force element. points : of the two ends, none where it has no ends to draw. axis : of a coil, or normal of a contact's plane.
+    """A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where
+    that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal
+    in the second's.
 
-    look : what is drawn between the ends.
+    look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring`
+    holds it, a `dot` is where something acts on one body.
     """
 
     name: str
@@ -120,8 +141,73 @@ class Force:
     bodies: list[int]
     points: list[Triple] = field(default_factory=list)
     axis: Triple | None = None
-    look: Literal["nothing", "spring", "damper", "spring-damper", "cylinder", "coil", "bushing", "plane"] = "nothing"
+    look: ForceLook = "nothing"
     facts: list[tuple[str, str]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A pitch circle on a body, in its frame."""
+
+    body: int
+    centre: Triple
+    axis: Triple
+    radius: float
+
+
+@dataclass(frozen=True)
+class Track:
+    """The pitch line of a rack on a body, in its frame: as far as `half` to both sides of a point."""
+
+    body: int
+    point: Triple
+    along: Triple
+    half: float
+
+
+@dataclass(frozen=True)
+class End:
+    """A point of a body, in its frame."""
+
+    body: int
+    point: Triple
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """A gear, belt, rack or other equation between joint coordinates. belt : how one runs about the two wheels.
+
+    joined : points that a line joins where no wheels are known.
+    """
+
+    name: str
+    kind: str
+    wheels: list[Wheel] = field(default_factory=list)
+    tracks: list[Track] = field(default_factory=list)
+    joined: list[End] = field(default_factory=list)
+    belt: Literal["none", "open", "crossed"] = "none"
+    facts: list[tuple[str, str]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A section drawn along a line through frames of bodies, in their order, which bends with them: a beam, a hose, a rope.
+
+    bodies : two or more. points, axes : in the frame of each body where the line passes, and its direction there. section : corners
+    (y, z) of the section, counter-clockwise, in axes of which x is the line's direction and y, z are `across` of each body and what
+    completes it. hollow : corners of the hole, or none. smooth : between two frames the line is a cubic that leaves and arrives along
+    their axes (Hermite), else straight.
+    """
+
+    name: str
+    colour: str
+    bodies: list[int]
+    points: list[Triple]
+    axes: list[Triple]
+    across: list[Triple]
+    section: list[tuple[float, float]]
+    hollow: list[tuple[float, float]] = field(default_factory=list)
+    smooth: bool = True
 
 
 @dataclass(frozen=True)
@@ -240,6 +326,9 @@ class Stage:
     forces: list[Force]
     markers: list[Marker]
     arrows: list[Arrow]
+    drivers: list[Force] = field(default_factory=list)
+    couplings: list[Coupling] = field(default_factory=list)
+    sweeps: list[Sweep] = field(default_factory=list)
     flexible: list[Flexible] = field(default_factory=list)
     columns: list[Column] = field(default_factory=list)
     moments: list[Moment] = field(default_factory=list)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.results.result import Result
 from nivel.view import frames
+from nivel.view.couplings import couplings
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.playback import SERVED, Budget, playback, played_frames
@@ -178,6 +179,9 @@ def machine_stage(name: str, movable: Movable, record: dict[str, Any], block: Bl
         forces=players.forces,
         markers=players.markers,
         arrows=[],
+        drivers=players.drivers,
+        sweeps=players.sweeps,
+        couplings=couplings(players, position[None], orientation[None]),
         coordinates=[
             Coordinate(m.name, m.name.partition(".")[0], m.unit, m.value, m.low, m.high, m.free)
             for m in movable.movements

@@ -14,8 +14,11 @@ from nivel.looks.colours import colour_of
 from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL
 from nivel.looks.links import held_points, link_ends
 from nivel.machine.surface import surface_arrays
+from nivel.view.acting import drivers, forces
 from nivel.view.package import Block
-from nivel.view.records import Body, Flexible, Force, Joint, Marker, Part, Triple
+from nivel.view.records import Body, Flexible, Force, Joint, Marker, Part, Sweep
+from nivel.view.sweeps import sweeps, swept_bodies
+from nivel.view.triples import triple
 
 Array = NDArray[np.float64]
 MOMENTS: Final = 100  # that are looked at for the largest displacement
@@ -30,7 +33,9 @@ class Cast:
     bodies: list[Body]
     joints: list[Joint]
     forces: list[Force]
+    drivers: list[Force]
     markers: list[Marker]
+    sweeps: list[Sweep]
     places: dict[str, int] = field(default_factory=dict)
 
 
@@ -38,17 +43,25 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
     """The elements of a machine. scene : as in a result; record : its machine record as JSON, which may be empty."""
     bodies = scene.get("bodies", [])
     places = {body["name"]: k for k, body in enumerate(bodies)} | {"ground": -1}
+    swept = swept_bodies(scene)
+    drawn = [
+        _body(scene, body, colour_of(k), block, automatic=not (body.get("flexible") or body["name"] in swept))
+        for k, body in enumerate(bodies)
+    ]
+    joints = [_joint(joint, places) for joint in scene.get("joints", [])]
     return Cast(
         scene,
         record,
-        [_body(scene, body, colour_of(k), block) for k, body in enumerate(bodies)],
-        [_joint(joint, places) for joint in scene.get("joints", [])],
-        _forces(scene, record, places),
+        drawn,
+        joints,
+        forces(scene, record, places, drawn, joints),
+        drivers(record, places, drawn, joints),
         [
             Marker(m["name"], places[m["body"]], triple(m["position"]))
             for m in scene.get("markers", [])
             if m["body"] != "ground"
         ],
+        sweeps(scene, places),
         places,
     )
 
@@ -89,13 +102,7 @@ def _largest(modes: Array, modal: Array) -> float:
     return max((float(np.linalg.norm(np.tensordot(q, modes, 1), axis=1).max(initial=0.0)) for q in some), default=0.0)
 
 
-def triple(values: Any) -> Triple:
-    """Three numbers that JSON can hold: what is not finite becomes 0."""
-    x, y, z = (float(value) if np.isfinite(value) else 0.0 for value in values)
-    return x, y, z
-
-
-def _body(scene: dict[str, Any], body: dict[str, Any], colour: str, block: Block) -> Body:
+def _body(scene: dict[str, Any], body: dict[str, Any], colour: str, block: Block, *, automatic: bool) -> Body:
     held = held_points(scene, body)
     shape = body.get("shape")
     return Body(
@@ -103,8 +110,9 @@ def _body(scene: dict[str, Any], body: dict[str, Any], colour: str, block: Block
         colour,
         triple(body["centre_of_mass"]),
         [part(shape, block)] if shape else [],
-        [] if body.get("flexible") else [triple(point) for point in _apart(link_ends(body, held))],
+        [triple(point) for point in _apart(link_ends(body, held))] if automatic else [],
         [triple(point) for point in held],
+        automatic,
         [("mass", f"{body['mass']:.5g} kg")] if "mass" in body else [],
     )
 
@@ -152,45 +160,3 @@ def _joint(joint: dict[str, Any], places: dict[str, int]) -> Joint:
         joint["type"] in LINKS,
         facts=[("type", joint["type"]), ("first body", first), ("second body", second)],
     )
-
-
-def _forces(scene: dict[str, Any], record: dict[str, Any], places: dict[str, int]) -> list[Force]:
-    """All force elements, in the order of the machine; those without two ends are listed, not drawn."""
-    drawn = {force["name"]: force for force in scene.get("forces", [])}
-    records = {force["name"]: force for force in record.get("forces", [])}
-    out = []
-    for name in {**records, **drawn}:
-        known, force = records.get(name, {}), drawn.get(name)
-        kind = str((force or known).get("type", "force"))
-        if force is None:
-            facts = [
-                (word, str(known[word]))
-                for word in ("body", "marker", "coordinate")
-                if isinstance(known.get(word), str)
-            ]
-            out.append(Force(name, kind, [], facts=[("type", kind), *facts]))
-            continue
-        ends = [str(body) for body in force["bodies"]]
-        facts = [("type", kind), ("first body", ends[0]), ("second body", ends[1])]
-        axis = triple(force["axis"]) if "axis" in force else None
-        points = [triple(point) for point in force["points"]]
-        out.append(Force(name, kind, [places[body] for body in ends], points, axis, _look(force, known), facts))
-    return out
-
-
-def _look(force: dict[str, Any], record: dict[str, Any]) -> Any:
-    """What is drawn between the ends of a force."""
-    match force["type"]:
-        case "spring-damper":
-            damped = any(record.get(word) for word in ("damping", "damping_table", "damping_law"))
-            sprung = any(record.get(word) for word in ("stiffness", "table", "law", "preload")) or not damped
-            return "spring-damper" if damped and sprung else "damper" if damped else "spring"
-        case "torsional-spring-damper":
-            return "coil"
-        case "pair-force":
-            return "cylinder"
-        case "bushing":
-            return "bushing"
-        case "contact":
-            return "plane" if "axis" in force else "nothing"
-    return "nothing"

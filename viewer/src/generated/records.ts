@@ -23,7 +23,7 @@ export interface Part {
   triangles: Packed | null;
 }
 
-/** A body. links : points of its frame to which automatic links lead from the centre of mass. held : where joints hold it. */
+/** A body. links : points of its frame to which automatic links lead from the centre of mass. held : where joints hold it. automatic : it is drawn as a ball with links where it has no parts; not so where it deforms or is part of a sweep. */
 export interface Body {
   name: string;
   colour: string;
@@ -31,6 +31,7 @@ export interface Body {
   parts: Part[];
   links: [number, number, number][];
   held: [number, number, number][];
+  automatic: boolean;
   facts: [string, string][];
 }
 
@@ -64,15 +65,61 @@ export interface Joint {
   facts: [string, string][];
 }
 
-/** A force element. points : of the two ends, none where it has no ends to draw. axis : of a coil, or normal of a contact's plane. look : what is drawn between the ends. */
+/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body. */
 export interface Force {
   name: string;
   kind: string;
   bodies: number[];
   points: [number, number, number][];
   axis: [number, number, number] | null;
-  look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane";
+  look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane" | "turn" | "slide" | "ring" | "dot";
   facts: [string, string][];
+}
+
+/** A pitch circle on a body, in its frame. */
+export interface Wheel {
+  body: number;
+  centre: [number, number, number];
+  axis: [number, number, number];
+  radius: number;
+}
+
+/** The pitch line of a rack on a body, in its frame: as far as `half` to both sides of a point. */
+export interface Track {
+  body: number;
+  point: [number, number, number];
+  along: [number, number, number];
+  half: number;
+}
+
+/** A point of a body, in its frame. */
+export interface End {
+  body: number;
+  point: [number, number, number];
+}
+
+/** A gear, belt, rack or other equation between joint coordinates. belt : how one runs about the two wheels. joined : points that a line joins where no wheels are known. */
+export interface Coupling {
+  name: string;
+  kind: string;
+  wheels: Wheel[];
+  tracks: Track[];
+  joined: End[];
+  belt: "none" | "open" | "crossed";
+  facts: [string, string][];
+}
+
+/** A section drawn along a line through frames of bodies, in their order, which bends with them: a beam, a hose, a rope. bodies : two or more. points, axes : in the frame of each body where the line passes, and its direction there. section : corners (y, z) of the section, counter-clockwise, in axes of which x is the line's direction and y, z are `across` of each body and what completes it. hollow : corners of the hole, or none. smooth : between two frames the line is a cubic that leaves and arrives along their axes (Hermite), else straight. */
+export interface Sweep {
+  name: string;
+  colour: string;
+  bodies: number[];
+  points: [number, number, number][];
+  axes: [number, number, number][];
+  across: [number, number, number][];
+  section: [number, number][];
+  hollow: [number, number][];
+  smooth: boolean;
 }
 
 /** A vector of the frames drawn as an arrow at a point of a body. first : its place among the vectors of the frame. source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest, typical : greatest length in the whole motion, and the root of its mean square. */
@@ -159,6 +206,9 @@ export interface Stage {
   forces: Force[];
   markers: Marker[];
   arrows: Arrow[];
+  drivers: Force[];
+  couplings: Coupling[];
+  sweeps: Sweep[];
   flexible: Flexible[];
   columns: Column[];
   moments: Moment[];

@@ -10,7 +10,9 @@ import { Palette, TONES, type Look, type Tone } from "./look";
 import { Nearness } from "./nearness";
 import { bodyFrame, jointSigns } from "./signs";
 import { bar, edgesOf, partGeometry } from "./solids";
+import { coupled } from "./coupled";
 import { stretching, type Stretching } from "./stretching";
+import { Swept } from "./swept";
 
 const LINK = 0.013; // radius of automatic links, of the size near the body
 const THIN = 0.008; // where a shape is there too
@@ -20,7 +22,7 @@ const ROUGH = 6; // and from afar
 const NEAR = 6; // pixels of a link's radius from which on it is drawn finely
 const FAR = 0.75; // and below which it is a line
 
-export type Kind = "body" | "joint" | "force";
+export type Kind = "body" | "joint" | "force" | "driver" | "coupling";
 export interface Picked {
   kind: Kind;
   name: string;
@@ -32,6 +34,7 @@ export class Actor {
   readonly ground = new THREE.Group();
   readonly palette: Palette;
   readonly deforming: Deforming[];
+  readonly swept: Swept[];
   readonly nearness: Nearness;
   readonly frame: Float32Array; // as shown
   readonly isBad: boolean[];
@@ -68,15 +71,19 @@ export class Actor {
     motion?.sample(motion.start, this.frame); // springs are as long as at the start
     this.pose();
     const { moving, pieces } = stretching(this);
-    this.stretching = moving;
-    for (const each of moving) this.root.add(each.object);
+    const couplings = isGhost ? { moving: [], pieces: noPieces() } : coupled(this);
+    this.stretching = [...moving, ...couplings.moving];
+    for (const each of this.stretching) this.root.add(each.object);
     this.fill(this.solids, this.palette.body, this.batches);
     const signs = this.signs();
     for (const tone of TONES) {
+      signs[tone].push(...couplings.pieces[tone]);
       this.fill(signs[tone], this.palette[tone], this.signBatches);
       this.fill(pieces[tone], this.palette[tone], this.batches);
     }
     this.pieces = [...this.solids, ...TONES.flatMap((tone) => [...signs[tone], ...pieces[tone]])];
+    this.swept = stage.sweeps.map((each) => new Swept(each, this, this.palette.bodyOf(each.colour)));
+    for (const each of this.swept) this.root.add(each.mesh);
     this.bones = this.isLarge ? new Bones(this, isGhost) : null;
     if (this.bones) this.root.add(this.bones.object);
     this.recolour(look);
@@ -109,7 +116,7 @@ export class Actor {
   /** Show the frame that stands in `this.frame`. */
   apply(): void {
     this.pose();
-    for (const each of this.stretching) each.update();
+    for (const each of [...this.stretching, ...this.swept]) each.update();
     this.arrange();
     this.bones?.update();
     const first = 7 * this.stage.layout.bodies;
@@ -176,12 +183,17 @@ export class Actor {
     for (const each of this.marked) each.removeFromParent();
     this.marked = [];
     if (!picked) return;
-    const material = new THREE.MeshBasicMaterial({ color: look.accent, transparent: true, opacity: 0.34, depthTest: true, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
+    // signs often stand inside solids: they shine through
+    const material = new THREE.MeshBasicMaterial({ color: look.accent, transparent: true, opacity: 0.34, depthTest: picked.kind === "body", polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
     const is = (said: unknown) => (said as Picked).kind === picked.kind && (said as Picked).name === picked.name;
     const found: [THREE.BufferGeometry, THREE.Object3D][] = this.pieces.filter(({ said }) => is(said)).map(({ geometry, holder }) => [geometry, holder]);
     this.root.traverse((object) => {
       if (object instanceof THREE.Mesh && is(object.userData)) found.push([object.geometry, object]);
     });
+    for (const each of picked.kind === "body" ? this.swept : []) {
+      const part = each.around(picked.name);
+      if (part) found.push([part, each.mesh]);
+    }
     for (const [geometry, holder] of found) {
       const glow = new THREE.Mesh(geometry, material);
       holder.add(glow);
@@ -193,6 +205,8 @@ export class Actor {
   said(hit: THREE.Intersection): Picked | null {
     const batch = [...this.batches, ...this.signBatches].find(({ mesh }) => mesh === hit.object);
     if (batch) return batch.said(hit.batchId ?? -1);
+    const swept = this.swept.find(({ mesh }) => mesh === hit.object);
+    if (swept) return swept.nearest(hit.point);
     return hit.object instanceof THREE.Mesh && hit.object.userData.name ? (hit.object.userData as Picked) : null;
   }
 
@@ -229,7 +243,7 @@ export class Actor {
       add((facets) => bar(centre, to, radius, facets), ROUND, true);
       add((facets) => ball(to, radius, facets), ROUND, true);
     }
-    if (!body.parts.length) add((facets) => ball(centre, (body.links.length > 1 ? 1.5 : 2.2) * radius, facets), ROUND, true);
+    if (body.automatic && !body.parts.length) add((facets) => ball(centre, (body.links.length > 1 ? 1.5 : 2.2) * radius, facets), ROUND, true);
   }
 
   /** Of the joints; a ghost has none. */

@@ -95,7 +95,9 @@ export class Arrows {
     const group = new THREE.Group();
     group.add(shaft, ...heads);
     group.visible = false;
-    const said = { kind: this.actor.stage.joints.some((joint) => joint.name === record.owner) ? "joint" : "force", name: record.owner };
+    const { joints, drivers } = this.actor.stage;
+    const owns = (each: { name: string }) => each.name === record.owner;
+    const said = { kind: record.source === "reaction" && joints.some(owns) ? "joint" : drivers.some(owns) ? "driver" : "force", name: record.owner };
     for (const each of [shaft, ...heads]) {
       each.userData = said;
       each.renderOrder = 5; // seen through bodies

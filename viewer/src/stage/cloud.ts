@@ -45,5 +45,6 @@ function localBoxes(actor: Actor): THREE.Box3[] {
   };
   for (const { holder, geometry } of actor.solids) add(holder, geometry);
   for (const { record, mesh } of actor.deforming) add(actor.holder(record.body), mesh.geometry);
+  for (const each of actor.swept) for (const [body, point] of each.extent()) boxes.get(actor.holder(body))?.expandByPoint(point);
   return [...boxes.values()];
 }

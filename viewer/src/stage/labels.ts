@@ -3,14 +3,22 @@ import * as THREE from "three";
 import type { Actor } from "./actor";
 
 const MOST = 80; // names that are shown at once
+const LINE = 17; // pixels from one name to the next below it
+const DOWN = 3; // lines that a name goes down to where it fits; further away nobody would know what it belongs to
+const LETTER = 7; // pixels, about
+
+type Point = readonly [number, number, number];
+export type Named = "body" | "joint" | "force";
 
 interface Label {
   element: HTMLElement;
+  text: string;
   body: number;
-  point: readonly [number, number, number];
-  kind: "body" | "joint" | "force";
+  point: Point;
+  kind: Named;
 }
 
+/** Names of forces are those of drivers and couplings too. */
 export class Labels {
   readonly shown = { body: false, joint: false, force: false };
   private readonly labels: Label[] = [];
@@ -20,40 +28,48 @@ export class Labels {
     private readonly holder: HTMLElement,
   ) {
     const { stage } = actor;
-    for (const [k, body] of stage.bodies.entries()) this.add("body", body.name, k, body.centre_of_mass);
+    const swept = new Map(stage.sweeps.flatMap((sweep) => sweep.bodies.map((body, k) => [body, k === sweep.bodies.length >> 1 ? sweep.name : ""])));
+    for (const [k, body] of stage.bodies.entries()) this.add("body", swept.get(k) ?? body.name, k, body.centre_of_mass);
     for (const joint of stage.joints) this.add("joint", joint.name, joint.bodies[joint.place], joint.points[joint.place]);
-    for (const force of stage.forces) if (force.points[0]) this.add("force", force.name, force.bodies[0]!, force.points[0]);
-  }
-
-  update(camera: THREE.PerspectiveCamera, width: number, height: number): void {
-    const at = new THREE.Vector3();
-    let count = 0;
-    const taken: [number, number, number][] = [];
-    for (const label of this.labels) {
-      const { style } = label.element;
-      const wanted = this.shown[label.kind] && count < MOST && !this.actor.isBad[label.body];
-      if (wanted) this.actor.place(label.body, label.point, at).project(camera);
-      const x = (0.5 + 0.5 * at.x) * width;
-      const y = (0.5 - 0.5 * at.y) * height;
-      const off = !wanted || at.z > 1 || x < 0 || y < 0 || x > width || y > height;
-      style.display = off ? "none" : "";
-      if (off) continue;
-      count++;
-      // names that would lie on each other go down, one line each
-      let down = 0;
-      const wide = 7 * (label.element.textContent ?? "").length;
-      while (down < 5 && taken.some(([a, b, c]) => Math.abs(a - x) < 0.5 * (wide + c) && Math.abs(b - y - 17 * down) < 16)) down++;
-      taken.push([x, y + 17 * down, wide]);
-      style.transform = `translate(${x.toFixed(1)}px, ${(y + 17 * down).toFixed(1)}px) translate(-50%, 9px)`;
+    for (const force of [...stage.forces, ...stage.drivers]) if (force.points[0]) this.add("force", force.name, force.bodies[0]!, force.points[0]);
+    for (const { name, wheels, joined } of stage.couplings) {
+      const [wheel] = wheels;
+      const [end] = joined;
+      if (wheel) this.add("force", name, wheel.body, wheel.centre);
+      else if (end) this.add("force", name, end.body, end.point);
     }
   }
 
-  private add(kind: Label["kind"], text: string, body: number, point: readonly [number, number, number]): void {
+  /** Names that would lie on each other go down, one line each; those that still do not fit are left out. */
+  update(camera: THREE.PerspectiveCamera, width: number, height: number): void {
+    const at = new THREE.Vector3();
+    const taken: [number, number, number][] = [];
+    for (const label of this.labels) {
+      const { style } = label.element;
+      const wanted = this.shown[label.kind] && taken.length < MOST && !this.actor.isBad[label.body];
+      if (wanted) this.actor.place(label.body, label.point, at).project(camera);
+      const x = (0.5 + 0.5 * at.x) * width;
+      const y = (0.5 - 0.5 * at.y) * height;
+      const wide = LETTER * label.text.length;
+      const isFree = (down: number) => !taken.some(([a, b, c]) => Math.abs(a - x) < 0.5 * (wide + c) && Math.abs(b - y - LINE * down) < LINE - 1);
+      const off = !wanted || at.z > 1 || x < 0 || y < 0 || x > width || y > height;
+      let down = 0;
+      while (!off && down <= DOWN && !isFree(down)) down++;
+      const shown = !off && down <= DOWN;
+      style.display = shown ? "" : "none";
+      if (!shown) continue;
+      taken.push([x, y + LINE * down, wide]);
+      style.transform = `translate(${x.toFixed(1)}px, ${(y + LINE * down).toFixed(1)}px) translate(-50%, 9px)`;
+    }
+  }
+
+  private add(kind: Named, text: string, body: number, point: Point): void {
+    if (!text) return;
     const element = document.createElement("span");
     element.className = `label ${kind}`;
     element.textContent = text;
     element.style.display = "none";
     this.holder.append(element);
-    this.labels.push({ element, body, point, kind });
+    this.labels.push({ element, text, body, point, kind });
   }
 }

@@ -42,6 +42,7 @@ export type Tone = (typeof TONES)[number];
 /** Materials that all bodies share; a ghost's let the machine shine through. */
 export class Palette {
   readonly body: THREE.MeshPhongMaterial; // takes the colours of the pieces
+  private readonly own: THREE.MeshPhongMaterial[] = [];
   readonly edge: THREE.LineBasicMaterial;
   readonly sign: THREE.MeshLambertMaterial;
   readonly signDark: THREE.MeshLambertMaterial;
@@ -72,12 +73,20 @@ export class Palette {
     this.recolour(look);
   }
 
+  /** As of bodies, for something that is one piece. */
+  bodyOf(colour: string): THREE.MeshPhongMaterial {
+    const material = this.body.clone();
+    if (!this.ghost) material.color.set(colour);
+    this.own.push(material);
+    return material;
+  }
+
   recolour(look: Look): void {
     this.edge.color.set(look.dark ? "#0b0f14" : "#1b2430");
     this.sign.color.set(look.dark ? "#dfe6ee" : "#ffffff");
     this.signDark.color.set(look.dark ? "#aab6c4" : "#39434f");
     this.foot.color.set(look.dark ? "#566272" : "#9aa5b2");
     this.wire.color.set(look.dark ? "#c2ccd8" : "#56616f");
-    if (this.ghost) this.body.color.set(look.soft);
+    if (this.ghost) for (const each of [this.body, ...this.own]) each.color.set(look.soft);
   }
 }

@@ -1,6 +1,7 @@
-// What stretches between two bodies: springs, dampers, cylinders, rods of massless links; coils, bushings and planes of contacts.
+// What stretches between two bodies: springs, dampers, cylinders, rods of massless links; and planes of contacts.
 import * as THREE from "three";
 import type { Force, Joint } from "../generated/records";
+import { standing } from "./acting";
 import type { Actor, Picked } from "./actor";
 import { noPieces, type Piece } from "./batch";
 import type { Tone } from "./look";
@@ -10,6 +11,7 @@ const COIL = 0.021;
 const ROD = 0.0075;
 const BARREL = 0.0135;
 const TURNS = 9;
+const BETWEEN = ["spring", "damper", "spring-damper", "cylinder"];
 const MANY = 20; // springs from which on each is drawn with fewer facets
 
 export interface Stretching {
@@ -30,12 +32,11 @@ export function stretching(actor: Actor): Stretched {
   const out: Stretched = { moving: [], pieces: noPieces() };
   for (const joint of actor.stage.joints) if (joint.rod) rod(actor, joint, out);
   for (const force of actor.stage.forces) {
-    if (force.points.length !== 2) continue;
     if (force.look === "plane") out.moving.push(plane(actor, force));
-    else if (force.look === "coil") coil(actor, force, out);
-    else if (force.look === "bushing") bushing(actor, force, out);
-    else if (force.look !== "nothing") between(actor, force, out);
+    else if (BETWEEN.includes(force.look)) between(actor, force, out);
+    else standing(actor, force, "force", out.pieces);
   }
+  for (const driver of actor.stage.drivers) standing(actor, driver, "driver", out.pieces);
   return out;
 }
 
@@ -135,30 +136,6 @@ function naturalLength(actor: Actor, force: Force): number {
 function distance(actor: Actor, bodies: readonly number[], points: readonly Point[]): number {
   const [a, b] = [0, 1].map((k) => actor.place(bodies[k]!, points[k]!, new THREE.Vector3()));
   return a!.distanceTo(b!);
-}
-
-/** A flat spiral about the axis, fixed in the first body. */
-function coil(actor: Actor, force: Force, out: Stretched): void {
-  const size = actor.nearness.between(force.bodies);
-  const steps = actor.stage.forces.length > MANY ? 50 : 120;
-  const points = Array.from({ length: 80 }, (_, k) => {
-    const angle = (k / 79) * 5 * Math.PI;
-    const radius = size * (0.012 + 0.026 * (k / 79));
-    return new THREE.Vector3(radius * Math.cos(angle), radius * Math.sin(angle), 0);
-  });
-  carried(actor, force, "wire", new THREE.TubeGeometry(new THREE.CatmullRomCurve3(points), steps, 0.0036 * size, steps > 50 ? 6 : 4), out);
-}
-
-function bushing(actor: Actor, force: Force, out: Stretched): void {
-  const size = actor.nearness.between(force.bodies);
-  carried(actor, force, "signDark", new THREE.TorusGeometry(0.02 * size, 0.009 * size, 12, 28), out);
-}
-
-/** A solid that stands at the first end, its z along the force's axis. */
-function carried(actor: Actor, force: Force, tone: Tone, geometry: THREE.BufferGeometry, out: Stretched): void {
-  const turn = new THREE.Quaternion().setFromUnitVectors(Z, new THREE.Vector3(...(force.axis ?? [0, 0, 1])).normalize());
-  geometry.applyMatrix4(new THREE.Matrix4().compose(new THREE.Vector3(...force.points[0]!), turn, new THREE.Vector3(1, 1, 1)));
-  out.pieces[tone].push({ geometry, thin: true, body: force.bodies[0]!, holder: actor.holder(force.bodies[0]!), said: { kind: "force", name: force.name } });
 }
 
 /** The plane of a contact, on the second body. */

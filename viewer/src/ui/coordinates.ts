@@ -1,6 +1,6 @@
 // A slider for every joint coordinate of a machine that is moved by hand.
 import type { Coordinate } from "../generated/records";
-import { el, iconButton, short } from "./dom";
+import { breakable, el, iconButton, short } from "./dom";
 
 export class Coordinates {
   readonly element: HTMLElement;
@@ -39,7 +39,7 @@ export class Coordinates {
     const slider = el("input", { type: "range", min: record.low, max: record.high, step: "any", value: record.value, "aria-label": record.name });
     slider.addEventListener("input", () => this.move(record.name, Number(slider.value)));
     this.rows.push({ record, slider, value });
-    return el("li", {}, el("label", {}, el("span", { class: "name" }, record.name), value, slider));
+    return el("li", {}, el("label", {}, el("span", { class: "name" }, ...breakable(record.name)), value, slider));
   }
 }
 

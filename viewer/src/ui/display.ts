@@ -44,7 +44,7 @@ export class Display {
     return [
       toggle("Names of bodies", app.labels.shown.body, (on) => app.name("body", on)),
       toggle("Names of joints", app.labels.shown.joint, (on) => app.name("joint", on)),
-      ...(stage.forces.length ? [toggle("Names of forces", app.labels.shown.force, (on) => app.name("force", on))] : []),
+      ...(stage.forces.length + stage.drivers.length + stage.couplings.length ? [toggle(stage.couplings.length ? "Names of forces and couplings" : "Names of forces", app.labels.shown.force, (on) => app.name("force", on))] : []),
       toggle("Joint symbols", true, (on) => app.show("signs", on)),
       toggle("Body frames", false, (on) => app.show("triads", on)),
       toggle("Centres of mass", false, (on) => app.show("centres", on)),

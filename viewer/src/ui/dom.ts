@@ -58,6 +58,11 @@ export function toggle(label: string, checked: boolean, onchange: (on: boolean) 
   return el("label", { class: "toggle" }, input, el("span", {}, label));
 }
 
+/** A name that goes on in the next line after a dot or underscore, not within a word. */
+export function breakable(name: string): (Node | string)[] {
+  return name.split(/(?<=[._-])/).flatMap((piece, k) => (k ? [document.createElement("wbr"), piece] : [piece]));
+}
+
 /** A number as people read it: five digits. */
 export function short(value: number): string {
   if (!Number.isFinite(value)) return "–";

@@ -3,7 +3,7 @@ import type { Columns } from "../columns";
 import type { Column, Stage } from "../generated/records";
 import type { Picked } from "../stage/actor";
 import type { Traceable, Traces } from "../stage/traces";
-import { el, icon, short } from "./dom";
+import { breakable, el, icon, short } from "./dom";
 import type { Plots } from "./plots";
 
 const MOST_FOUND = 60; // variables that a search shows
@@ -61,7 +61,9 @@ export class Inspector {
       return;
     }
     const body = this.stage.bodies.findIndex((each) => each.name === picked.name);
-    const record = { body: this.stage.bodies, joint: this.stage.joints, force: this.stage.forces }[picked.kind].find((each) => each.name === picked.name);
+    const { bodies, joints, forces, drivers, couplings } = this.stage;
+    const records: readonly { name: string; facts: [string, string][] }[] = { body: bodies, joint: joints, force: forces, driver: drivers, coupling: couplings }[picked.kind];
+    const record = records.find((each) => each.name === picked.name);
     const facts = record?.facts ?? [];
     const follow = picked.kind === "body" && el("button", { type: "button", class: "chip", "aria-pressed": String(this.actions.isFollowed(picked)), onclick: () => this.actions.follow() }, icon("target"), "Follow");
     const paths = this.actions.canPlay ? traceables(this.stage, picked, body) : [];
@@ -69,7 +71,7 @@ export class Inspector {
       el("button", { type: "button", class: "chip", "aria-pressed": String(this.traces.has(each.key)), onclick: () => this.trace(each) }, icon("path"), `Trace ${each.label}`),
     );
     this.head.replaceChildren(
-      el("h2", {}, picked.name),
+      el("h2", {}, ...breakable(picked.name)),
       el("dl", {}, ...facts.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, value)])),
       el("div", { class: "chips" }, follow, ...chips),
     );
@@ -110,7 +112,7 @@ export class Inspector {
     return el(
       "li",
       {},
-      el("button", { type: "button", "aria-pressed": String(this.plots.has(column.name)), title: `Plot ${column.name}`, "aria-label": `Plot ${column.name}`, onclick: () => this.plots.toggle(column.name) }, icon("plot"), el("span", { class: "name" }, label)),
+      el("button", { type: "button", "aria-pressed": String(this.plots.has(column.name)), title: `Plot ${column.name}`, "aria-label": `Plot ${column.name}`, onclick: () => this.plots.toggle(column.name) }, icon("plot"), el("span", { class: "name" }, ...breakable(label))),
       number,
       el("small", {}, column.unit === "1" ? "" : column.unit),
     );
@@ -119,7 +121,7 @@ export class Inspector {
 
 /** `force.x` of `hinge.force.x`, `magnitude` of `force.drive.magnitude`. */
 function withoutOwner(name: string, owner: string): string {
-  const prefix = ["", "force.", "driver."].map((kind) => `${kind}${owner}.`).find((each) => name.startsWith(each));
+  const prefix = ["", "force.", "driver.", "coupling."].map((kind) => `${kind}${owner}.`).find((each) => name.startsWith(each));
   return prefix ? name.slice(prefix.length) : name;
 }
 

@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Columns } from "../columns";
-import { el, iconButton, short } from "./dom";
+import { breakable, el, iconButton, short } from "./dom";
 
 const HEIGHT = 132;
 const MOST = 12; // curves at once
@@ -73,7 +73,7 @@ export class Plots {
           const key = el("i", {});
           key.style.background = each.colour;
           const value = at(each.times, each.values, time);
-          return el("li", {}, key, el("span", { class: "name" }, each.label), el("b", {}, value === null ? "–" : short(value)), iconButton("close", `Remove ${each.label}`, () => this.toggle(each.label)));
+          return el("li", {}, key, el("span", { class: "name" }, ...breakable(each.label)), el("b", {}, value === null ? "–" : short(value)), iconButton("close", `Remove ${each.label}`, () => this.toggle(each.label)));
         }),
       );
     }

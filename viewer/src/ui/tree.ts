@@ -1,7 +1,7 @@
-// Bodies, joints and forces as a list to choose from.
+// Bodies, joints, forces, drivers and couplings as a list to choose from.
 import type { Stage } from "../generated/records";
 import type { Picked } from "../stage/actor";
-import { el } from "./dom";
+import { breakable, el } from "./dom";
 
 const FEW = 14; // longer lists get a field to search
 
@@ -14,6 +14,8 @@ export class Tree {
       ["Bodies", "body", stage.bodies.map((body) => ({ name: body.name, note: "", colour: body.colour }))],
       ["Joints", "joint", stage.joints.map((joint) => ({ name: joint.name, note: joint.kind }))],
       ["Forces", "force", stage.forces.map((force) => ({ name: force.name, note: force.kind }))],
+      ["Drivers", "driver", stage.drivers.map((driver) => ({ name: driver.name, note: "" }))],
+      ["Couplings", "coupling", stage.couplings.map((coupling) => ({ name: coupling.name, note: coupling.kind }))],
     ];
     const search = el("input", { type: "search", class: "search", placeholder: "Find a part", "aria-label": "Find a part" });
     search.addEventListener("input", () => this.filter(search.value));
@@ -43,7 +45,7 @@ export class Tree {
     const dot = el("i", { class: `dot ${kind}` });
     if (item.colour) dot.style.background = item.colour;
     const pick = () => choose(button.getAttribute("aria-pressed") === "true" ? null : { kind, name: item.name });
-    const button: HTMLButtonElement = el("button", { type: "button", "aria-pressed": "false", onclick: pick }, dot, el("span", { class: "name" }, item.name), el("small", {}, item.note));
+    const button: HTMLButtonElement = el("button", { type: "button", "aria-pressed": "false", onclick: pick }, dot, el("span", { class: "name" }, ...breakable(item.name)), el("small", {}, item.note));
     this.buttons.set(`${kind} ${item.name}`, button);
     return button;
   }

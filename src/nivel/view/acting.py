@@ -1,0 +1,105 @@
+"""What acts on a machine, as the page draws it: forces between bodies, loads on one, and what works on joints, drivers among it."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+from nivel.view.coordinate_places import coordinate_place
+from nivel.view.records import Body, Force, ForceLook, Joint, Triple
+from nivel.view.triples import triple
+
+# what is drawn at the joint of an angle, and of a length
+AT_JOINT: Final[dict[str, tuple[ForceLook, ForceLook]]] = {
+    "joint-spring-damper": ("coil", "slide"),
+    "motor": ("turn", "slide"),
+    "driver": ("turn", "slide"),
+}
+HELD: Final[tuple[ForceLook, ForceLook]] = ("ring", "slide")  # of friction, stops and whatever else works there
+
+
+def forces(
+    scene: dict[str, Any], record: dict[str, Any], places: dict[str, int], bodies: list[Body], joints: list[Joint]
+) -> list[Force]:
+    """All force elements, in the order of the machine. record : of the machine, which may be empty."""
+    drawn = {force["name"]: force for force in scene.get("forces", [])}
+    records = {force["name"]: force for force in record.get("forces", [])}
+    out = []
+    for name in {**records, **drawn}:
+        known = records.get(name, {})
+        if name in drawn:
+            out.append(_between(drawn[name], known, places))
+        else:
+            kind = str(known.get("type", "force"))
+            out.append(_elsewhere(name, kind, known, record, places, bodies, joints))
+    return out
+
+
+def drivers(record: dict[str, Any], places: dict[str, int], bodies: list[Body], joints: list[Joint]) -> list[Force]:
+    """The drivers, each at its joint or marker."""
+    return [
+        _elsewhere(each["name"], "driver", each, record, places, bodies, joints) for each in record.get("drivers", [])
+    ]
+
+
+def place_of(
+    known: dict[str, Any], record: dict[str, Any], places: dict[str, int], bodies: list[Body]
+) -> tuple[int, Triple] | None:
+    """Body and point of what stands at a marker, or at a body: a torque at the centre of mass; None on the ground."""
+    marker = known.get("marker")
+    if isinstance(marker, str):
+        marker = next((each for each in record.get("markers", []) if each.get("name") == marker), None)
+    named = marker if isinstance(marker, dict) else known
+    body = places.get(str(named.get("body")), -1)
+    if body < 0:
+        return None
+    at_centre = known.get("type") == "torque"
+    return body, triple(bodies[body].centre_of_mass if at_centre else named.get("position") or (0, 0, 0))
+
+
+def _between(force: dict[str, Any], known: dict[str, Any], places: dict[str, int]) -> Force:
+    """A force with two ends."""
+    kind, ends = str(force["type"]), [str(body) for body in force["bodies"]]
+    facts = [("type", kind), ("first body", ends[0]), ("second body", ends[1])]
+    axis = triple(force["axis"]) if "axis" in force else None
+    points = [triple(point) for point in force["points"]]
+    return Force(force["name"], kind, [places[body] for body in ends], points, axis, _look(force, known), facts)
+
+
+def _elsewhere(
+    name: str,
+    kind: str,
+    known: dict[str, Any],
+    record: dict[str, Any],
+    places: dict[str, int],
+    bodies: list[Body],
+    joints: list[Joint],
+) -> Force:
+    """What acts on one body, or on a joint coordinate; without a place where that is not known."""
+    words = [(word, str(known[word])) for word in ("body", "marker", "coordinate") if isinstance(known.get(word), str)]
+    facts = [("type", kind), *words]
+    at = coordinate_place(known.get("coordinate"), joints)
+    if at is not None:
+        look = AT_JOINT.get(kind, HELD)[at.kind == "length"]
+        return Force(name, kind, list(at.joint.bodies), list(at.joint.points), at.axis, look, facts)
+    place = place_of(known, record, places, bodies)
+    if place is None:
+        return Force(name, kind, [], facts=facts)
+    return Force(name, kind, [place[0]], [place[1]], None, "dot", facts)
+
+
+def _look(force: dict[str, Any], record: dict[str, Any]) -> ForceLook:
+    """What is drawn between the ends of a force."""
+    match force["type"]:
+        case "spring-damper":
+            damped = any(record.get(word) for word in ("damping", "damping_table", "damping_law"))
+            sprung = any(record.get(word) for word in ("stiffness", "table", "law", "preload")) or not damped
+            return "spring-damper" if damped and sprung else "damper" if damped else "spring"
+        case "torsional-spring-damper":
+            return "coil"
+        case "pair-force":
+            return "cylinder"
+        case "bushing":
+            return "bushing"
+        case "contact":
+            return "plane" if "axis" in force else "nothing"
+    return "nothing"

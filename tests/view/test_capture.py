@@ -11,7 +11,7 @@ import pytest
 
 import nivel
 import synthetic_run as pendulum
-from browsing import CHROMIUM
+from browsing import with_browser
 from nivel.errors import ModelError
 from nivel.results import Store
 from nivel.view import browser, capture
@@ -19,7 +19,6 @@ from nivel.view.capture import Look, film, still
 from nivel.view.sources import Playback
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
-with_browser = pytest.mark.skipif(CHROMIUM is None, reason="no chromium on this machine")
 SMALL = Look(width=320, height=240)
 
 
@@ -92,13 +91,16 @@ def test_what_is_missing_is_said(stored, tmp_path, monkeypatch):
         capture._ffmpeg()
     monkeypatch.setattr(browser, "PLACES", ())
     monkeypatch.delenv("NIVEL_BROWSER", raising=False)
-    with pytest.raises(ModelError, match="install chromium"):
+    with pytest.raises(ModelError, match="none was found: install chromium"):
+        still(source(stored), tmp_path / "a.png", SMALL)
+    monkeypatch.setenv("NIVEL_BROWSER", "/nowhere/chromium")
+    with pytest.raises(ModelError, match="NIVEL_BROWSER is `/nowhere/chromium`, which is no program"):
         still(source(stored), tmp_path / "a.png", SMALL)
 
 
 def test_a_browser_that_is_none_is_said(stored, tmp_path, monkeypatch):
     monkeypatch.setenv("NIVEL_BROWSER", sys.executable)
-    with pytest.raises(ModelError, match="ended at once"):
+    with pytest.raises(ModelError, match=r"ended at once with code .*NIVEL_BROWSER"):
         still(source(stored), tmp_path / "a.png", SMALL)
 
 

@@ -104,6 +104,27 @@ def test_the_served_page_fetches_what_it_plots(browser):
         assert page.evaluate("nivel.app.player.time") == pytest.approx(4.0, abs=0.2)
 
 
+def test_a_ball_and_a_free_body_are_moved_by_their_sliders(browser):
+    body = {"mass": 1, "inertia": (0.1, 0.1, 0.1)}
+    machine = nivel.Machine(
+        "balls",
+        bodies=[
+            nivel.Body(name="bob", position=(0, 0, -1), **body),
+            nivel.Body(name="kite", position=(1, 0, 0), **body),
+        ],
+        joints=[nivel.Joint(name="ball", type="spherical", bodies=("ground", "bob"), point=(0, 0, 0))],
+    )
+    with served(machine.shown()) as viewing, watched(browser) as seen:
+        page = seen.open(viewing.address.url)
+        names = [each.get_attribute("aria-label") for each in page.locator(".coordinates input").all()]
+        turns = ["angle_x", "angle_y", "angle_z"]
+        assert names == [*(f"ball.{name}" for name in turns), *(f"kite.{name}" for name in ["x", "y", "z", *turns])]
+        page.get_by_role("slider", name="ball.angle_x").fill("0.5")
+        until(page, "Math.abs(nivel.app.actor.bodies[0].position.y - Math.sin(0.5)) < 1e-5")
+        page.get_by_role("slider", name="kite.z", exact=True).fill("0.7")
+        until(page, "Math.abs(nivel.app.actor.bodies[1].position.z - 0.7) < 1e-5")
+
+
 def test_a_machine_is_moved_by_its_sliders(browser):
     source = nivel.load(EXAMPLES / "four-bar.yaml").shown()
     with served(source) as viewing, watched(browser) as seen:
@@ -185,6 +206,60 @@ def test_everything_can_be_switched_on_without_complaint(browser, tmp_path):
         page.get_by_role("button", name="rod", exact=True).click()
         page.get_by_role("button", name="Trace centre of mass").click()
         assert page.evaluate("nivel.app.traces.keys") == ["body rod"]
+
+
+def test_every_joint_is_read_as_name_and_kind_and_plots_are_reached_by_keys(browser, tmp_path):
+    result = result_of(EXAMPLES / "slider-crank.yaml")
+    file = write_scene([result], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        joints = [(joint["name"], joint["type"]) for joint in result.scene["joints"]]
+        for name, kind in joints:
+            assert page.get_by_role("button", name=f"{name}, {kind}", exact=True).count() == 1
+        plot = page.get_by_role("slider", name="Moment in the plot of").first
+        plot.focus()
+        page.keyboard.press("ArrowRight")
+        assert page.evaluate("nivel.app.player.frame") == 1
+        page.keyboard.press("End")
+        assert float(plot.get_attribute("aria-valuenow")) == pytest.approx(result.time[-1])
+        assert plot.get_attribute("aria-valuetext").startswith(f"{result.time[-1]:g} s: ")
+
+
+def test_of_sheets_one_stays_when_the_page_gets_narrow(browser, tmp_path):
+    file = write_scene([result_of(EXAMPLES / "slider-crank.yaml")], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        assert page.locator(".panel:visible").count() == 2
+        page.set_viewport_size({"width": 390, "height": 800})
+        page.wait_for_timeout(100)
+        assert page.locator(".panel:visible").count() == 1
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_a_ghost_is_named_and_of_another_machine_said_to_be_one(browser, tmp_path):
+    one, other = result_of(EXAMPLES / "slider-crank.yaml"), result_of(EXAMPLES / "simple-pendulum.yaml")
+    with watched(browser) as seen:
+        page = seen.open(write_scene([one, one], tmp_path / "same.html").as_uri())
+        assert page.locator(".notes .ghost").inner_text() == f"Ghost: {one.name}"
+        assert one.name in page.locator(".chart figcaption").first.inner_text()
+        page = seen.open(write_scene([one, other], tmp_path / "other.html").as_uri())
+        assert page.locator(".notes .ghost").inner_text() == f"Ghost: {other.name}, another machine"
+
+
+def test_negative_times_play_and_scrub(browser, tmp_path):
+    memory = Memory()
+    memory.begin(pendulum.header())
+    memory.take(pendulum.packed(np.linspace(-2.0, -1.0, 101), pendulum.histories(np.linspace(0.0, 1.0, 101))))
+    file = write_scene([memory.close({"outcome": "done"})], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        assert page.evaluate("nivel.span()") == [-2.0, -1.0]
+        assert page.locator("output.time").inner_text().startswith("−2.0")
+        page.get_by_role("slider", name="Time").focus()
+        page.keyboard.press("ArrowRight")
+        assert page.evaluate("nivel.app.player.time") == pytest.approx(-1.99)
+        page.keyboard.press("End")
+        assert page.evaluate("nivel.app.player.time") == -1.0
 
 
 def test_a_click_into_the_picture_chooses_a_body(browser, tmp_path):

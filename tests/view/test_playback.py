@@ -167,6 +167,39 @@ def test_poses_that_are_not_finite_are_told_and_do_no_harm(budget):
     assert np.isnan(frames[-1, 0])
 
 
+@pytest.mark.parametrize("size", [1e31, 1e39, 1e300])
+def test_poses_that_are_too_far_away_to_be_drawn_are_told(size):
+    values = pendulum.histories(TIME)
+    values["position"] = values["position"].copy()
+    values["position"][600:] = size
+    stage, *_ = opened(swung(values=values))
+    assert [note for note in stage["notes"] if "201 of 801 frames have positions beyond 1e+30 m" in note]
+    assert not any("not finite" in note for note in stage["notes"])
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, 3.0])
+def test_frames_whose_times_are_wrong_are_left_out_and_it_is_said(wrong):
+    time = TIME.copy()
+    time[500] = wrong  # 5 s
+    stage, shown, frames, *_ = opened(swung(time, values=pendulum.histories(TIME)))
+    assert len(shown) == len(frames) == 500
+    np.testing.assert_array_equal(shown, TIME[:500])
+    assert any("last 301 frames are left out" in note for note in stage["notes"])
+
+
+def test_a_result_whose_first_time_is_no_number_is_refused():
+    time = TIME.copy()
+    time[0] = np.nan
+    with pytest.raises(ModelError, match="has no times"):
+        playback([swung(time, values=pendulum.histories(TIME))], ALONE)
+
+
+def test_times_may_be_negative():
+    result = swung(np.linspace(-2.0, -1.0, 101))
+    _, shown, *_ = opened(result)
+    np.testing.assert_array_equal(shown, result.time)
+
+
 def test_a_run_that_explodes_is_looked_at_where_it_began():
     values = pendulum.histories(TIME)
     values["position"] = values["position"] * np.exp(np.clip(TIME - 4.0, 0.0, None) * 20.0)[:, None, None]

@@ -7,6 +7,7 @@ import random
 import socket
 import struct
 import sys
+from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
@@ -68,6 +69,14 @@ def test_there_is_nothing_else(playing, path):
     assert get(playing, path)[0].status == 404
 
 
+@pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "OPTIONS", "HEAD"])
+def test_nothing_but_get_is_answered(playing, method):
+    answer, _ = get(playing, method=method)
+    assert answer.status in (405, 400)  # 400: websockets before 16 refuses by itself
+    if answer.status == 405:
+        assert answer.getheader("Allow") == "GET"
+
+
 @pytest.mark.parametrize("host", ["evil.example", "evil.example:80", "127.0.0.1.evil.example"])
 def test_other_names_of_this_machine_are_refused(playing, host):
     assert get(playing, host=host)[0].status == 403
@@ -101,6 +110,21 @@ def test_a_token_is_needed_where_others_can_reach_the_server():
         with pytest.raises(websockets.InvalidStatus):
             asyncio.run(talk(""))
         assert asyncio.run(talk(f"?token={address.token}"))[:4] == struct.pack("<I", PACKAGE)
+
+
+@pytest.mark.parametrize(("host", "own"), [("0.0.0.0", "127.0.0.1"), ("::", "[::1]"), ("192.168.7.1", "192.168.7.1")])
+def test_the_address_that_is_said_can_be_opened(host, own):
+    address = Address(host, 8640, "secret")
+    assert address.url == f"http://{own}:8640/?token=secret"
+    assert address.others_url.endswith(":8640/?token=secret")
+    assert not address.others_url.startswith(("http://0.0.0.0", "http://[::]", "http://127.", "http://[::1]"))
+
+
+def test_the_page_of_all_addresses_opens_at_this_machines_own():
+    with served(Playback([swinging()]), Address.of("0.0.0.0", 0)) as viewing:
+        parts = urlsplit(viewing.address.url)
+        answer, _ = get(viewing, f"/?{parts.query}", host=parts.netloc)
+        assert (parts.hostname, answer.status) == ("127.0.0.1", 200)
 
 
 def test_columns_come_when_they_are_asked_for(playing):
@@ -215,7 +239,9 @@ def test_a_frame_that_nobody_acknowledges_is_given_up_after_a_while():
 def test_ports_and_addresses_that_cannot_be_used_are_said():
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        with pytest.raises(ModelError, match=f"port {port} of 127.0.0.1 cannot be used.*--port"):
+        with pytest.raises(
+            ModelError, match=f"^port {port} of 127.0.0.1 is used by another program; choose another with --port"
+        ):
             asyncio.run(start(Viewing(Playback([swinging()]), Address("127.0.0.1", port))))
     with pytest.raises(ModelError, match="no address that this machine can listen at"):
         asyncio.run(start(Viewing(Playback([swinging()]), Address("192.0.2.1", 0, "token"))))

@@ -88,7 +88,7 @@ export class App {
     holder.append(names);
     const columns = new Columns(opened, connection);
     const ghostTime = this.ghosts[0]?.motion.time ?? null;
-    const times = { main: this.motion?.time ?? new Float64Array(), ghost: ghostTime };
+    const times = { main: this.motion?.time ?? new Float64Array(), ghost: ghostTime, ghostTitle: others[0]?.title ?? "" };
     this.plots = new Plots(columns, times, (time) => this.goTo(time), () => this.inspector?.refresh());
     this.inspector = new Inspector(stage, columns, this.plots, this.traces, {
       follow: () => this.followOrFit(),
@@ -112,7 +112,7 @@ export class App {
     }
     const data = el("div", {}, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;
-    this.panels = new Panels(stage, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? null, this.status, () => this.dialog.showModal());
+    this.panels = new Panels(stage, others, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? null, this.status, () => this.dialog.showModal());
     document.body.append(...this.panels.elements, this.dialog);
     this.panels.settle(!!this.coordinates);
     this.world.onBeforeRender = (now) => this.beforeRender(now);

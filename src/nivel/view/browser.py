@@ -53,7 +53,8 @@ FLAGS: Final = (
 )
 PATIENCE: Final = 60.0  # seconds for the browser to start, and for each of its answers
 WANTED: Final = (
-    "pictures and films are drawn by a browser: install chromium or chrome, or set NIVEL_BROWSER to its program"
+    "pictures and films are drawn by a browser, and none was found: install chromium, chrome or edge, "
+    "or set the environment variable NIVEL_BROWSER to the program of one"
 )
 
 
@@ -104,7 +105,7 @@ def tab(page: Path, width: int, height: int, *, dark: bool) -> Iterator[Tab]:
     """
     program = find_browser()
     if program is None:
-        raise ModelError(WANTED)
+        raise ModelError(_missing())
     try:
         from websockets.sync.client import connect
     except ModuleNotFoundError:
@@ -140,6 +141,13 @@ def tab(page: Path, width: int, height: int, *, dark: bool) -> Iterator[Tab]:
                 running.wait()
 
 
+def _missing() -> str:
+    chosen = os.environ.get("NIVEL_BROWSER")
+    if not chosen:
+        return WANTED
+    return f"NIVEL_BROWSER is `{chosen}`, which is no program that can be started; set it to the program of chromium, chrome or edge"
+
+
 def _started(program: str, profile: Path) -> subprocess.Popen[bytes]:
     flags = [*FLAGS, f"--user-data-dir={profile}"]
     if hasattr(os, "geteuid") and os.geteuid() == 0:
@@ -160,7 +168,11 @@ def _address(running: subprocess.Popen[bytes], profile: Path) -> str:
     straight = build_opener(ProxyHandler({}))
     while time.monotonic() < end:
         if running.poll() is not None:
-            raise ModelError(f"the browser ended at once with code {running.returncode}")
+            program = running.args[0] if isinstance(running.args, list) else running.args
+            raise ModelError(
+                f"{program} ended at once with code {running.returncode}: is it chromium, chrome or edge? "
+                "NIVEL_BROWSER says which one is taken"
+            )
         if port_file.exists() and (lines := port_file.read_text(encoding="utf-8").split()):
             try:
                 with straight.open(f"http://127.0.0.1:{int(lines[0])}/json/list", timeout=5.0) as answer:

@@ -16,11 +16,11 @@ def serve(source: Source, *, host: str, port: int, browser: bool, say: Callable[
     Raises ModelError where the address cannot be used.
     """
 
-    def ready(url: str) -> None:
-        say(f"viewer: {url} (Ctrl-C ends it)")
+    def ready(address: Address) -> None:
+        say(f"viewer: {address.url} (Ctrl-C ends it)")
         if host not in LOOPBACK:
-            say("others reach it too, with this address only: it has the token")
-        if browser and not webbrowser.open(url):
+            say(f"others reach it at {address.others_url}; the token in it lets them in")
+        if browser and not webbrowser.open(address.url):
             say("no browser could be opened here: open the address yourself")
 
     try:

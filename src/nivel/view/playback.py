@@ -24,6 +24,7 @@ from nivel.view.violations import violation_vectors
 
 Array = NDArray[np.float64]
 MOST_MOMENTS: Final = 500  # events that are marked
+LARGEST: Final = 1e30  # [m] beyond it bodies are not drawn: 32-bit numbers could not hold the squares in between
 
 
 @dataclass(frozen=True)
@@ -57,9 +58,16 @@ def played_frames(result: Result, budget: Budget) -> slice:
     bodies, joints, forces = (len(scene.get(name, [])) for name in ("bodies", "joints", "forces"))
     modes = len(result.coordinates.get("mode", ()))
     width = 7 * bodies + modes + (3 * (4 * joints + 2 * forces) if budget.vectors else 0)
-    count = len(result.time)
+    count = _usable(result.abscissa)
     most = max(min(budget.frames, budget.motion // max(4 * width, 1)), 2)
     return slice(0, count, max(-(-count // most), 1))
+
+
+def _usable(time: Array) -> int:
+    """How many frames from the first on have a time that is a number and not before the one of the frame before."""
+    wrong = ~np.isfinite(time)
+    wrong[1:] |= np.diff(time) < 0.0
+    return int(np.argmax(wrong)) if wrong.any() else len(time)
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a run beyond all bounds is drawn as far as it can be
@@ -96,8 +104,8 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         sweeps=players.sweeps,
         couplings=couplings(players, position, orientation),
         columns=columns(result, frames, block, budget.columns) if number == 0 or budget.columns else [],
-        moments=[Moment(name, at) for name, at in result.marks[:MOST_MOMENTS]],
-        notes=_notes(result, position, frames),
+        moments=[Moment(name, float(at)) for name, at in _marks(result)],
+        notes=_notes(result, rows[:, : 7 * bodies], frames),
         motion=Motion(block.add(result.abscissa[frames], "f8"), block.add(rows.T), len(result.time), frames.step),
     )
 
@@ -151,6 +159,8 @@ def _refuse_empty(result: Result, scene: dict[str, Any]) -> None:
         raise ModelError(f"{_title(result)}: the bodies of its picture are not those of its motion")
     if not len(result.time):
         raise ModelError(f"{_title(result)} has no frame: the run ended before its first moment was stored")
+    if not _usable(result.abscissa):
+        raise ModelError(f"{_title(result)} has no times: that of its first frame is {result.abscissa[0]}")
 
 
 def _title(result: Result) -> str:
@@ -168,8 +178,12 @@ def _read(result: Result, name: str, frames: slice) -> Array | None:
     return result.array(name, frames) if name in result else None
 
 
-def _notes(result: Result, position: Array, frames: slice) -> list[str]:
-    """What the user has to know before looking."""
+def _marks(result: Result) -> list[tuple[str, float]]:
+    return [(name, at) for name, at in result.marks if np.isfinite(at)][:MOST_MOMENTS]
+
+
+def _notes(result: Result, poses: Array, frames: slice) -> list[str]:
+    """What the user has to know before looking. poses : (n, 7 B) of the frames that are shown."""
     notes = []
     if result.outcome == "failed":
         notes.append(f"The run failed: {result.failure or 'the reason is not known'}")
@@ -177,9 +191,16 @@ def _notes(result: Result, position: Array, frames: slice) -> list[str]:
         notes.append(
             {"running": "The run goes on, or was killed."}.get(result.outcome, f"The run was {result.outcome}.")
         )
-    bad = int(np.sum(~np.all(np.isfinite(position), axis=(1, 2))))
-    if bad:
-        notes.append(f"{bad} of {len(position)} frames have positions that are not finite and are not drawn.")
+    infinite = ~np.all(np.isfinite(poses), axis=1)
+    huge = ~infinite & np.any(np.abs(poses) > LARGEST, axis=1)
+    for bad, what in ((infinite, "that are not finite"), (huge, f"beyond {LARGEST:.0e} m")):
+        if bad.any():
+            notes.append(
+                f"{int(bad.sum())} of {len(poses)} frames have positions {what}; those bodies are not drawn there."
+            )
+    left = len(result.time) - frames.stop
+    if left:
+        notes.append(f"The last {left} frames are left out: their times are no numbers, or go back.")
     if frames.step > 1:
         notes.append(f"Every {_ordinal(frames.step)} of {len(result.time)} frames is shown.")
     return notes

@@ -7,8 +7,11 @@ names of this machine that are not its own (rebound ones), connections without t
 from __future__ import annotations
 
 import asyncio
+import errno
 import hmac
+import os
 import secrets
+import socket
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -27,6 +30,7 @@ if TYPE_CHECKING:
     from websockets.http11 import Request, Response
 
 LOOPBACK: Final = ("127.0.0.1", "localhost", "::1")
+OWN: Final = {"0.0.0.0": "127.0.0.1", "::": "::1"}  # of all addresses of a machine the one that it has for itself
 MOST_PAGES: Final = 16
 HANDSHAKE: Final = 5.0  # seconds that a connection may take to say what it wants
 PORTS: Final = range(8640, 8660)  # tried in their order
@@ -47,8 +51,16 @@ class Address:
 
     @property
     def url(self) -> str:
-        """To be opened in a browser."""
-        host = f"[{self.host}]" if ":" in self.host else self.host
+        """To be opened in a browser of this machine; `0.0.0.0` and `::` are no addresses to open."""
+        return self._at(OWN.get(self.host, self.host))
+
+    @property
+    def others_url(self) -> str:
+        """To be opened in a browser of another machine."""
+        return self._at(_outside(self.host) if self.host in OWN else self.host)
+
+    def _at(self, host: str) -> str:
+        host = f"[{host}]" if ":" in host else host
         return f"http://{host}:{self.port}/" + (f"?token={self.token}" if self.token else "")
 
 
@@ -79,6 +91,9 @@ class Viewing:
     def answer(self, connection: ServerConnection, request: Request) -> Response | None:
         """The page, or a refusal; None lets a page in."""
         parts = urlsplit(request.path)
+        # websockets before 16 refuses all but GET by itself, and does not say which it was
+        if getattr(request, "method", "GET") != "GET":
+            return _respond(connection, HTTPStatus.METHOD_NOT_ALLOWED, "Only GET is answered.")
         if not self._is_own_name(request.headers.get_all("Host")) or not self._has_token(parts.query):
             return _respond(connection, HTTPStatus.FORBIDDEN, "Forbidden: open the address that `nivel view` printed.")
         if parts.path == "/stream":
@@ -109,6 +124,17 @@ class Viewing:
             stream.has_news()
 
 
+def _outside(everywhere: str) -> str:
+    """The address that others know this machine by, or its name where that is not known; asks nobody."""
+    family, unused = (socket.AF_INET6, "2001:db8::1") if ":" in everywhere else (socket.AF_INET, "192.0.2.1")
+    try:
+        with socket.socket(family, socket.SOCK_DGRAM) as probe:
+            probe.connect((unused, 9))  # sends nothing: only the way there is looked up
+            return str(probe.getsockname()[0])
+    except OSError:
+        return socket.gethostname()
+
+
 def _respond(connection: ServerConnection, status: HTTPStatus, text: str, *, page: bool = False) -> Response:
     response = connection.respond(status, text)
     headers = response.headers
@@ -119,6 +145,8 @@ def _respond(connection: ServerConnection, status: HTTPStatus, text: str, *, pag
             f"default-src 'none'; script-src {script_hash()}; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'self'; "
             "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
         )
+    if status is HTTPStatus.METHOD_NOT_ALLOWED:
+        headers["Allow"] = "GET"
     headers["X-Content-Type-Options"] = "nosniff"
     headers["Referrer-Policy"] = "no-referrer"
     headers["Cache-Control"] = "no-store"
@@ -177,16 +205,20 @@ def _quiet() -> Any:
 
 
 def _refusal(address: Address, problem: OSError) -> str:
-    reason = (problem.strerror or str(problem)).lower()
-    if address.port:
-        return f"port {address.port} of {address.host} cannot be used: {reason}; choose another with --port"
-    return f"{address.host} is no address that this machine can listen at: {reason}"
+    # what asyncio says of a port repeats the address: the system's own words are shorter
+    is_known = problem.errno is not None and not isinstance(problem, socket.gaierror)
+    reason = (os.strerror(problem.errno or 0) if is_known else problem.strerror or str(problem)).lower()
+    if problem.errno == errno.EADDRINUSE:
+        return f"port {address.port} of {address.host} is used by another program; choose another with --port, or none for a free one"
+    if problem.errno == errno.EACCES:
+        return f"port {address.port} of {address.host} may not be used: {reason}; choose one from 1024 on with --port"
+    return f"{address.host} is no address that this machine can listen at: {reason}; choose another with --host"
 
 
-async def show(source: Source, address: Address, ready: Callable[[str], None]) -> None:
-    """Show `source` until cancelled; `ready` gets the address to open."""
+async def show(source: Source, address: Address, ready: Callable[[Address], None]) -> None:
+    """Show `source` until cancelled; `ready` gets the address with its port."""
     viewing = Viewing(source, address)
     server = await start(viewing)
     async with server:
-        ready(address.url)
+        ready(address)
         await server.serve_forever()

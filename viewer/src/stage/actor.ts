@@ -16,6 +16,7 @@ import { Swept } from "./swept";
 
 const LINK = 0.013; // radius of automatic links, of the size near the body
 const THIN = 0.008; // where a shape is there too
+const LARGEST = 1e30; // m: as playback.py says
 const MANY = 40; // a machine of more bodies is drawn coarser where it is far away
 const ROUND = 20; // facets of round solids
 const ROUGH = 6; // and from afar
@@ -158,7 +159,7 @@ export class Actor {
     this.bodies.forEach((group, body) => {
       const first = 7 * body;
       const [x, y, z, e0, e1, e2, e3] = [0, 1, 2, 3, 4, 5, 6].map((k) => this.frame[first + k]!) as [number, number, number, number, number, number, number];
-      const fit = Number.isFinite(x + y + z + e0 + e1 + e2 + e3);
+      const fit = Number.isFinite(e0 + e1 + e2 + e3) && Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) <= LARGEST;
       this.isBad[body] = !fit;
       group.visible = fit;
       if (!fit) return;

@@ -4,7 +4,8 @@ import type { Actor } from "./actor";
 
 const MOST = 80; // names that are shown at once
 const LINE = 17; // pixels from one name to the next below it
-const DOWN = 3; // lines that a name goes down to where it fits; further away nobody would know what it belongs to
+const DOWN = 3; // lines that a name goes down to where it fits; further away nobody would know what it belongs to,
+const MANY = 60; // and of so many names at once already in the next line
 const LETTER = 7; // pixels, about
 
 type Point = readonly [number, number, number];
@@ -44,6 +45,7 @@ export class Labels {
   update(camera: THREE.PerspectiveCamera, width: number, height: number): void {
     const at = new THREE.Vector3();
     const taken: [number, number, number][] = [];
+    const lines = this.labels.length > MANY ? 0 : DOWN;
     for (const label of this.labels) {
       const { style } = label.element;
       const wanted = this.shown[label.kind] && taken.length < MOST && !this.actor.isBad[label.body];
@@ -54,8 +56,8 @@ export class Labels {
       const isFree = (down: number) => !taken.some(([a, b, c]) => Math.abs(a - x) < 0.5 * (wide + c) && Math.abs(b - y - LINE * down) < LINE - 1);
       const off = !wanted || at.z > 1 || x < 0 || y < 0 || x > width || y > height;
       let down = 0;
-      while (!off && down <= DOWN && !isFree(down)) down++;
-      const shown = !off && down <= DOWN;
+      while (!off && down <= lines && !isFree(down)) down++;
+      const shown = !off && down <= lines;
       style.display = shown ? "" : "none";
       if (!shown) continue;
       taken.push([x, y + LINE * down, wide]);

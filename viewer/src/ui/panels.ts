@@ -16,9 +16,11 @@ export class Panels {
   private readonly panels: Record<PanelName, HTMLElement>;
   private readonly buttons: Record<PanelName, HTMLButtonElement>;
   private readonly bar: HTMLElement;
+  private latest: PanelName = "data";
 
   constructor(
     stage: Stage,
+    ghosts: readonly Stage[],
     private readonly world: World,
     contents: Record<PanelName, HTMLElement>,
     private readonly timeline: HTMLElement | null,
@@ -28,7 +30,8 @@ export class Panels {
     const names = Object.keys(TITLES) as PanelName[];
     this.buttons = Object.fromEntries(names.map((name) => [name, iconButton(ICONS[name], TITLES[name], () => this.toggle(name), KEYS[name])])) as Record<PanelName, HTMLButtonElement>;
     this.panels = Object.fromEntries(names.map((name) => [name, this.panel(name, contents[name])])) as Record<PanelName, HTMLElement>;
-    const notes = stage.notes.length ? el("ul", { class: "notes" }, ...stage.notes.map((note) => el("li", {}, note))) : null;
+    const legend = ghosts.map((ghost) => el("li", { class: "ghost" }, el("i", {}), ghostInWords(ghost, stage)));
+    const notes = stage.notes.length + legend.length ? el("ul", { class: "notes" }, ...stage.notes.map((note) => el("li", {}, note)), ...legend) : null;
     this.bar = el(
       "header",
       { class: "top" },
@@ -38,7 +41,10 @@ export class Panels {
     );
     this.elements = [this.bar, ...names.map((name) => this.panels[name]), ...(timeline ? [timeline] : [])];
     document.body.classList.toggle("has-timeline", !!timeline);
-    addEventListener("resize", () => this.arrange());
+    addEventListener("resize", () => {
+      this.makeRoom();
+      this.arrange();
+    });
   }
 
   /** Open what has room at first; `move` : the machine is moved by hand, by sliders in the data panel. */
@@ -56,6 +62,7 @@ export class Panels {
 
   toggle(name: PanelName): void {
     const on = this.panels[name].hidden === true;
+    if (on) this.latest = name;
     if (on && innerWidth < NARROW) this.close();
     if (on && name === "data") this.set("display", false);
     if (on && name === "display") this.set("data", false);
@@ -82,6 +89,18 @@ export class Panels {
     for (const name of Object.keys(this.panels) as PanelName[]) this.set(name, false);
   }
 
+  /** Of sheets on a narrow page only the one that was opened last stays. */
+  private makeRoom(): void {
+    const open = this.open();
+    if (innerWidth >= NARROW || open.length < 2) return;
+    const keep = open.includes(this.latest) ? this.latest : open[0]!;
+    for (const name of open) if (name !== keep) this.set(name, false);
+  }
+
+  private open(): PanelName[] {
+    return (Object.keys(this.panels) as PanelName[]).filter((name) => !this.panels[name].hidden);
+  }
+
   private rename(name: PanelName, title: string): void {
     this.panels[name].setAttribute("aria-label", title);
     this.panels[name].querySelector("h2")!.textContent = title;
@@ -96,8 +115,7 @@ export class Panels {
 
   private arrange(): void {
     const free = { left: 0, top: this.bar.offsetHeight, right: 0, bottom: this.timeline?.offsetHeight ?? 0 };
-    const open = (Object.keys(this.panels) as PanelName[]).filter((name) => !this.panels[name].hidden);
-    for (const name of open) {
+    for (const name of this.open()) {
       const box = this.panels[name].getBoundingClientRect();
       if (innerWidth < NARROW) free.bottom += box.height;
       else if (name === "structure") free.left = box.right;
@@ -115,4 +133,11 @@ export class Panels {
       el("div", { class: "panel-body" }, content),
     );
   }
+}
+
+/** What a ghost is of; of another machine that is said. */
+export function ghostInWords(ghost: Stage, stage: Stage): string {
+  const names = (of: Stage) => of.bodies.map((body) => body.name).join("\n");
+  const same = ghost.name === stage.name && names(ghost) === names(stage);
+  return `Ghost: ${ghost.title}${same ? "" : ghost.title === ghost.name ? ", another machine" : `, another machine: ${ghost.name}`}`;
 }

@@ -10,6 +10,7 @@ const MOST = 12; // curves at once
 export interface Times {
   main: Float64Array;
   ghost: Float64Array | null;
+  ghostTitle: string;
 }
 
 interface Chart {
@@ -67,6 +68,9 @@ export class Plots {
       if (!chart.plot) continue;
       const left = chart.plot.valToPos(time, "x");
       const line = chart.holder.querySelector<HTMLElement>(".now");
+      const shown = chart.series.map((each) => `${each.label} ${short(at(each.times, each.values, time) ?? NaN)}`);
+      chart.plot.over.setAttribute("aria-valuenow", String(time));
+      chart.plot.over.setAttribute("aria-valuetext", `${short(time)} s: ${shown.join(", ")}`);
       if (line) line.style.transform = `translateX(${left}px)`;
       chart.readout.replaceChildren(
         ...chart.series.filter((each) => !each.label.startsWith("ghost ")).map((each) => {
@@ -96,7 +100,9 @@ export class Plots {
   }
 
   private frame(chart: Chart): HTMLElement {
-    return el("figure", { class: "chart", "aria-label": `${chart.names.join(", ")} over time` }, el("figcaption", {}, chart.unit && chart.unit !== "1" ? `[${chart.unit}]` : "[–]"), chart.holder, chart.readout);
+    const ghost = chart.series.some((each) => each.label.startsWith("ghost ")) ? `, dashed: ${this.times.ghostTitle}` : "";
+    const unit = chart.unit && chart.unit !== "1" ? `[${chart.unit}]` : "[–]";
+    return el("figure", { class: "chart", "aria-label": `${chart.names.join(", ")} over time` }, el("figcaption", {}, unit + ghost), chart.holder, chart.readout);
   }
 
   private draw(chart: Chart): void {
@@ -122,7 +128,11 @@ export class Plots {
       hooks: { ready: [(plot) => this.listen(plot)] },
     };
     chart.plot = new uPlot(options, [times, ...values] as unknown as uPlot.AlignedData, chart.holder);
-    chart.plot.over.append(el("div", { class: "now", "aria-hidden": "true" }));
+    const { over } = chart.plot;
+    over.append(el("div", { class: "now", "aria-hidden": "true" }));
+    // keys move the time wherever they are pressed: the plot has to be reached only, and to say what it shows
+    const said = { role: "slider", tabindex: "0", "aria-label": `Moment in the plot of ${chart.names.join(", ")}`, "aria-valuemin": String(times[0]), "aria-valuemax": String(times.at(-1)) };
+    for (const [name, value] of Object.entries(said)) over.setAttribute(name, value);
   }
 
   private listen(plot: uPlot): void {

@@ -36,7 +36,7 @@ export class Timeline {
       player.loop = !player.loop;
       player.onChange();
     }, "L");
-    const end = `${motion.end.toFixed(this.digits)} s`;
+    const end = `${this.inWords(motion.end)} s`;
     const track = el("div", { class: "track" }, this.slider, el("div", { class: "ticks", "aria-hidden": "true" }, ...ticks(moments, motion.start, span)));
     this.element = el(
       "footer",
@@ -48,6 +48,11 @@ export class Timeline {
     );
     this.refresh();
     this.tick();
+  }
+
+  private inWords(time: number): string {
+    const text = time.toFixed(this.digits);
+    return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
   }
 
   /** What changes by hand. */
@@ -65,7 +70,7 @@ export class Timeline {
     const share = end > start ? (this.player.time - start) / (end - start) : 0;
     this.slider.value = String(share);
     this.slider.style.setProperty("--share", `${100 * share}%`);
-    const text = `${this.player.time.toFixed(this.digits)} s`;
+    const text = `${this.inWords(this.player.time)} s`;
     this.now.textContent = text;
     this.slider.setAttribute("aria-valuetext", text);
   }

@@ -26,7 +26,7 @@ export class Tree {
         el(
           "section",
           { class: "branch" },
-          el("h3", {}, title, el("span", { class: "count" }, String(items.length))),
+          el("h3", {}, `${title} `, el("span", { class: "count" }, String(items.length))),
           el("ul", {}, ...items.map((item) => el("li", {}, this.button(kind, item, choose)))),
         ),
       );
@@ -45,7 +45,8 @@ export class Tree {
     const dot = el("i", { class: `dot ${kind}` });
     if (item.colour) dot.style.background = item.colour;
     const pick = () => choose(button.getAttribute("aria-pressed") === "true" ? null : { kind, name: item.name });
-    const button: HTMLButtonElement = el("button", { type: "button", "aria-pressed": "false", onclick: pick }, dot, el("span", { class: "name" }, ...breakable(item.name)), el("small", {}, item.note));
+    const label = item.note ? `${item.name}, ${item.note}` : item.name;
+    const button: HTMLButtonElement = el("button", { type: "button", "aria-label": label, "aria-pressed": "false", onclick: pick }, dot, el("span", { class: "name" }, ...breakable(item.name)), el("small", {}, item.note));
     this.buttons.set(`${kind} ${item.name}`, button);
     return button;
   }

@@ -6,10 +6,12 @@ import type { Arrays } from "../package";
 import { Batch, COARSE, FINE, HIDDEN, LINES, noPieces, type Piece } from "./batch";
 import { Bones } from "./bones";
 import { Deforming } from "./deforming";
+import { Extras } from "./extras";
+import type { Instances } from "./instances";
 import { Palette, TONES, type Look, type Tone } from "./look";
 import { Nearness } from "./nearness";
-import { bodyFrame, jointSigns } from "./signs";
-import { bar, edgesOf, partGeometry } from "./solids";
+import { jointSigns } from "./signs";
+import { ball, bar, edgesOf, partGeometry } from "./solids";
 import { coupled } from "./coupled";
 import { stretching, type Stretching } from "./stretching";
 import { Swept } from "./swept";
@@ -47,7 +49,7 @@ export class Actor {
   private readonly batches: Batch[] = [];
   private readonly signBatches: Batch[] = [];
   private readonly edges: THREE.Object3D[] = [];
-  private readonly extras = { triads: new Extra(() => this.triads()), centres: new Extra(() => this.centres()) };
+  private readonly extras = new Extras(this);
   private marked: THREE.Object3D[] = [];
 
   constructor(
@@ -152,6 +154,7 @@ export class Actor {
 
   private arrange(): void {
     for (const batch of [...this.batches, ...this.signBatches]) batch.update(this.levels);
+    this.extras.update(this.levels);
   }
 
   /** Bring the bodies to their places; those whose pose is not finite are hidden. */
@@ -171,7 +174,7 @@ export class Actor {
   show(what: "signs" | "triads" | "centres" | "edges", on: boolean): void {
     if (what === "signs") for (const each of this.signBatches) each.mesh.visible = on;
     else if (what === "edges") for (const each of this.edges) each.visible = on;
-    else this.extras[what].show(on);
+    else this.extras.show(what, on);
   }
 
   recolour(look: Look): void {
@@ -206,6 +209,7 @@ export class Actor {
   said(hit: THREE.Intersection): Picked | null {
     const batch = [...this.batches, ...this.signBatches].find(({ mesh }) => mesh === hit.object);
     if (batch) return batch.said(hit.batchId ?? -1);
+    if (hit.object instanceof THREE.InstancedMesh) return (hit.object.userData as { instances: Instances }).instances.said(hit.instanceId);
     const swept = this.swept.find(({ mesh }) => mesh === hit.object);
     if (swept) return swept.nearest(hit.point);
     return hit.object instanceof THREE.Mesh && hit.object.userData.name ? (hit.object.userData as Picked) : null;
@@ -261,40 +265,5 @@ export class Actor {
       });
     }
     return out;
-  }
-
-  private triads(): THREE.Object3D[] {
-    return this.bodies.map((group, k) => {
-      const triad = bodyFrame(0.09 * this.nearness.body(k));
-      group.add(triad);
-      return triad;
-    });
-  }
-
-  private centres(): THREE.Object3D[] {
-    return this.bodies.map((group, k) => {
-      const body = this.stage.bodies[k]!;
-      const centre = new THREE.Mesh(ball(new THREE.Vector3(...body.centre_of_mass), 0.014 * this.nearness.body(k), ROUND), this.palette.signDark);
-      centre.userData = { kind: "body", name: body.name };
-      centre.renderOrder = 2;
-      group.add(centre);
-      return centre;
-    });
-  }
-}
-
-function ball(at: THREE.Vector3, radius: number, facets: number): THREE.BufferGeometry {
-  return new THREE.SphereGeometry(radius, facets, Math.round(0.7 * facets)).translate(at.x, at.y, at.z);
-}
-
-/** Objects that are made when they are first wanted. */
-class Extra {
-  private made: THREE.Object3D[] | null = null;
-
-  constructor(private readonly make: () => THREE.Object3D[]) {}
-
-  show(on: boolean): void {
-    if (on) this.made ??= this.make();
-    for (const each of this.made ?? []) each.visible = on;
   }
 }

@@ -2,12 +2,14 @@
 // quarter of the largest value, so that a short peak neither hides all others nor leaves the picture.
 import * as THREE from "three";
 import type { Arrow } from "../generated/records";
-import type { Actor } from "./actor";
+import type { Actor, Picked } from "./actor";
+import { Instances } from "./instances";
 import type { Look } from "./look";
 
 const LONGEST = 0.32; // of the machine's size
 const SHAFT = 0.0052;
 const HEAD = 0.05;
+const MANY = 100; // arrows of a family, from which on they have fewer facets
 const UP = new THREE.Vector3(0, 1, 0);
 
 export type Family = "reaction-force" | "reaction-torque" | "applied-force" | "applied-torque";
@@ -15,9 +17,15 @@ export const FAMILIES: readonly Family[] = ["applied-force", "applied-torque", "
 
 interface Drawn {
   record: Arrow;
-  group: THREE.Group;
-  shaft: THREE.Mesh;
-  heads: THREE.Mesh[];
+  place: number; // among the arrows of its family
+  visible: boolean;
+}
+
+/** All arrows of one family. */
+interface Bundle {
+  arrows: Drawn[];
+  shafts: Instances;
+  heads: Instances; // two to an arrow of a torque
 }
 
 export class Arrows {
@@ -26,6 +34,7 @@ export class Arrows {
   scale = 1;
   only: string | null = null; // element whose arrows alone are shown
   private readonly drawn: Drawn[];
+  private readonly bundles = new Map<Family, Bundle>();
   private readonly reference = new Map<string, number>();
   private readonly materials = new Map<Family, THREE.MeshBasicMaterial>();
 
@@ -40,7 +49,8 @@ export class Arrows {
       const reference = Math.max(2 * arrow.typical, arrow.largest / 4);
       this.reference.set(arrow.kind, Math.max(this.reference.get(arrow.kind) ?? 0, reference));
     }
-    this.drawn = actor.stage.arrows.map((arrow) => this.make(arrow));
+    this.drawn = actor.stage.arrows.map((record) => ({ record, place: 0, visible: false }));
+    for (const family of FAMILIES) this.bundle(family);
   }
 
   has(family: Family): boolean {
@@ -59,53 +69,68 @@ export class Arrows {
   }
 
   update(): void {
-    const vector = new THREE.Vector3();
-    const size = this.actor.stage.size;
-    for (const each of this.drawn) {
-      const { record, group } = each;
-      group.visible = this.shown.has(familyOf(record)) && (!this.only || this.only === record.owner) && !this.actor.isBad[record.body];
-      if (!group.visible) continue;
-      this.actor.vector(record.vector, vector);
-      const value = vector.length();
-      const reference = this.reference.get(record.kind) ?? 0;
-      const length = reference > 0 ? (value / reference) * LONGEST * size * this.scale : 0;
-      if (!(length > 1e-3 * size) || !Number.isFinite(length)) {
-        group.visible = false;
-        continue;
-      }
-      this.actor.place(record.body, record.point, group.position);
-      group.quaternion.setFromUnitVectors(UP, vector.divideScalar(value));
-      const head = Math.min(HEAD * size, 0.5 * length);
-      const wide = head / (HEAD * size);
-      each.shaft.scale.set(1, Math.max(length - head, 1e-9), 1);
-      each.heads.forEach((tip, k) => {
-        tip.scale.setScalar(wide);
-        tip.position.y = length - head - 0.55 * k * head;
-      });
+    for (const [family, { arrows, shafts, heads }] of this.bundles) {
+      const shown = this.shown.has(family);
+      shafts.mesh.visible = heads.mesh.visible = shown;
+      for (const each of arrows) each.visible = shown && this.draw(each, shafts, heads);
+      if (!shown) continue;
+      shafts.done();
+      heads.done();
     }
   }
 
-  private make(record: Arrow): Drawn {
-    const size = this.actor.stage.size;
-    const material = this.materials.get(familyOf(record))!;
-    const shaft = new THREE.Mesh(new THREE.CylinderGeometry(SHAFT * size, SHAFT * size, 1, 10).translate(0, 0.5, 0), material);
-    const heads = Array.from({ length: record.kind === "torque" ? 2 : 1 }, () => {
-      return new THREE.Mesh(new THREE.ConeGeometry(3.1 * SHAFT * size, HEAD * size, 18).translate(0, 0.5 * HEAD * size, 0), material);
-    });
-    const group = new THREE.Group();
-    group.add(shaft, ...heads);
-    group.visible = false;
+  /** Bring an arrow to its place; whether there is anything to see of it. */
+  private draw({ record, place }: Drawn, shafts: Instances, heads: Instances): boolean {
+    const { size } = this.actor.stage;
+    const count = headsOf(record.kind);
+    const value = this.actor.vector(record.vector, VECTOR).length();
+    const reference = this.reference.get(record.kind) ?? 0;
+    const length = reference > 0 ? (value / reference) * LONGEST * size * this.scale : 0;
+    const seen = length > 1e-3 * size && Number.isFinite(length) && !this.actor.isBad[record.body] && (!this.only || this.only === record.owner);
+    if (!seen) {
+      shafts.hide(place);
+      for (let k = 0; k < count; k++) heads.hide(count * place + k);
+      return false;
+    }
+    const along = VECTOR.divideScalar(value);
+    this.actor.place(record.body, record.point, FOOT);
+    TURN.setFromUnitVectors(UP, along);
+    const head = Math.min(HEAD * size, 0.5 * length);
+    const wide = head / (HEAD * size);
+    shafts.set(place, FOOT, TURN, SCALE.set(1, Math.max(length - head, 1e-9), 1));
+    SCALE.setScalar(wide);
+    for (let k = 0; k < count; k++) heads.set(count * place + k, TIP.copy(FOOT).addScaledVector(along, length - head - 0.55 * k * head), TURN, SCALE);
+    return true;
+  }
+
+  private bundle(family: Family): void {
+    const arrows = this.drawn.filter(({ record }) => familyOf(record) === family);
+    if (!arrows.length) return;
+    const { size } = this.actor.stage;
+    const material = this.materials.get(family)!;
+    const owners = arrows.map(({ record }) => this.owner(record));
+    const facets = arrows.length > MANY ? 6 : 18;
+    const shafts = new Instances(new THREE.CylinderGeometry(SHAFT * size, SHAFT * size, 1, facets).translate(0, 0.5, 0), material, owners);
+    const cone = new THREE.ConeGeometry(3.1 * SHAFT * size, HEAD * size, facets).translate(0, 0.5 * HEAD * size, 0);
+    const heads = new Instances(cone, material, owners.flatMap((owner, k) => Array<Picked>(headsOf(arrows[k]!.record.kind)).fill(owner)));
+    arrows.forEach((each, k) => (each.place = k));
+    for (const { mesh } of [shafts, heads]) {
+      mesh.renderOrder = 5; // seen through bodies
+      mesh.visible = false;
+      this.root.add(mesh);
+    }
+    this.bundles.set(family, { arrows, shafts, heads });
+  }
+
+  private owner(record: Arrow): Picked {
     const { joints, drivers } = this.actor.stage;
     const owns = (each: { name: string }) => each.name === record.owner;
-    const said = { kind: record.source === "reaction" && joints.some(owns) ? "joint" : drivers.some(owns) ? "driver" : "force", name: record.owner };
-    for (const each of [shaft, ...heads]) {
-      each.userData = said;
-      each.renderOrder = 5; // seen through bodies
-    }
-    this.root.add(group);
-    return { record, group, shaft, heads };
+    return { kind: record.source === "reaction" && joints.some(owns) ? "joint" : drivers.some(owns) ? "driver" : "force", name: record.owner };
   }
 }
+
+const headsOf = (kind: Arrow["kind"]) => (kind === "torque" ? 2 : 1);
+const [VECTOR, FOOT, TIP, SCALE, TURN] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3(), new THREE.Quaternion()];
 
 export function familyOf(arrow: Arrow): Family {
   return `${arrow.source}-${arrow.kind}`;

@@ -50,11 +50,12 @@ export class Labels {
       const { style } = label.element;
       const wanted = this.shown[label.kind] && taken.length < MOST && !this.actor.isBad[label.body];
       if (wanted) this.actor.place(label.body, label.point, at).project(camera);
-      const x = (0.5 + 0.5 * at.x) * width;
-      const y = (0.5 - 0.5 * at.y) * height;
       const wide = LETTER * label.text.length;
+      const place = (0.5 + 0.5 * at.x) * width;
+      const x = Math.min(Math.max(place, 0.5 * wide + 4), width - 0.5 * wide - 4);
+      const y = (0.5 - 0.5 * at.y) * height;
       const isFree = (down: number) => !taken.some(([a, b, c]) => Math.abs(a - x) < 0.5 * (wide + c) && Math.abs(b - y - LINE * down) < LINE - 1);
-      const off = !wanted || at.z > 1 || x < 0 || y < 0 || x > width || y > height;
+      const off = !wanted || at.z > 1 || place < 0 || y < 0 || place > width || y > height;
       let down = 0;
       while (!off && down <= lines && !isFree(down)) down++;
       const shown = !off && down <= lines;

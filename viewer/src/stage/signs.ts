@@ -89,22 +89,3 @@ function reachAlong(axis: THREE.Vector3, stage: Stage): number {
   const box = new THREE.Vector3(...stage.high).sub(new THREE.Vector3(...stage.low));
   return 0.5 * (Math.abs(axis.x) * box.x + Math.abs(axis.y) * box.y + Math.abs(axis.z) * box.z);
 }
-
-const AXES = [0xd2473f, 0x279a55, 0x2f6fd6]; // x, y, z
-
-/** Three coloured arrows along the axes of a body. */
-export function bodyFrame(length: number): THREE.Group {
-  const group = new THREE.Group();
-  const radius = 0.028 * length;
-  AXES.forEach((colour, k) => {
-    const material = new THREE.MeshBasicMaterial({ color: colour });
-    const shaft = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, 0.8 * length, 8).translate(0, 0.4 * length, 0), material);
-    const tip = new THREE.Mesh(new THREE.ConeGeometry(3 * radius, 0.2 * length, 12).translate(0, 0.9 * length, 0), material);
-    const arrow = new THREE.Group();
-    arrow.add(shaft, tip);
-    if (k === 0) arrow.rotation.z = -Math.PI / 2;
-    if (k === 2) arrow.rotation.x = Math.PI / 2;
-    group.add(arrow);
-  });
-  return group;
-}

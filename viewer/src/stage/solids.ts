@@ -109,3 +109,8 @@ export function bar(from: THREE.Vector3, to: THREE.Vector3, radius: number, face
   const middle = from.clone().add(to).multiplyScalar(0.5);
   return geometry.applyMatrix4(new THREE.Matrix4().compose(middle, turn, new THREE.Vector3(1, 1, 1)));
 }
+
+/** A ball about a point. */
+export function ball(at: THREE.Vector3, radius: number, facets: number): THREE.BufferGeometry {
+  return new THREE.SphereGeometry(radius, facets, Math.round(0.7 * facets)).translate(at.x, at.y, at.z);
+}

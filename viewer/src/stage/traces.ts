@@ -94,7 +94,7 @@ export class Traces {
     const geometry = new LineGeometry();
     geometry.setPositions(points.length >= 6 ? points : [...points, ...points, 0, 0, 0, 0, 0, 0].slice(0, 6));
     const past = new Line2(geometry, new LineMaterial({ linewidth: 2.2 }));
-    const dot = new THREE.Mesh(new THREE.SphereGeometry(0.011 * this.actor.stage.size, 16, 12), new THREE.MeshBasicMaterial());
+    const dot = new THREE.Mesh(new THREE.SphereGeometry(0.011 * this.actor.nearness.body(of.body), 16, 12), new THREE.MeshBasicMaterial());
     for (const each of [whole, past]) each.frustumCulled = false;
     this.root.add(whole, past, dot);
     const path = { of, whole, past, dot, frames };

@@ -1,7 +1,9 @@
 // Constraint violations, exaggerated: at each joint how far its second point and frame are from where they should be.
 import * as THREE from "three";
+import type { Joint } from "../generated/records";
 import type { Motion } from "../motion";
-import type { Actor } from "./actor";
+import type { Actor, Picked } from "./actor";
+import { Instances } from "./instances";
 import type { Look } from "./look";
 
 const SHOWN = 0.12; // the largest violation is drawn this long, of the machine's size, at the exaggeration that is proposed
@@ -12,28 +14,28 @@ export class Violations {
   exaggeration = 1;
   on = false;
   private readonly material = new THREE.MeshBasicMaterial();
-  private readonly drawn: { joint: number; line: THREE.Mesh; dot: THREE.Mesh; axis: THREE.Mesh }[] = [];
+  private readonly joints: Joint[];
+  private readonly lines: Instances; // from where the second point should be to where it is, exaggerated
+  private readonly dots: Instances;
+  private readonly axes: Instances;
 
   constructor(
     private readonly actor: Actor,
     look: Look,
   ) {
     const size = actor.stage.size;
-    actor.stage.joints.forEach((joint, k) => {
-      if (joint.violation < 0) return;
-      const line = new THREE.Mesh(new THREE.CylinderGeometry(0.004 * size, 0.004 * size, 1, 8).translate(0, 0.5, 0), this.material);
-      const axis = new THREE.Mesh(new THREE.CylinderGeometry(0.003 * size, 0.003 * size, 0.16 * size, 8), this.material);
-      const dot = new THREE.Mesh(new THREE.SphereGeometry(0.011 * size, 16, 12), this.material);
-      for (const each of [line, axis, dot]) each.userData = { kind: "joint", name: joint.name };
-      this.root.add(line, axis, dot);
-      this.drawn.push({ joint: k, line, dot, axis });
-    });
+    this.joints = actor.stage.joints.filter((joint) => joint.violation >= 0);
+    const owners: Picked[] = this.joints.map(({ name }) => ({ kind: "joint", name }));
+    this.lines = new Instances(new THREE.CylinderGeometry(0.004 * size, 0.004 * size, 1, 8).translate(0, 0.5, 0), this.material, owners);
+    this.axes = new Instances(new THREE.CylinderGeometry(0.003, 0.003, 0.16, 8), this.material, owners);
+    this.dots = new Instances(new THREE.SphereGeometry(0.011, 16, 12), this.material, owners);
+    for (const { mesh } of [this.lines, this.axes, this.dots]) this.root.add(mesh);
     this.root.visible = false;
     this.recolour(look);
   }
 
   get isKnown(): boolean {
-    return this.drawn.length > 0;
+    return this.joints.length > 0;
   }
 
   recolour(look: Look): void {
@@ -45,8 +47,7 @@ export class Violations {
     const { bodies, modes } = this.actor.stage.layout;
     const step = Math.max(1, Math.floor(motion.count / COUNTED));
     let largest = 0;
-    for (const { joint } of this.drawn) {
-      const place = this.actor.stage.joints[joint]!.violation;
+    for (const { violation: place } of this.joints) {
       for (const [vector, length] of [[place, 1], [place + 1, 0.3 * this.actor.stage.size]] as const) {
         const row = 7 * bodies + modes + 3 * vector;
         for (let k = 0; k < motion.count; k += step) {
@@ -61,28 +62,30 @@ export class Violations {
   update(): void {
     this.root.visible = this.on;
     if (!this.on) return;
-    const gap = new THREE.Vector3();
-    const turn = new THREE.Vector3();
-    const at = new THREE.Vector3();
-    const up = new THREE.Vector3(0, 1, 0);
-    for (const { joint, line, dot, axis } of this.drawn) {
-      const record = this.actor.stage.joints[joint]!;
-      const bad = record.bodies.some((body) => this.actor.isBad[body]);
-      for (const each of [line, dot, axis]) each.visible = !bad;
-      if (bad) continue;
-      this.actor.place(record.bodies[0], record.points[0], at);
-      this.actor.vector(record.violation, gap).multiplyScalar(this.exaggeration).clampLength(0, 3 * this.actor.stage.size);
-      this.actor.vector(record.violation + 1, turn).multiplyScalar(this.exaggeration);
+    const [gap, turn, at, axis, scale] = [0, 1, 2, 3, 4].map(() => new THREE.Vector3()) as [THREE.Vector3, THREE.Vector3, THREE.Vector3, THREE.Vector3, THREE.Vector3];
+    const tilt = new THREE.Quaternion();
+    this.joints.forEach((joint, k) => {
+      if (joint.bodies.some((body) => this.actor.isBad[body])) {
+        for (const each of [this.lines, this.dots, this.axes]) each.hide(k);
+        return;
+      }
+      const size = this.actor.nearness.joint(joint);
+      this.actor.place(joint.bodies[0], joint.points[0], at);
+      this.actor.vector(joint.violation, gap).multiplyScalar(this.exaggeration).clampLength(0, 3 * this.actor.stage.size);
+      this.actor.vector(joint.violation + 1, turn).multiplyScalar(this.exaggeration);
       const length = gap.length();
-      line.position.copy(at);
-      line.scale.y = Math.max(length, 1e-9);
-      if (length > 0) line.quaternion.setFromUnitVectors(up, gap.clone().divideScalar(length));
-      dot.position.copy(at).add(gap);
-      const direction = new THREE.Vector3(...record.axes[0]).applyQuaternion(this.actor.holder(record.bodies[0]).quaternion);
+      if (length > 0) tilt.setFromUnitVectors(UP, axis.copy(gap).divideScalar(length));
+      this.lines.set(k, at, tilt, scale.set(1, Math.max(length, 1e-9), 1));
+      at.add(gap);
+      axis.set(...joint.axes[0]).applyQuaternion(this.actor.holder(joint.bodies[0]).quaternion);
       const angle = Math.min(turn.length(), Math.PI);
-      if (angle > 0) direction.applyAxisAngle(turn.normalize(), angle);
-      axis.quaternion.setFromUnitVectors(up, direction);
-      axis.position.copy(dot.position);
-    }
+      if (angle > 0) axis.applyAxisAngle(turn.normalize(), angle);
+      scale.setScalar(size);
+      this.axes.set(k, at, tilt.setFromUnitVectors(UP, axis.normalize()), scale);
+      this.dots.set(k, at, tilt, scale);
+    });
+    for (const each of [this.lines, this.dots, this.axes]) each.done();
   }
 }
+
+const UP = new THREE.Vector3(0, 1, 0);

@@ -1,4 +1,4 @@
-// A slider for every joint coordinate of a machine that is moved by hand.
+// A slider for every number that a machine is moved by: joint coordinates, angles of balls, places of bodies that nothing holds.
 import type { Coordinate } from "../generated/records";
 import { breakable, el, iconButton, short } from "./dom";
 
@@ -17,9 +17,9 @@ export class Coordinates {
     this.element = el(
       "div",
       { class: "coordinates" },
-      el("header", {}, el("h3", {}, "Move the joints"), iconButton("reset", "Back to the assembled position", reset, "R")),
+      el("header", {}, el("h3", {}, "Move the machine"), iconButton("reset", "Back to the assembled position", reset, "R")),
       this.problem,
-      rows.length ? el("ul", {}, ...rows) : el("p", { class: "note" }, coordinates.length ? "No joint of this machine can move." : "No joint of this machine has a coordinate."),
+      rows.length ? el("ul", {}, ...rows) : el("p", { class: "note" }, "Nothing of this machine can move."),
     );
   }
 

@@ -124,7 +124,7 @@ export class Plots {
         { ...axis, size: 22, gap: 3 },
         { ...axis, size: (_u, labels) => 14 + 6.4 * Math.max(3, ...(labels ?? []).map((label) => String(label).length)), gap: 4, values: (_u, splits) => splits.map(short) },
       ],
-      series: [{}, ...chart.series.map((each) => ({ stroke: each.colour, width: each.label.startsWith("ghost ") ? 1 : 1.6, dash: each.label.startsWith("ghost ") ? [5, 4] : undefined, spanGaps: false, points: { show: false } }))],
+      series: [{}, ...chart.series.map((each) => ({ stroke: each.colour, width: each.label.startsWith("ghost ") ? 1 : 1.6, dash: each.label.startsWith("ghost ") ? [5, 4] : undefined, spanGaps: false, pxAlign: 0, points: { show: false } }))],
       hooks: { ready: [(plot) => this.listen(plot)] },
     };
     chart.plot = new uPlot(options, [times, ...values] as unknown as uPlot.AlignedData, chart.holder);

@@ -241,6 +241,22 @@ def test_results_without_a_picture_are_refused_with_the_reason(attributes, said)
         playback([swung(**attributes)], ALONE)
 
 
+@pytest.mark.parametrize(
+    ("part", "wrong"),
+    [
+        ("joints", [{"name": "pin", "type": "revolute"}]),
+        ("joints", [{"name": "pin", "type": "revolute", "bodies": ["ground", "nobody"]}]),
+        ("forces", [{"name": "spring", "type": "spring-damper", "bodies": ["arm"], "points": "here"}]),
+        ("sweeps", [{"name": "boom", "bodies": ["boom.1", "boom.2"], "section": [[0, 0]]}]),
+        ("sweeps", [{"name": "boom", "bodies": [], "section": []}]),
+    ],
+)
+def test_a_scene_that_is_damaged_is_refused_with_the_reason(part, wrong):
+    scene = pendulum.scene() | {part: wrong}
+    with pytest.raises(ModelError, match="description of the machine is damaged"):
+        playback([swung(scene=json.dumps(scene))], ALONE)
+
+
 def test_a_result_without_frames_is_refused():
     memory = Memory()
     memory.begin(pendulum.header())

@@ -2,7 +2,8 @@
 
 =================  ====================================================================================================
 ``records``        what server and page say to each other; ``typescript`` writes the same for the page
-``stage``          what is drawn: bodies with their parts, joints, forces, arrows, flexible meshes
+``stage``          what is drawn: bodies with their parts, joints, flexible meshes
+``acting``         forces and drivers; ``couplings`` gears, belts, racks; ``sweeps`` beams; ``arrows`` what acts, as vectors
 ``frames``         one packed array a moment: poses, modal coordinates, arrows
 ``package``        a stage with its whole motion in one block of bytes
 ``playback``       the package of a result

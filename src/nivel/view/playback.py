@@ -75,7 +75,7 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     """What the page needs of a result; `number` : 0, or of a ghost."""
     scene, record = _described(result)
     _refuse_empty(result, scene)
-    players = cast(scene, record, block)
+    players = _cast(result, scene, record, block)
     bodies = len(players.bodies)
     frames = played_frames(result, budget)
     position, orientation = _poses(result, bodies, frames)
@@ -146,6 +146,13 @@ def _described(result: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     if not isinstance(scene, dict) or not isinstance(record, dict):
         raise ModelError(f"{_title(result)}: its description of the machine cannot be read")
     return scene, record
+
+
+def _cast(result: Result, scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
+    try:
+        return cast(scene, record, block)
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
+        raise ModelError(f"{_title(result)}: its description of the machine is damaged ({error!r})") from error
 
 
 def _refuse_empty(result: Result, scene: dict[str, Any]) -> None:

@@ -186,3 +186,11 @@ def test_rates_of_angles_are_their_derivatives():
         spin = (cardan(angles + step) - cardan(angles - step)) @ cardan(angles).T / (2 * h)
         omega = np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
         np.testing.assert_allclose(rates_of_angles(angles) @ omega, np.eye(3)[k], atol=1e-8)
+
+
+@pytest.mark.parametrize("value", [1e6, -1e300, np.nan, np.inf])
+def test_values_far_beyond_the_range_are_refused_at_once(value):
+    machine = on_a_ball().posed()
+    before = machine.pose()
+    assert "it goes from -3.142 to 3.142 rad" in machine.move("ball.angle_x", value)
+    np.testing.assert_array_equal(machine.pose()[0], before[0])

@@ -10,6 +10,9 @@ import nivel
 import synthetic_run as pendulum
 from browsing import chromium, served, watched
 from many_bodies import ARC, NODES, RADIUS, arc, beam
+from nivel.looks import sweeps
+from nivel.looks.poses import rotation
+from nivel.report.picture import machine_picture
 from nivel.results import Memory
 from nivel.view.export import write_scene
 from nivel.view.package import Block, from_bytes
@@ -212,6 +215,47 @@ def test_a_straight_sweep_has_its_corners_at_the_frames(browser):
     shape = rings(shown(browser, smooth=False)[0])
     assert len(shape) == NODES
     np.testing.assert_allclose(shape[:, :8].mean(axis=1), arc()[0][:NODES], atol=1e-6)
+
+
+@pytest.mark.parametrize("smooth", [True, False])
+def test_the_report_draws_the_same_sweep_as_the_page(browser, smooth):
+    """Two programs in two languages; the page's rings are finer by a factor, or the same where nothing bends."""
+    shape = rings(shown(browser, smooth)[0])
+    (record,) = beam(smooth=smooth).sweeps
+    names = [f"boom.{k + 1}" for k in range(NODES)]
+    position, orientation = arc()
+    poses = {
+        name: (r, rotation(theta)) for name, r, theta in zip(names, position[:NODES], orientation[:NODES], strict=True)
+    }
+    sweep = {"name": "boom", "bodies": names, "section": record.section, "smooth": smooth}
+    drawn = sweeps.rings(sweep, poses, record.section)
+    here, there = (len(each) - 1 for each in (drawn, shape))
+    shared = np.gcd(here, there)
+    np.testing.assert_allclose(drawn[:: here // shared], shape[:: there // shared, 0:8:2], atol=1e-6)
+
+
+def test_faces_of_a_sweep_close_it_and_look_outwards():
+    (record,) = beam().sweeps
+    names = [f"boom.{k + 1}" for k in range(NODES)]
+    poses = {name: (r, rotation(theta)) for name, r, theta in zip(names, *arc(), strict=False)}
+    faces = sweeps.sweep_faces({"name": "boom", "bodies": names, "section": record.section}, poses)
+    # divergence theorem: three times the volume, which by Pappus is area times length of the arc
+    volume = 0.0
+    for face in faces:
+        fan = [(face.corners[0], b, c) for b, c in zip(face.corners[1:], face.corners[2:], strict=False)]
+        volume += sum(np.dot(a, np.cross(b, c)) for a, b, c in fan) / 6.0
+        assert all(np.dot(np.cross(b - a, c - a), face.normal) > 0 for a, b, c in fan)
+    assert volume == pytest.approx(0.2 * 0.1 * RADIUS * ARC, rel=2e-3)
+
+
+def test_the_report_has_a_picture_of_a_sweep():
+    scene = pendulum.scene()
+    name = scene["bodies"][0]["name"]
+    scene["bodies"].append(dict(scene["bodies"][0], name="tip"))
+    scene["sweeps"] = [{"name": "boom", "bodies": [name, "tip"], "section": [[-0.1, -0.1], [0.1, -0.1], [0, 0.1]]}]
+    text = machine_picture(scene, np.array([[0.0, 0, 0], [1.0, 0, 0]]), np.array([[1.0, 0, 0, 0]] * 2))
+    assert ">boom<" in text
+    assert f">{name}<" not in text
 
 
 def test_a_scene_may_have_sweeps_and_their_bodies_are_drawn_by_nothing_else():

@@ -90,10 +90,14 @@ class Posing:
 
     def move(self, name: str, value: float) -> str:
         """Move a number to `value`, others that are free stay where they can; why it could not be done, or an empty text."""
+        movement = next((each for each in self.movements if each.name == name), None)
+        if movement is None:
+            return f"there is no coordinate {name}"
+        span = movement.high - movement.low  # a closed loop may go a little further than was found
+        if not movement.low - span <= value <= movement.high + span:
+            return f"{name} cannot go there: it goes from {movement.low:.4g} to {movement.high:.4g} {movement.unit}"
         if name == TIME and self.machine.drivers:
             return self._try(value, [])
-        if name not in self._found:
-            return f"there is no coordinate {name}"
         h, k = self._found[name]
         wish = self._wish(h, k, value)
         stay = [self._handles[other].wish(self._now(other), self._states[other]) for other in self._others(h)]

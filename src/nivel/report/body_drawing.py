@@ -9,6 +9,7 @@ import numpy as np
 from nivel.looks.links import link_ends
 from nivel.looks.poses import Array, Pose, in_space
 from nivel.looks.solids import Ball, Face, solid
+from nivel.looks.sweeps import sweep_faces
 from nivel.report.drawing import Drawing
 from nivel.report.frame import Frame
 from nivel.report.labels import Label
@@ -41,6 +42,14 @@ def draw_body(
         drawing.parts.append((depth - 1e-9, f'<line {line} stroke="{dark}" stroke-width="{width + 2.4:.1f}"/>'))
         drawing.parts.append((depth, f'<line {line} stroke="{colour}" stroke-width="{width:.1f}"/>'))
         drawing.lines.append(frame.pixels(ends))
+
+
+def draw_sweep(drawing: Drawing, frame: Frame, sweep: dict[str, Any], poses: dict[str, Pose], colour: str) -> None:
+    """Draw one solid through the frames of bodies in a row, with its name at the middle one."""
+    at = poses[sweep["bodies"][len(sweep["bodies"]) // 2]]
+    x, y = frame.pixels(in_space(at, [0.0, 0.0, 0.0])[0])
+    drawing.labels.append(Label(sweep["name"], x, y, "body"))
+    _draw_solid(drawing, frame, sweep_faces(sweep, poses), (np.zeros(3), np.eye(3)), colour)
 
 
 def _draw_solid(drawing: Drawing, frame: Frame, parts: list[Face] | Ball, pose: Pose, colour: str) -> None:

@@ -12,9 +12,10 @@ from nivel.looks.joints import ON_RAIL, sliding_axes, turning_axes
 from nivel.looks.links import held_points
 from nivel.looks.poses import Array, Pose, body_poses, in_space
 from nivel.looks.solids import FACETS, FEW_FACETS, reach
+from nivel.looks.sweeps import rings, swept_bodies
 from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
-from nivel.report.body_drawing import draw_body
+from nivel.report.body_drawing import draw_body, draw_sweep
 from nivel.report.drawing import Drawing
 from nivel.report.force_drawing import Plane, draw_force, draw_plane, force_points, planes
 from nivel.report.frame import WIDTH, Frame, fit
@@ -73,7 +74,12 @@ def machine_picture(
 def _drawing(scene: dict[str, Any], poses: dict[str, Pose], frame: Frame, touched: list[Plane]) -> Drawing:
     drawing = Drawing()
     facets = FACETS if len(scene["bodies"]) <= MANY_BODIES else FEW_FACETS
+    swept, places = swept_bodies(scene), {body["name"]: k for k, body in enumerate(scene["bodies"])}
+    for sweep in scene.get("sweeps", []):
+        draw_sweep(drawing, frame, sweep, poses, colour_of(places[sweep["bodies"][0]]))
     for k, body in enumerate(scene["bodies"]):
+        if body["name"] in swept:
+            continue
         draw_body(drawing, frame, body, held_points(scene, body), poses[body["name"]], colour_of(k), facets)
     for joint in sorted(scene["joints"], key=lambda joint: joint["type"] not in ON_RAIL):
         draw_joint(drawing, frame, joint, poses)
@@ -94,7 +100,8 @@ def _skeleton(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
 def _shapes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
     """(n, 3) points around the shapes."""
     shapes = [in_space(poses[b["name"]], reach(b["shape"])) for b in scene["bodies"] if b.get("shape")]
-    return np.concatenate([np.empty((0, 3)), *shapes])
+    swept = [rings(sweep, poses, sweep["section"]).reshape(-1, 3) for sweep in scene.get("sweeps", [])]
+    return np.concatenate([np.empty((0, 3)), *shapes, *swept])
 
 
 def _svg(drawing: Drawing, frame: Frame) -> str:

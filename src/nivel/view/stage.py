@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from nivel.looks.colours import colour_of
 from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL
 from nivel.looks.links import held_points, link_ends
+from nivel.looks.sweeps import swept_bodies
 from nivel.machine.surface import surface_arrays
 from nivel.view.acting import drivers, forces
 from nivel.view.package import Block
 from nivel.view.records import Body, Flexible, Force, Joint, Marker, Part, Sweep
-from nivel.view.sweeps import sweeps, swept_bodies
+from nivel.view.sweeps import sweeps
 from nivel.view.triples import triple
 
 Array = NDArray[np.float64]

@@ -14,11 +14,6 @@ def sweeps(scene: dict[str, Any], places: dict[str, int]) -> list[Sweep]:
     return [_sweep(each, places) for each in scene.get("sweeps", [])]
 
 
-def swept_bodies(scene: dict[str, Any]) -> set[str]:
-    """Names of the bodies that are drawn as parts of a sweep, and by nothing else of their own."""
-    return {body for each in scene.get("sweeps", []) for body in each["bodies"]}
-
-
 def _sweep(sweep: dict[str, Any], places: dict[str, int]) -> Sweep:
     bodies = [places[name] for name in sweep["bodies"]]
     count = len(bodies)

@@ -6,6 +6,7 @@ the section turns evenly from one frame to the next and is tilted so that it sta
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
@@ -54,7 +55,7 @@ def sweep_faces(sweep: dict[str, Any], poses: dict[str, Pose]) -> list[Face]:
         section = section[::-1]
     shape = rings(sweep, poses, section)
     n, faces = len(section), []
-    for before, after in zip(shape[:-1], shape[1:], strict=True):
+    for before, after in pairwise(shape):
         for k in range(n):
             side = [k, (k + 1) % n]
             corners = np.concatenate([before[side], after[side[::-1]]])
@@ -67,10 +68,9 @@ def sweep_faces(sweep: dict[str, Any], poses: dict[str, Pose]) -> list[Face]:
 
 
 def _face(corners: Array, outlined: NDArray[np.bool_]) -> Face:
-    normal = np.cross(
-        corners[2] - corners[0], corners[-1] - corners[1] if len(corners) == 4 else corners[1] - corners[0]
-    )
-    normal = normal if len(corners) == 4 else -normal
+    a, b, c = corners[:3]
+    one, two = (c - a, corners[3] - b) if len(corners) == 4 else (b - a, c - a)  # diagonals, or sides
+    normal = np.cross(one, two)
     return Face(corners, normal / max(float(np.linalg.norm(normal)), 1e-300), outlined)
 
 

@@ -174,7 +174,9 @@ def shown(browser, smooth):
         page.wait_for_timeout(300)
         read = "(name) => Array.from(nivel.app.actor.swept[0].mesh.geometry.attributes[name].array)"
         vertices, normals = (np.reshape(page.evaluate(read, name), (-1, 3)) for name in ("position", "normal"))
+        assert not page.get_by_role("button", name="boom.2", exact=True).is_visible()  # one thing, with its parts inside
         page.evaluate("nivel.app.choose({ kind: 'body', name: 'boom.2' })")
+        assert page.get_by_role("button", name="boom.2", exact=True).is_visible()
         assert page.evaluate("nivel.app.actor.marked.length") == 1
     return vertices, normals
 

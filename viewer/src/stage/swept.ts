@@ -6,7 +6,8 @@ import * as THREE from "three";
 import type { Sweep } from "../generated/records";
 import type { Actor, Picked } from "./actor";
 
-const MOST_RINGS = 240; // of one sweep
+const MOST_RINGS = 240; // of one sweep, where there are not more frames
+const MOST_FRAMES = 500; // that the line goes through; of more it takes some, evenly
 const FINEST = 10; // rings from one frame to the next
 const CREASE = Math.cos((35 * Math.PI) / 180); // edges of the section that are sharper stay sharp
 
@@ -25,11 +26,15 @@ export class Swept {
   private readonly steps: number; // rings from one frame to the next
   private readonly turns: THREE.Quaternion[]; // of the section's axes in the frame of each body
 
+  readonly record: Sweep;
+
   constructor(
-    readonly record: Sweep,
+    whole: Sweep,
     private readonly actor: Actor,
     material: THREE.Material,
   ) {
+    const record = thinned(whole);
+    this.record = record;
     const spans = record.bodies.length - 1;
     this.steps = record.smooth ? Math.min(Math.max(Math.floor(MOST_RINGS / spans), 1), FINEST) : 1;
     this.corners = [...edges(record.section, 1), ...edges(record.hollow, -1)];
@@ -58,7 +63,7 @@ export class Swept {
   /** The part around a body of the chain, to be lit up; it bends as the whole. */
   around(name: string): THREE.BufferGeometry | null {
     const k = this.record.bodies.findIndex((body) => this.actor.stage.bodies[body]!.name === name);
-    if (k < 0) return null;
+    if (k < 0) return null; // of another sweep, or left out
     const part = new THREE.BufferGeometry();
     for (const each of ["position", "normal"]) part.setAttribute(each, this.mesh.geometry.getAttribute(each));
     part.setIndex(this.mesh.geometry.index);
@@ -145,6 +150,15 @@ export class Swept {
     for (const [a, b, c] of faces) out.push(second + a!, second + b!, second + c!);
     return out;
   }
+}
+
+/** The sweep through some of its frames, the first and the last among them. */
+function thinned(whole: Sweep): Sweep {
+  const last = whole.bodies.length - 1;
+  if (last < MOST_FRAMES) return whole;
+  const kept = Array.from({ length: MOST_FRAMES }, (_, k) => Math.round((k * last) / (MOST_FRAMES - 1)));
+  const some = <T>(list: T[]) => kept.map((k) => list[k]!);
+  return { ...whole, bodies: some(whole.bodies), points: some(whole.points), axes: some(whole.axes), across: some(whole.across) };
 }
 
 const VECTOR = new THREE.Vector3();

@@ -36,7 +36,7 @@ function isTaken(target: EventTarget | null, key: string): boolean {
   if (target instanceof HTMLInputElement && (target.type === "search" || target.type === "text")) return key !== "Escape";
   if (target instanceof HTMLInputElement && target.type === "range") return !target.classList.contains("scrub") && /Arrow|Home|End|Page/.test(key);
   if (target instanceof HTMLSelectElement) return key !== "Escape";
-  if (target instanceof HTMLButtonElement || target instanceof HTMLInputElement) return key === " " || key === "Enter";
+  if (target instanceof HTMLButtonElement || target instanceof HTMLInputElement || target.tagName === "SUMMARY") return key === " " || key === "Enter";
   return false;
 }
 

@@ -27,7 +27,7 @@ export class Tree {
           "section",
           { class: "branch" },
           el("h3", {}, `${title} `, el("span", { class: "count" }, String(items.length))),
-          el("ul", {}, ...items.map((item) => el("li", {}, this.button(kind, item, choose)))),
+          el("ul", {}, ...this.rows(kind === "body" ? groups(stage) : new Map(), items, (item) => this.button(kind, item, choose))),
         ),
       );
     this.element = el("div", { class: "tree" }, total > FEW && search, ...lists);
@@ -37,8 +37,30 @@ export class Tree {
     for (const [key, button] of this.buttons) {
       const on = !!picked && key === `${picked.kind} ${picked.name}`;
       button.setAttribute("aria-pressed", String(on));
-      if (on) button.scrollIntoView({ block: "nearest" });
+      if (!on) continue;
+      const group = button.closest("details");
+      if (group) group.open = true;
+      button.scrollIntoView({ block: "nearest" });
     }
+  }
+
+  /** Rows of items; those of one group stand in a list of their own, which is closed at first. */
+  private rows<T>(groupOf: Map<number, string>, items: T[], button: (item: T) => HTMLButtonElement): HTMLLIElement[] {
+    const lists = new Map<string, { list: HTMLUListElement; count: HTMLElement }>();
+    return items.flatMap((item, k) => {
+      const row = el("li", {}, button(item));
+      const group = groupOf.get(k);
+      if (group === undefined) return [row];
+      const known = lists.get(group);
+      if (known) {
+        known.list.append(row);
+        known.count.textContent = String(known.list.childElementCount);
+        return [];
+      }
+      const made = { list: el("ul", {}, row), count: el("span", { class: "count" }, "1") };
+      lists.set(group, made);
+      return [el("li", {}, el("details", {}, el("summary", {}, ...breakable(group), " ", made.count), made.list))];
+    });
   }
 
   private button(kind: Picked["kind"], item: { name: string; note: string; colour?: string }, choose: (picked: Picked | null) => void): HTMLButtonElement {
@@ -56,5 +78,15 @@ export class Tree {
     for (const button of this.buttons.values()) {
       button.parentElement!.hidden = !button.textContent!.toLowerCase().includes(wanted);
     }
+    for (const group of this.element.querySelectorAll("details")) {
+      const found = [...group.querySelectorAll("li")].some((row) => !row.hidden);
+      group.parentElement!.hidden = !found;
+      group.open = found && wanted !== "";
+    }
   }
+}
+
+/** Names of what bodies are parts of, by the numbers of the bodies. */
+function groups(stage: Stage): Map<number, string> {
+  return new Map(stage.sweeps.flatMap((sweep) => sweep.bodies.map((body) => [body, sweep.name] as const)));
 }

@@ -194,3 +194,31 @@ def test_values_far_beyond_the_range_are_refused_at_once(value):
     before = machine.pose()
     assert "it goes from -3.142 to 3.142 rad" in machine.move("ball.angle_x", value)
     np.testing.assert_array_equal(machine.pose()[0], before[0])
+
+
+BEAM = """
+format: 1
+bodies:
+  weight: {position: [1, 0, 0], shape: {type: sphere, radius: 5 cm}, mass: 1}
+beams:
+  boom:
+    from: [0, 0, 0]
+    to: [1, 0, 0]
+    section: {type: rectangle, width: 2 cm, height: 4 cm}
+    material: {youngs_modulus: 70 GPa, poisson_ratio: 0.3, density: 2700 kg/m^3}
+    elements: 6
+joints:
+  hinge: {type: revolute, bodies: [ground, boom.start], point: [0, 0, 0], axis: [0, 1, 0]}
+  tip: {type: fixed, bodies: [boom.end, weight], point: [1, 0, 0]}
+"""
+
+
+def test_beams_go_along_without_bending(tmp_path):
+    (tmp_path / "beam.yaml").write_text(BEAM, encoding="utf-8")
+    machine = nivel.load(tmp_path / "beam.yaml").posed()
+    assert [each.name for each in machine.movements if each.free] == ["hinge.angle"]
+    assert [joint["name"] for joint in machine.scene["joints"]] == ["hinge", "tip"]
+    before, _ = machine.pose()
+    assert machine.move("hinge.angle", 0.5) == ""
+    after, _ = machine.pose()
+    np.testing.assert_allclose(after, Rotation.from_euler("y", 0.5).apply(before), atol=1e-9)

@@ -1,7 +1,7 @@
 """An assembled machine that is moved by hand, one number at a time, while all joints stay closed.
 
 The numbers are joint coordinates, and what these do not reach: three angles of a spherical joint, places and angles of bodies that nothing
-holds (`handles`).
+holds (`handles`). Beams go along without bending.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from nivel.analysis.closing import Wishes, close_positions
 from nivel.analysis.equations import MotionEquations, equations, moved
 from nivel.analysis.freedoms import Freedoms, coordinate_derivatives, freedoms
 from nivel.analysis.handles import Handle, Wish, further_handles, measured_handles
+from nivel.analysis.stiff_beams import with_stiff_beams
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.scene import scene
@@ -59,7 +60,7 @@ class Posing:
     """
 
     def __init__(self, machine: MachineRecord) -> None:
-        machine = with_nodes(machine)
+        shown, machine = with_nodes(machine), with_stiff_beams(machine)
         self.machine = machine
         self._motion: MotionEquations = equations(machine, measured=True)
         assembled = assemble(machine, self._motion)
@@ -76,7 +77,7 @@ class Posing:
         # number and place in it of the handle that each movement belongs to
         self._found = {name: (h, k) for h, each in enumerate(self._handles) for k, name in enumerate(each.names)}
         self._seen: list[Position] = []
-        self.scene: dict[str, Any] = scene(machine, self._motion.system)
+        self.scene: dict[str, Any] = scene(shown, self._motion.system)
         self.movements = self._movements(np.append(is_free, np.ones(len(self._found) - len(is_free), dtype=bool)))
 
     def pose(self) -> tuple[Array, Array]:

@@ -14,6 +14,7 @@ from nivel.looks import sweeps
 from nivel.looks.poses import rotation
 from nivel.report.picture import machine_picture
 from nivel.results import Memory
+from nivel.view.columns import _owner
 from nivel.view.export import write_scene
 from nivel.view.package import Block, from_bytes
 from nivel.view.playback import ALONE, playback
@@ -121,6 +122,19 @@ def test_variables_of_couplings_belong_to_them(stage):
     assert owners["coupling.mesh.effort"] == "mesh"
 
 
+def test_variables_of_nodes_of_beams_belong_to_them():
+    elements = {"boom.1", "boom.2", "hinge", "drive"}
+    for name, owner in (
+        ("boom.1.position.x", "boom.1"),
+        ("hinge.angle", "hinge"),
+        ("hinge.s.x", "hinge"),
+        ("force.drive.power", "drive"),
+        ("kinetic_energy", ""),
+        ("nothing.angle", ""),
+    ):
+        assert _owner(name, elements) == owner
+
+
 def test_everything_is_in_the_list_and_lights_up(browser, result, tmp_path):
     file = write_scene([result], tmp_path / "scene.html")
     with watched(browser) as seen:
@@ -174,7 +188,9 @@ def shown(browser, smooth):
         page.wait_for_timeout(300)
         read = "(name) => Array.from(nivel.app.actor.swept[0].mesh.geometry.attributes[name].array)"
         vertices, normals = (np.reshape(page.evaluate(read, name), (-1, 3)) for name in ("position", "normal"))
-        assert not page.get_by_role("button", name="boom.2", exact=True).is_visible()  # one thing, with its parts inside
+        assert not page.get_by_role(
+            "button", name="boom.2", exact=True
+        ).is_visible()  # one thing, with its parts inside
         page.evaluate("nivel.app.choose({ kind: 'body', name: 'boom.2' })")
         assert page.get_by_role("button", name="boom.2", exact=True).is_visible()
         assert page.evaluate("nivel.app.actor.marked.length") == 1

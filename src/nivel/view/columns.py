@@ -69,8 +69,11 @@ def _elements(result: Result) -> set[str]:
 
 
 def _owner(name: str, elements: set[str]) -> str:
-    """The element whose name a variable begins with, after a word for its kind; empty for the whole machine."""
+    """The element whose name a variable begins with, after a word for its kind; empty for the whole machine.
+
+    Nodes of beams have names of two words.
+    """
     parts = name.split(".")
-    if f"{parts[0]}." in PREFIXES and len(parts) > 2:
-        return parts[1] if parts[1] in elements else ""
-    return parts[0] if len(parts) > 1 and parts[0] in elements else ""
+    rest = parts[1:] if f"{parts[0]}." in PREFIXES and len(parts) > 2 else parts
+    candidates = (".".join(rest[:words]) for words in (2, 1) if words < len(rest))
+    return next((each for each in candidates if each in elements), "")

@@ -290,3 +290,57 @@ def test_a_scene_may_have_sweeps_and_their_bodies_are_drawn_by_nothing_else():
     assert sweep["smooth"] is True
     assert stage["bodies"][0]["links"] == []
     assert stage["bodies"][0]["automatic"] is False
+
+
+BEAM = """
+format: 1
+beams:
+  boom:
+    from: [0, 0, 0]
+    to: [1, 0, 0]
+    section: SECTION
+    material: {youngs_modulus: 70 GPa, poisson_ratio: 0.3, density: 2700 kg/m^3}
+    elements: 4
+joints:
+  hinge: {type: revolute, bodies: [ground, boom.start], point: [0, 0, 0], axis: [0, 1, 0]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("section", "area", "height"),
+    [
+        ("{type: circle, radius: 2 cm}", np.pi * 4e-4, 0.04),
+        ("{type: tube, outer_radius: 2 cm, inner_radius: 1 cm}", np.pi * 3e-4, 0.04),
+        ("{type: rectangle, width: 2 cm, height: 4 cm}", 8e-4, 0.04),
+        ("{type: box, width: 2 cm, height: 4 cm, wall: 2 mm}", 8e-4 - 1.6e-2 * 3.6e-2, 0.04),
+        ("{type: i, width: 4 cm, height: 6 cm, flange: 5 mm, web: 4 mm}", 2 * 4e-2 * 5e-3 + 5e-2 * 4e-3, 0.06),
+        # a rectangle of 2 cm by 6 cm: I_y = b h³/12, I_z = h b³/12
+        (
+            "{type: values, area: 12 cm^2, iy: 36 cm^4, iz: 4 cm^4, torsion: 10 cm^4, shear_area_y: 10 cm^2, shear_area_z: 10 cm^2}",
+            12e-4,
+            0.06,
+        ),
+    ],
+)
+def test_a_beam_is_drawn_with_its_section(section, area, height, tmp_path):
+    (tmp_path / "beam.yaml").write_text(BEAM.replace("SECTION", section), encoding="utf-8")
+    shown = nivel.load(tmp_path / "beam.yaml").shown()
+    stage = from_bytes(shown.package())[0]["stages"][0]
+    (sweep,) = stage["sweeps"]
+    assert [stage["bodies"][k]["name"] for k in sweep["bodies"]] == [
+        "boom.start",
+        "boom.1",
+        "boom.2",
+        "boom.3",
+        "boom.end",
+    ]
+    assert not any(stage["bodies"][k]["automatic"] for k in sweep["bodies"])
+
+    def enclosed(corners):
+        y, z = np.array(corners).T
+        return 0.5 * np.sum(y * np.roll(z, -1) - np.roll(y, -1) * z)
+
+    found = enclosed(sweep["section"]) - (enclosed(sweep["hollow"]) if sweep["hollow"] else 0.0)
+    # of round ones a polygon of 24 corners: its area is 24/(2π) sin(2π/24) of the circle's
+    assert found == pytest.approx(area, rel=0.012)
+    assert np.ptp(np.array(sweep["section"])[:, 1]) == pytest.approx(height)

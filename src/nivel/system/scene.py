@@ -13,7 +13,7 @@ a body (`ground` among them) is in that body's frame, which `position` and `orie
 ``markers``        named markers: list of ``name``, ``body``, ``position``
 ``forces``         what acts between two bodies at two points: list of ``name``, ``type``, ``bodies``, ``points``;
                    ``axis`` too where it has one, see below
-``sweeps``         may be missing; one solid drawn through the frames of bodies in a row, as of a beam: list of ``name``,
+``sweeps``         of machines with beams; one solid drawn through the frames of bodies in a row: list of ``name``,
                    ``bodies`` (names, two or more), ``section`` (corners (y, z), counter-clockwise), and if they are not these:
                    ``hollow`` (corners of a hole; none), ``points`` (of the line, in each body; their origins), ``axes`` (of the line;
                    x), ``across`` (y of the section; y), ``smooth`` (curved between the frames; true)
@@ -34,6 +34,7 @@ from typing import Any
 import numpy as np
 
 from nivel.flexible.picture import moving_surface
+from nivel.machine.beam import Beam
 from nivel.machine.body import Body
 from nivel.machine.forces import Bushing, Contact, Force, PairForce, SpringDamper, TorsionalSpringDamper
 from nivel.machine.joint import Joint
@@ -44,6 +45,7 @@ from nivel.machine.surface import surface_text
 from nivel.system.draft import Draft
 from nivel.system.flexible import bending_bodies
 from nivel.system.joint_frames import slot_frame
+from nivel.system.section_outline import outline
 from nivel.system.system import System
 
 
@@ -67,13 +69,20 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
     for body, looks in _flexible(machine):
         bodies[body]["flexible"] = looks
     markers = [{"name": m.name, "body": m.body, "position": list(m.position)} for m in machine.markers if m.name]
+    sweeps = [_sweep(beam) for beam in machine.beams]
     return {
         "bodies": bodies,
         "ground_points": held["ground"],
         "joints": joints,
         "forces": list(_forces(machine)),
         "markers": markers,
-    }
+    } | ({"sweeps": sweeps} if sweeps else {})
+
+
+def _sweep(beam: Beam) -> dict[str, Any]:
+    """A beam, whose nodes are bodies with the axes of its sections."""
+    outside, hole = outline(beam)
+    return {"name": beam.name, "bodies": list(beam.node_names), "section": outside, "hollow": hole}
 
 
 def _flexible(machine: MachineRecord) -> Iterator[tuple[int, dict[str, Any]]]:

@@ -13,7 +13,9 @@ import synthetic_run as pendulum
 from nivel.results import Memory
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
-pytestmark = pytest.mark.skipif(BROWSER is None and not os.environ.get("CI"), reason="no chromium on this machine to open the report in")
+pytestmark = pytest.mark.skipif(
+    BROWSER is None and not os.environ.get("CI"), reason="no chromium on this machine to open the report in"
+)
 
 EVENTS = json.dumps(
     [{"name": name, "time": time, "direction": "rising"} for name, time in (("bottom", 3.0), ("top", 6.0))]

@@ -173,7 +173,9 @@ document.title = JSON.stringify({ rising, falling, chosen, shown, left: document
 """
 
 
-@pytest.mark.skipif(BROWSER is None and not os.environ.get("CI"), reason="no chromium on this machine to open the page in")
+@pytest.mark.skipif(
+    BROWSER is None and not os.environ.get("CI"), reason="no chromium on this machine to open the page in"
+)
 @pytest.mark.parametrize("width", [1200, 400])
 def test_the_page_works_in_a_browser(tmp_path, width):
     page = tmp_path / "page.html"

@@ -91,7 +91,9 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         faults.append(_fault("step", f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step"))
         raise ModelError(faults)
     if facts is not None and facts.implicit and settings.corrector.tolerance < LEAST_CHANGE:
-        message = f"{settings.corrector.tolerance:.3g} is below {LEAST_CHANGE:.0e}, where round-off rules; ask for no less"
+        message = (
+            f"{settings.corrector.tolerance:.3g} is below {LEAST_CHANGE:.0e}, where round-off rules; ask for no less"
+        )
         faults.append(_fault("corrector.tolerance", message))
     steps, every = 0, 0
     if chosen_steps:

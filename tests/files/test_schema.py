@@ -4,9 +4,10 @@ import pytest
 
 from nivel.files import schema
 from nivel.files.outline import FILE_WORDS
-from nivel.machine import Body, Joint, MachineRecord, Sensor, SimulationSettings
+from nivel.machine import Beam, Body, Box, Joint, MachineRecord, Sensor, SimulationSettings
 from nivel.machine.coupling import Belt, Gear, LinearCoupling, Rack
 from nivel.machine.forces import FORCES
+from nivel.machine.record import field_words
 from nivel.machine.references import SECTIONS
 
 SCHEMA = schema()
@@ -14,7 +15,9 @@ OF_FILES = {"Body": {"mass_properties"}}  # keys that only files have
 
 
 def definition(record):
-    return SCHEMA["$defs"][record.__name__]
+    """Records of one name in two modules have these before their names."""
+    found = SCHEMA["$defs"]
+    return found.get(record.__name__) or found[f"{record.__module__}.{record.__name__}".replace(".", "__")]
 
 
 def test_sections_are_mappings_by_name():
@@ -24,10 +27,10 @@ def test_sections_are_mappings_by_name():
         assert SCHEMA["properties"][section]["type"] == ["object", "null"]
 
 
-@pytest.mark.parametrize("record", [Body, Joint, Sensor, *FORCES], ids=lambda record: record.__name__)
+@pytest.mark.parametrize("record", [Beam, Body, Joint, Sensor, *FORCES], ids=lambda record: record.__name__)
 def test_elements_have_the_keys_of_their_records_but_no_name(record):
     its = definition(record)
-    assert set(its["properties"]) == set(record.model_fields) - {"name"} | OF_FILES.get(record.__name__, set())
+    assert set(its["properties"]) == set(field_words(record)) - {"name"} | OF_FILES.get(record.__name__, set())
     assert "name" not in its["required"]
     assert its["additionalProperties"] is False
 
@@ -50,8 +53,9 @@ def test_quantities_are_numbers_or_texts_and_say_their_unit():
 
 
 def test_keys_are_those_of_the_file():
-    assert "from" in SCHEMA["$defs"]["Box"]["properties"]
-    assert "from_" not in SCHEMA["$defs"]["Box"]["properties"]
+    for record in (Box, Beam):
+        assert "from" in definition(record)["properties"]
+        assert "from_" not in definition(record)["properties"]
 
 
 def test_all_references_resolve():

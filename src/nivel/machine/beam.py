@@ -78,14 +78,14 @@ class Beam(Checked):
     velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of its start, global axes")
     angular_velocity: AngularVelocityVector = Field(default=(0.0, 0.0, 0.0), description="as a rigid body, global axes")
 
-    @cached_property
+    @property
     def line(self) -> Line:
         """Its line. Raises NoCurveError."""
         if self.via is not None:
             return arc(self.from_, self.via, self.to)
         return smooth([self.from_, *self.through, self.to]) if self.through else straight(self.from_, self.to)
 
-    @cached_property
+    @property
     def shares(self) -> Array:
         """(N,) shares of the length at which its nodes are, ascending: stations are nodes, elements between them are equally long."""
         ends = np.array(sorted({0.0, 1.0, *self.stations.values()}))
@@ -165,7 +165,8 @@ class Beam(Checked):
 
 def _divided(lengths: Array, count: int) -> list[int]:
     """`count` elements over parts of these lengths, at least one each, the longest elements as short as can be."""
-    counts = [1] * len(lengths)
-    for _ in range(count - len(lengths)):
+    free = count - len(lengths)
+    counts = np.maximum(1, (lengths / np.sum(lengths) * free).astype(int))  # not more than each will have
+    while np.sum(counts) < count:
         counts[int(np.argmax(lengths / counts))] += 1
-    return counts
+    return counts.tolist()

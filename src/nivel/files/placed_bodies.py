@@ -73,9 +73,17 @@ def placed_beam(beam: Beam, placing: Placement) -> Beam:
     }
     if beam.via is not None:
         changes["via"] = placing.point(beam.via)
-    if placing.turns:
-        changes["up"] = placing.direction(triple(beam.frames(np.zeros(1))[1][0, :, 2]) if beam.up is None else beam.up)
-    return beam.replace(**changes)
+    if not placing.turns:
+        return beam.replace(**changes)
+    if beam.up is not None:
+        return beam.replace(**changes, up=placing.direction(beam.up))
+    # axes that follow from global directions in the part need an `up` that turns with it
+    axes = beam.frames(beam.shares)[1]
+    for up in ({}, {"up": placing.direction(triple(axes[0, :, 2]))}):
+        made = beam.replace(**changes, **up)
+        if np.allclose(made.frames(beam.shares)[1], placing.polar @ axes, atol=1e-9):
+            return made
+    raise NotRepresentableError("a curve in space cannot be turned; give the beam an `up`, from which its sections take their axes")
 
 
 def _moved_body(body: Body, placing: Placement) -> Body:

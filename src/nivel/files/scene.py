@@ -9,7 +9,7 @@ import numpy as np
 
 from nivel.files.placement import AXIAL_Z, Placement, Triple, orientation_of, triple
 from nivel.files.substitution import Linear, same, substituted
-from nivel.machine import GROUND, Body, Joint, Marker, Record, TimeFunction, marker_frame, placement
+from nivel.machine import GROUND, Beam, Body, Joint, Marker, Record, TimeFunction, marker_frame, placement
 from nivel.machine.orientation import matrix_from_euler_parameters
 
 _QUANTITIES = {f"{kind}{axis}": (kind, at) for kind in ("", "v", "w") for at, axis in enumerate("xyz")}
@@ -24,6 +24,7 @@ class Scene:
     bodies: Mapping[str, Body]
     markers: Mapping[str, Marker]
     joints: Mapping[str, Joint]
+    beams: Mapping[str, Beam]
     extra: dict[str, Marker] = field(default_factory=dict)
 
     @classmethod
@@ -32,7 +33,8 @@ class Scene:
         bodies = {each.name: each for each in elements["bodies"] if isinstance(each, Body)}
         markers = {str(each.name): each for each in elements["markers"] if isinstance(each, Marker)}
         joints = {each.name: each for each in elements["joints"] if isinstance(each, Joint)}
-        return cls(placing, bodies, markers, joints)
+        beams = {each.name: each for each in elements["beams"] if isinstance(each, Beam)}
+        return cls(placing, bodies, markers, joints, beams)
 
     def is_opposite(self, reference: str, kind: str = "length") -> bool:
         """Whether a joint coordinate counts the other way in the mirror image. `kind`: of a joint without coordinate."""
@@ -97,8 +99,12 @@ class Scene:
         """The marker on `body` at a global `point` of the part, with global axes there; not placed yet."""
         if body == GROUND:
             return Marker(body=GROUND, position=point)
-        position, parameters = placement(self.bodies[body])
-        axes = matrix_from_euler_parameters(parameters)
+        beam, _, station = body.partition(".")
+        if station:
+            position, axes = self.beams[beam].frame_at(station)
+        else:
+            position, parameters = placement(self.bodies[body])
+            axes = matrix_from_euler_parameters(parameters)
         inside = triple(axes.T @ (np.array(point) - position))
         return Marker(body=body, position=inside, orientation=orientation_of(axes.T))
 

@@ -169,7 +169,7 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
 
 def _is_about_unread(tree: Tree, message: str) -> bool:
     """Whether something is missing that may stand in a file which could not be read."""
-    if message == "a machine needs at least one body":
+    if message == "a machine needs at least one body or beam":
         return bool(tree.unread)
     return message.startswith("there is no ") and any(f" `{prefix}" in message for prefix in tree.unread)
 

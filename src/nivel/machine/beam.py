@@ -12,8 +12,8 @@ from pydantic import BeforeValidator, Field
 
 from nivel.machine.axes import no_direction
 from nivel.machine.beam_curve import Line, NoCurveError, arc, axes_along, smooth, straight
-from nivel.machine.beam_section import BeamSection, BeamSectionRecord, GeneralSection, beam_section, needs_shear_areas
-from nivel.machine.checked import Checked, Problem, superfluous
+from nivel.machine.beam_section import BeamSection, BeamSectionRecord, GeneralSection, beam_section, missing_shear_areas
+from nivel.machine.checked import Checked, Place, Problem, superfluous
 from nivel.machine.quantity import (
     Angle,
     AngularVelocityVector,
@@ -30,7 +30,9 @@ from nivel.machine.section import Material
 
 Array = NDArray[np.float64]
 START, END = "start", "end"
-LEAST: Final = 1e-9  # share of the length by which stations and ends are apart, at least
+LEAST: Final = 1e-4  # share of the length by which stations and ends are apart, at least
+MOST_TURN: Final = 0.5 * np.pi + 1e-6  # of an element, unstressed: rotations within it are interpolated as vectors [rad]
+FARTHEST: Final = 1e9  # m; farther points are slips, and their squares may overflow
 
 Points = Annotated[tuple[Position, ...], BeforeValidator(listed)]
 Offset = Annotated[tuple[Length, Length], BeforeValidator(listed)]
@@ -107,6 +109,11 @@ class Beam(Checked):
         s = self.line.length * shares
         return self.line.at(s)[0], axes_along(self.line, s, None if self.up is None else np.array(self.up), self.twist)
 
+    def frame_at(self, station: str) -> tuple[Array, Array]:
+        """Place (3,) and axes (3, 3) of the section at a station, by its name within the beam, global."""
+        place, axes = self.frames(np.array([{START: 0.0, END: 1.0, **self.stations}[station]]))
+        return place[0], axes[0]
+
     @property
     def properties(self) -> BeamSection:
         """The section in numbers."""
@@ -122,16 +129,42 @@ class Beam(Checked):
         elif not zero:
             yield from self._problems_of_line()
         yield from self._problems_of_section()
-        yield from self._problems_of_stations()
         if self.damping < 0.0:
             yield Problem(("damping",), f"zero or more was expected, got {self.damping:g} s")
 
     def _problems_of_line(self) -> Iterator[Problem]:
+        """Of the line, and of what stands on it."""
+        places: list[Place] = [("from",), *(("through", k) for k in range(len(self.through))), ("to",)]
+        points = [self.from_, *self.through, self.to]
+        if self.via is not None:
+            places[1:1], points[1:1] = [("via",)], [self.via]
+        far = [place for place, point in zip(places, points, strict=True) if max(map(abs, point)) > FARTHEST]
+        yield from (Problem(place, f"farther away than {FARTHEST:g} m: a slip of a unit?") for place in far)
+        stations = [*self._problems_of_stations()]
+        yield from stations
+        if far:
+            return
         try:
             self.frames(np.linspace(0.0, 1.0, 33))
+            if not stations:
+                yield from self._problems_of_turns()
         except NoCurveError as problem:
-            place = ("up",) if "`up`" in str(problem) else ("via",) if self.via is not None else ("to",)
-            yield Problem(place, str(problem))
+            yield Problem(("up",) if problem.up else places[problem.point or 0], str(problem))
+
+    def _problems_of_turns(self) -> Iterator[Problem]:
+        """Elements whose ends are turned too far against each other. Raises NoCurveError."""
+        shares = self.shares[:: self.order]
+        axes = self.frames(shares)[1]
+        along = np.einsum("ni,ni->n", axes[:-1, :, 0], axes[1:, :, 0])
+        cosine = 0.5 * (np.einsum("nij,nij->n", axes[:-1], axes[1:]) - 1.0)
+        bend = float(np.arccos(np.clip(np.minimum(along, cosine).min(), -1.0, 1.0)))
+        turn = max(bend, abs(self.twist) * float(np.diff(shares).max()))
+        if turn > MOST_TURN:
+            message = (
+                f"over an element the unstressed beam turns by {np.degrees(turn):.3g} deg; 90 deg at most can be followed: "
+                "take more elements, or see whether the line folds back or runs along `up`"
+            )
+            yield Problem(("elements",) if "elements" in self.model_fields_set else (), message)
 
     def _problems_of_section(self) -> Iterator[Problem]:
         if isinstance(self.section, GeneralSection):
@@ -143,8 +176,10 @@ class Beam(Checked):
                 yield superfluous("centroid", "belongs to a section of a material; a general one has its `mass_centre`")
         elif self.material is None:
             yield Problem((), "`material` is missing: {youngs_modulus: …, poisson_ratio: …, density: …}")
-        if needs_shear_areas(self.section):
-            message = "`shear_area_y` and `shear_area_z` are missing: a beam of large motion deforms by shear too"
+        missing = missing_shear_areas(self.section)
+        if missing:
+            words = " and ".join(f"`{name}`" for name in missing)
+            message = f"{words} {'is' if len(missing) == 1 else 'are'} missing: a beam of large motion deforms by shear too"
             yield Problem(("section",), message)
 
     def _problems_of_stations(self) -> Iterator[Problem]:
@@ -155,7 +190,8 @@ class Beam(Checked):
             elif not 0.0 < share < 1.0:
                 yield Problem(("stations", name), f"a share of the length between 0 and 1 was expected, got {share:g}")
             elif close := [other for at, other in near.items() if abs(at - share) < LEAST]:
-                yield Problem(("stations", name), f"it is where `{close[0]}` is")
+                message = f"it is where `{close[0]}` is; stations are {LEAST:g} of the length apart at least"
+                yield Problem(("stations", name), message)
             else:
                 near[share] = name
         if self.elements < len(near) - 1:

@@ -18,7 +18,11 @@ PIECES = 64
 
 
 class NoCurveError(ValueError):
-    """The points give no line, or no axes."""
+    """The points give no line, or no axes; `point` : number of the one at fault among those that were given, `up` : whether that is."""
+
+    def __init__(self, message: str, *, point: int | None = None, up: bool = False) -> None:
+        super().__init__(message)
+        self.point, self.up = point, up
 
 
 @dataclass(frozen=True)
@@ -35,7 +39,7 @@ def straight(start: ArrayLike, end: ArrayLike) -> Line:
     a, b = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     length = float(np.linalg.norm(b - a))
     if length == 0.0:
-        raise NoCurveError("start and end are the same point")
+        raise NoCurveError("the beam ends where it starts: it has no length", point=1)
     t = (b - a) / length
     return Line(length, lambda s: (a + np.outer(s, t), np.tile(t, (len(s), 1))))
 
@@ -45,8 +49,10 @@ def arc(start: ArrayLike, via: ArrayLike, end: ArrayLike) -> Line:
     a, m, b = (np.asarray(each, dtype=float) for each in (start, via, end))
     normal = np.cross(m - a, b - m)
     size = max(float(np.linalg.norm(m - a)), float(np.linalg.norm(b - m)))
+    if np.linalg.norm(b - a) <= 1e-9 * size:
+        raise NoCurveError("an arc does not end where it starts; a ring goes `through` points", point=2)
     if np.linalg.norm(normal) <= 1e-9 * size**2:
-        raise NoCurveError("three points on one line make no arc; leave `via` out for a straight beam")
+        raise NoCurveError("three points on one line make no arc; leave `via` out for a straight beam", point=1)
     normal = normal / np.linalg.norm(normal)
     # the centre is equally far from all three points, in their plane
     rows = np.array([m - a, b - a, normal])
@@ -71,9 +77,8 @@ def smooth(points: ArrayLike) -> Line:
 
     p = np.asarray(points, dtype=float)
     steps = np.linalg.norm(np.diff(p, axis=0), axis=1)
-    if np.any(steps == 0.0):
-        k = int(np.argmin(steps))
-        raise NoCurveError(f"points {k + 1} and {k + 2} of the curve are the same")
+    if np.any(steps <= 1e-9 * np.sum(steps)):
+        raise NoCurveError("this point of the curve is the same as the one before", point=int(np.argmin(steps)) + 1)
     chord = np.concatenate([[0.0], np.cumsum(steps)])
     spline = CubicSpline(chord, p)
     slope = spline.derivative()
@@ -115,7 +120,7 @@ def axes_along(line: Line, s: Array, up: Array | None, twist: float) -> Array:
         z = up - (tangent @ up)[:, None] * tangent
         size = np.linalg.norm(z, axis=1)
         if np.any(size <= PARALLEL * np.linalg.norm(up)):
-            raise NoCurveError("the beam runs along `up` somewhere; it must point across the beam")
+            raise NoCurveError("the beam runs along `up` somewhere; it must point across the beam", up=True)
         z = z / size[:, None]
         axes = np.stack([tangent, np.cross(z, tangent), z], axis=2)
     turn: Array = twist * s / line.length

@@ -71,9 +71,11 @@ class BeamSection:
     inertia: Array
 
 
-def needs_shear_areas(section: object) -> bool:
-    """Whether a section given by values lacks the shear areas that a beam of large motion deforms by."""
-    return isinstance(section, Values) and (section.shear_area_y is None or section.shear_area_z is None)
+def missing_shear_areas(section: object) -> tuple[str, ...]:
+    """The shear areas, by which a beam of large motion deforms, that a section given by values lacks."""
+    if not isinstance(section, Values):
+        return ()
+    return tuple(name for name in ("shear_area_y", "shear_area_z") if getattr(section, name) is None)
 
 
 def beam_section(

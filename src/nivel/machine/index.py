@@ -31,11 +31,12 @@ def as_mapping(value: Any) -> Mapping[str, Any]:
 class Index:
     """What the elements of a machine are, by name.
 
-    bodies : type of the shape ("" without one), also of the stations of beams. point_masses : bodies that are. markers : the body.
-    joints : the type. forces, sensors : the element.
+    bodies : type of the shape ("" without one), also of the stations of beams. beams : names of the stations.
+    point_masses : bodies that are. markers : the body. joints : the type. forces, sensors : the element.
     """
 
     bodies: Mapping[str, str]
+    beams: Mapping[str, tuple[str, ...]]
     point_masses: frozenset[str]
     markers: Mapping[str, str]
     joints: Mapping[str, str]
@@ -45,10 +46,11 @@ class Index:
     @classmethod
     def of(cls, machine: Any) -> Index:
         """The index of a machine record, or of what it is made of."""
-        bodies = _by_name(machine, "bodies")
+        bodies, beams = _by_name(machine, "bodies"), _stations(machine)
+        stations = {station: "" for names in beams.values() for station in names}
         return cls(
-            bodies={name: _text(entry(entry(body, "shape"), "type")) for name, body in bodies.items()}
-            | _stations(machine),
+            bodies={name: _text(entry(entry(body, "shape"), "type")) for name, body in bodies.items()} | stations,
+            beams=beams,
             point_masses=frozenset(name for name, body in bodies.items() if entry(body, "point_mass") is True),
             markers={name: _text(entry(marker, "body")) for name, marker in _by_name(machine, "markers").items()},
             joints={name: _text(entry(joint, "type")) for name, joint in _by_name(machine, "joints").items()},
@@ -67,12 +69,11 @@ class Index:
         return body if isinstance(body, str) and body else None
 
 
-def _stations(machine: Any) -> dict[str, str]:
-    """The stations of beams, which are bodies without a shape."""
+def _stations(machine: Any) -> dict[str, tuple[str, ...]]:
+    """The names of the stations of each beam, which are bodies without a shape."""
     return {
-        f"{name}.{station}": ""
+        name: tuple(f"{name}.{station}" for station in ("start", *as_mapping(entry(beam, "stations")), "end"))
         for name, beam in _by_name(machine, "beams").items()
-        for station in ("start", "end", *as_mapping(entry(beam, "stations")))
     }
 
 

@@ -102,7 +102,7 @@ def restated(error: ValidationError, record: type[Record], more: Sequence[InitEr
 
 def _restated_line(line: ErrorDetails, record: type[Record]) -> InitErrorDetails:
     kind = reported() if line["type"] == REPORTED else fault(_sentence(line, record), at_key=_is_about_key(line))
-    place = list(line["loc"])
+    place = [step for step in line["loc"] if step != "[key]"]
     tag = record.tagged.get(str(place[0])) if place else None
     if tag is not None and len(place) > tag:
         del place[tag]
@@ -112,7 +112,7 @@ def _restated_line(line: ErrorDetails, record: type[Record]) -> InitErrorDetails
 
 
 def _is_about_key(line: ErrorDetails) -> bool:
-    return line["type"] == "extra_forbidden" or bool(line.get("ctx", {}).get("at_key"))
+    return line["type"] == "extra_forbidden" or "[key]" in line["loc"] or bool(line.get("ctx", {}).get("at_key"))
 
 
 _SENTENCES = {

@@ -163,10 +163,19 @@ def _of_end(end: Any, index: Index, place: Place) -> Faults:
 
 
 def _unknown_body(name: Any, index: Index, place: Place) -> Faults:
-    yield from _unknown(name, index.bodies_and_ground, "body", place)
+    beam, dot, station = name.partition(".") if isinstance(name, str) else ("", "", "")
+    if beam not in index.beams or name in index.bodies:
+        yield from _unknown(name, index.bodies_and_ground, "body", place)
+        return
+    stations = ", ".join(f"`{each}`" for each in index.beams[beam])
+    what = f"the beam `{beam}` has no station `{station}`" if dot else f"`{beam}` is a beam; a place on it is needed"
+    yield place, f"{what}; there are {stations}"
 
 
 def _unknown_marker(name: Any, index: Index, place: Place) -> Faults:
+    if isinstance(name, str) and name in index.bodies and "." in name:
+        yield place, f"`{name}` is a station of a beam; name a marker on it: `markers: {{tip: {{body: {name}}}}}`"
+        return
     yield from _unknown(name, tuple(index.markers), "marker", place)
 
 

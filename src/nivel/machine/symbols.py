@@ -73,6 +73,8 @@ def find_in(path: str, index: Index) -> Symbol:
     if name in index.forces:
         message = f"`{name}` is a force and has no symbols; what it depends on is measured by a sensor of `distance` or `angle`"
         raise UnknownSymbolError(message)
+    if name in index.beams:
+        raise UnknownSymbolError(f"`{name}` is a beam and has no symbols; name a marker at one of its stations and use that")
     known = [each for elements in _quantities(index).values() for each, its in elements.items() if its]
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""
@@ -87,7 +89,7 @@ def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
         "joints": {name: _of_joint(type_) for name, type_ in index.joints.items()},
         "sensors": {name: _of_sensor(sensor) for name, sensor in index.sensors.items()},
         "markers": {name: _of_frame(body, index) for name, body in index.markers.items()},
-        "bodies": {name: _of_frame(name, index) for name in index.bodies},
+        "bodies": {name: _of_frame(name, index) for name in index.bodies if "." not in name},
     }
 
 

@@ -12,7 +12,7 @@ from nivel.machine.coefficient import Exponent, NotNegativeNumber, PoissonRatio,
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.marker import MarkerPlace
 from nivel.machine.power_stiffness import PowerStiffness
-from nivel.machine.record import GROUND, Name, Record
+from nivel.machine.record import GROUND, BodyName, Record
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
 SHAPES_ON_PLANE: Final = ("sphere", "box", "cylinder")
@@ -34,13 +34,13 @@ class Contact(ForceElement):
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth", "normal_force")
 
     type: Literal["contact"] = "contact"
-    body: Name | None = Field(
+    body: BodyName | None = Field(
         default=None, description="that touches the `plane`; its shape is sphere, box or cylinder"
     )
     plane: MarkerPlace | None = Field(
         default=None, description="a marker: its point lies in the plane, its z axis points out of it"
     )
-    bodies: tuple[Name, Name] | None = Field(default=None, description="two spheres, in place of `body` and `plane`")
+    bodies: tuple[BodyName, BodyName] | None = Field(default=None, description="two spheres, in place of `body` and `plane`")
     exponent: Exponent = Field(default=HERTZ, description="of the depth")
     stiffness: PowerStiffness | None = Field(default=None, description="force by depth ** exponent")
     materials: tuple[Material, Material] | None = Field(

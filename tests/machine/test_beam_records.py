@@ -4,10 +4,10 @@ import pickle
 
 import numpy as np
 import pytest
+from refusals import refused
 
 from nivel.machine import Beam
 from nivel.machine.beam import _divided
-from refusals import refused
 
 STEEL = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850.0}
 ROUND = {"type": "circle", "radius": 0.01}

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nivel.analysis.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.choice import choose_coordinates, choose_cut
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.elements import coupling_in_words, driver_in_words, event_in_words, force_in_words, sensor_in_words
@@ -59,6 +60,7 @@ class Check:
     name: str
     gravity: tuple[float, ...]
     bodies: tuple[BodyFacts, ...]
+    beams: tuple[BeamFacts, ...]
     joints: tuple[JointFacts, ...]
     couplings: tuple[str, ...]  # each in words, as drivers, forces, sensors and events
     drivers: tuple[str, ...]
@@ -91,7 +93,8 @@ def _freedoms(count: int) -> str:
 def _lines(facts: Check) -> Iterator[str]:
     """The facts in words, for people."""
     yield f"{facts.name}: {_freedoms(facts.degrees_of_freedom)}, gravity {_vector(facts.gravity)} m/s²"
-    yield "bodies"
+    if facts.bodies:
+        yield "bodies"
     for body in facts.bodies:
         inertia = (
             f"principal inertia {_vector(body.principal_inertia)} kg m²" if body.principal_inertia else "a point mass"
@@ -100,6 +103,10 @@ def _lines(facts: Check) -> Iterator[str]:
         place = f"frame at {_vector(body.position)} m{turned}"
         bends = f", flexible: {body.modes}" if body.modes else ""
         yield f"  {body.name}: {body.mass:.6g} kg, {inertia}, {place}{bends}"
+    if facts.beams:
+        yield "beams"
+    for beam in facts.beams:
+        yield from _beam_lines(beam)
     if facts.joints:
         yield "joints (first body → second body)"
     for joint in facts.joints:
@@ -124,15 +131,42 @@ def _lines(facts: Check) -> Iterator[str]:
         yield f"coordinates: {facts.settings.coordinates}"
 
 
+def _beam_lines(beam: BeamFacts) -> Iterator[str]:
+    orders = {1: "", 2: "quadratic ", 3: "cubic "}
+    place = f"{beam.length:.6g} m long, from {_vector(beam.start)} to {_vector(beam.end)} m"
+    yield f"  {beam.name}: {beam.mass:.6g} kg, {place}, {beam.elements} {orders[beam.order]}elements, {beam.nodes} nodes"
+    yield f"    stations {', '.join(beam.stations)}"
+    slow, fast = _frequency(beam.first_bending), _frequency(beam.fastest)
+    yield f"    vibrates from about {slow} (bending, both ends free) to {fast} (a single element), unstressed"
+
+
+def _frequency(value: float) -> str:
+    for factor, unit in ((1e6, "MHz"), (1e3, "kHz")):
+        if value >= factor:
+            return f"{value / factor:.3g} {unit}"
+    return f"{value:.3g} Hz"
+
+
 def _assembly_lines(facts: Check) -> Iterator[str]:
     if facts.moved:
         yield f"assembly: as given, {facts.gap_row} is open by {facts.gap:.3g}; closed by moving"
-        for name, distance, angle in facts.moved:
+        for name, distance, angle in _by_owner(facts, facts.moved):
             yield f"  {name} by {distance:.3g} m and {angle:.3g} rad"
     else:
         yield "assembly: closed as given"
-    for name, speed, rate in facts.velocity_change:
+    for name, speed, rate in _by_owner(facts, facts.velocity_change):
         yield f"  velocity of {name} changed by {speed:.3g} m/s and {rate:.3g} rad/s to fit the joints"
+
+
+def _by_owner(facts: Check, changes: tuple[tuple[str, float, float], ...]) -> Iterator[tuple[str, float, float]]:
+    """Changes of bodies; of the nodes of a beam the largest ones, once."""
+    yield from (change for change in changes if "." not in change[0])
+    for beam in facts.beams:
+        own = [change for change in changes if change[0].startswith(f"{beam.name}.")]
+        if len(own) > 1:
+            yield f"the nodes of {beam.name}", max(each[1] for each in own), max(each[2] for each in own)
+        else:
+            yield from own
 
 
 def _redundancy_lines(facts: Check) -> Iterator[str]:
@@ -151,7 +185,7 @@ def _vector(values: tuple[float, ...]) -> str:
 
 def check(machine: MachineRecord) -> Check:
     """Check and assemble `machine`. Raises ModelError with what is wrong."""
-    machine = with_nodes(machine)
+    own, machine = machine, with_nodes(machine)
     settings = complete(machine.simulation, choose_coordinates(machine))
     prepared = prepare(machine, settings.formulation, settings.coordinates)
     system = prepared.absolute.system
@@ -178,7 +212,9 @@ def check(machine: MachineRecord) -> Check:
                 modes[k],
             )
             for k, name in enumerate(system.bodies)
+            if name in own.body_named
         ),
+        beams=tuple(beam_facts(beam) for beam in own.beams),
         joints=tuple(_joint(system, k, joint.name, joint.type, values) for k, joint in enumerate(machine.joints)),
         couplings=tuple(coupling_in_words(machine, coupling) for coupling in machine.couplings),
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),

@@ -27,6 +27,7 @@ def command(machine: str, overrides: dict[str, str], allow_code: bool, as_json: 
         listener=Listener(lambda text, _total: click.echo(text, err=True))
     )
     if as_json:
-        click.echo(json.dumps(dataclasses.asdict(facts), indent=2))
+        out = dataclasses.asdict(facts) | {"settings": facts.settings.as_dict()}
+        click.echo(json.dumps(out, indent=2))
     else:
         click.echo(str(facts))

@@ -83,7 +83,9 @@ def placed_beam(beam: Beam, placing: Placement) -> Beam:
         made = beam.replace(**changes, **up)
         if np.allclose(made.frames(beam.shares)[1], placing.polar @ axes, atol=1e-9):
             return made
-    raise NotRepresentableError("a curve in space cannot be turned; give the beam an `up`, from which its sections take their axes")
+    raise NotRepresentableError(
+        "a curve in space cannot be turned; give the beam an `up`, from which its sections take their axes"
+    )
 
 
 def _moved_body(body: Body, placing: Placement) -> Body:

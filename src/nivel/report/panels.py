@@ -9,6 +9,7 @@ import numpy as np
 from nivel.report.element_panels import couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.report.peaks import NEGLIGIBLE, negligible
+from nivel.results.beam_nodes import beam_nodes, stations
 from nivel.results.scales import bodies, rotated
 from nivel.results.verdicts import THRESHOLDS
 
@@ -71,20 +72,30 @@ def _joint_coordinates(result: Result) -> Panel | None:
 
 
 def _positions(result: Result) -> Panel | None:
-    """Body origins; where one rests, the centre of mass of its body; bodies that rest altogether are left out."""
+    """Body origins and stations of beams; where one rests, the centre of mass of its body; bodies that rest altogether are left out."""
     if "position" not in result.variables:
         return None
     position, orientation = result.array("position"), result.array("orientation")
     floor = NEGLIGIBLE * result.trust.size
+    shown = _named_places(result)
     groups = []
     for k, body in enumerate(bodies(result)):
         name, values = result.coordinates["body"][k], position[:, k]
+        if name not in shown:
+            continue
         if not _moves(values, floor):
             name = f"{name}, centre of mass"
             values = values + rotated(orientation[:, k], np.array(body.get("centre_of_mass", [0.0, 0.0, 0.0])))
         if _moves(values, floor):
             groups.append(Group(name, "m", tuple(components(values)), floor=floor))
     return Panel("Body positions", tuple(groups[:GROUPS]), note=left_out(len(groups)))
+
+
+def _named_places(result: Result) -> set[str]:
+    """Bodies, and of the nodes of beams those that have names."""
+    nodes = beam_nodes(result)
+    named = {name for beam in nodes for name in stations(result, beam)}
+    return named | {name for name in result.coordinates["body"] if name.partition(".")[0] not in nodes}
 
 
 def _moves(values: Array, floor: float) -> bool:

@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from nivel.results.beam_nodes import beam_nodes
 from nivel.results.occurrence import in_words
 from nivel.results.verdicts import Item, Trust, Verdict
 
@@ -104,7 +105,11 @@ def _reached(result: Result) -> str:
 def facts(result: Result) -> list[str]:
     """What the machine is and how it was run, in a line; of what it may lack, only what it has."""
     count = {dim: len(result.coordinates.get(dim, ())) for dim in ("body", "joint")}
-    out = [_plural(count["body"], "body", "bodies"), _plural(count["joint"], "joint", "joints")]
+    nodes = beam_nodes(result)
+    solid = count["body"] - sum(map(len, nodes.values()))
+    out = [_plural(solid, "body", "bodies")] if solid or not nodes else []
+    out += [_plural(len(nodes), "beam", "beams")] if nodes else []
+    out.append(_plural(count["joint"], "joint", "joints"))
     for section in ("coupling", "driver", "force", "sensor"):
         named = {name.split(".")[1] for name in result.variables if name.startswith(f"{section}.")}
         out += [_plural(len(named), section, f"{section}s")] if named else []

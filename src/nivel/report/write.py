@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.looks.poses import upwards
+from nivel.report.beam_shapes import beam_shapes
 from nivel.report.load_path import load_paths, vibration_table
 from nivel.report.panel import Group, Panel
 from nivel.report.panels import panels
@@ -75,6 +76,7 @@ def report_html(result: Result) -> str:
         vibrations=vibration_table(result),
         buckling=json.loads(str(result.attributes.get("buckling", "[]"))),
         motion=_motion(result),
+        shapes=beam_shapes(result),
         peaks=peak_reactions(result),
         icon=joint_icon,
         panels=shown,

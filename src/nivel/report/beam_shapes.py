@@ -1,0 +1,99 @@
+"""How beams bend: their lines at some times of a run in one picture, with the paths of their named stations."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from html import escape
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nivel.looks.colours import colour_of
+from nivel.looks.joints import sliding_axes, turning_axes
+from nivel.looks.poses import Array, body_poses, upwards
+from nivel.looks.viewpoint import choose_view
+from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
+from nivel.report.frame import WIDTH, Frame, fit
+from nivel.report.labels import Label, place
+from nivel.results.beam_nodes import beam_nodes, stations
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+
+SHAPES = 11  # of each beam
+PATH = 400  # points of a path, at most
+FAINT = 0.22  # opacity of the first shape; the last one has all
+STYLE = """
+.shapes text{font:500 11px/1.2 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif;fill:#6b7684;text-anchor:middle}
+.shapes .aid-line{stroke:#6b7684;stroke-width:1.4;fill:none;stroke-linecap:round}
+.shapes .path{fill:none;stroke:#6b7684;stroke-width:1;stroke-dasharray:1.5 3;stroke-linecap:round}
+.shapes .line{fill:none;stroke-width:2.2;stroke-linejoin:round;stroke-linecap:round}
+@media (prefers-color-scheme:dark){.shapes text{fill:#93a0b0}.shapes .aid-line,.shapes .path{stroke:#93a0b0}}
+"""
+
+
+def beam_shapes(result: Result) -> str:
+    """SVG text of the shapes; empty for a result without beams, or without motion."""
+    nodes = beam_nodes(result)
+    if not nodes or "position" not in result.variables:
+        return ""
+    position = result.array("position")
+    known = np.flatnonzero(np.isfinite(position).all(axis=(1, 2)))
+    if len(known) < 2:
+        return ""
+    at = known[_evenly(result.time[known])]
+    paths = known[np.unique(np.linspace(0, len(known) - 1, PATH).astype(int))]
+    bodies = result.coordinates["body"]
+    ends = [bodies.index(name) for beam in nodes for name in stations(result, beam)]
+    shown = np.concatenate([position[np.ix_(at, own)].reshape(-1, 3) for own in nodes.values()])
+    frame = _frame(result, np.concatenate([shown, position[np.ix_(paths, ends)].reshape(-1, 3)]), int(at[0]))
+    lines = {name: frame.pixels(position[np.ix_(at, own)]) for name, own in nodes.items()}
+    tracks = [frame.pixels(position[paths, end]) for end in ends]
+    return _svg(frame, lines, tracks, result.time[at])
+
+
+def _evenly(times: Array) -> Array:
+    """Numbers of frames evenly over the time, or where that goes back, as along a path of equilibria, over the frames."""
+    count = len(times)
+    if np.any(np.diff(times) <= 0.0):
+        return np.unique(np.linspace(0, count - 1, SHAPES).astype(int))
+    return np.unique(np.searchsorted(times, np.linspace(times[0], times[-1], SHAPES)).clip(max=count - 1))
+
+
+def _frame(result: Result, cloud: Array, first: int) -> Frame:
+    """Seen as the machine is in its picture, but fitting all shapes."""
+    here = slice(first, first + 1)
+    poses = body_poses(result.scene, result.array("position", here)[0], result.array("orientation", here)[0])
+    gravity = json.loads(str(result.attributes.get("machine_record", "{}"))).get("gravity")
+    view = choose_view(cloud, turning_axes(result.scene, poses), sliding_axes(result.scene, poses), upwards(gravity))
+    return fit(view, cloud, cloud)
+
+
+def _svg(frame: Frame, lines: dict[str, Array], tracks: list[Array], times: Array) -> str:
+    drawn = np.concatenate([each.reshape(-1, 2) for each in (*lines.values(), *tracks)])
+    frame, triad, bar = aid_places(drawn, frame)
+    parts = [f'<path class="path" d="{_path(track)}"/>' for track in tracks if np.ptp(track, axis=0).max() > 1.0]
+    opacity = FAINT + (1.0 - FAINT) * np.linspace(0.0, 1.0, len(times)) ** 1.5
+    for k in range(len(times)):
+        for number, (name, shape) in enumerate(lines.items()):
+            style = f'stroke="{colour_of(number)}" stroke-opacity="{opacity[k]:.2f}"'
+            parts.append(
+                f'<path class="line" {style} d="{_path(shape[k])}"><title>{escape(name)}, {times[k]:.4g} s</title></path>'
+            )
+    last = list(lines.values())[-1][:, -1]
+    labels = [Label(f"{time:.3g} s", *last[k].tolist(), "aid") for k, time in enumerate(times)]
+    placed = place(labels, np.array([*bar_strip(bar), triad]), np.empty((0, 2, 2)), WIDTH, frame.height)
+    texts = (
+        f'<text x="{each.centre[0]:.1f}" y="{each.centre[1] + 4.0:.1f}">{each.label.text}</text>' for each in placed
+    )
+    box = f'viewBox="0 0 {WIDTH:.0f} {frame.height:.0f}"'
+    aids = triad_sign(frame, triad) + scale_bar(frame, bar)
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" class="shapes" {box} role="img" aria-label="shapes of the beams at {len(times)} times">'
+        f"<style>{STYLE}</style>{''.join(parts)}{aids}{''.join(texts)}</svg>"
+    )
+
+
+def _path(points: Iterable[Iterable[float]]) -> str:
+    return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in points)

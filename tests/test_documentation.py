@@ -30,7 +30,10 @@ from nivel.machine import (
     Sensor,
     SimulationSettings,
 )
+from nivel.machine import section as sections
 from nivel.machine.arithmetic import CONSTANTS, FUNCTIONS, ExpressionError, Number
+from nivel.machine.beam import Beam
+from nivel.machine.beam_section import GeneralSection
 from nivel.machine.dimension import KINDS
 from nivel.machine.forces import FORCES
 from nivel.machine.inertia import Inertia
@@ -49,6 +52,15 @@ ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "machine-files.md").read_text(encoding="utf-8")
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 START = "format: 1\n"
+BEAM_SECTIONS = (
+    sections.Circle,
+    sections.Tube,
+    sections.Rectangle,
+    sections.Box,
+    sections.IBeam,
+    sections.Values,
+    GeneralSection,
+)
 
 
 def blocks(text, language):
@@ -130,6 +142,7 @@ def test_every_snippet_of_the_reference_is_a_whole_machine():
     ("title", "record"),
     [
         ("Bodies", Body),
+        ("Beams", Beam),
         ("Markers", Marker),
         ("Joints", Joint),
         ("Drivers", Driver),
@@ -171,6 +184,8 @@ def test_every_key_of_a_force_has_its_row_with_its_default(force):
         ("Shapes", Extrusion),
         ("Shapes", Mesh),
         ("Contact", Material),
+        *(("Sections of beams", record) for record in BEAM_SECTIONS),
+        ("Beams", sections.Material),
         ("Simulation", Baumgarte),
     ],
     ids=lambda value: value if isinstance(value, str) else value.__name__,

@@ -50,7 +50,10 @@ def test_links_lead_somewhere():
     for target in re.findall(r"\]\(([^)]+)\)", PAGE):
         file, _, heading = target.partition("#")
         text = (ROOT / "docs" / file).read_text(encoding="utf-8") if file else PAGE
-        headings = {re.sub(r"[^\w -]", "", line.lower()).replace(" ", "-") for line in re.findall(r"^#+ (.*)", text, re.MULTILINE)}
+        headings = {
+            re.sub(r"[^\w -]", "", line.lower()).replace(" ", "-")
+            for line in re.findall(r"^#+ (.*)", text, re.MULTILINE)
+        }
         assert not heading or heading in headings, target
 
 
@@ -60,11 +63,15 @@ def test_explicit_steps_of_the_page_are_stable_and_no_longer_ones():
     limit = 2 * np.sqrt(2) / (2 * np.pi * facts.fastest)
     machine = Machine.from_record(parse_machine(MACHINE))
     steps = 2000
-    stable = machine.simulate(integrator="rk4", step=0.95 * limit, output_interval=0.95 * limit * steps, duration=0.95 * limit * steps)
+    stable = machine.simulate(
+        integrator="rk4", step=0.95 * limit, output_interval=0.95 * limit * steps, duration=0.95 * limit * steps
+    )
     assert stable.outcome == "done"
     assert np.abs(stable.array("energy_error")).max() < 1e-6
     try:
-        wild = machine.simulate(integrator="rk4", step=2 * limit, output_interval=2 * limit * steps, duration=2 * limit * steps)
+        wild = machine.simulate(
+            integrator="rk4", step=2 * limit, output_interval=2 * limit * steps, duration=2 * limit * steps
+        )
     except nivel.SolveError:
         return
     assert not np.abs(wild.array("energy_error")).max() < 1.0

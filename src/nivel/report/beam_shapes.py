@@ -8,6 +8,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.looks.colours import colour_of
 from nivel.looks.joints import sliding_axes, turning_axes
@@ -21,6 +22,7 @@ from nivel.results.beam_nodes import beam_nodes, stations
 if TYPE_CHECKING:
     from nivel.results.result import Result
 
+Numbers = NDArray[np.intp]
 SHAPES = 11  # of each beam
 PATH = 400  # points of a path, at most
 FAINT = 0.22  # opacity of the first shape; the last one has all
@@ -46,19 +48,22 @@ def beam_shapes(result: Result) -> str:
     paths = known[np.unique(np.linspace(0, len(known) - 1, PATH).astype(int))]
     bodies = result.coordinates["body"]
     ends = [bodies.index(name) for beam in nodes for name in stations(result, beam)]
-    shown = np.concatenate([position[np.ix_(at, own)].reshape(-1, 3) for own in nodes.values()])
+    shown = np.concatenate([position[at][:, own].reshape(-1, 3) for own in nodes.values()])
     frame = _frame(result, np.concatenate([shown, position[np.ix_(paths, ends)].reshape(-1, 3)]), int(at[0]))
-    lines = {name: frame.pixels(position[np.ix_(at, own)]) for name, own in nodes.items()}
+    lines = {name: frame.pixels(position[at][:, own]) for name, own in nodes.items()}
     tracks = [frame.pixels(position[paths, end]) for end in ends]
     return _svg(frame, lines, tracks, result.time[at])
 
 
-def _evenly(times: Array) -> Array:
+def _evenly(times: Array) -> Numbers:
     """Numbers of frames evenly over the time, or where that goes back, as along a path of equilibria, over the frames."""
     count = len(times)
     if np.any(np.diff(times) <= 0.0):
         return np.unique(np.linspace(0, count - 1, SHAPES).astype(int))
-    return np.unique(np.searchsorted(times, np.linspace(times[0], times[-1], SHAPES)).clip(max=count - 1))
+    wanted = np.linspace(times[0], times[-1], SHAPES) - 1e-9 * (
+        times[-1] - times[0]
+    )  # a frame at this time is not missed
+    return np.unique(np.searchsorted(times, wanted).clip(max=count - 1))
 
 
 def _frame(result: Result, cloud: Array, first: int) -> Frame:
@@ -82,7 +87,7 @@ def _svg(frame: Frame, lines: dict[str, Array], tracks: list[Array], times: Arra
                 f'<path class="line" {style} d="{_path(shape[k])}"><title>{escape(name)}, {times[k]:.4g} s</title></path>'
             )
     last = list(lines.values())[-1][:, -1]
-    labels = [Label(f"{time:.3g} s", *last[k].tolist(), "aid") for k, time in enumerate(times)]
+    labels = [Label(f"{time:.3g} s", float(x), float(y), "aid") for time, (x, y) in zip(times, last, strict=True)]
     placed = place(labels, np.array([*bar_strip(bar), triad]), np.empty((0, 2, 2)), WIDTH, frame.height)
     texts = (
         f'<text x="{each.centre[0]:.1f}" y="{each.centre[1] + 4.0:.1f}">{each.label.text}</text>' for each in placed

@@ -107,8 +107,10 @@ def test_a_general_section_is_taken_as_it_is():
 
 
 def test_offsets_move_where_a_force_does_not_bend_or_twist():
-    """A tension N through the centroid (y, z) bends nothing there: at the line it comes with M_y = z N, M_z = -y N. A shear force V_z through
-    the shear centre twists nothing: at the line it comes with a torque y V_z; V_y with -z V_y."""
+    """A tension N through the centroid (y, z) bends nothing there: at the line it comes with M_y = z N, M_z = -y N.
+
+    A shear force V_z through the shear centre twists nothing: at the line it comes with a torque y V_z; V_y with -z V_y.
+    """
     (yc, zc), (ys, zs) = (0.02, -0.01), (0.005, 0.03)
     found = beam(centroid=(yc, zc), shear_centre=(ys, zs)).properties
     tension = np.linalg.solve(found.stiffness, [7.0, 0, 0, 0, zc * 7.0, -yc * 7.0])

@@ -95,4 +95,4 @@ def _mass(section: BeamSection, order: int, length: float, *, lumped: bool) -> A
     carried = np.hstack([np.eye(3), lever])
     point = section.mass * carried.T @ carried
     point[3:, 3:] += section.inertia
-    return np.kron(shares, point)
+    return np.asarray(np.kron(shares, point), dtype=float)

@@ -49,7 +49,7 @@ def beam_shapes(result: Result) -> str:
     bodies = result.coordinates["body"]
     ends = [bodies.index(name) for beam in nodes for name in stations(result, beam)]
     shown = np.concatenate([position[at][:, own].reshape(-1, 3) for own in nodes.values()])
-    frame = _frame(result, np.concatenate([shown, position[np.ix_(paths, ends)].reshape(-1, 3)]), int(at[0]))
+    frame = _frame(result, np.concatenate([shown, position[paths][:, ends].reshape(-1, 3)]), int(at[0]))
     lines = {name: frame.pixels(position[at][:, own]) for name, own in nodes.items()}
     tracks = [frame.pixels(position[paths, end]) for end in ends]
     return _svg(frame, lines, tracks, result.time[at])

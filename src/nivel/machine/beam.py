@@ -31,7 +31,9 @@ from nivel.machine.section import Material
 Array = NDArray[np.float64]
 START, END = "start", "end"
 LEAST: Final = 1e-4  # share of the length by which stations and ends are apart, at least
-MOST_TURN: Final = 0.5 * np.pi + 1e-6  # of an element, unstressed: rotations within it are interpolated as vectors [rad]
+MOST_TURN: Final = (
+    0.5 * np.pi + 1e-6
+)  # of an element, unstressed: rotations within it are interpolated as vectors [rad]
 FARTHEST: Final = 1e9  # m; farther points are slips, and their squares may overflow
 
 Points = Annotated[tuple[Position, ...], BeforeValidator(listed)]
@@ -179,7 +181,9 @@ class Beam(Checked):
         missing = missing_shear_areas(self.section)
         if missing:
             words = " and ".join(f"`{name}`" for name in missing)
-            message = f"{words} {'is' if len(missing) == 1 else 'are'} missing: a beam of large motion deforms by shear too"
+            message = (
+                f"{words} {'is' if len(missing) == 1 else 'are'} missing: a beam of large motion deforms by shear too"
+            )
             yield Problem(("section",), message)
 
     def _problems_of_stations(self) -> Iterator[Problem]:

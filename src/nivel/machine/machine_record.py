@@ -90,7 +90,9 @@ class MachineRecord(Checked):
         faults = reference_faults(data, parameters_of(info))
         lines = [InitErrorDetails(type=fault(text), loc=place, input=None) for place, text in faults]
         if entry(data, "bodies") in (None, (), []) and entry(data, "beams") in (None, (), []):
-            lines.append(InitErrorDetails(type=fault("a machine needs at least one body or beam"), loc=("bodies",), input=None))
+            lines.append(
+                InitErrorDetails(type=fault("a machine needs at least one body or beam"), loc=("bodies",), input=None)
+            )
         try:
             record = handler(data)
         except ValidationError as error:

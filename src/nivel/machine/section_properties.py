@@ -74,7 +74,9 @@ def _rectangle(b: float, h: float, shear: float) -> Section:
     torsion = small**3 * large / 3.0 * (1.0 - 192.0 / np.pi**5 * small / large * series)
     fibres = _border(b, h)
     # the greatest stress, in the middle of the long sides, is taken for all four; the corners have none
-    decay = np.exp(-n * np.pi * large / (2.0 * small))  # 1/cosh x = 2 e⁻ˣ/(1 + e⁻²ˣ), which does not overflow where thin
+    decay = np.exp(
+        -n * np.pi * large / (2.0 * small)
+    )  # 1/cosh x = 2 e⁻ˣ/(1 + e⁻²ˣ), which does not overflow where thin
     top = 1.0 - 8.0 / np.pi**2 * np.sum(2.0 * decay / (n**2 * (1.0 + decay**2)))
     twist = _tangent(fibres) * (small * top / torsion)
     return Section(b * h, b * h**3 / 12.0, h * b**3 / 12.0, torsion, shear * b * h, shear * b * h, fibres, twist)

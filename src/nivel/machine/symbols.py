@@ -74,7 +74,9 @@ def find_in(path: str, index: Index) -> Symbol:
         message = f"`{name}` is a force and has no symbols; what it depends on is measured by a sensor of `distance` or `angle`"
         raise UnknownSymbolError(message)
     if name in index.beams:
-        raise UnknownSymbolError(f"`{name}` is a beam and has no symbols; name a marker at one of its stations and use that")
+        raise UnknownSymbolError(
+            f"`{name}` is a beam and has no symbols; name a marker at one of its stations and use that"
+        )
     known = [each for elements in _quantities(index).values() for each, its in elements.items() if its]
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""

@@ -40,7 +40,9 @@ class Contact(ForceElement):
     plane: MarkerPlace | None = Field(
         default=None, description="a marker: its point lies in the plane, its z axis points out of it"
     )
-    bodies: tuple[BodyName, BodyName] | None = Field(default=None, description="two spheres, in place of `body` and `plane`")
+    bodies: tuple[BodyName, BodyName] | None = Field(
+        default=None, description="two spheres, in place of `body` and `plane`"
+    )
     exponent: Exponent = Field(default=HERTZ, description="of the depth")
     stiffness: PowerStiffness | None = Field(default=None, description="force by depth ** exponent")
     materials: tuple[Material, Material] | None = Field(

@@ -52,7 +52,8 @@ def beam_shapes(result: Result) -> str:
     frame = _frame(result, np.concatenate([shown, position[paths][:, ends].reshape(-1, 3)]), int(at[0]))
     lines = {name: frame.pixels(position[at][:, own]) for name, own in nodes.items()}
     tracks = [frame.pixels(position[paths, end]) for end in ends]
-    return _svg(frame, lines, tracks, result.time[at])
+    colours = [colour_of(int(own[0])) for own in nodes.values()]  # as in the picture of the machine
+    return _svg(frame, lines, colours, tracks, result.time[at])
 
 
 def _evenly(times: Array) -> Numbers:
@@ -75,14 +76,14 @@ def _frame(result: Result, cloud: Array, first: int) -> Frame:
     return fit(view, cloud, cloud)
 
 
-def _svg(frame: Frame, lines: dict[str, Array], tracks: list[Array], times: Array) -> str:
+def _svg(frame: Frame, lines: dict[str, Array], colours: list[str], tracks: list[Array], times: Array) -> str:
     drawn = np.concatenate([each.reshape(-1, 2) for each in (*lines.values(), *tracks)])
     frame, triad, bar = aid_places(drawn, frame)
     parts = [f'<path class="path" d="{_path(track)}"/>' for track in tracks if np.ptp(track, axis=0).max() > 1.0]
     opacity = FAINT + (1.0 - FAINT) * np.linspace(0.0, 1.0, len(times)) ** 1.5
     for k in range(len(times)):
-        for number, (name, shape) in enumerate(lines.items()):
-            style = f'stroke="{colour_of(number)}" stroke-opacity="{opacity[k]:.2f}"'
+        for colour, (name, shape) in zip(colours, lines.items(), strict=True):
+            style = f'stroke="{colour}" stroke-opacity="{opacity[k]:.2f}"'
             parts.append(
                 f'<path class="line" {style} d="{_path(shape[k])}"><title>{escape(name)}, {times[k]:.4g} s</title></path>'
             )

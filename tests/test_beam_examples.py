@@ -37,7 +37,7 @@ def test_example_runs_green(name, run):
 
 
 def test_hinged_beams_follow_the_converged_solution():
-    """Within 0.05 m of 17 m that the tip travels; the script is what a reader runs."""
+    """Within 0.05 m, where the tip moves by up to 13 m; the script is what a reader runs."""
     script = runpy.run_path(str(EXAMPLES / "hinged_beams.py"))
     time, tip = script["tip_displacement"](20, output_interval=0.1)
     expected = np.array(hinged_beams.TIP)

@@ -32,7 +32,7 @@ def main(picture: str | None = None) -> None:
             axes.plot(time, curve, style, color=f"C{k}", label=f"{name}, {elements} elements a beam")
     axes.set(xlabel="time, s", ylabel="displacement of the tip, m", title="Two hinged beams, Newmark, h = 0.01 s")
     axes.grid(alpha=0.3)
-    axes.legend(ncols=2, fontsize="small")
+    figure.legend(loc="outside lower center", ncols=4, fontsize="small")
     if picture:
         figure.savefig(picture, dpi=150)
     else:

@@ -100,9 +100,11 @@ def test_every_word_is_mentioned():
 
 
 def test_every_option_has_its_row():
-    command = main.get_command(Context(main), "reduce")
-    options = {word for parameter in command.params for word in parameter.opts if word.startswith("-")}
-    assert options == set(re.findall(r"^\| `(--[\w-]+)`", PAGE, re.MULTILINE)) | {"-o"}
+    for name, title, more in (("reduce", "Flexible bodies", {"-o"}), ("stress", "Stress of a run", set())):
+        command = main.get_command(Context(main), name)
+        options = {word for parameter in command.params for word in parameter.opts if word.startswith("-")}
+        rows = [line.split("|")[1] for line in section(title).splitlines() if line.startswith("|")]
+        assert options == {word for row in rows for word in re.findall(r"--[a-z][\w-]*", row)} | more
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)

@@ -33,7 +33,9 @@ def test_public_names_exist_and_are_few():
         _ = nivel.nothing_of_this_name
 
 
-@pytest.mark.parametrize("command", ["new", "check", "run", "compare", "reduce", "view", "explain", "export", "warmup"])
+@pytest.mark.parametrize(
+    "command", ["new", "check", "run", "compare", "reduce", "view", "explain", "stress", "export", "warmup"]
+)
 def test_every_command_has_help(command):
     done = subprocess.run(
         [sys.executable, "-m", "nivel", command, "--help"], capture_output=True, text=True, check=False

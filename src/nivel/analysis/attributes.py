@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import nivel
 from nivel.analysis.dynamics import Prepared
 from nivel.analysis.settings import RunSettings
+from nivel.flexible.identity import fingerprint
 from nivel.machine.machine_record import MachineRecord
+from nivel.results.body_sources import ATTRIBUTE, BodySource, as_attribute
 from nivel.system.beam_nodes import with_nodes
+from nivel.system.flexible import bending_bodies
 from nivel.system.scene import scene
 
 
@@ -30,6 +34,7 @@ def run_attributes(
         "outcome": "running",
         "coordinate_units": json.dumps(dict(zip(coordinates, system.coordinate_units, strict=True))),
         "constraint_units": json.dumps(dict(zip(system.rows, system.row_units, strict=True))),
+        ATTRIBUTE: as_attribute(_bodies(machine)),
         "assembly": json.dumps(
             {
                 "gap": assembly.gap,
@@ -39,3 +44,14 @@ def run_attributes(
             }
         ),
     }
+
+
+def _bodies(machine: MachineRecord) -> list[BodySource]:
+    """Where the flexible bodies came from."""
+    out = []
+    for each in bending_bodies(machine):
+        body = machine.bodies[each.body]
+        assert body.flexible is not None
+        file = str(Path(body.flexible.file).resolve())
+        out.append(BodySource(body.name, file, each.modes, fingerprint(each.reduced)))
+    return out

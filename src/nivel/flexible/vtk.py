@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import struct
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Final
 from xml.sax.saxutils import quoteattr
@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.flexible.body import ReducedBody
-from nivel.flexible.recovery import displacement, stress, von_mises
+from nivel.flexible.recovery import displacement, signed_principal, stress, von_mises
 
 Array = NDArray[np.float64]
+State = tuple[float, Array, dict[str, Array]]  # time, places of nodes, fields at them
 
 LINE, TRIANGLE, TETRAHEDRON, TETRAHEDRON_10 = 3, 5, 10, 24  # VTK's numbers of cells
 AMPLITUDE: Final = 0.1  # of the size of the body: displacement of a mode
@@ -40,7 +41,7 @@ def write_modes(body: ReducedBody, path: str | Path) -> list[Path]:
 def write_motion(
     body: ReducedBody,
     path: str | Path,
-    times: Array,
+    times: Iterable[float],
     q: Array,
     position: Array | None = None,
     rotation: Array | None = None,
@@ -49,27 +50,34 @@ def write_motion(
 
     times : (t,) [s]; q : (t, n); position : (t, 3) [m] of the body frame and rotation : (t, 3, 3), default at rest.
     """
-    states = []
-    for k, time in enumerate(times):
-        place = body.position + displacement(body, q[k])[0]
-        if rotation is not None:
-            place = place @ rotation[k].T
-        if position is not None:
-            place = place + position[k]
-        states.append((float(time), place, _fields(body, q[k])))
-    return _collection(body, Path(path), states)
+
+    def states() -> Iterator[State]:
+        for k, time in enumerate(times):
+            place = body.position + displacement(body, q[k])[0]
+            if rotation is not None:
+                place = place @ rotation[k].T
+            if position is not None:
+                place = place + position[k]
+            yield float(time), place, _fields(body, q[k])
+
+    return _collection(body, Path(path), states())
 
 
 def _fields(body: ReducedBody, q: Array) -> dict[str, Array]:
     out = {"displacement": displacement(body, q)[0]}
     if body.stress is not None:
-        largest = np.zeros(len(body.position))
-        np.maximum.at(largest, body.stress.station_node, von_mises(stress(body, q)[0]))
+        now, nodes = stress(body, q)[0], body.stress.station_node
+        largest, highest, lowest = np.zeros((3, len(body.position)))
+        np.maximum.at(largest, nodes, von_mises(now))
+        signed = signed_principal(now)
+        np.maximum.at(highest, nodes, signed)
+        np.minimum.at(lowest, nodes, signed)
         out["von_mises_stress"] = largest
+        out["signed_principal_stress"] = np.where(-lowest > highest, lowest, highest)
     return out
 
 
-def _collection(body: ReducedBody, path: Path, states: list[tuple[float, Array, dict[str, Array]]]) -> list[Path]:
+def _collection(body: ReducedBody, path: Path, states: Iterable[State]) -> list[Path]:
     if path.suffix != ".pvd":
         raise ModelError(f"{path}: the name of a VTK collection ends with .pvd")
     files, lines = [], []

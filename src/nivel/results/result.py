@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from nivel.results.recovered import RecoveredBody
     from nivel.view.inline import Inline
 
 
@@ -207,6 +208,16 @@ class Result:
         from nivel.results.labelled import dataset
 
         return dataset(self)
+
+    def recover(self, body: str | None = None, *, file: str | os.PathLike[str] | None = None) -> RecoveredBody:
+        """Displacement and stress of a flexible body over the run; without a name, of the only one.
+
+        file : where the file of the body is now, if it was moved. Raises ModelError where the body is not flexible, or its file is gone
+        or was changed since the run.
+        """
+        from nivel.results.recovered import RecoveredBody
+
+        return RecoveredBody(self, body, file)
 
     # --- for people ---
 

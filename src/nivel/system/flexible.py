@@ -23,11 +23,12 @@ from nivel.system.tables import Array, index_array
 
 @dataclass(frozen=True)
 class Bending:
-    """A body of the machine that bends: its number, its modes, their damping (n,) [1/s]."""
+    """A body of the machine that bends: its number, its modes, their damping (n,) [1/s], their places among all of its file."""
 
     body: int
     reduced: ReducedBody
     damping: Array
+    modes: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -73,8 +74,10 @@ def bending_bodies(machine: MachineRecord) -> tuple[Bending, ...]:
             message = f"{count} modes are asked for, {body.flexible.file} has {len(whole.eigenvalues)}"
             faults.append(Fault("", 0, 0, f"bodies.{body.name}.flexible.modes", message))
             continue
-        reduced = whole.keeping(np.sort(np.argsort(whole.eigenvalues, kind="stable")[:count]))
-        bending.append(Bending(k, reduced, 2.0 * body.flexible.damping_ratio * np.sqrt(reduced.eigenvalues)))
+        taken = np.sort(np.argsort(whole.eigenvalues, kind="stable")[:count])
+        reduced = whole.keeping(taken)
+        damping = 2.0 * body.flexible.damping_ratio * np.sqrt(reduced.eigenvalues)
+        bending.append(Bending(k, reduced, damping, tuple(taken.tolist())))
     if faults:
         raise ModelError(faults)
     return tuple(bending)

@@ -1,0 +1,209 @@
+"""`nivel stress RESULT`: where and when a flexible body of a run is stressed most, and how at chosen nodes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from nivel.cli.options import file_argument, quiet_option, separated
+from nivel.cli.progress import progress_stage
+
+if TYPE_CHECKING:
+    from nivel.results.recovered import RecoveredBody
+
+FILE = click.Path(dir_okay=False, path_type=Path)
+
+
+@click.command(short_help="Say where and when a flexible body is stressed most.")
+@file_argument("result")
+@click.option("--body", metavar="NAME", help="Which flexible body; not needed where there is only one.")
+@click.option("--body-file", type=FILE, help="Where the file of the body is now, if it was moved since the run.")
+@click.option("--count", type=click.IntRange(min=1), default=5, show_default=True, help="How many hot spots.")
+@click.option(
+    "--node",
+    "nodes",
+    metavar="NODES",
+    multiple=True,
+    callback=separated,
+    help="History at these nodes: numbers, or names of interfaces, separated by commas.",
+)
+@click.option(
+    "--at",
+    "times",
+    metavar="TIMES",
+    multiple=True,
+    callback=separated,
+    help="State at these times, e.g. '0.5 s, 1 s': the frames nearest to them.",
+)
+@click.option("--strain", "strains", is_flag=True, help="Write strains too, with --csv and --node.")
+@click.option(
+    "--csv",
+    "table",
+    type=FILE,
+    help="Write a table: with --node a row per frame, with --at the states, else the largest stress of every station.",
+)
+@click.option("--rainflow", "cycles", type=FILE, help="Write the cycles at the nodes of --node as a table.")
+@click.option("--plot", "picture", type=FILE, help="Draw the history at the nodes of --node (.png, .svg, .pdf).")
+@click.option("--vtk", type=FILE, help="Write the motion for ParaView (.pvd), or only the frames of --at.")
+@click.option("--force", is_flag=True, help="Replace existing files.")
+@quiet_option
+@click.option("--json", "as_json", is_flag=True, help="Print what was found as JSON on standard output.")
+def command(
+    result: str,
+    body: str | None,
+    body_file: Path | None,
+    count: int,
+    nodes: tuple[str, ...] | None,
+    times: tuple[str, ...] | None,
+    strains: bool,
+    table: Path | None,
+    cycles: Path | None,
+    picture: Path | None,
+    vtk: Path | None,
+    force: bool,
+    quiet: bool,
+    as_json: bool,
+) -> None:
+    """Recover the stress of a flexible body from RESULT: hot spots with the time of their worst state, histories, cycles.
+
+    RESULT may be of a run that still goes on or was killed. The file of the body must be the one of the run.
+    """
+    _refuse_without_nodes(nodes, {"--rainflow": cycles, "--plot": picture, "--strain": strains})
+    if strains and table is None:
+        raise click.UsageError("--strain needs --csv: the table in which the strains stand")
+    from nivel.results import Result
+    from nivel.results.stress_facts import facts
+
+    opened = Result.open(result)
+    moments = _times(times or ())
+    with progress_stage(quiet) as stage:
+        stage("reading", 0.0)
+        found = opened.recover(body, file=body_file)
+        wanted = _known_nodes(found, nodes or ())
+        for moment in moments:
+            found.frame(moment)
+        _refuse_to_replace((table, cycles, picture, vtk), force, [Path(result), found.file])
+        stage("looking for hot spots", 0.1)
+        told = facts(found, count=count, nodes=wanted, times=moments)
+        stage("writing", 0.6)
+        _write(found, wanted, moments, strains=strains, table=table, cycles=cycles, picture=picture)
+        if vtk is not None:
+            found.write_vtk(vtk, moments or None, told=lambda text, share: stage(text, 0.6 + 0.4 * share))
+    if as_json:
+        click.echo(json.dumps(told, indent=2))
+    if not quiet:
+        _say(told, as_json)
+        for name, path in (("table", table), ("cycles", cycles), ("plot", picture), ("motion", vtk)):
+            if path is not None:
+                click.echo(f"{name}: {path}", err=True)
+
+
+def _refuse_without_nodes(nodes: tuple[str, ...] | None, needing: dict[str, Any]) -> None:
+    missing = [option for option, value in needing.items() if value]
+    if missing and not nodes:
+        raise click.UsageError(f"{missing[0]} needs --node: the nodes whose history it is of")
+
+
+def _times(words: tuple[str, ...]) -> list[float]:
+    """[s] of `0.5`, `500 ms`."""
+    from nivel.errors import Fault, ModelError
+    from nivel.machine.quantity import read_quantity
+
+    out, faults = [], []
+    for word in words:
+        try:
+            out.append(read_quantity(word, "time", {}))
+        except ValueError as error:
+            faults.append(Fault("", 0, 0, "--at", str(error)))
+    if faults:
+        raise ModelError(faults)
+    return out
+
+
+def _known_nodes(found: RecoveredBody, words: tuple[str, ...]) -> list[int]:
+    """Numbers of nodes that have stress, each once. Raises ModelError naming all that are unknown."""
+    from nivel.errors import ModelError
+
+    out, faults = {}, []
+    for word in words:
+        try:
+            number = found.node(word)
+            found.labels(number)
+            out[number] = None
+        except ModelError as error:
+            faults += error.faults
+    if faults:
+        raise ModelError(faults)
+    return list(out)
+
+
+def _refuse_to_replace(targets: tuple[Path | None, ...], force: bool, sources: list[Path]) -> None:
+    from nivel.results.target import check_text_target
+
+    for path, what in zip(targets, ("table", "table of cycles", "plot", "VTK file"), strict=True):
+        if path is not None:
+            check_text_target(path, what, force=force, sources=sources)
+
+
+def _write(
+    found: RecoveredBody,
+    nodes: list[int],
+    times: list[float],
+    *,
+    strains: bool,
+    table: Path | None,
+    cycles: Path | None,
+    picture: Path | None,
+) -> None:
+    from nivel.results.stress_tables import write_cycles, write_envelope, write_history, write_states
+
+    if table is not None:
+        if nodes:
+            write_history(table, found, nodes, strains=strains)
+        elif times:
+            write_states(table, found, times)
+        else:
+            write_envelope(table, found)
+    if cycles is not None:
+        write_cycles(cycles, found, nodes)
+    if picture is not None:
+        from nivel.results.stress_plot import save_plot
+
+        save_plot(picture, found, nodes)
+
+
+def _say(facts: dict[str, Any], to_standard_error: bool) -> None:
+    """The facts as tables for people: on standard output, unless JSON is there."""
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False, stderr=to_standard_error)
+    console.print(f"{facts['body']}: largest stress at {facts['worst_time']:.6g} s", markup=False)
+    spots = Table(box=None, pad_edge=False)
+    for heading in ("node", "station", "von Mises [MPa]", "principal [MPa]", "time [s]", "place [m]"):
+        spots.add_column(heading, justify="left" if heading in ("station", "place [m]") else "right", no_wrap=True)
+    for spot in facts["hot_spots"]:
+        place = ", ".join(f"{x:.4g}" for x in spot["position"])
+        values = (f"{spot['von_mises'] / 1e6:.5g}", f"{spot['signed_principal'] / 1e6:+.5g}", f"{spot['time']:.6g}")
+        spots.add_row(str(spot["node"]), spot["station"], *values, place)
+    console.print(spots)
+    for state in facts["states"]:
+        where = f"node {state['node']} {state['station']}".strip()
+        console.print(
+            f"at {state['time']:.6g} s: {state['von_mises'] / 1e6:.5g} MPa at {where}, displacement up to "
+            f"{1e3 * state['displacement']:.5g} mm",
+            markup=False,
+            soft_wrap=True,
+        )
+    for node in facts["nodes"]:
+        console.print(
+            f"node {node['node']}: von Mises up to {node['von_mises'] / 1e6:.5g} MPa at {node['time']:.6g} s; signed principal "
+            f"{node['least'] / 1e6:+.5g} to {node['greatest'] / 1e6:+.5g} MPa {node['station']}".rstrip(),
+            markup=False,
+            soft_wrap=True,
+        )
+        for low, high, number in node["cycles"]:
+            console.print(f"  {number:g} cycles of {low / 1e6:.4g} to {high / 1e6:.4g} MPa", markup=False)

@@ -20,6 +20,7 @@ from nivel.analysis.implicit import Wanted, equip
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
 from nivel.analysis.mobility import bound_pivots
+from nivel.analysis.modal_rows import modal_rows
 from nivel.analysis.outcome import failure
 from nivel.analysis.penalties import feedback, penalise
 from nivel.analysis.redundancy import Redundancy, analyse
@@ -31,7 +32,6 @@ from nivel.analysis.refusals import (
     refuse_friction_at_jumps,
     refuse_implicit_stiction,
     refuse_moved_nodes,
-    refuse_redundant_flexible,
     refuse_rough_motions,
     refuse_uncertain_loads,
     refuse_unsettled_multipliers,
@@ -141,7 +141,8 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
 
         rest = settled(machine)
         assembly = rest.assembled(motion, assembly)
-    redundancy = analyse(motion, 0.0, assembly.y)
+    rigid = analyse(motion, 0.0, assembly.y)
+    redundancy = analyse(motion, 0.0, assembly.y, modal_rows(machine, motion.system)) if machine.is_flexible else rigid
     if redundancy.singular_rows:
         rows = ", ".join(redundancy.singular_rows)
         message = f"the machine starts in a singular position: {rows} adds nothing here but does nearby; start it a little aside"
@@ -151,9 +152,9 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     refuse_implicit_stiction(machine)
     refuse_rough_motions(machine)
     refuse_friction_at_jumps(machine)
-    refuse_redundant_flexible(machine, redundancy)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
-    absolute = MotionEquations(motion.system.known_rank(rank), motion.kernels)
+    known = motion.system.known_rank(motion.system.machine_rows - len(rigid.redundant_rows))
+    absolute = MotionEquations(known, motion.kernels)
     refuse_deep_starts(machine, absolute, assembly.y)
     kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass}
     facts = path_of(coordinates, formulation, machine.simulation.rotations, **kinds)

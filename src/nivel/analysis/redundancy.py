@@ -8,6 +8,7 @@ import numpy as np
 
 from nivel.analysis.closing import close_positions
 from nivel.analysis.equations import MotionEquations, change_between, moved
+from nivel.analysis.modal_rows import ModalRows
 from nivel.kernels.status import OK
 from nivel.system.system import Array
 
@@ -21,7 +22,7 @@ ASIDE = 1e-3
 
 @dataclass(frozen=True)
 class Redundancy:
-    """Rank of the joint rows at the assembled position.
+    """Rank of the joint rows at the assembled position; bodies that bend may make rows independent that were not between rigid ones.
 
     redundant_rows : rows that add nothing to the rows named before them. non_unique_joints : joints with reactions that the equations
     of rigid bodies do not determine. singular : rows lost at this position only, not nearby.
@@ -34,18 +35,18 @@ class Redundancy:
     singular_rows: tuple[str, ...]
 
 
-def analyse(motion: MotionEquations, t: float, y: Array) -> Redundancy:
-    """Rank of the constraints at state y, which must be assembled."""
+def analyse(motion: MotionEquations, t: float, y: Array, modes: ModalRows | None = None) -> Redundancy:
+    """Rank of the constraints at state y, which must be assembled; `modes` : of bodies that bend, undeformed at y."""
     system = motion.system
     rows = system.machine_rows
-    freedoms = system.freedoms
+    freedoms = system.freedoms + (modes.count if modes is not None else 0)
     if motion.evaluate(t, y)[0] == OK and _certainly_independent(motion):
         return Redundancy(freedoms - rows, rows, (), (), ())
-    J = _scaled(motion)
+    J = _scaled(motion, modes)
     rank, dependent = _dependent_rows(J)
     if not dependent:
         return Redundancy(freedoms - rows, rows, (), (), ())
-    nearby = _rank_nearby(motion, t, y, J, rank)
+    nearby = _rank_nearby(motion, t, y, rank, modes)
     names = tuple(system.rows[row] for row in dependent)
     U, _, _ = np.linalg.svd(J)
     loose = np.abs(U[:, rank:]).max(axis=1) > 1e-6
@@ -67,11 +68,13 @@ def _certainly_independent(motion: MotionEquations) -> bool:
     return bool(np.all(saddle.Dinv * diagonal < 1.0 / CERTAIN))
 
 
-def _scaled(motion: MotionEquations) -> Array:
-    """C_q with lengths in units of the machine's length and rows of unit length."""
+def _scaled(motion: MotionEquations, modes: ModalRows | None = None) -> Array:
+    """C_q with lengths in units of the machine's length and rows of unit length; the columns of modes behind the others."""
     J = motion.jacobian().reshape(motion.system.machine_rows, -1, 6).copy()
     J[:, :, :3] *= motion.system.size
     J = J.reshape(len(J), -1)
+    if modes is not None:
+        J = np.hstack([J, modes.columns(motion)])
     return J / np.linalg.norm(J, axis=1, keepdims=True)
 
 
@@ -90,11 +93,12 @@ def _dependent_rows(J: Array) -> tuple[int, list[int]]:
     return rank, sorted(np.argsort(left, kind="stable")[:missing].tolist())
 
 
-def _rank_nearby(motion: MotionEquations, t: float, y: Array, J: Array, rank: int) -> int:
-    """Rank a little aside along a free motion, joints closed again: larger than `rank` where only this position is singular."""
+def _rank_nearby(motion: MotionEquations, t: float, y: Array, rank: int, modes: ModalRows | None) -> int:
+    """Rank a little aside along a free motion of the rigid machine, joints closed again: larger than `rank` where only this position is
+    singular."""
     system = motion.system
-    _, _, Vt = np.linalg.svd(J)
-    free = Vt[rank:]
+    _, sizes, Vt = np.linalg.svd(_scaled(motion))
+    free = Vt[int(np.sum(sizes > DEPENDENT)) :]
     if not len(free):
         return rank
     share = np.random.default_rng(0).standard_normal(len(free))
@@ -112,4 +116,4 @@ def _rank_nearby(motion: MotionEquations, t: float, y: Array, J: Array, rank: in
         # a motion of the first order only, as of two links stretched out between two pins: closing leads back
         aside[: system.positions] = opened
         motion.evaluate(t, aside)
-    return max(rank, int(np.sum(np.linalg.svd(_scaled(motion), compute_uv=False) > ASIDE**2)))
+    return max(rank, int(np.sum(np.linalg.svd(_scaled(motion, modes), compute_uv=False) > ASIDE**2)))

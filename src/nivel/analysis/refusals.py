@@ -225,16 +225,6 @@ def refuse_moved_nodes(machine: MachineRecord, moved: Sequence[tuple[str, float,
         raise ModelError(faults)
 
 
-def refuse_redundant_flexible(machine: MachineRecord, redundancy: Redundancy) -> None:
-    """Redundant joints of rigid bodies, which may be none of flexible ones: how many are left is not known."""
-    if machine.is_flexible and redundancy.redundant_rows:
-        message = (
-            f"{', '.join(redundancy.redundant_rows)} would be redundant if all bodies were rigid, and some are flexible: replace joints "
-            f"until nothing is redundant"
-        )
-        raise ModelError(Fault("", 0, 0, "joints", message))
-
-
 def refuse_uncertain_loads(machine: MachineRecord, redundancy: Redundancy) -> None:
     """Friction whose normal load is a reaction that the equations do not determine: the motion would be one of many."""
     faults = []

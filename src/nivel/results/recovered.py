@@ -91,7 +91,7 @@ class RecoveredBody:
     def labels(self, node: int | str) -> list[str]:
         """What the stations at a node are called: fibres of beams; one name, empty, of nodes of solids."""
         names = stress_modes(self.body).labels
-        return [names[k] if names else "" for k in self._stations(node)]
+        return [names[k] if names else "" for k in stations_at(self.body, self.node(node))]
 
     # --- histories ---
 
@@ -183,7 +183,7 @@ class RecoveredBody:
                 told(f"writing frame {k + 1} of {len(frames)}", k / len(frames))
                 yield float(self.time[frame])
 
-        return write_motion(self.body, path, followed(), self.q[frames], R, A)
+        return write_motion(self.body, Path(path), followed(), self.q[frames], R, A)
 
 
 def _rotation(theta: Array) -> Array:

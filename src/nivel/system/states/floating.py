@@ -37,11 +37,11 @@ def arrange(
     """
     del settings
     bending = bending_bodies(machine)
-    return with_modes(absolute, y, rank, bending, _carried(absolute, machine, bending))
+    return with_modes(absolute, y, rank, bending, carried_markers(absolute, machine, bending))
 
 
-def _carried(absolute: System, machine: MachineRecord, bending: Sequence[Bending]) -> dict[int, tuple[int, int]]:
-    """Flexible body and interface of every marker that is at one."""
+def carried_markers(absolute: System, machine: MachineRecord, bending: Sequence[Bending]) -> dict[int, tuple[int, int]]:
+    """Flexible body and interface of every marker that is at one. Raises ModelError naming every marker that is at none."""
     markers, found, faults = absolute.record.markers, {}, []
     for f, each in enumerate(bending):
         reduced, name = each.reduced, machine.bodies[each.body].name

@@ -1,0 +1,108 @@
+"""Redundant joints between flexible bodies: modes count in the rank, what is left redundant is named and run knowingly."""
+
+import numpy as np
+import pytest
+from scipy.linalg import block_diag
+
+from models import bar, reduced
+from nivel.analysis.dynamics import prepare
+from nivel.analysis.mobility import mobility
+from nivel.analysis.modal_rows import modal_rows
+from nivel.errors import ModelError
+from nivel.flexible import reference
+from nivel.flexible.body_file import write_body
+from nivel.machine import Body, Friction, Joint, MachineRecord
+from running import run
+
+ALONG = "reference: mean-axis, modes: given, shapes: [{y: x^2}, {y: x^3}, {y: x^4}]"
+POINTS = ((0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0))
+PAIRS = (("ground", "left"), ("left", "top"), ("top", "right"), ("ground", "right"))
+SPACE, PLANE = "modes: 3", ALONG
+
+
+def four_bar(folder, reduction, *, redundant=True, forces=()):
+    """A square of bars of 1 m on hinges along z, or on two of these, a spherical and a universal joint."""
+    body, _ = reduced(bar(length=1.0, width=0.02, height=0.021, elements=8, reduction=reduction))
+    write_body(body, folder / "rod.nc")
+    flexible = {"file": str(folder / "rod.nc"), "damping_ratio": 0.02}
+    places = (("left", (0, 0, 0), 90), ("top", (0, 1, 0), 0), ("right", (1, 0, 0), 90))
+    bodies = tuple(
+        Body(name=name, flexible=flexible, position=place, orientation={"axis": (0, 0, 1), "angle": f"{angle} deg"})
+        for name, place, angle in places
+    )
+    joints = []
+    for k, (pair, point) in enumerate(zip(PAIRS, POINTS, strict=True)):
+        if redundant or k in (0, 3):
+            joint = Joint(name=f"hinge{k}", type="revolute", bodies=pair, point=point, axis=(0, 0, 1))
+        elif k == 1:
+            joint = Joint(name="hinge1", type="spherical", bodies=pair, point=point)
+        else:
+            joint = Joint(name="hinge2", type="universal", bodies=pair, point=point, axes=((0, 1, 0), (0, 0, 1)))
+        joints.append(joint)
+    return MachineRecord(name="square", gravity=(3.0, -9.81, 0.0), bodies=bodies, joints=tuple(joints), forces=forces)
+
+
+def test_modal_columns_are_those_of_the_kernels(tmp_path):
+    """The diagonal of S = C_q M⁻¹ C_qᵀ, with M of the NumPy reference and C_q of bodies and modes."""
+    machine = four_bar(tmp_path, SPACE)
+    prepared = prepare(machine)
+    prepared.absolute.evaluate(0.0, prepared.assembly.y)
+    system = prepared.absolute.system
+    modes = modal_rows(machine, system)
+    body = modes.bending[0].reduced
+    n = len(body.eigenvalues)
+    columns = modes.columns(prepared.absolute) / (np.sqrt(body.mass) * system.size)
+    rigid = prepared.absolute.jacobian()
+    parts, blocks = [], []
+    for k in range(3):
+        parts += [rigid[:, 6 * k : 6 * k + 6], columns[:, n * k : n * k + n]]
+        blocks.append(reference.mass_matrix(body.invariants, system.record.bodies.A[k], np.zeros(n)))
+    J, M = np.hstack(parts), block_diag(*blocks)
+    expected = np.einsum("ri,ri->r", J, np.linalg.solve(M, J.T).T)
+    np.testing.assert_allclose(mobility(prepared.motion, prepared.start), expected, rtol=1e-9)
+    assert np.abs(columns).max() > 0.1
+
+
+def test_bodies_that_bend_out_of_the_plane_are_not_redundant(tmp_path):
+    redundancy = prepare(four_bar(tmp_path, SPACE)).redundancy
+    assert redundancy.redundant_rows == redundancy.non_unique_joints == ()
+    rows, modes = (
+        4 * 5,
+        3 * len(reduced(bar(length=1.0, width=0.02, height=0.021, elements=8, reduction=SPACE))[0].eigenvalues),
+    )
+    assert redundancy.rank == rows
+    assert redundancy.degrees_of_freedom == 3 * 6 + modes - rows
+
+
+def test_bodies_that_bend_in_the_plane_only_are_redundant_out_of_it(tmp_path):
+    redundancy = prepare(four_bar(tmp_path, PLANE)).redundancy
+    assert len(redundancy.redundant_rows) == 3
+    assert not any(row.endswith(("s.x", "s.y")) for row in redundancy.redundant_rows)
+    assert set(redundancy.non_unique_joints) == {"hinge0", "hinge1", "hinge2", "hinge3"}
+    assert redundancy.degrees_of_freedom == 1 + 3 * 3
+
+
+@pytest.mark.parametrize("reduction", [SPACE, PLANE], ids=["space", "plane"])
+@pytest.mark.parametrize(("integrator", "step"), [("rk4", 5e-5), ("generalised-alpha", 1e-3)])
+def test_redundant_square_moves_like_the_determinate_one(tmp_path, reduction, integrator, step):
+    """Motion and reactions in the plane are unique whatever is redundant; nothing pushes out of the plane."""
+    settings = {"integrator": integrator, "step": step, "duration": 0.2, "output_interval": 0.02}
+    r = run(four_bar(tmp_path, reduction), **settings)
+    plain = run(four_bar(tmp_path, reduction, redundant=False), **settings)
+    assert r.finished.outcome == "done"
+    assert np.ptp(r.joint_coordinate[:, 0]) > 0.05
+    np.testing.assert_allclose(r.position, plain.position, atol=1e-7)
+    scale = np.abs(plain.joint_force).max()
+    np.testing.assert_allclose(r.joint_force[..., :2], plain.joint_force[..., :2], atol=1e-4 * scale)
+    np.testing.assert_allclose(r.joint_force[..., 2], 0.0, atol=1e-7 * scale)
+    assert np.abs(r.constraint_violation).max() < 1e-9
+
+
+def test_friction_needs_a_unique_load(tmp_path):
+    """As between rigid bodies, where the joint that loads it is loose; modes out of the plane make its reaction unique."""
+    rub = Friction(
+        name="rub", model="coulomb", coordinate="hinge0.angle", coefficient=0.1, radius=0.02, transition_speed=0.01
+    )
+    with pytest.raises(ModelError, match="the reaction of hinge0, which loads this friction, is not unique"):
+        prepare(four_bar(tmp_path, PLANE, forces=(rub,)))
+    prepare(four_bar(tmp_path, SPACE, forces=(rub,)))

@@ -68,6 +68,7 @@ class Check:
     sensors: tuple[str, ...]
     events: tuple[str, ...]
     degrees_of_freedom: int
+    modes: int  # of flexible bodies, among the degrees of freedom
     constraint_rows: int
     redundant_rows: tuple[str, ...]
     non_unique_joints: tuple[str, ...]
@@ -80,19 +81,21 @@ class Check:
 
     def __repr__(self) -> str:
         extra = f", redundant: {', '.join(self.redundant_rows)}" if self.redundant_rows else ""
-        return f"<Check {self.name}: {_freedoms(self.degrees_of_freedom)}{extra}>"
+        return f"<Check {self.name}: {_freedoms(self)}{extra}>"
 
     def __str__(self) -> str:
         return "\n".join(_lines(self))
 
 
-def _freedoms(count: int) -> str:
-    return f"{count} degree{'' if count == 1 else 's'} of freedom"
+def _freedoms(facts: Check) -> str:
+    count = facts.degrees_of_freedom
+    modes = f", {facts.modes} modes of flexible bodies among them" if facts.modes else ""
+    return f"{count} degree{'' if count == 1 else 's'} of freedom{modes}"
 
 
 def _lines(facts: Check) -> Iterator[str]:
     """The facts in words, for people."""
-    yield f"{facts.name}: {_freedoms(facts.degrees_of_freedom)}, gravity {_vector(facts.gravity)} m/s²"
+    yield f"{facts.name}: {_freedoms(facts)}, gravity {_vector(facts.gravity)} m/s²"
     if facts.bodies:
         yield "bodies"
     for body in facts.bodies:
@@ -222,6 +225,7 @@ def check(machine: MachineRecord) -> Check:
         sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
         events=tuple(event_in_words(event) for event in machine.events),
         degrees_of_freedom=redundancy.degrees_of_freedom,
+        modes=len(prepared.motion.system.modes),
         constraint_rows=system.machine_rows,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,

@@ -71,6 +71,7 @@ def _close(
     facts = Facts(
         outcome=finished.outcome,
         degrees_of_freedom=redundancy.degrees_of_freedom,
+        modes=len(prepared.motion.system.modes),
         drivers=prepared.drivers,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,

@@ -34,7 +34,12 @@ _SLIDING = ("translational", "point-on-line")  # joints whose axis is a directio
 
 
 def placed_body(body: Body, placing: Placement) -> Body:
-    """`body` in the placed part. A shape between two points becomes one in the body frame, which stays its frame."""
+    """`body` in the placed part. A shape between two points becomes one in the body frame, which stays its frame.
+
+    Raises NotRepresentableError where the part is mirrored and the body flexible: its modes are in a file.
+    """
+    if placing.mirrored and body.flexible is not None:
+        raise NotRepresentableError("a flexible body cannot be mirrored; reduce a mirrored model and write it out")
     position, parameters = placement(body)
     if not placing.turns:
         return _moved_body(body, placing)

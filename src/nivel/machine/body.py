@@ -103,6 +103,13 @@ class Body(Checked):
                 yield superfluous(name, "is known from the file of the flexible body and must not be given")
         if self.inertia_about == "origin":
             yield superfluous("inertia_about", "does not belong to a flexible body, whose inertia is in its file")
+        shape = self.shape
+        if isinstance(shape, Mesh) or (shape is not None and not isinstance(shape, Sphere) and shape.from_ is not None):
+            message = (
+                "a flexible body is drawn from its file; its `shape` is what touches in a contact, a solid about a `centre` that is at an "
+                "interface"
+            )
+            yield Problem(("shape",), message)
 
     def _problems_of_inertia(self) -> Iterator[Problem]:
         if self.density is not None:

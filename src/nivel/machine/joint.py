@@ -80,7 +80,7 @@ JOINT_KINDS: Final[dict[str, JointKind]] = {
 }
 JOINT_COORDINATES: Final = {name: kind.coordinates for name, kind in JOINT_KINDS.items()}
 
-_PLACE: Final = ("point", "points", "axis", "axes", "x_axis")
+_PLACE: Final = ("point", "interface", "points", "axis", "axes", "x_axis")
 _SIZE: Final = ("pitch", "distance")
 _INSTEAD: Final = {"point": "points", "points": "point", "axis": "axes", "axes": "axis"}
 _WANTED: Final = {
@@ -140,6 +140,9 @@ class Joint(Checked):
     )
     markers: TwoMarkers | None = Field(default=None, description="on the first and second body: names or markers")
     point: Position | None = Field(default=None, description="of the joint, global")
+    interface: Name | None = Field(
+        default=None, description="of a flexible body among the two, by name, instead of `point`: where it is as placed"
+    )
     points: tuple[Position, Position] | None = Field(
         default=None, description="of a joint between two points: on the first body, on the second; global"
     )
@@ -194,7 +197,10 @@ class Joint(Checked):
 
     def _problems_by_points(self, kind: JointKind) -> Iterator[Problem]:
         where = kind.place[0]
-        if self.bodies is None or not self._gives(where):
+        by_interface = where == "point" and self.interface is not None
+        if by_interface and self.point is not None:
+            yield Problem(("interface",), "give `point` or `interface`, not both", at_key=True)
+        if self.bodies is None or not (self._gives(where) or by_interface):
             what = "a `point`" if where == "point" else "`points`"
             yield Problem((), f"a {self.type} joint needs `bodies` and {what}, or two `markers`")
         if self.bodies is not None and self.bodies[0] == self.bodies[1]:
@@ -202,7 +208,7 @@ class Joint(Checked):
         for key in kind.place[1:]:
             if not self._gives(key):
                 yield self._missing(key)
-        allowed = (*kind.place, *kind.may)
+        allowed = (*kind.place, *kind.may, *(("interface",) if where == "point" else ()))
         for key in _PLACE:
             if self._gives(key) and key not in allowed:
                 instead = _INSTEAD.get(key, "")

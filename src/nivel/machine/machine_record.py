@@ -25,6 +25,7 @@ from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
 from nivel.machine.forces import Force
+from nivel.machine.interface_uses import problems_of_interfaces
 from nivel.machine.joint import Joint
 from nivel.machine.marker import Marker
 from nivel.machine.point_masses import problems_of_points
@@ -113,3 +114,4 @@ class MachineRecord(Checked):
 
     def problems(self) -> Iterator[Problem]:
         yield from problems_of_points(self)
+        yield from problems_of_interfaces(self)

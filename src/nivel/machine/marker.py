@@ -26,6 +26,7 @@ class Marker(Checked):
     name: Name | None = Field(default=None, description="not needed where the marker stands inside an element")
     body: BodyName = Field(description="a body, a station of a beam `BEAM.STATION`, or `ground`")
     position: Position = Field(default=(0.0, 0.0, 0.0), description="in the body frame")
+    interface: Name | None = Field(default=None, description="of a flexible body, by name, instead of `position`")
     orientation: Orientation | None = Field(default=None, description="of the marker in the body frame")
     axis: Direction | None = Field(default=None, description="z axis of the marker in the body frame, of any length")
     x_axis: Direction | None = Field(default=None, description="x axis, made perpendicular to `axis`")
@@ -33,6 +34,8 @@ class Marker(Checked):
     def problems(self) -> Iterator[Problem]:
         if self.name == GROUND:
             yield Problem(("name",), f"`{GROUND}` is the fixed world and cannot be a marker")
+        if self.interface is not None and any(self.position):
+            yield Problem(("position",), "give `position` or `interface`, not both", at_key=True)
         if self.orientation is not None and (self.axis is not None or self.x_axis is not None):
             yield Problem(("orientation",), "give `orientation` or `axis`, not both")
             return

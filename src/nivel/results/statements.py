@@ -93,7 +93,8 @@ def freedom_item(trust: Trust) -> Item:
     if count < 1:
         return Item("degrees_of_freedom", "amber", "Freedom: no degree of freedom: nothing can move (green from 1 on)")
     degrees = "1 degree of freedom" if count == 1 else f"{count} degrees of freedom"
-    return Item("degrees_of_freedom", "green", f"Freedom: {degrees} (green from 1 on)")
+    modes = f", {trust.modes} modes of flexible bodies among them" if trust.modes else ""
+    return Item("degrees_of_freedom", "green", f"Freedom: {degrees}{modes} (green from 1 on)")
 
 
 def redundancy_item(trust: Trust) -> Item:

@@ -30,7 +30,7 @@ class Facts:
     """What only the run itself knows.
 
     outcome : done, interrupted, failed or running.
-    degrees_of_freedom : None where unknown. drivers : motions that are prescribed.
+    degrees_of_freedom : None where unknown; modes : of flexible bodies among them. drivers : motions that are prescribed.
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
     accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
     failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
@@ -45,6 +45,7 @@ class Facts:
     failure: str = ""
     drivers: int = 0
     stopped_by: str = ""
+    modes: int = 0
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -76,6 +77,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         constraint_rate_violation_time=rate.time,
         constraint_rate_violation_units=f"{rate_units}/s",
         degrees_of_freedom=facts.degrees_of_freedom,
+        modes=facts.modes,
         drivers=facts.drivers,
         redundant_rows=tuple(facts.redundant_rows),
         non_unique_joints=tuple(facts.non_unique_joints),

@@ -111,7 +111,8 @@ class Trust:
     size_kind : what `size` is, to be said after "the". at_rest : `speed` is not that of the machine, which is at rest,
     but the least speed that counts.
     accuracy_refinement : what the run was done again with to find `accuracy_estimate`. degrees_of_freedom : None where the run did not
-    live to tell. drivers : motions that are prescribed.
+    live to tell. modes : of flexible bodies, counted among
+    the degrees of freedom. drivers : motions that are prescribed.
     """
 
     verdict: Verdict
@@ -140,6 +141,7 @@ class Trust:
     accuracy_refinement: str = "half the step"
     size_kind: str = "machine's size"
     at_rest: bool = False
+    modes: int = 0
     items: tuple[Item, ...] = ()
 
     def to_json(self) -> str:

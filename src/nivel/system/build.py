@@ -36,12 +36,14 @@ from nivel.machine.inertia import mass_properties
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.placement import initial_velocity, placement
 from nivel.system.beams import add_beam, no_tangent, shared_mass
-from nivel.system.draft import Draft, located
+from nivel.system.draft import Draft
 from nivel.system.elimination import plan
 from nivel.system.flexible import flexible_mass, no_flexible
 from nivel.system.forces import FORCES, family_addresses
 from nivel.system.implicit import no_newton, no_residual
+from nivel.system.interfaces import refuse_unknown_interfaces
 from nivel.system.layout import frame_layout
+from nivel.system.located import located
 from nivel.system.partition import no_partition
 from nivel.system.rows import RowTable, add_couplings, add_drivers, add_joint, coordinate_units
 from nivel.system.sensors import sensor_columns
@@ -62,9 +64,11 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
 
     measured : every evaluation measures all joint coordinates, not only those that something needs.
     """
+    refuse_unknown_interfaces(machine)
     draft, rows = Draft(machine), RowTable()
     for joint in machine.joints:
-        add_joint(draft, rows, joint)
+        with draft.within(f"joints.{joint.name}"), located(f"joints.{joint.name}"):
+            add_joint(draft, rows, joint)
     add_couplings(draft, rows)
     add_drivers(draft, rows)
     for force in machine.forces:
@@ -141,6 +145,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         coordinate_units=tuple(coordinate_units(name) for name in draft.joint_coordinates),
         point_masses=np.array([body.point_mass for body in machine.bodies], dtype=bool),
         frame_markers=frozenset(draft.frame_markers),
+        marker_owners=tuple(draft.owners),
         as_placed=np.array([given is None for given in rows.given], dtype=bool),
         size=size,
         start=np.zeros(0),
@@ -149,7 +154,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
 
 
 def _add_force(draft: Draft, force: Any) -> None:
-    with located(f"forces.{force.name}"), draft.noting_bodies():
+    with located(f"forces.{force.name}"), draft.noting_bodies(), draft.within(f"forces.{force.name}"):
         FORCES[force.type].add(draft, force)
 
 

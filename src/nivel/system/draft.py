@@ -4,21 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from nivel.errors import ModelError
 from nivel.kernels.coordinate import DISTANCE, ROTATION
 from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, POSITION, RATE, VELOCITY
 from nivel.machine.coordinate_reference import Kind, resolve
 from nivel.machine.forces import End, GlobalPoint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
-from nivel.machine.placement import marker_frame
 from nivel.machine.symbols import find_symbol
 from nivel.machine.time_function import TimeFunction
 from nivel.system.functions import FunctionTable, Signal
+from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import Placed, seen_from
 from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, OutputTable
 
@@ -26,21 +25,13 @@ GROUND = "ground"
 AXES = "xyz"
 
 
-@contextmanager
-def located(place: str) -> Iterator[None]:
-    """Faults without a place that come up inside get this one."""
-    try:
-        yield
-    except ModelError as error:
-        raise ModelError([replace(fault, path=fault.path or place) for fault in error.faults]) from error
-
-
 @dataclass
 class Draft:
     """Tables of a machine and the indices of what has a name in it. Body number len(machine.bodies) is the ground.
 
     joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
-    frictions : (columns of index, of number) of `nivel.kernels.friction`. noted : the bodies looked at in each `noting_bodies`.
+    frictions : (columns of index, of number) of `nivel.kernels.friction`. owners : `joints.hinge`, `markers.tip`, …: what made each
+    marker. noted : the bodies looked at in each `noting_bodies`.
     """
 
     machine: MachineRecord
@@ -52,6 +43,8 @@ class Draft:
     joint_coordinates: dict[str, int] = field(default_factory=dict)
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
     noted: list[frozenset[int]] = field(default_factory=list)
+    owners: list[str] = field(default_factory=list)
+    _owner: str = ""
     _noting: set[int] = field(default_factory=set)
     _named: dict[str, int] = field(default_factory=dict)
     _frames: dict[str, int] = field(default_factory=dict)
@@ -71,6 +64,13 @@ class Draft:
         yield
         self.noted.append(frozenset(self._noting))
 
+    @contextmanager
+    def within(self, owner: str) -> Iterator[None]:
+        """Markers made inside are those of this element."""
+        before, self._owner = self._owner, owner
+        yield
+        self._owner = before
+
     def _note(self, *markers: int) -> None:
         self._noting.update(self.markers.body[marker] for marker in markers)
 
@@ -78,6 +78,7 @@ class Draft:
         """Index of a new marker: body, point and axes in the body's frame."""
         body, point, axes = placed
         marker = self.markers.add(self.body(body), point, axes)
+        self.owners.append(self._owner)
         self._note(marker)
         return marker
 
@@ -85,7 +86,8 @@ class Draft:
         """Index of the marker called `name`."""
         if name not in self._named:
             record = self.machine.marker_named[name]
-            self._named[name] = self.place((record.body, *marker_frame(record)))
+            with self.within(f"markers.{name}"):
+                self._named[name] = self.place(marker_place(self.machine, record))
         self._note(self._named[name])
         return self._named[name]
 
@@ -111,7 +113,7 @@ class Draft:
             case str():
                 return self.marker(end)
             case Marker():
-                return self.place((end.body, *marker_frame(end)))
+                return self.place(marker_place(self.machine, end))
             case GlobalPoint(body, point):
                 return self.place(seen_from(self.machine, body, np.array(point, dtype=float), np.eye(3)))
 

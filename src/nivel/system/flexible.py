@@ -17,7 +17,7 @@ from nivel.kernels.flexible_record import Flexible
 from nivel.machine.body import Body
 from nivel.machine.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.draft import located
+from nivel.system.located import located
 from nivel.system.tables import Array, index_array
 
 

@@ -6,9 +6,9 @@ import numpy as np
 
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.marker import Marker
 from nivel.machine.orientation import matrix_from_euler_parameters
-from nivel.machine.placement import frame_from_axes, marker_frame, placement
+from nivel.machine.placement import frame_from_axes, placement
+from nivel.system.interfaces import joint_point, marker_place
 from nivel.system.tables import Array
 
 Placed = tuple[str, Array, Array]
@@ -18,9 +18,9 @@ def joint_frames(machine: MachineRecord, joint: Joint) -> tuple[Placed, Placed]:
     """(body, point (3,), axes (3, 3)) of the first and of the second marker, point and axes in the body's frame."""
     if joint.markers is not None:
         first, second = (machine.marker_named[m] if isinstance(m, str) else m for m in joint.markers)
-        return _of_marker(first), _of_marker(second)
+        return marker_place(machine, first), marker_place(machine, second)
     assert joint.bodies is not None  # the record was checked
-    points = joint.points or (joint.point, joint.point)
+    points = joint.points or (joint_point(machine, joint),) * 2
     first_axes, second_axes = _global_axes(joint)
     first, second = (np.array(point, dtype=float) for point in points)
     return (
@@ -34,11 +34,7 @@ def slot_frame(machine: MachineRecord, joint: Joint) -> Placed:
     _, (body, point, frame) = joint_frames(machine, joint)
     if joint.axes is None:
         return body, point, frame_from_axes(frame[:, 0])
-    return seen_from(machine, body, np.array(joint.point, dtype=float), frame_from_axes(joint.axes[1]))
-
-
-def _of_marker(marker: Marker) -> Placed:
-    return marker.body, *marker_frame(marker)
+    return seen_from(machine, body, joint_point(machine, joint), frame_from_axes(joint.axes[1]))
 
 
 def _global_axes(joint: Joint) -> tuple[Array, Array]:

@@ -11,7 +11,7 @@ from nivel.kernels.record import NONE, Constraints
 from nivel.machine.coordinate_reference import COORDINATE_KINDS
 from nivel.machine.driver import Driver
 from nivel.machine.joint import Joint
-from nivel.system.draft import Draft, located
+from nivel.system.draft import Draft
 from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
 from nivel.system.joints import (
     AXES,
@@ -24,6 +24,7 @@ from nivel.system.joints import (
     PerpendicularAxes,
     PerpendicularDistance,
 )
+from nivel.system.located import located
 from nivel.system.tables import index_array
 
 # cosines of axes that count as parallel differ from ±1 by less than this: 0.001 rad

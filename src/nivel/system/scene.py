@@ -44,6 +44,7 @@ from nivel.machine.solids import box_size, length, mesh_surface
 from nivel.machine.surface import surface_text
 from nivel.system.draft import Draft
 from nivel.system.flexible import bending_bodies
+from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import slot_frame
 from nivel.system.section_outline import outline
 from nivel.system.system import System
@@ -68,7 +69,11 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
     ]
     for body, looks in _flexible(machine):
         bodies[body]["flexible"] = looks
-    markers = [{"name": m.name, "body": m.body, "position": list(m.position)} for m in machine.markers if m.name]
+    markers = [
+        {"name": m.name, "body": m.body, "position": marker_place(machine, m)[1].tolist()}
+        for m in machine.markers
+        if m.name
+    ]
     sweeps = [_sweep(beam) for beam in machine.beams]
     return {
         "bodies": bodies,

@@ -9,7 +9,8 @@ from nivel.kernels.coordinate import DISTANCE, LAST_ANGLE, ROTATION
 from nivel.kernels.record import NONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.sensor import Sensor
-from nivel.system.draft import Draft, located
+from nivel.system.draft import Draft
+from nivel.system.located import located
 
 VECTOR_UNITS = {
     "position": "m",
@@ -31,35 +32,36 @@ def sensor_columns(draft: Draft) -> list[list[int]]:
         vectors = {name: getattr(kernel, name.upper()) for name in quantities}
         scalars = {"value": kernel.VALUE, "rate": kernel.RATE, "acceleration": kernel.SECOND}
         for sensor in draft.machine.sensors:
-            match sensor.form:
-                case "marker":
-                    columns.append(_of_marker(draft, sensor, vectors))
-                case "coordinate":
-                    assert sensor.coordinate is not None  # the record was checked
-                    assert sensor.quantity is not None
-                    joint, name = resolve(sensor.coordinate, draft.machine.joints)
-                    columns.append(
-                        _scalar(
-                            draft, sensor.name, sensor.quantity, scalars, draft.joint_coordinates[f"{joint}.{name}"]
+            with draft.within(f"sensors.{sensor.name}"), located(f"sensors.{sensor.name}"):
+                match sensor.form:
+                    case "marker":
+                        columns.append(_of_marker(draft, sensor, vectors))
+                    case "coordinate":
+                        assert sensor.coordinate is not None  # the record was checked
+                        assert sensor.quantity is not None
+                        joint, name = resolve(sensor.coordinate, draft.machine.joints)
+                        columns.append(
+                            _scalar(
+                                draft, sensor.name, sensor.quantity, scalars, draft.joint_coordinates[f"{joint}.{name}"]
+                            )
                         )
-                    )
-                case "distance" | "angle" as form:
-                    ends = sensor.distance or sensor.angle
-                    assert ends is not None  # the record was checked
-                    kind = DISTANCE if form == "distance" else ROTATION
-                    coordinate = draft.coordinates.add(kind, *draft.ends(ends))
-                    columns.append(_scalar(draft, f"{sensor.name}.{form}", "value", scalars, coordinate))
-                    columns.append(_scalar(draft, f"{sensor.name}.rate", "rate", scalars, coordinate))
-                case "force":
-                    read = f"force.{sensor.force}.{sensor.quantity}"
-                    index = _output(draft, sensor, read)
-                    output = draft.outputs.add((f"sensor.{sensor.name}", draft.outputs.entries[index][1], read))
-                    columns.append([output, kernel.COPY, index, NONE])
-                case _:
-                    assert sensor.value is not None  # the record was checked
-                    output = draft.outputs.add((f"sensor.{sensor.name}", sensor.units, f"sensor {sensor.name}"))
-                    with located(f"sensors.{sensor.name}.value"):
-                        columns.append([output, kernel.FUNCTION, draft.function(sensor.value), NONE])
+                    case "distance" | "angle" as form:
+                        ends = sensor.distance or sensor.angle
+                        assert ends is not None  # the record was checked
+                        kind = DISTANCE if form == "distance" else ROTATION
+                        coordinate = draft.coordinates.add(kind, *draft.ends(ends))
+                        columns.append(_scalar(draft, f"{sensor.name}.{form}", "value", scalars, coordinate))
+                        columns.append(_scalar(draft, f"{sensor.name}.rate", "rate", scalars, coordinate))
+                    case "force":
+                        read = f"force.{sensor.force}.{sensor.quantity}"
+                        index = _output(draft, sensor, read)
+                        output = draft.outputs.add((f"sensor.{sensor.name}", draft.outputs.entries[index][1], read))
+                        columns.append([output, kernel.COPY, index, NONE])
+                    case _:
+                        assert sensor.value is not None  # the record was checked
+                        output = draft.outputs.add((f"sensor.{sensor.name}", sensor.units, f"sensor {sensor.name}"))
+                        with located(f"sensors.{sensor.name}.value"):
+                            columns.append([output, kernel.FUNCTION, draft.function(sensor.value), NONE])
     return columns
 
 

@@ -40,7 +40,8 @@ class System:
     rows : name of every constraint row of the formulation, e.g. ``hinge.s.x``; the first `machine_rows` belong to joints, couplings
     and drivers. row_owner : name of the joint, coupling or driver of each of these. point_masses : (B,) bodies that do not turn.
     coupled : bodies that each force acts on or depends on, the ground included.
-    frame_markers : markers that are frames of bodies. modes : names of the modal coordinates.
+    frame_markers : markers that are frames of bodies. marker_owners : `joints.hinge`, …: what each marker belongs to.
+    modes : names of the modal coordinates.
     as_placed : combinations that keep the value that they have as the machine is placed.
     size : length of the machine [m], the scale of its tolerances. state_map : what the entries of y are; None: as `absolute_map`.
     """
@@ -59,6 +60,7 @@ class System:
     coordinate_units: tuple[str, ...]
     point_masses: NDArray[np.bool_]
     frame_markers: frozenset[int]
+    marker_owners: tuple[str, ...]
     as_placed: NDArray[np.bool_]
     size: float
     start: Array

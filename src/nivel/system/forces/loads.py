@@ -13,6 +13,7 @@ from nivel.kernels.record import NONE
 from nivel.machine.forces import PairForce, PointForce, Torque
 from nivel.system.draft import Draft
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
+from nivel.system.interfaces import marker_place
 
 
 def add_load(draft: Draft, force: PointForce | Torque) -> None:
@@ -24,8 +25,7 @@ def add_load(draft: Draft, force: PointForce | Torque) -> None:
     if isinstance(force, PointForce):
         point = np.array(force.position or (0.0, 0.0, 0.0), dtype=float)
         if force.marker is not None:
-            record = draft.machine.marker_named[force.marker]
-            body, point = record.body, np.array(record.position, dtype=float)
+            body, point, _ = marker_place(draft.machine, draft.machine.marker_named[force.marker])
     assert body is not None  # the record was checked
     marker = draft.place((body, point, np.eye(3)))
     functions = [draft.function(component) for component in force.vector]

@@ -6,17 +6,20 @@ ground, and every block of C_q of such a marker gets further ones for the modes.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record import NONE, Bodies, Friction, Record, Saddle
+from nivel.machine.body import Body
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
+from nivel.machine.shape import Mesh
 from nivel.system.elimination import plan
 from nivel.system.flexible import Bending, Frame, bending_bodies, first_modal_rows, flexible_tables
+from nivel.system.interfaces import marker_place
 from nivel.system.layout import with_modal_coordinates
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array
@@ -41,33 +44,61 @@ def arrange(
 
 
 def carried_markers(absolute: System, machine: MachineRecord, bending: Sequence[Bending]) -> dict[int, tuple[int, int]]:
-    """Flexible body and interface of every marker that is at one. Raises ModelError naming every marker that is at none."""
+    """Flexible body and interface of every marker that is at one.
+
+    Raises ModelError naming every joint, force, sensor and marker, also one that nothing uses, and every shape that is at none.
+    """
     markers, found, faults = absolute.record.markers, {}, []
     for f, each in enumerate(bending):
-        reduced, name = each.reduced, machine.bodies[each.body].name
-        extent = float(np.ptp(reduced.position, axis=0).max(initial=0.0))
-        places = np.array([interface.position for interface in reduced.interfaces]).reshape(-1, 3)
+        body, used = machine.bodies[each.body], set()
         for marker in np.flatnonzero(markers.body == each.body).tolist():
             if marker in absolute.frame_markers:
                 continue
-            distance = np.linalg.norm(places - markers.position_b[marker], axis=1)
-            nearest = int(np.argmin(distance)) if len(distance) else 0
-            if len(distance) and distance[nearest] <= NEAR * extent:
+            owner, point = absolute.marker_owners[marker], markers.position_b[marker]
+            used.add(owner)
+            nearest = interface_at(each, point)
+            if nearest is None:
+                faults.append(_away(owner, body.name, point, each))
+            else:
                 found[marker] = (f, nearest)
-                continue
-            x, y, z = (f"{value:.6g}" for value in markers.position_b[marker])
-            there = ", ".join(
-                f"{interface.name} at ({', '.join(f'{value:.6g}' for value in interface.position)})"
-                for interface in reduced.interfaces
-            )
-            message = (
-                f"something acts at ({x}, {y}, {z}) m in its axes, where it has no interface; they are {there or 'none'}: move "
-                f"it there, or add an interface to the model and reduce it again"
-            )
-            faults.append(Fault("", 0, 0, f"bodies.{name}.flexible", message))
+        for owner, point in _further(machine, body):
+            if owner not in used and interface_at(each, point) is None:
+                faults.append(_away(owner, body.name, point, each))
     if faults:
-        raise ModelError(faults)
+        raise ModelError(list(dict.fromkeys(faults)))
     return found
+
+
+def interface_at(bending: Bending, point: Array) -> int | None:
+    """Which interface of a flexible body is at `point` (3,) [m] in its frame."""
+    reduced = bending.reduced
+    extent = float(np.ptp(reduced.position, axis=0).max(initial=0.0))
+    places = np.array([interface.position for interface in reduced.interfaces]).reshape(-1, 3)
+    distance = np.linalg.norm(places - point, axis=1)
+    return int(np.argmin(distance)) if np.any(distance <= NEAR * extent) else None
+
+
+def _further(machine: MachineRecord, body: Body) -> Iterator[tuple[str, Array]]:
+    """What belongs to a flexible body whether or not something uses it: its markers, and its shape."""
+    for marker in machine.markers:
+        if marker.body == body.name:
+            yield f"markers.{marker.name}", marker_place(machine, marker)[1]
+    if body.shape is not None and not isinstance(body.shape, Mesh):
+        yield f"bodies.{body.name}.shape", np.array(body.shape.centre or (0.0, 0.0, 0.0), dtype=float)
+
+
+def _away(owner: str, body: str, point: Array, bending: Bending) -> Fault:
+    """The fault of an element that acts on a flexible body where it has no interface."""
+
+    def place(values: Array) -> str:
+        return ", ".join(f"{value:.6g}" for value in values)
+
+    there = ", ".join(f"{each.name} at ({place(each.position)})" for each in bending.reduced.interfaces)
+    message = (
+        f"is at ({place(point)}) m in the axes of the flexible body `{body}`, where it has no interface; they are {there or 'none'}: "
+        f"name one of them as `interface`, move it there, or add an interface to the model and reduce it again"
+    )
+    return Fault("", 0, 0, owner, message)
 
 
 def with_modes(

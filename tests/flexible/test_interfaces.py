@@ -153,7 +153,7 @@ def test_freedoms_count_modes(folder):
     machine = load(folder)
     facts = machine.check()
     assert (facts.degrees_of_freedom, facts.modes) == (1 + 4, 4)
-    assert "5 degrees of freedom, 4 modes of flexible bodies among them" in str(facts)
+    assert "5 degrees of freedom, with 4 modes of flexible bodies" in str(facts)
     trust = machine.simulate().trust
     assert (trust.degrees_of_freedom, trust.modes) == (5, 4)
-    assert any("5 degrees of freedom, 4 modes of flexible bodies among them" in item.text for item in trust.items)
+    assert any("5 degrees of freedom, with 4 modes of flexible bodies" in item.text for item in trust.items)

@@ -68,7 +68,7 @@ class Check:
     sensors: tuple[str, ...]
     events: tuple[str, ...]
     degrees_of_freedom: int
-    modes: int  # of flexible bodies, among the degrees of freedom
+    modes: int  # of flexible bodies, whose coordinates are freedoms too
     constraint_rows: int
     redundant_rows: tuple[str, ...]
     non_unique_joints: tuple[str, ...]
@@ -89,7 +89,7 @@ class Check:
 
 def _freedoms(facts: Check) -> str:
     count = facts.degrees_of_freedom
-    modes = f", {facts.modes} modes of flexible bodies among them" if facts.modes else ""
+    modes = f", with {facts.modes} modes of flexible bodies" if facts.modes else ""
     return f"{count} degree{'' if count == 1 else 's'} of freedom{modes}"
 
 

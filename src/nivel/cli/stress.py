@@ -178,18 +178,17 @@ def _write(
 def _say(facts: dict[str, Any], to_standard_error: bool) -> None:
     """The facts as tables for people: on standard output, unless JSON is there."""
     from rich.console import Console
-    from rich.table import Table
 
     console = Console(highlight=False, stderr=to_standard_error)
     console.print(f"{facts['body']}: largest stress at {facts['worst_time']:.6g} s", markup=False)
-    spots = Table(box=None, pad_edge=False)
-    for heading in ("node", "station", "von Mises [MPa]", "principal [MPa]", "time [s]", "place [m]"):
-        spots.add_column(heading, justify="left" if heading in ("station", "place [m]") else "right", no_wrap=True)
     for spot in facts["hot_spots"]:
         place = ", ".join(f"{x:.4g}" for x in spot["position"])
-        values = (f"{spot['von_mises'] / 1e6:.5g}", f"{spot['signed_principal'] / 1e6:+.5g}", f"{spot['time']:.6g}")
-        spots.add_row(str(spot["node"]), spot["station"], *values, place)
-    console.print(spots)
+        console.print(
+            f"  {spot['von_mises'] / 1e6:.5g} MPa von Mises, {spot['signed_principal'] / 1e6:+.5g} MPa signed principal at "
+            f"{spot['time']:.6g} s, node {spot['node']} {spot['station']} ({place}) m",
+            markup=False,
+            soft_wrap=True,
+        )
     for state in facts["states"]:
         where = f"node {state['node']} {state['station']}".strip()
         console.print(

@@ -30,7 +30,7 @@ class Facts:
     """What only the run itself knows.
 
     outcome : done, interrupted, failed or running.
-    degrees_of_freedom : None where unknown; modes : of flexible bodies among them. drivers : motions that are prescribed.
+    degrees_of_freedom : None where unknown; modes : of flexible bodies. drivers : motions that are prescribed.
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
     accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
     failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.

@@ -111,8 +111,8 @@ class Trust:
     size_kind : what `size` is, to be said after "the". at_rest : `speed` is not that of the machine, which is at rest,
     but the least speed that counts.
     accuracy_refinement : what the run was done again with to find `accuracy_estimate`. degrees_of_freedom : None where the run did not
-    live to tell. modes : of flexible bodies, counted among
-    the degrees of freedom. drivers : motions that are prescribed.
+    live to tell. modes : of flexible bodies, whose coordinates
+    are freedoms that joints may take. drivers : motions that are prescribed.
     """
 
     verdict: Verdict

@@ -11,9 +11,10 @@ from scipy.linalg import eigh
 from scipy.optimize import minimize_scalar
 
 import nivel
-from models import needs
+from models import bar, needs, reduced
 from nivel.flexible.body_file import write_body
 from nivel.flexible.reduce import reduce
+from simulating import simulate
 
 EXAMPLES = Path(__file__).parent.parent / "examples" / "flexible"
 E, RHO = 210e9, 7850.0
@@ -180,3 +181,51 @@ def test_boom_at_rest_has_the_stress_of_its_section(folder):
         number = int(boom.body.node_ids[node])
         late = boom.stress(number)[result.time > 3.5, 0, 0].mean()
         assert late == pytest.approx(moment * 0.13 / second, rel=0.08)
+
+
+def swinging(time, values, near):
+    """[rad/s] of a history that is a constant and a sine."""
+
+    def left(speed):
+        columns = np.column_stack([np.ones_like(time), np.sin(speed * time), np.cos(speed * time)])
+        return np.linalg.norm(values - columns @ np.linalg.lstsq(columns, values, rcond=None)[0])
+
+    bounds = (0.85 * near, 1.1 * near)
+    return minimize_scalar(left, bounds=bounds, method="bounded", options={"xatol": 1e-9}).x
+
+
+def test_segments_on_springs_swing_as_modes_and_beams_do():
+    """The frequency of a cantilever: segments are below it by what falls as the square of their length."""
+    cantilever = runpy.run_path(str(EXAMPLES / "segments.py"))["cantilever"]
+    near = 3.516 * np.sqrt(E * 0.03**2 / 12 / RHO) / 2.0**2
+    found = []
+    for count in (3, 6, 12):
+        result = nivel.Machine.from_record(cantilever(count)).simulate()
+        assert result.trust.verdict == "green"
+        found.append(swinging(result.time, result.array("sensor.tip.z"), near))
+    modes = 2 * np.pi * reduced(bar(reduction="modes: 6, reference: root", theory="timoshenko"))[0].frequencies
+    # bending along z is the stiffer of the two first modes
+    mode = modes[np.argmin(np.abs(modes - near))]
+    settings = {"duration": 1.0, "step": 5e-4, "output_interval": 5e-3, "integrator": "generalised-alpha"}
+    line = {"from": [0, 0, 0], "to": [2, 0, 0], "elements": 8, "order": 2}
+    exact = simulate(
+        {
+            "name": "exact",
+            "gravity": [0, 0, -0.1],
+            "beams": {
+                "bar": {
+                    **line,
+                    "section": {"type": "rectangle", "width": 0.02, "height": 0.03},
+                    "material": {"youngs_modulus": E, "poisson_ratio": 0.3, "density": RHO},
+                }
+            },
+            "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar.start"], "point": [0, 0, 0]}},
+            "simulation": {**settings, "coordinates": "absolute"},
+        }
+    )
+    beam = swinging(exact.time, exact.array("bar.end.position")[:, 2], near)
+    assert beam == pytest.approx(mode, rel=5e-4)
+    errors = 1.0 - np.array(found) / beam
+    assert np.all(errors > 0.0)
+    assert np.all(np.abs(np.log2(errors[:-1] / errors[1:]) - 2.0) < 0.15)
+    assert (4 * found[2] - found[1]) / 3 == pytest.approx(mode, rel=1e-3)

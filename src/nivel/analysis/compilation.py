@@ -70,7 +70,8 @@ def compile_path(
     asks = integrator in INTEGRATORS and (INTEGRATORS[integrator].residual or machine.shares_mass)
     if asks and facts is not None and facts.residual:
         residual = INTEGRATORS[integrator].whole or facts.residual
-        _compile_derivatives(residual, [module for module, _ in parts], listener)
+        whole = bool(INTEGRATORS[integrator].whole) or INTEGRATORS[integrator].along
+        _compile_derivatives(residual, [module for module, _ in parts], listener, held=not whole)
     return perf_counter() - begin
 
 
@@ -98,11 +99,11 @@ def complex_modules() -> list[str]:
     return [*residuals, MEASURE, GIVEN_FRICTION, *(f"nivel.kernels.forces.{family}" for family in families)]
 
 
-def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener) -> None:
-    """The residual, and what a run uses of families, for exact derivatives."""
+def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener, *, held: bool = True) -> None:
+    """The residual, and what a run uses of families, for exact derivatives. held : those of elements of beams are found by hand."""
     needed = [residual, *(module for module in complex_modules() if module in used)]
-    if ELASTIC in needed:
-        needed[needed.index(ELASTIC)] = HELD if "energy_momentum" not in residual else ELASTIC
+    if ELASTIC in needed and held:
+        needed[needed.index(ELASTIC)] = HELD
     if FRICTION in used:
         needed.append(GIVEN_FRICTION)
     cold = [module for module in needed if not cache.is_warm_on_complex_numbers(module.rsplit(".", 1)[1])]

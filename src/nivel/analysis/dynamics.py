@@ -33,6 +33,7 @@ from nivel.analysis.refusals import (
     refuse_implicit_stiction,
     refuse_moved_nodes,
     refuse_rough_motions,
+    refuse_struck_nodes,
     refuse_uncertain_loads,
     refuse_unsettled_multipliers,
 )
@@ -135,6 +136,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     motion = equations(machine)
     assembly = assemble(machine, motion)
     refuse_moved_nodes(machine, assembly.moved, motion.system.size)
+    refuse_struck_nodes(machine, assembly.velocity_change, *_speeds(motion.system, assembly.y))
     rest = None
     if machine.simulation.start == "equilibrium":
         from nivel.analysis.statics.start import settled  # is built of what is prepared here
@@ -176,9 +178,18 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     if integrator.residual:
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
         free = not touches_ground(machine, prepared.system) if integrator.whole else None
-        wanted = Wanted(integrator.whole, corners(machine), integrator.shifted, machine.shares_mass, free)
+        wanted = Wanted(
+            integrator.whole, corners(machine), integrator.shifted, machine.shares_mass, integrator.along, free
+        )
         prepared = equip(prepared, y, coordinates, wanted)
     return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers))
+
+
+def _speeds(system: System, y: Array) -> tuple[float, float]:
+    """The largest speed [m/s] and angular speed [rad/s] of a body, in absolute coordinates."""
+    velocities = y[system.positions :][: 6 * system.body_count].reshape(-1, 2, 3)
+    largest = np.linalg.norm(velocities, axis=2).max(axis=0, initial=0.0)
+    return float(largest[0]), float(largest[1])
 
 
 def _balanced(

@@ -35,14 +35,15 @@ class Wanted:
 
     whole : module of one over a whole step; empty: that at a time. corners : times [s] at which functions of time have corners.
     shifted : with room for systems of shifted matrices, see `nivel.kernels.shifted_parts`. balance : with room to find accelerations, see
-    `nivel.kernels.balance`. free : whether nothing joins the machine to the
-    ground, for a residual over a whole step.
+    `nivel.kernels.balance`. along : it asks for derivatives along directions, so that none may be found by hand. free : whether nothing
+    joins the machine to the ground, for a residual over a whole step.
     """
 
     whole: str = ""
     corners: tuple[float, ...] = ()
     shifted: bool = False
     balance: bool = False
+    along: bool = False
     free: bool | None = None
 
 
@@ -97,7 +98,7 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     mirrored = wanted.free is None and not len(system.frictions)
     groups = unknown_groups(system, velocities, row, part, coordinates)
     # residuals over a whole step have elements of beams act at the mean place too
-    by_hand = not wanted.whole and has_elastic_beams(record)
+    by_hand = not (wanted.whole or wanted.along) and has_elastic_beams(record)
     plain = plain_nodes(system, part) if by_hand else {}
     plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values())
     place = places(system.map, velocities, positions)

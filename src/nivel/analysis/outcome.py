@@ -242,8 +242,8 @@ def _no_solution(motion: MotionEquations, number: int, time: float, step: float,
         f"Newton's iteration finds no solution within a step of {step:.3g} s: it stalls at {stalled}; {_worst(motion)}"
     )
     return message, (
-        f"Try --step {step / 4:.3g}, or --step-control error, which makes steps as short as it takes. With `stabilisation: none` round-off "
-        f"may keep it from its tolerance: then `corrector: {{tolerance: 1e-8}}`, or direct. If it stops here again, the machine comes to a "
+        f"Try --step {step / 4:.3g}, or a method that makes steps as short as it takes: radau, or generalised-alpha with --step-control "
+        f"error. With `stabilisation: none` round-off may keep it from its tolerance: then `corrector: {{tolerance: 1e-8}}`, or direct. If it stops here again, the machine comes to a "
         f"position that it cannot pass, or a force jumps: look at {stalled}."
     )
 

@@ -22,6 +22,8 @@ from nivel.system.system import Array
 DEEPEST_START = 0.02
 # The assembly may move a node of a beam by this share of the machine's length, or of a radian.
 FITS = 1e-8
+# and change its speed by this share of the machine's.
+BLOW = 1e-3
 
 
 def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> None:
@@ -220,6 +222,34 @@ def refuse_moved_nodes(machine: MachineRecord, moved: Sequence[tuple[str, float,
         )
         for name, distance, angle in moved
         if name in owners and max(distance / size, angle) > FITS
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_struck_nodes(
+    machine: MachineRecord, changes: Sequence[tuple[str, float, float]], speed: float, turning: float
+) -> None:
+    """Velocities of joints that the assembly would give to single nodes of beams: a blow, not a motion. Drivers may strike them.
+
+    changes : body, speed [m/s], angular speed [rad/s]. speed, turning : largest ones of the machine [m/s, rad/s].
+    """
+    owners = {name: beam.name for beam in machine.beams for name in beam.node_names}
+    struck = [
+        (name, change, turn)
+        for name, change, turn in changes
+        if name in owners and not machine.drivers and (change > BLOW * speed or turn > BLOW * turning)
+    ]
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"beams.{owners[name]}",
+            f"the velocities of its joints change that of its node {name} alone by {change:.3g} m/s and {turn:.3g} rad/s: a blow. Give the "
+            f"beam its `velocity` (of its start) and `angular_velocity`, with which it moves as a whole",
+        )
+        for name, change, turn in struck
     ]
     if faults:
         raise ModelError(faults)

@@ -20,6 +20,8 @@ from nivel.kernels.tangent_parts import ACCELERATION, differentiate_part, own_ra
 
 # A change this small against the accelerations is round-off; with the state's own matrix so is one that gets smaller by no more than SLOW.
 EXACT, SLOW, MOST = 1e-14, 0.2, 40
+# More than this a change after the solution with the state's own matrix is none of round-off.
+GROWN = 10.0
 
 
 @stage
@@ -34,7 +36,8 @@ def find_matrix(machine, t):
 
 @stage
 def change_accelerations(machine):
-    """Change v̇ and λ by what the residual asks for. Returns the largest change and the largest value of v̇, turns and others apart."""
+    """Change v̇ and λ by what the residual asks for. Returns the largest change of v̇, as a share of the largest value, turns and
+    others apart; and as it is."""
     record = record_at(machine)
     newton, own = record.newton, record.residual
     f, value = newton.balance, own.value
@@ -60,7 +63,7 @@ def change_accelerations(machine):
             turns, of_turns = max(turns, change), max(of_turns, size)
     for k in range(rows):
         own.lam[k] += b[first + k]
-    return max(plain / of_plain, turns / of_turns)
+    return max(plain / of_plain, turns / of_turns), max(plain, turns)
 
 
 @stage
@@ -79,7 +82,7 @@ def balance(machine, t, y):
     for k in range(own.lam.shape[0]):
         if not np.abs(own.lam[k]) < np.inf:
             own.lam[k] = 0.0
-    last, fresh = np.inf, False
+    last, before, fresh = np.inf, np.inf, False
     for _ in range(MOST):
         status = call_hook(machine, RESIDUAL, 0, t)
         if status != OK:
@@ -91,16 +94,18 @@ def balance(machine, t, y):
             status = find_matrix(machine, t)
             if status != OK:
                 return status
-            newton.balanced[0], fresh, last = 1.0, True, np.inf
-        size = change_accelerations(machine)
+            newton.balanced[0], fresh, last, before = 1.0, True, np.inf, np.inf
+        size, change = change_accelerations(machine)
         if size <= EXACT:
             return OK
         if not size <= SLOW * last:
             if fresh:
-                return OK if size < SLOW else NOT_CONVERGED
+                # accelerations that vanish are round-off themselves, and so are all changes of them
+                return OK if size < SLOW or change <= GROWN * before else NOT_CONVERGED
             newton.balanced[0], last = 0.0, np.inf
         else:
             last = size
+        before = change
     return NOT_CONVERGED
 
 

@@ -150,8 +150,21 @@ class Beam(Checked):
             self.frames(np.linspace(0.0, 1.0, 33))
             if not stations:
                 yield from self._problems_of_turns()
+            yield from self._problems_of_height()
         except NoCurveError as problem:
             yield Problem(("up",) if problem.up else places[problem.point or 0], str(problem))
+
+    def _problems_of_height(self) -> Iterator[Problem]:
+        """A section of a material that is higher than the beam is long, as a rectangle of its stiffness."""
+        if self.material is None or isinstance(self.section, GeneralSection) or missing_shear_areas(self.section):
+            return
+        stiffness, mass = np.diag(self.properties.stiffness), self.properties.mass
+        height = float(
+            np.sqrt(12.0 * stiffness[4:].max() * self.material.density / self.material.youngs_modulus / mass)
+        )
+        if height > self.line.length:
+            message = f"a section {height:.3g} m high on a beam {self.line.length:.3g} m long: a slip of a unit?"
+            yield Problem(("section",), message)
 
     def _problems_of_turns(self) -> Iterator[Problem]:
         """Elements whose ends are turned too far against each other. Raises NoCurveError."""

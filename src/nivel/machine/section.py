@@ -15,6 +15,8 @@ Area = Annotated[float, Quantity("area", positive=True)]
 SecondMoment = Annotated[float, Quantity("second moment of area", positive=True)]
 
 SLIP = "a slip of a unit?"
+# [Pa], [kg/m³] nothing is as soft and as heavy
+SOFT, HEAVY = 1e9, 2500.0
 
 
 class Material(Checked):
@@ -34,6 +36,9 @@ class Material(Checked):
             yield Problem(("poisson_ratio",), f"a number between -1 and 0.5 was expected, got {self.poisson_ratio:g}")
         if not 1e4 <= self.youngs_modulus <= 2e12:
             yield Problem(("youngs_modulus",), f"{self.youngs_modulus:.3g} Pa: {SLIP} Steel has 210 GPa")
+        elif self.youngs_modulus < SOFT and self.density > HEAVY:
+            message = f"{self.youngs_modulus:.3g} Pa with {self.density:.4g} kg/m^3: {SLIP} Numbers are in Pa; steel has 210 GPa"
+            yield Problem(("youngs_modulus",), message)
         if not 0.1 <= self.density <= 1e5:
             yield Problem(("density",), f"{self.density:.3g} kg/m^3: {SLIP} Steel has 7850 kg/m^3")
 

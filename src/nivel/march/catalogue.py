@@ -33,6 +33,11 @@ class IntegratorFacts:
     whole: str = ""
     jumps: bool = False
 
+    @property
+    def along(self) -> bool:
+        """Whether it asks for derivatives along directions, see `nivel.kernels.shifted`: all of them have to be on complex numbers."""
+        return self.rates and not self.shifted
+
 
 _ADAMS, _MOULTON, _GEAR = "nivel.march.adams", "nivel.march.moulton", "nivel.march.gear"
 # the rows and numbers of `nivel.march.workspace`

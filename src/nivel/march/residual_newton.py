@@ -32,7 +32,7 @@ from nivel.kernels.tangent import POSITIONS, differentiate, inverse_tangent
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
 from nivel.march.step_control import ROUND_OFF
 
-GROWTH = 20.0
+GROWTH = 2.0
 # Iterations that a new matrix costs, for each evaluation on complex numbers, and at most.
 DEAR, DEAREST = 2.0, 12.0
 # Slower than this no matrix is good enough.

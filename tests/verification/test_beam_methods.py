@@ -1,0 +1,82 @@
+"""Beams in every implicit method, and starts that would strike or strain them."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from beams import flying, hinged
+from nivel.errors import ModelError
+from simulating import simulate
+
+STEEL = {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3, "density": "7850 kg/m^3"}
+
+
+def cantilever(**simulation):
+    bar = {"from": [0, 0, 0], "to": [1, 0, 0], "section": {"type": "rectangle", "width": "3 cm", "height": "3 mm"}}
+    return {
+        "gravity": [0, 0, -9.81],
+        "beams": {"b": {**bar, "material": STEEL, "elements": 4}},
+        "joints": {"wall": {"type": "fixed", "bodies": ["ground", "b.start"], "point": [0, 0, 0]}},
+        "simulation": {"duration": 0.02, "output_interval": 0.002, **simulation},
+    }
+
+
+@pytest.mark.parametrize(
+    ("method", "within"),
+    [
+        ({"integrator": "ros2", "step": 5e-5}, 1e-3),
+        ({"integrator": "bdf", "tolerance": 1e-7}, 1e-4),
+        ({"integrator": "generalised-alpha", "step": 5e-5}, 1e-3),
+        ({"integrator": "hht", "step": 5e-5}, 1e-3),
+        ({"integrator": "newmark", "step": 5e-5}, 1e-3),
+    ],
+    ids=lambda each: each["integrator"] if isinstance(each, dict) else "",
+)
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_all_methods_find_the_motion_of_radau(method, within, coordinates):
+    expected = simulate(cantilever(integrator="radau", tolerance=1e-9)).dataset["position"].values
+    found = simulate(cantilever(coordinates=coordinates, **method)).dataset["position"].values
+    sag = np.abs(expected - expected[0]).max()
+    assert sag > 1e-3
+    assert_allclose(found, expected, atol=within * sag)
+
+
+@pytest.mark.parametrize("spin", [(0, 0, 5), (0, 1, 5), (2, 1, 5)])
+@pytest.mark.parametrize("integrator", ["generalised-alpha", "newmark"])
+def test_a_straight_round_beam_starts_to_fly(spin, integrator):
+    """About some axes nothing accelerates its turn: what is found there is round-off."""
+    section = {"type": "circle", "radius": "5 mm"}
+    beam = {
+        "from": [0, 0, 0],
+        "to": [1, 0, 0],
+        "section": section,
+        "material": STEEL,
+        "elements": 4,
+        "angular_velocity": list(spin),
+    }
+    simulation = {"integrator": integrator, "step": 1e-4, "duration": 0.01, "output_interval": 0.005}
+    result = simulate({"beams": {"b": beam}, "simulation": simulation})
+    assert result.outcome == "done"
+    assert_allclose(result.dataset["angular_velocity"].values[0], np.broadcast_to(spin, (5, 3)), atol=1e-12)
+
+
+def test_velocities_that_would_strike_one_node_are_refused():
+    sections = hinged(4)
+    del sections["drivers"]
+    sections["joints"]["root"]["start_rates"] = {"angle": 2.0}
+    with pytest.raises(ModelError, match=r"inner\.start alone by .* a blow"):
+        simulate(sections)
+
+
+def test_joints_that_do_not_fit_are_refused():
+    sections = hinged(4)
+    hinge = sections["joints"]["hinge"]
+    sections["joints"]["hinge"] = {"type": hinge["type"], "markers": [{"body": "inner.end"}, {"body": "outer.start"}]}
+    sections["beams"]["outer"]["from"] = [5.001, 0, 0]
+    with pytest.raises(ModelError, match="its joints do not fit"):
+        simulate(sections)
+
+
+def test_methods_that_need_masses_of_single_bodies_say_so():
+    with pytest.raises(ModelError, match="consistent mass of rod"):
+        simulate({**flying(1), "simulation": {"coordinates": "independent", "integrator": "rk4"}})

@@ -243,8 +243,8 @@ def _no_solution(motion: MotionEquations, number: int, time: float, step: float,
     )
     return message, (
         f"Try --step {step / 4:.3g}, or a method that makes steps as short as it takes: radau, or generalised-alpha with --step-control "
-        f"error. With `stabilisation: none` round-off may keep it from its tolerance: then `corrector: {{tolerance: 1e-8}}`, or direct. If it stops here again, the machine comes to a "
-        f"position that it cannot pass, or a force jumps: look at {stalled}."
+        f"error. With `stabilisation: none` round-off may keep it from its tolerance: then `corrector: {{tolerance: 1e-8}}`, or direct. If "
+        f"it stops here again, the machine comes to a position that it cannot pass, or a force jumps: look at {stalled}."
     )
 
 

@@ -28,6 +28,8 @@ REAL = 1e-7
 FEW = 6
 # Stiffness below this share of the largest is round-off.
 NO_STIFFNESS = 3e-14
+# Shifts, as shares of the largest ω² that stiffness and mass can make, with which a matrix without an inverse is tried.
+SHIFTS = (0.0, 1e-15, 1e-13, 1e-11, 1e-9)
 # Pivots below this share of the largest are none.
 NO_PIVOT = 1e-15
 
@@ -198,6 +200,14 @@ def _real(values: Any, vectors: Any, M: Any) -> tuple[Array, Array]:
     return values.real[order], shapes[:, order]
 
 
+def fastest(tangent: Tangent) -> float:
+    """The size of the largest squares of frequencies: stiffness over mass of single unknowns [1/s²]."""
+    K, M = np.abs(tangent.K.diagonal()), np.abs(tangent.M.diagonal())
+    massive = M > 0.0
+    found = float(np.max(K[massive] / M[massive], initial=0.0))
+    return found or 1.0
+
+
 def _lanczos(tangent: Tangent, count: int, M: Sparse) -> tuple[Array, Array]:
     from scipy.sparse.linalg import LinearOperator, eigs, eigsh
 
@@ -207,7 +217,8 @@ def _lanczos(tangent: Tangent, count: int, M: Sparse) -> tuple[Array, Array]:
         return np.zeros(0), np.zeros((size, 0))
     even = has_potential(tangent)
     K, shift, found = symmetric(tangent.K) if even else tangent.K, 0.0, None
-    for shift in (0.0, -1e-9, -1e-7, -1e-5):
+    for share in SHIFTS:
+        shift = -share * fastest(tangent)
         try:
             matrix = K - shift * M
             found = factors(bmat([[matrix, tangent.C.T], [tangent.C, None]]) if rows else matrix)

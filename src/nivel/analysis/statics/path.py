@@ -18,8 +18,10 @@ from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, eq
 
 # Steps are halved so often, at most.
 HALVINGS = 12
-# Iterations after which a step along the path becomes shorter, and below which it becomes longer.
-MANY, FEW = 7, 5
+# Iterations that a step along the path should need: with more the next one is shorter, with fewer longer, by no more than this factor.
+WANTED, LONGER = 6.0, 2.0
+# Steps along the path move no part by more than this, in lengths of the machine and radians, unless the first step did.
+REACH = 0.1
 # The tangent turns by no more than this in a step along the path, as a cosine.
 BEND = 0.9
 # Below this change of positions over the whole time (lengths, radians), their scale is theirs as they are.
@@ -95,6 +97,7 @@ def by_arc_length(equations: StaticEquations, first: Point, steps: Steps) -> Ite
     scale = _scale(equations, first.found.tangent)
     direction = path_tangent(first.found.tangent, Change(zero, np.zeros(equations.rows), 1.0), scale)
     full = steps.step / steps.duration
+    reach = max(REACH, full * _largest(direction))
     length, point, count = full, first, 0
     while point.state.t < steps.duration * (1.0 - NEAR):
         try:
@@ -115,9 +118,18 @@ def by_arc_length(equations: StaticEquations, first: Point, steps: Steps) -> Ite
         if count > steps.most:
             raise EquilibriumError(f"the path has not come to its end after {steps.most} steps", point.state)
         direction = after
-        length = (
-            min(full, 2.0 * length) if found.iterations <= FEW else 0.5 * length if found.iterations > MANY else length
-        )
+        longer = length * min(max(float(np.sqrt(WANTED / found.iterations)), 1.0 / LONGER), LONGER)
+        length = min(longer, _longest(direction, full, reach))
+
+
+def _largest(direction: Change) -> float:
+    return float(np.max(np.abs(direction.q), initial=0.0))
+
+
+def _longest(direction: Change, full: float, reach: float) -> float:
+    """The longest step in this direction: time goes on by `full` at most, and every part by `reach`."""
+    by_time, by_motion = abs(direction.t) / full, _largest(direction) / reach
+    return 1.0 / max(by_time, by_motion)
 
 
 def _land(equations: StaticEquations, before: Found, after: Found, steps: Steps) -> Found:

@@ -84,13 +84,29 @@ def test_slender_steel_column_buckles_at_a_point_that_is_located(order, arc_leng
 
 
 def test_arc_length_of_an_imperfect_column_takes_about_as_many_states_as_load_steps():
-    """Where time hardly counts any more, states are no further apart than a tenth of the column, which goes by less than twice its length."""
+    """Where time hardly counts any more, states are a tenth of the column apart, whose tip goes by less than twice its length."""
     sections = steel_column([0, "20*time", "-2000*time"])
     result = machine(sections).statics(duration=1, step=0.05, arc_length=True)
     assert result.time[-1] == 1.0
     assert len(result.time) <= 60
     by_loads = machine(sections).statics(duration=1, step=0.05)
     np.testing.assert_allclose(result.array("position")[-1], by_loads.array("position")[-1], atol=1e-8)
+
+
+@pytest.mark.parametrize(("elements", "order", "close"), [(8, 2, 1e-2), (8, 3, 2e-3), (20, 2, 2e-3)])
+def test_free_steel_beam_vibrates(elements, order, close):
+    """cos x cosh x = 1: x = 4.730, 7.853, 10.996; f = (x/L)² (EI/ρA)^½/2π, each twice; less what shear and the turning of sections take,
+    about (x r/L)² (1 + E/κG)/2 with the radius of gyration r = 2.5 mm: up to 1.5 ‰. Its round-off along the beam, of 1e-8 N, is no load: six rigid motions."""
+    steel = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850}
+    section = {"type": "circle", "radius": 0.005}
+    beam = {"from": [0, 0, 0], "to": [1, 0, 0], "section": section, "material": steel}
+    result = machine({"beams": {"beam": {**beam, "elements": elements, "order": order}}}).statics(duration=0, modes=12)
+    x = np.array([4.730041, 7.853205, 10.995608])
+    expected = np.repeat(x**2 * np.sqrt(210e9 * 0.005**2 / 4 / 7850) / (2 * np.pi), 2)
+    assert np.array_equal(result.array("vibration_stiffness")[0, :6], np.zeros(6))
+    np.testing.assert_allclose(result.array("natural_frequency")[0, 6:], expected, rtol=close)
+    assert "6 of no frequency" in str(result.trust)
+    assert np.all(result.array("unstable_directions") == 0)
 
 
 def test_curved_cantilever_bends_out_of_its_plane():

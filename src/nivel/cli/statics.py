@@ -129,14 +129,13 @@ def vibration_lines(result: Result) -> list[str]:
     last = slice(len(result.time) - 1, None)
     squares = result.array("vibration_stiffness", last)[0]
     known = [float(value) for value in squares if not isnan(value)]
-    lines = []
+    lines, about = [], f" at t = {result.time[-1]:.6g} s" if len(result.time) > 1 else ""
     for k, value in enumerate(known[:SHOWN]):
-        said = (
-            f"{sqrt(value) / 6.283185307179586:.6g} Hz"
-            if value > 0.0
-            else f"unstable, grows as exp({sqrt(-value):.4g} t/s)"
-        )
-        lines.append(f"vibration {k + 1}: {said}")
+        if value > 0.0:
+            said = f"{sqrt(value) / 6.283185307179586:.6g} Hz"
+        else:
+            said = f"unstable, grows as exp({sqrt(-value):.4g} t/s)" if value < 0.0 else "a rigid motion, 0 Hz"
+        lines.append(f"vibration {k + 1}: {said}{about}")
     if len(known) > SHOWN:
         lines.append(f"and {len(known) - SHOWN} more in the result")
     return lines

@@ -108,7 +108,7 @@ def rotation_between(p: Array, q: Array) -> Array:
 def _values(tangent: Tangent, number: int) -> tuple[Array, Array, int]:
     """Eigenvalues next to zero with their directions, and how many negative ones are not among them."""
     values, vectors = lowest(tangent, number + 3, tangent.M, nearest=True)
-    return values, vectors, unstable_directions(tangent) - int(np.sum(values < 0.0))
+    return values, vectors, max(0, unstable_directions(tangent) - int(np.sum(values < 0.0)))
 
 
 def _eigenvalue(tangent: Tangent, number: int) -> float:

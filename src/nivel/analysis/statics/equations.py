@@ -241,11 +241,13 @@ class StaticEquations:
 
     def round_off(self, tangent: Tangent, state: Rest) -> float:
         """What round-off of the positions makes of the forces of the stiffest parts [N m]."""
-        if not len(self.free):
-            return 0.0
+        return float(np.max(self.rounded(tangent, state), initial=0.0)) * self.energy
+
+    def rounded(self, tangent: Tangent, state: Rest) -> Array:
+        """The same of every unknown (f,), without units: stiffness times the last places of positions."""
         position = state.y[self.place[self.free, 0]] / self.length[self.free]
         known = ROUNDINGS * np.finfo(float).eps * np.maximum(np.abs(position), 1.0)
-        return float((abs(tangent.K) @ known).max()) * self.energy
+        return abs(tangent.K) @ known
 
     def _pushed(self) -> float:
         """Largest effort that a force reports [N m]: forces times the machine's length."""

@@ -140,7 +140,8 @@ def negative_directions(tangent: Tangent, shift: float = 0.0) -> int:
         Z = free_directions(tangent)
         values = eigvalsh(symmetric(Z.T @ (tangent.K @ Z)) + shift * np.eye(Z.shape[1])) if Z.shape[1] else np.zeros(0)
         return int(np.sum(values < -NO_STIFFNESS * np.max(np.abs(values), initial=0.0)))
-    K = symmetric(tangent.K) + shift * diags(np.ones(size))
+    largest = float(np.abs(tangent.K).max()) if tangent.K.nnz else 0.0
+    K = symmetric(tangent.K) + (shift + NO_STIFFNESS * largest) * diags(np.ones(size))
     signs = _pivot_signs(csc_matrix(K + STIFF * (tangent.C.T @ tangent.C)))
     if signs is not None:
         return int(np.sum(signs < 0))

@@ -18,6 +18,7 @@ import numpy as np
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent, with_multipliers
 from nivel.analysis.statics.linear import PivotError, factors, negative_directions, solve
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
+from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.system.system import Array
 
 MOST_STEPS = 600
@@ -42,8 +43,9 @@ def settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Fou
     """The equilibrium at the time of `state` where the machine settles. Raises EquilibriumError."""
     try:
         state, r = _balanced(equations, state)
-        if float(np.max(np.abs(r), initial=0.0)) * equations.energy <= BALANCED * equations.loads(state):
-            return Found(state, equations.tangent(state), 0, np.zeros(len(r)), ())
+        tangent = equations.tangent(state)
+        if _is_balanced(equations, state, r, tangent):
+            return Found(state, tangent, 0, np.zeros(len(r)), ())
         found = _let_go(equations, state, iteration)
         if found is not None:
             return found
@@ -51,6 +53,13 @@ def settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Fou
     except StateError:
         raise EquilibriumError("a force, or the state, is not a number", state) from None
     return equilibrate(equations, state, iteration)
+
+
+def _is_balanced(equations: StaticEquations, state: Rest, r: Array, tangent: Tangent) -> bool:
+    """Whether nothing is left over, or, where a motion that nothing resists could not balance it, no more than round-off makes."""
+    if float(np.max(np.abs(r), initial=0.0)) * equations.energy <= BALANCED * equations.loads(state):
+        return True
+    return bool(np.all(np.abs(r) <= equations.rounded(tangent, state))) and is_mechanism(softest(tangent))
 
 
 def _balanced(equations: StaticEquations, state: Rest) -> tuple[Rest, Array]:

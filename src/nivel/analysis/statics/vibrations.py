@@ -9,18 +9,19 @@ import numpy as np
 from scipy.linalg import eig, eigh
 
 from nivel.analysis.statics.equations import Tangent
-from nivel.analysis.statics.linear import PivotError, factors, free_directions, is_small, lowest, symmetric
+from nivel.analysis.statics.linear import PivotError, factors, fastest, free_directions, is_small, lowest, symmetric
 from nivel.system.system import Array
 
-# Squares of frequencies below this share of the largest one of a machine of full matrices, or of those found, are rigid motions.
-RIGID = 1e-11
+# Squares of frequencies below this share of those found, or below this share of the largest that a machine has, are rigid motions.
+RIGID, ROUND_OFF = 1e-11, 1e-13
 # Machines of up to so many unknowns get their damping: the eigenvalues of a full matrix of twice the size.
 DAMPED = 400
 
 
 @dataclass(frozen=True)
 class Vibrations:
-    """squares : ω² (k,) [1/s²] ascending, negative where the equilibrium is unstable; shapes (f, k) with unit modal mass, without units.
+    """squares : ω² (k,) [1/s²] ascending, negative where the equilibrium is unstable, zero of rigid motions; shapes (f, k) with unit modal
+    mass, without units.
 
     rates : complex s (k,) [1/s] of the damped motions e^{st}, by |s|, one of each pair; NaN where there are none or the machine is large.
     rigid : how many of the squares are zero.
@@ -35,8 +36,8 @@ class Vibrations:
 def vibrations(tangent: Tangent, count: int) -> Vibrations:
     """The `count` lowest vibrations about the equilibrium of a tangent."""
     squares, shapes = lowest(tangent, count, tangent.M)
-    scale = max(float(np.max(np.abs(squares), initial=0.0)), _largest(tangent))
-    rigid = int(np.sum(np.abs(squares) <= RIGID * scale))
+    still = np.abs(squares) <= max(RIGID * float(np.max(np.abs(squares), initial=0.0)), ROUND_OFF * _largest(tangent))
+    squares = np.where(still, 0.0, squares)
     rates = np.full(count, np.nan, dtype=complex)
     if tangent.K.shape[0] <= DAMPED and tangent.D.count_nonzero():
         found = _damped(tangent)[:count]
@@ -45,13 +46,15 @@ def vibrations(tangent: Tangent, count: int) -> Vibrations:
     filled[: len(squares)] = squares
     all_shapes = np.full((tangent.K.shape[0], count), np.nan)
     all_shapes[:, : len(squares)] = shapes
-    return Vibrations(filled, all_shapes, rates, rigid)
+    return Vibrations(filled, all_shapes, rates, int(np.sum(still)))
 
 
 def _largest(tangent: Tangent) -> float:
-    """Largest square of a frequency of a small machine; of large ones unknown: zero."""
-    if not tangent.K.shape[0] or not is_small(tangent):
+    """Largest square of a frequency; of large machines its size."""
+    if not tangent.K.shape[0]:
         return 0.0
+    if not is_small(tangent):
+        return fastest(tangent)
     Z = free_directions(tangent)
     if not Z.shape[1]:
         return 0.0

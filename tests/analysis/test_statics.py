@@ -5,13 +5,14 @@ import json
 import numpy as np
 import pytest
 
-from nivel.analysis.statics import linear
-from nivel.analysis.statics.newton import Iteration, equilibrate
+from nivel.analysis.statics import critical, linear
+from nivel.analysis.statics.newton import EquilibriumError, Iteration, equilibrate
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.settings import statics_settings
 from nivel.errors import ModelError, SolveError
 from simulating import G, hinge, machine, slide, solid
+from test_statics_beams import steel_column
 from test_statics_closed_forms import chain, column, discrete_euler, four_bar, torsion_pendulum, truss
 
 DOWN = [0, -G, 0]
@@ -243,3 +244,26 @@ def test_states_stand_in_the_file_as_in_memory(tmp_path):
     assert stored.attributes["analysis"] == "statics"
     assert "velocity" not in stored.variables
     assert stored.dataset["position"].shape == in_memory.array("position").shape
+
+
+@pytest.mark.parametrize("width", [1e-3, 1.0])
+def test_critical_point_that_is_not_reached_is_said_to_be_between_two_states(width, monkeypatch):
+    """No equilibrium within `width` of the buckling load is found: the report has the states on both sides of it, and no time."""
+    sections = steel_column([0, 0, "-2000*time"], order=2)
+    exact = machine(sections).statics(duration=1, step=0.1)
+    load = exact.events[0].time
+    first = critical.equilibrate
+
+    def failing(equations, state, *rest):
+        if abs(state.t - load) < width:
+            raise EquilibriumError("nothing is found here", state)
+        return first(equations, state, *rest)
+
+    monkeypatch.setattr(critical, "equilibrate", failing)
+    result = machine(sections).statics(duration=1, step=0.1)
+    point = json.loads(result.attributes["critical_points"])[0]
+    low, high = point["between"]
+    assert not point["exact"]
+    assert low < load < high
+    assert high - low <= min(0.1 + 1e-9, 6 * width)
+    assert f"{point['kind']} between the states of t = {low:.9g} s and {high:.9g} s" in str(result.trust)

@@ -96,7 +96,8 @@ def test_arc_length_of_an_imperfect_column_takes_about_as_many_states_as_load_st
 @pytest.mark.parametrize(("elements", "order", "close"), [(8, 2, 1e-2), (8, 3, 2e-3), (20, 2, 2e-3)])
 def test_free_steel_beam_vibrates(elements, order, close):
     """cos x cosh x = 1: x = 4.730, 7.853, 10.996; f = (x/L)² (EI/ρA)^½/2π, each twice; less what shear and the turning of sections take,
-    about (x r/L)² (1 + E/κG)/2 with the radius of gyration r = 2.5 mm: up to 1.5 ‰. Its round-off along the beam, of 1e-8 N, is no load: six rigid motions."""
+    about (x r/L)² (1 + E/κG)/2 with the radius of gyration r = 2.5 mm: up to 1.5 ‰.
+    Its round-off along the beam, of 1e-8 N, is no load: six rigid motions."""
     steel = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850}
     section = {"type": "circle", "radius": 0.005}
     beam = {"from": [0, 0, 0], "to": [1, 0, 0], "section": section, "material": steel}

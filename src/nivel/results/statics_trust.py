@@ -25,8 +25,9 @@ OUTCOMES: dict[str, tuple[Verdict, str]] = {
 class StaticsFacts:
     """What only the run itself knows; see `nivel.results.trust.Facts`.
 
-    critical : (kind, t [s], whether found to round-off) of limit and bifurcation points, along the path. at_rest : sentences on what makes
-    no force at rest. rigid : vibrations of no frequency. without_potential : some force has none, as one that follows a body.
+    critical : (kind, t [s], None or the times [s] between which it is where it was not found) of limit and bifurcation points, along the
+    path. at_rest : sentences on what makes no force at rest.
+    rigid : vibrations of no frequency. without_potential : some force has none, as one that follows a body.
     """
 
     outcome: str
@@ -35,7 +36,7 @@ class StaticsFacts:
     drivers: int = 0
     redundant_rows: tuple[str, ...] = ()
     non_unique_joints: tuple[str, ...] = ()
-    critical: tuple[tuple[str, float, bool], ...] = ()
+    critical: tuple[tuple[str, float, tuple[float, float] | None], ...] = ()
     at_rest: tuple[str, ...] = ()
     rigid: int = 0
     without_potential: bool = False
@@ -125,6 +126,11 @@ def _stability(result: Readable) -> Item:
 
 
 def _critical(facts: StaticsFacts) -> Item:
-    named = [f"{kind} at t = {'' if exact else 'about '}{t:.9g} s" for kind, t, exact in facts.critical]
+    named = [
+        f"{kind} at t = {t:.9g} s"
+        if between is None
+        else f"{kind} between the states of t = {between[0]:.9g} s and {between[1]:.9g} s"
+        for kind, t, between in facts.critical
+    ]
     more = f" and {len(named) - SHOWN} more" if len(named) > SHOWN else ""
     return Item("critical", "amber", f"Critical points: {', '.join(named[:SHOWN])}{more} (amber where there are any)")

@@ -7,6 +7,7 @@ make a limit point, where time turns back; loads that do none a bifurcation, whe
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,13 +26,16 @@ NO_WORK = 1e-4
 BALANCED = 1e-13
 # A share of the chord between two equilibria, to which critical points are found.
 EXACT = 1e-10
+# The same where Brent's method fails, next to the point itself, and the parts of what is left at which it is tried to be halved.
+NEARLY, PARTS = 1e-8, (0.5, 0.4, 0.6, 0.25, 0.75)
 
 
 @dataclass(frozen=True)
 class CriticalPoint:
     """kind : limit point or bifurcation. t : its time [s], along : its place on the path [s]; direction (f,) that has no stiffness there.
 
-    found : the equilibrium there; None where it could only be told that it is in a step, of whose time t is the middle.
+    found : the equilibrium there; None where it could only be told that it is between two equilibria, of the times `between` [s], whose
+    middle is t.
     """
 
     kind: str
@@ -39,6 +43,7 @@ class CriticalPoint:
     along: float
     direction: Array
     found: Found | None
+    between: tuple[float, float]
 
 
 def critical_points(
@@ -56,27 +61,61 @@ def _locate(
     chord = _difference(equations, before.state, after.state)
     length = float(np.sqrt(chord.q @ chord.q + chord.t**2))
     border = chord * (1.0 / length)
-    last: dict[str, Found] = {}
+    known = {0.0: before.found, 1.0: after.found}
+    signs: dict[float, float] = {}
     iteration = replace(iteration, balanced=BALANCED)
 
     def stiffness(share: float) -> float:
-        begin = equations.moved(before.state, chord * share)
-        last["found"] = equilibrate(equations, begin, iteration, border)
-        return _eigenvalue(last["found"].tangent, number)
+        if share not in known:
+            begin = equations.moved(before.state, chord * share)
+            known[share] = equilibrate(equations, begin, iteration, border)
+        value = _eigenvalue(known[share].tangent, number)
+        signs[share] = float(np.sign(value))
+        return value
 
+    exact = True
     try:
-        ends = _eigenvalue(before.found.tangent, number), _eigenvalue(after.found.tangent, number)
-        # of stiffnesses of one sign at both ends Brent's method says that it cannot begin
-        share = 0.0 if ends[0] == 0.0 else float(brentq(stiffness, 0.0, 1.0, xtol=EXACT))  # type: ignore[arg-type]
+        share = float(brentq(stiffness, 0.0, 1.0, xtol=EXACT))  # type: ignore[arg-type]
         stiffness(share)
-        found, exact = last["found"], True
+        low = high = share
     except (EquilibriumError, PivotError, ValueError):
-        share, exact = 0.5, False
-        found = before.found
-    t = found.state.t if exact else 0.5 * (before.state.t + after.state.t)
-    along = before.along + share * (after.along - before.along)
+        low, high = _halved(stiffness, signs)
+        share, exact = (low if low > 0.0 else high), high - low <= NEARLY
+    found = known[share]
+    times = known[low].state.t, known[high].state.t
+    t = found.state.t if exact else 0.5 * (times[0] + times[1])
+    along = before.along + 0.5 * (low + high) * (after.along - before.along)
     direction = _nearest(found.tangent, number)
-    return CriticalPoint(_kind(found.tangent, direction), t, along, direction, found if exact else None)
+    kind = _kind(found.tangent, direction)
+    return CriticalPoint(kind, t, along, direction, found if exact else None, (min(times), max(times)))
+
+
+def _halved(stiffness: Callable[[float], float], signs: dict[float, float]) -> tuple[float, float]:
+    """The two shares of the chord, as near to each other as can be, between which a stiffness changes its sign.
+
+    For where Brent's method failed. signs : of the stiffness at the shares known so far; others are added. Where the ends
+    have no two signs, the whole chord.
+    """
+    if signs.get(0.0, 0.0) * signs.get(1.0, 0.0) >= 0.0:
+        return 0.0, 1.0
+    low, high = _bracket(signs)
+    while high - low > NEARLY:
+        for part in PARTS:
+            try:
+                stiffness(low + part * (high - low))
+                break
+            except (EquilibriumError, PivotError):
+                continue
+        else:
+            break
+        low, high = _bracket(signs)
+    return low, high
+
+
+def _bracket(signs: dict[float, float]) -> tuple[float, float]:
+    low = max(share for share, sign in signs.items() if sign == signs[0.0])
+    high = min((share for share, sign in signs.items() if sign != signs[0.0] and share > low), default=1.0)
+    return low, high
 
 
 def _difference(equations: StaticEquations, a: Rest, b: Rest) -> Change:

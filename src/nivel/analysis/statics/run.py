@@ -252,14 +252,20 @@ def _close(
         drivers=prepared.drivers,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
-        critical=tuple((each.kind, each.t, each.found is not None) for each in walk.critical),
+        critical=tuple((each.kind, each.t, None if each.found is not None else each.between) for each in walk.critical),
         at_rest=at_rest(machine),
         rigid=walk.rigid,
         without_potential=walk.without_potential,
     )
     result = sink.result()
     critical = [
-        {"kind": each.kind, "time": each.t, "path": each.along, "exact": each.found is not None}
+        {
+            "kind": each.kind,
+            "time": each.t,
+            "path": each.along,
+            "exact": each.found is not None,
+            "between": each.between,
+        }
         for each in walk.critical
     ]
     attributes: dict[str, str | float | int] = {

@@ -64,6 +64,12 @@ def test_tip_is_drawn_where_its_sensor_is(result):
     assert largest > 1e-3
 
 
+def test_the_floor_is_below_all_of_a_body_that_bends(result):
+    shown = stage(result, SERVED, Block())
+    assert shown.low[1] <= min(result["sensor.tip.y"]) + 0.01
+    assert shown.size >= 2.0
+
+
 def test_bars_are_closed_and_keep_their_thickness_where_they_turn():
     body, _ = reduced(bar(elements=4, reduction="modes: 2"))
     surface = moving_surface(body)

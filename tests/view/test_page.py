@@ -144,6 +144,69 @@ def test_a_machine_is_moved_by_its_sliders(browser):
         np.testing.assert_allclose(seen.pose(1), before, atol=1e-5)
 
 
+def test_the_time_is_dragged_with_the_mouse_and_tapped_with_a_finger(browser, tmp_path):
+    file = write_scene([result_of(EXAMPLES / "simple-pendulum.yaml")], tmp_path / "scene.html")
+    with watched(browser, touch=True) as seen:
+        page = seen.open(file.as_uri())
+        start, end = page.evaluate("nivel.span()")
+        box = page.get_by_role("slider", name="Time").bounding_box()
+        y = box["y"] + box["height"] / 2
+
+        def share():
+            return (page.evaluate("nivel.app.player.time") - start) / (end - start)
+
+        page.mouse.move(box["x"] + 0.1 * box["width"], y)
+        page.mouse.down()
+        page.mouse.move(box["x"] + 0.8 * box["width"], y, steps=4)
+        page.mouse.up()
+        assert share() == pytest.approx(0.8, abs=0.02)
+        # also while it plays
+        page.get_by_role("button", name="Play", exact=True).click()
+        page.touchscreen.tap(box["x"] + 0.25 * box["width"], y)
+        until(page, "!nivel.app.player.playing")
+        assert share() == pytest.approx(0.25, abs=0.02)
+
+
+def test_fit_finds_a_machine_that_was_moved_away(browser):
+    kite = nivel.Body(
+        name="kite", mass=1, inertia=(0.1, 0.1, 0.1), position=(0, 0, 0), shape={"type": "sphere", "radius": 0.05}
+    )
+    with served(nivel.Machine("far", bodies=[kite]).shown()) as viewing, watched(browser) as seen:
+        page = seen.open(viewing.address.url)
+        page.get_by_role("slider", name="kite.x", exact=True).fill("1")
+        until(page, "Math.abs(nivel.app.actor.bodies[0].position.x - 1) < 1e-5")
+        page.get_by_role("button", name="Fit everything").click()
+        until(page, "nivel.app.world.controls.target.distanceTo(nivel.app.actor.bodies[0].position) < 0.01")
+
+
+def kept(failure="", joint_torque=0.0):
+    """A second of the pendulum: one that failed where a `failure` is given."""
+    time = np.linspace(0.0, 1.0, 101)
+    values = pendulum.histories(time)
+    values["joint_torque"] = values["joint_torque"] + joint_torque
+    memory = Memory()
+    memory.begin(pendulum.header(failure=failure))
+    memory.take(pendulum.packed(time, values))
+    return memory.close({"outcome": "failed" if failure else "done"})
+
+
+def test_notes_of_several_lines_cover_no_panel(browser, tmp_path):
+    result = kept(failure="a long story of what went wrong " * 8)
+    file = write_scene([result], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        notes, panel = (page.locator(each).first.bounding_box() for each in (".notes", ".panel.structure"))
+        assert notes["y"] + notes["height"] <= panel["y"]
+
+
+def test_torques_that_are_round_off_have_no_arrows(browser, tmp_path):
+    file = write_scene([kept(joint_torque=1e-13)], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        assert page.evaluate("nivel.app.arrows.has('reaction-force')")
+        assert not page.evaluate("nivel.app.arrows.has('reaction-torque')")
+
+
 def test_keys_do_what_the_help_says(browser, tmp_path):
     result = result_of(EXAMPLES / "slider-crank.yaml")
     file = write_scene([result], tmp_path / "scene.html")

@@ -7,7 +7,7 @@ import type { Opened } from "./package";
 import { Player } from "./player";
 import { Actor, type Picked } from "./stage/actor";
 import { Arrows } from "./stage/arrows";
-import { cloudOf } from "./stage/cloud";
+import { cloudNow, cloudOf } from "./stage/cloud";
 import { Labels } from "./stage/labels";
 import { Follower } from "./stage/follower";
 import { listenToPicks } from "./stage/picking";
@@ -123,6 +123,7 @@ export class App {
     if (this.player) this.showTime();
     else if (this.motion) this.motion.sample(this.motion.start, this.actor.frame);
     this.refreshFrame();
+    if (content.mode !== "playback") this.world.around = () => cloudNow(this.actor);
     const first = columns.list().find((column) => /\.(angle|displacement)$/.test(column.name));
     if (first && this.player) void this.plots.show([first.name]);
   }

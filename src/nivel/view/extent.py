@@ -13,6 +13,7 @@ from nivel.looks.links import attached, held_points
 from nivel.looks.poses import Pose, body_poses, in_space, upwards
 from nivel.looks.solids import reach
 from nivel.looks.viewpoint import choose_view, is_planar
+from nivel.machine.surface import surface_arrays
 from nivel.view.records import Triple, Viewpoint
 from nivel.view.stage import Cast
 from nivel.view.triples import triple
@@ -39,7 +40,7 @@ class Extent:
 
 def extent(cast: Cast, position: Array, orientation: Array) -> Extent:
     """The extent over frames: position (n, B, 3) [m], orientation (n, B, 4)."""
-    boxes = [_corners(body["shape"]) if body.get("shape") else NOTHING for body in cast.scene.get("bodies", [])]
+    boxes = [_box(body) for body in cast.scene.get("bodies", [])]
     position, orientation = _looked_at(position, orientation)
     clouds = [_points(cast.scene, boxes, p, q) for p, q in zip(position, orientation, strict=True)]
     size = float(np.linalg.norm(np.ptp(clouds[0], axis=0))) if len(clouds[0]) else 0.0
@@ -84,9 +85,15 @@ def _points(scene: dict[str, Any], boxes: list[Array], position: Array, orientat
     return np.concatenate([_skeleton(scene, poses), *placed])
 
 
-def _corners(shape: dict[str, Any]) -> Array:
-    """(8, 3) corners of the box around a shape."""
-    points = reach(shape)
+def _box(body: dict[str, Any]) -> Array:
+    """(8, 3) corners of the box around what a body looks like, undeformed; of one without a shape none."""
+    if body.get("flexible"):
+        return _corners(surface_arrays(body["flexible"]["surface"])[0])
+    return _corners(reach(body["shape"])) if body.get("shape") else NOTHING
+
+
+def _corners(points: Array) -> Array:
+    """(8, 3) corners of the box around points (n, 3)."""
     low, high = points.min(axis=0), points.max(axis=0)
     return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
 

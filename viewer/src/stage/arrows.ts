@@ -9,6 +9,7 @@ import type { Look } from "./look";
 const LONGEST = 0.32; // of the machine's size
 const SHAFT = 0.0052;
 const HEAD = 0.05;
+const ROUND_OFF = 1e-9; // of the torque that the forces have over the machine's size, and the other way round
 const MANY = 100; // arrows of a family, from which on they have fewer facets
 const UP = new THREE.Vector3(0, 1, 0);
 
@@ -49,17 +50,27 @@ export class Arrows {
       const reference = Math.max(2 * arrow.typical, arrow.largest / 4);
       this.reference.set(arrow.kind, Math.max(this.reference.get(arrow.kind) ?? 0, reference));
     }
+    this.dropRoundOff();
     this.drawn = actor.stage.arrows.map((record) => ({ record, place: 0, visible: false }));
     for (const family of FAMILIES) this.bundle(family);
   }
 
   has(family: Family): boolean {
-    return this.drawn.some((each) => familyOf(each.record) === family && each.record.largest > 0);
+    return this.drawn.some(({ record }) => familyOf(record) === family && record.largest > ROUND_OFF * (this.reference.get(record.kind) ?? Infinity));
   }
 
   /** [N or N m] what an arrow of a tenth of the machine's size stands for. */
   unit(kind: "force" | "torque"): number {
     return ((this.reference.get(kind) ?? 0) * 0.1) / (LONGEST * this.scale);
+  }
+
+  /** Joints that carry no torque say round-off: that is no reason to draw it as long as what is carried. */
+  private dropRoundOff(): void {
+    const { size } = this.actor.stage;
+    const force = this.reference.get("force") ?? 0;
+    const torque = this.reference.get("torque") ?? 0;
+    if (torque <= ROUND_OFF * force * size) this.reference.delete("torque");
+    if (force * size <= ROUND_OFF * torque) this.reference.delete("force");
   }
 
   recolour(look: Look): void {

@@ -27,6 +27,20 @@ export function cloudOf(actor: Actor, motion: Motion): THREE.Vector3[] {
       for (const corner of corners(box)) out.push(corner.applyQuaternion(turn).add(at));
     });
   }
+  return [...out, ...standing(actor)];
+}
+
+/** Corners of the boxes around all bodies as they are drawn now; and what stands on the ground. */
+export function cloudNow(actor: Actor): THREE.Vector3[] {
+  const out = localBoxes(actor).flatMap((box, body) => {
+    const { position, quaternion } = actor.bodies[body]!;
+    return box.isEmpty() || actor.isBad[body] ? [] : corners(box).map((corner) => corner.applyQuaternion(quaternion).add(position));
+  });
+  return [...out, ...standing(actor)];
+}
+
+function standing(actor: Actor): THREE.Vector3[] {
+  const out: THREE.Vector3[] = [];
   const ends = new THREE.Vector3();
   for (const each of [...actor.stage.joints, ...actor.stage.forces]) {
     each.points.forEach((point, side) => {

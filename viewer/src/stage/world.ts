@@ -23,6 +23,7 @@ export class World {
   onBeforeRender: (now: number) => void = () => {};
   onEdges: (on: boolean) => void = () => {};
   onRecolour: (look: Look) => void = () => {};
+  around: (() => THREE.Vector3[]) | null = null; // points around a machine that is moved by hand, as it stands now
   frameCount = 0;
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
   private readonly sky = new THREE.HemisphereLight(0xffffff, 0x8893a0, 1.55);
@@ -109,11 +110,13 @@ export class World {
   view(name: View, animate = true): void {
     const { towards, up } = sideOf(name, this.stage.viewpoint, this.up);
     this.fitted = true;
+    if (this.around) this.see(this.around());
     this.flyTo(towards, up, this.middle(), this.distance(towards), animate);
   }
 
   fit(animate = true): void {
     this.fitted = true;
+    if (this.around) this.see(this.around());
     const towards = this.camera.position.clone().sub(this.controls.target).normalize();
     this.flyTo(towards, this.up, this.middle(), this.distance(towards), animate);
   }

@@ -9,6 +9,7 @@ const TITLES: Record<PanelName, string> = { structure: "Structure", data: "Data 
 const ICONS: Record<PanelName, IconName> = { structure: "tree", data: "plot", display: "eye" };
 const KEYS: Record<PanelName, string> = { structure: "S", data: "P", display: "D" };
 const NARROW = 760; // pixels: below it panels are sheets, one at a time
+const TOP = 60; // pixels above panels
 const WIDE = 1080; // from here on both sides are open at first
 
 export class Panels {
@@ -41,6 +42,7 @@ export class Panels {
     );
     this.elements = [this.bar, ...names.map((name) => this.panels[name]), ...(timeline ? [timeline] : [])];
     document.body.classList.toggle("has-timeline", !!timeline);
+    new ResizeObserver(() => this.arrange()).observe(this.bar); // what the program says comes and goes
     addEventListener("resize", () => {
       this.makeRoom();
       this.arrange();
@@ -114,6 +116,8 @@ export class Panels {
   }
 
   private arrange(): void {
+    // notes of several lines under the title stand above the list of parts, not over it
+    this.panels.structure.style.setProperty("--top", `${Math.max(TOP, this.bar.offsetHeight)}px`);
     const free = { left: 0, top: this.bar.offsetHeight, right: 0, bottom: this.timeline?.offsetHeight ?? 0 };
     for (const name of this.open()) {
       const box = this.panels[name].getBoundingClientRect();

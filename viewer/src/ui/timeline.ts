@@ -23,8 +23,9 @@ export class Timeline {
     this.play.classList.add("main-button");
     this.slider = el("input", { type: "range", class: "scrub", min: 0, max: 1, step: "any", value: 0, "aria-label": "Time" });
     this.slider.addEventListener("input", () => {
+      const share = Number(this.slider.value); // to pause puts the slider back to where the motion is
       player.toggle(false);
-      player.seek(motion.start + Number(this.slider.value) * span);
+      player.seek(motion.start + share * span);
     });
     this.now = el("output", { class: "time", "aria-live": "off" });
     this.speed = el("select", { "aria-label": "Speed", title: "Speed (+ and −)" }, ...SPEEDS.map((s) => el("option", { value: s }, `${s}×`)));

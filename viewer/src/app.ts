@@ -123,7 +123,7 @@ export class App {
     if (this.player) this.showTime();
     else if (this.motion) this.motion.sample(this.motion.start, this.actor.frame);
     this.refreshFrame();
-    if (content.mode !== "playback") this.world.around = () => cloudNow(this.actor);
+    if (content.mode === "machine") this.world.around = () => cloudNow(this.actor);
     const first = columns.list().find((column) => /\.(angle|displacement)$/.test(column.name));
     if (first && this.player) void this.plots.show([first.name]);
   }

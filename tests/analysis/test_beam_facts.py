@@ -31,6 +31,8 @@ beams:
 joints:
   pin: {type: revolute, bodies: [ground, rod.start], point: [0, 0, 0], axis: [0, 0, 1]}
   grip: {type: fixed, bodies: [rod.end, bob], point: [2, 0, 0]}
+drivers:
+  hold: {coordinate: pin.angle, value: 0}    # what drives may strike a beam
 """
 
 

@@ -114,3 +114,16 @@ def test_tension_at_the_top_is_the_reaction_of_the_eye(run):
     eye = np.linalg.norm(result.dataset["joint_force"].sel(joint="eye").values, axis=1)
     largest = eye.argmax()
     assert tension[largest] == pytest.approx(eye[largest], rel=0.02)
+
+
+def test_telescopic_boom_rests_on_its_pads_and_is_pushed_out(run):
+    """At rest the pads carry the hook and the inner section by the lever rule, less the cosine of what the boom leans."""
+    result = run("telescopic-boom")
+    at = {name: k for k, name in enumerate(result.dataset["joint"].values)}
+    weight, hook, length, apart = 9.81 * 7850 * (0.17 * 0.26 - 0.16 * 0.25) * 5.8, 9.81 * 800, 5.8, 5.5
+    front = (hook * length + weight * length / 2) / apart
+    forces = np.linalg.norm(result.array("joint_force")[0], axis=1)
+    assert forces[at["front"]] == pytest.approx(front, rel=1e-3)
+    assert forces[at["rear"]] == pytest.approx(hook + weight - front, rel=2e-3)
+    _, reach, _ = result.array("joint_coordinate").T  # of foot, rear, front
+    np.testing.assert_allclose(reach, 0.5 + 2.0 * (1.0 - np.cos(np.pi * result.time / 5.0)), atol=1e-9)

@@ -8,12 +8,12 @@ from nivel.analysis.equations import moved
 TIME = 0.02
 
 
-def random_states(prepared, rng, count=3):
-    """Assembled states near the start: a random change of all bodies, closed again; random velocities that the rows allow."""
+def random_states(prepared, rng, count=3, *, size=0.1):
+    """Assembled states near the start: a random change of all bodies of this size, closed again; random velocities that the rows allow."""
     motion, system = prepared.absolute, prepared.absolute.system
     for _ in range(count):
         y = prepared.assembly.y.copy()
-        change = rng.uniform(-0.1, 0.1, (system.body_count, 6))
+        change = rng.uniform(-size, size, (system.body_count, 6))
         change[:, :3] *= system.size
         y[: system.positions] = moved(y[: system.positions], change.ravel())
         assert close_positions(motion, TIME, y)

@@ -28,7 +28,8 @@ def random_body(name, rng, *, centre=True):
 
 
 PARALLEL_LINK = "revolute-cylindrical, parallel"
-KINDS = (*JOINTS, PARALLEL_LINK)
+BETWEEN_BODIES = tuple(kind for kind in JOINTS if not JOINT_KINDS[kind].rail)
+KINDS = (*BETWEEN_BODIES, PARALLEL_LINK)
 
 
 def composition(kind):

@@ -7,14 +7,13 @@ import machines
 from nivel.analysis.assemble import assemble
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.equations import equations
-from nivel.system.joints import JOINTS
 
 MACHINES = {
     "slider-crank": machines.slider_crank,
     "four-bar": machines.four_bar,
     "heavy-top": machines.heavy_top,
     "tree": lambda: machines.tree(np.random.default_rng(5)),
-    **{kind: (lambda kind=kind: machines.pair(kind, np.random.default_rng(7))) for kind in JOINTS},
+    **{kind: (lambda kind=kind: machines.pair(kind, np.random.default_rng(7))) for kind in machines.BETWEEN_BODIES},
 }
 EACH = pytest.mark.parametrize("name", MACHINES)
 

@@ -18,7 +18,6 @@ from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine
 from nivel.kernels.status import OK
 from nivel.march.catalogue import INTEGRATORS
-from nivel.system.joints import JOINTS
 from running import Frames, run
 from simulating import simulate
 
@@ -29,7 +28,7 @@ MACHINES = {
     "four-bar of revolutes": lambda: machines.four_bar("revolute", "revolute"),
     "heavy-top": machines.heavy_top,
     "tree": lambda: machines.tree(np.random.default_rng(5)),
-    **{kind: (lambda kind=kind: machines.pair(kind, np.random.default_rng(7))) for kind in JOINTS},
+    **{kind: (lambda kind=kind: machines.pair(kind, np.random.default_rng(7))) for kind in machines.BETWEEN_BODIES},
     **{path.name: (lambda path=path: nivel.load(path, allow_code=True).record) for path in EXAMPLES.glob("*.yaml")},
 }
 EACH = pytest.mark.parametrize("name", MACHINES)

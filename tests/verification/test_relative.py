@@ -14,7 +14,6 @@ from nivel.analysis.equations import MotionEquations
 from nivel.kernels.observe import observe
 from nivel.kernels.status import OK
 from nivel.motion import relative as equations_in_relative
-from nivel.system.joints import JOINTS
 from nivel.system.states.relative import arrange, tree_of
 from nivel.system.topology import CARRIERS, FREE
 
@@ -51,7 +50,7 @@ MACHINES = {
     **{f"every element, {model}": (lambda model=model: linked.record(linked.every_element(model)))
        for model in ("coulomb", "stiction", "lugre")},
     **PAIRS,
-    **{kind: seeded(machines.pair, kind) for kind in JOINTS if kind not in CARRIERS},
+    **{kind: seeded(machines.pair, kind) for kind in machines.BETWEEN_BODIES if kind not in CARRIERS},
     **{path.name: (lambda path=path: nivel.load(path, allow_code=True).record) for path in EXAMPLES.glob("*.yaml")},
 }  # fmt: skip
 EACH = pytest.mark.parametrize("name", MACHINES)

@@ -9,6 +9,7 @@ from time import perf_counter
 
 from nivel.analysis.listener import Listener
 from nivel.kernels import cache
+from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
@@ -22,12 +23,13 @@ ASSEMBLY = "nivel.motion.newton_euler"
 FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
 MEASURE, FRICTION = "nivel.kernels.measure", "nivel.kernels.friction"
-GIVEN_FRICTION = "nivel.kernels.friction_residual"
+GIVEN_FRICTION, RAIL = "nivel.kernels.friction_residual", "nivel.kernels.rail"
 ELASTIC, HELD = "nivel.kernels.forces.elastic_beam", "nivel.kernels.forces.held_beam"
 OF_BEAMS = (HELD, "nivel.kernels.beam_tangent")
 RARE = {
     MEASURE: "measured coordinates",
     FRICTION: "friction",
+    RAIL: "joints that slide along beams",
     "nivel.kernels.sensor": "sensors",
     "nivel.kernels.watch": "events",
 }
@@ -96,7 +98,7 @@ def complex_modules() -> list[str]:
     families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])
     residuals = [path.residual for path in (*PATHS.values(), FLOATING) if path.residual]
     residuals += [facts.whole for facts in INTEGRATORS.values() if facts.whole]
-    return [*residuals, MEASURE, GIVEN_FRICTION, *(f"nivel.kernels.forces.{family}" for family in families)]
+    return [*residuals, MEASURE, RAIL, GIVEN_FRICTION, *(f"nivel.kernels.forces.{family}" for family in families)]
 
 
 def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener, *, held: bool = True) -> None:
@@ -133,6 +135,7 @@ def _rare_parts(machine: MachineRecord, chosen: bool) -> list[tuple[str, str]]:
     needed = {
         MEASURE: bool(machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}),
         FRICTION: "friction" in types,
+        RAIL: any(JOINT_KINDS[joint.type].rail for joint in machine.joints),
         "nivel.kernels.sensor": bool(machine.sensors),
         "nivel.kernels.watch": bool(machine.events) or (chosen and bool(types & {*FOLLOWED})),
     }

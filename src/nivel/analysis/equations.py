@@ -56,11 +56,13 @@ class MotionEquations:
         own = record.saddle.block[: int(record.saddle.blocks[0])]
         row, part, marker, body = own[own[:, 1] != NONE].astype(np.int64).T
         q = np.array(coordinates, dtype=np.int64)
-        ends = record.coordinates.what[q, 1:3].astype(np.int64).ravel()
+        spans = [np.arange(*record.coordinates.start[k : k + 2].astype(np.int64)) for k in q]
+        measured = np.concatenate([np.zeros(0, np.int64), *spans])
+        ends = record.coordinates.part_marker[measured].astype(np.int64)
         of_ends = record.markers.body[ends].astype(np.int64)
         moving = of_ends < system.body_count
-        further = np.repeat(system.machine_rows + np.arange(len(q)), 2)
-        parts = np.vstack([record.constraints.J[part], record.coordinates.J[(2 * q[:, None] + [0, 1]).ravel()][moving]])
+        further = np.repeat(system.machine_rows + np.arange(len(q)), [len(span) for span in spans])
+        parts = np.vstack([record.constraints.J[part], record.coordinates.J[measured][moving]])
         body = np.append(body, of_ends[moving])
         return np.append(row, further[moving]), body, self._on_bodies(parts, np.append(marker, ends[moving]), body)
 

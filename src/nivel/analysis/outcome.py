@@ -19,6 +19,7 @@ from nivel.kernels.status import (
     NO_MASS_LEFT,
     NOT_CONVERGED,
     NOT_FINITE,
+    NOT_ON_RAIL,
     ROTATION_SINGULAR,
     SINGULAR,
 )
@@ -52,6 +53,8 @@ def failure(
         told = _no_mass_left(motion.system.bodies[number])
     elif status == ROTATION_SINGULAR:
         told = _singular_rotation(motion.system.bodies[number])
+    elif status == NOT_ON_RAIL:
+        told = _off_rail(motion, number)
     else:
         # what is not a number spoils pivots as well, so look for it first
         told = broken_function(motion, time, step, y)
@@ -207,6 +210,25 @@ def _singular_rotation(body: str) -> tuple[str, str]:
         "a rotation vector at a full turn from the start. The motion goes on: take --rotations euler-parameters, which never are."
     )
     return message, advice
+
+
+def _off_rail(motion: MotionEquations, coordinate: int) -> tuple[str, str]:
+    """Of a slider whose place along a beam, as last found, is at an end of it, or nowhere."""
+    system, coordinates = motion.system, motion.system.record.coordinates
+    place = system.record.joints.coordinate.tolist().index(coordinate)
+    name = system.layout.coordinates["joint_coordinate"][place]
+    length = float(coordinates.station[coordinates.start[coordinate + 1] - 1])
+    at = float(coordinates.reference[coordinate])
+    if min(at, length - at) > 0.1 * length:
+        return (
+            f"{name} has no nearest place on its beam: the slider is farther from the line than its radius of curvature",
+            "Look whether the beam bends too sharply there, or the joint is torn open; a smaller step may help.",
+        )
+    end = "end" if at > 0.5 * length else "start"
+    return (
+        f"{name} leaves its beam at the {end}: it was at {at:.6g} m, the beam is {length:.6g} m long",
+        f"Hold it before the end with a force of the type `stop` on `{name}`, end the run there with an event, or make the beam longer.",
+    )
 
 
 def broken_function(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str] | None:

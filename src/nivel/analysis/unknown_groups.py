@@ -110,7 +110,8 @@ def _frictions(system: System) -> list[tuple[set[int], int, str]]:
     record, columns = system.record, import_module("nivel.kernels.friction")
     out = []
     for index in record.friction.columns.tolist():
-        ends = record.coordinates.what[index[columns.COORDINATE], 1:3]
+        start = record.coordinates.start[index[columns.COORDINATE] :]
+        ends = record.coordinates.part_marker[start[0] : start[1]]
         loading = index[columns.JOINT]
         bodies = set(record.markers.body[ends].tolist())
         out.append((bodies, index[columns.STATE], "" if loading == NONE else system.joints[loading]))

@@ -72,19 +72,23 @@ def combine(machine, constraints, coordinates, friction, t):
         constraints.motion[k] = rate
         C, Cdot, gamma = -value, -rate, second
         for n in range(what[1], what[2]):
-            q, first, last = constraints.term[n, 0], constraints.term[n, 1], constraints.term[n, 2]
+            q, place = constraints.term[n, 0], constraints.term[n, 1]
             factor = constraints.factor[n]
             C += factor * coordinates.value[q]
             Cdot += factor * coordinates.rate[q]
             gamma -= factor * coordinates.bias[q]
-            for i in range(6):
-                J[first, i] += factor * coordinates.J[2 * q, i]
-                J[last, i] += factor * coordinates.J[2 * q + 1, i]
+            for part in range(coordinates.start[q], coordinates.start[q + 1]):
+                own = J[constraints.term_part[place]]
+                for i in range(6):
+                    own[i] += factor * coordinates.J[part, i]
+                place += 1
         constraints.C[row], constraints.Cdot[row], constraints.gamma[row] = C, Cdot, gamma
     rows = constraints.C.shape[0]
     for k in range(friction.columns.shape[0]):
         q = friction.columns[k, 0]
         constraints.gamma[rows + k] = -coordinates.bias[q]
-        for i in range(6):
-            J[friction.part[k, 0], i] = coordinates.J[2 * q, i]
-            J[friction.part[k, 1], i] = coordinates.J[2 * q + 1, i]
+        to = friction.part[k]
+        for part in range(coordinates.start[q], coordinates.start[q + 1]):
+            for i in range(6):
+                J[to, i] = coordinates.J[part, i]
+            to += 1

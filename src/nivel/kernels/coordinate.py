@@ -13,6 +13,7 @@ DISTANCE      between the points.
 COSINE        between axis `axis // 3` of the first marker and `axis % 3` of the second.
 MOMENT        z_i · (d × z_j): common normal of the two z axes times the sine of the angle between them.
 RADIUS        distance of the second point from the first's z axis.
+ALONG … TWIST of a slider on a beam, which touch all its nodes: see `nivel.kernels.rail`.
 """
 
 from __future__ import annotations
@@ -25,6 +26,9 @@ from nivel.kernels.spatial import cross, dot
 
 ROTATION, CROSS_FIRST, CROSS_SECOND, POLAR, TRANSLATION, DISTANCE, COSINE, MOMENT, RADIUS = 0, 1, 2, 3, 4, 5, 6, 7, 8
 LAST_ANGLE = POLAR
+# from here on those of a slider, the first marker: place along the beam [m], distances along the section axes y and z [m], cosines of the
+# slider's x and y axes with the line, of its y axis with the section's
+ALONG, ACROSS_Y, ACROSS_Z, LEAN_X, LEAN_Y, TWIST = 9, 10, 11, 12, 13, 14
 
 
 @leaf
@@ -206,7 +210,8 @@ def displacement(bodies, markers, kind, i, j, axis, reference, Ji, Jj, other_i, 
 def measure(bodies, markers, coordinates, k):
     """(value, rate, bias) of coordinate k; its parts of C_q are filled."""
     kind, i, j = coordinates.what[k, 0], coordinates.what[k, 1], coordinates.what[k, 2]
-    axis, Ji, Jj = coordinates.what[k, 3], coordinates.J[2 * k], coordinates.J[2 * k + 1]
+    part = coordinates.start[k]
+    axis, Ji, Jj = coordinates.what[k, 3], coordinates.J[part], coordinates.J[part + 1]
     if kind < POLAR:
         return angle(bodies, markers, kind, i, j, coordinates.reference[k], Ji, Jj)
     if kind == DISTANCE:

@@ -6,9 +6,10 @@ import numpy as np
 
 from nivel.kernels.analytic import real
 from nivel.kernels.constraint import combine
+from nivel.kernels.coordinate import ALONG
 from nivel.kernels.coordinate import measure as measure_one
-from nivel.kernels.hook import ACCEPTED, ACTIVE, SHOWN, family
-from nivel.kernels.record import record_at
+from nivel.kernels.hook import ACCEPTED, ACTIVE, SHOWN, call_hook, family
+from nivel.kernels.record import RAIL, record_at
 from nivel.kernels.status import OK
 
 
@@ -16,8 +17,8 @@ from nivel.kernels.status import OK
 def measure(machine, job, t):
     """ACTIVE: coordinates that constraints, forces or laws need, and the rows made of them, see `nivel.kernels.constraint.combine`.
 
-    ACCEPTED: angles are followed from this state on, across ±π (a step turns them by less than half a turn). Otherwise (SHOWN)
-    value and rate of all joint coordinates.
+    ACCEPTED: angles are followed from this state on, across ±π (a step turns them by less than half a turn), and sliders on beams from
+    where they are. Otherwise (SHOWN) value and rate of all joint coordinates.
     """
     record = record_at(machine)
     coordinates = record.coordinates
@@ -25,10 +26,15 @@ def measure(machine, job, t):
     count = coordinates.reference.shape[0] if job == SHOWN else listed.shape[0]
     for n in range(count):
         k = n if job == SHOWN else np.int64(listed[n])
-        value, rate, bias = measure_one(record.bodies, record.markers, coordinates, k)
-        coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
+        if coordinates.what[k, 0] >= ALONG:
+            status = call_hook(machine, RAIL, k, t)
+            if status != OK:
+                return status
+        else:
+            value, rate, bias = measure_one(record.bodies, record.markers, coordinates, k)
+            coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
         if job == ACCEPTED:
-            coordinates.reference[k] = real(value)
+            coordinates.reference[k] = real(coordinates.value[k])
     if job == ACTIVE:
         combine(machine, record.constraints, coordinates, record.friction, t)
     return OK

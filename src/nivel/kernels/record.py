@@ -71,17 +71,23 @@ class Markers(NamedTuple):
 
 
 class Coordinates(NamedTuple):
-    """Scalars measured between two markers: joint coordinates, lengths of springs, what drivers prescribe."""
+    """Scalars measured between two markers, or more: joint coordinates, lengths of springs, what drivers prescribe.
+
+    Each has a part for each marker: first marker, second marker, and of a slider on a beam all nodes of it.
+    """
 
     what: U2  # (Q, 4) kind, first marker, second marker, axis; see `nivel.kernels.coordinate`
     active: U1  # those that constraints, forces or laws need
-    followed: U1  # angles that are measured at every accepted state, to count their turns
-    reference: F1  # (Q,) [rad] angle at the last accepted state: angles are followed from there
+    start: U1  # (Q + 1,) first part of each, and behind the last
+    part_marker: U1  # of each part
+    station: F1  # [m] of each part that is a node of a beam, its place along the unstressed line
+    followed: U1  # those that are measured at every accepted state: angles, to count their turns, and places along beams
+    reference: F1  # (Q,) [rad or m] value at the last accepted state: they are followed from there
     # work, of the active ones
     value: W1  # (Q,) [m or rad]
     rate: W1  # (Q,)
     bias: W1  # (Q,) second derivative when the accelerations of the bodies are zero
-    J: W2  # (2 Q + 2, 6) rate = J[2k] (ṙ, ω of the first marker) + J[2k + 1] (those of the second); the last two are work
+    J: W2  # (parts + 2, 6) rate = Σ J[part] (ṙ, ω of the part's marker); the last two are work
 
 
 class Constraints(NamedTuple):
@@ -94,7 +100,8 @@ class Constraints(NamedTuple):
     d1: U2  # (·, 6) first marker, its axis, second marker, its axis, row, part
     d2: U2  # (·, 5) first marker, its axis, second marker, row, part
     combination: U2  # (·, 6) row, first term, one past the last, function or NONE, first part, one past the last
-    term: U2  # (·, 3) coordinate, part of its first marker, part of its second
+    term: U2  # (·, 2) coordinate, place in term_part of the row's part for the coordinate's first one; the others follow
+    term_part: U1
     factor: F1  # (·,) of each term
     offset: F1  # (combinations,) Σ factor coordinate - offset - f(t) = 0
     motion: W1  # (combinations,) f'(t), work
@@ -155,7 +162,7 @@ class Friction(NamedTuple):
 
     columns: U2  # (X, ·) columns named in `nivel.kernels.friction`
     number: F2  # (X, ·)
-    part: U2  # (X, 2) parts of the coordinate's two markers
+    part: U1  # (X,) part for the coordinate's first marker; the others follow
     block: U2  # (X, 2) first block of `saddle.block`, one past the last
     # work
     force: F1  # (X,) effort on the coordinate; where the next iteration starts
@@ -388,7 +395,7 @@ complex_family_signature = types.int64(complex_address_type, types.int64, types.
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
-MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT = (
+MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RAIL = (
     0,
     1,
     2,
@@ -397,6 +404,8 @@ MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT = (
     5,
     6,
     7,
+    8,
 )  # entries of Hooks.address
+HOOKS = 9
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions

@@ -88,9 +88,9 @@ def second_derivative(machine, q):
     record = record_at(machine)
     coordinates, bodies, markers = record.coordinates, record.bodies, record.markers
     total = 0.0
-    for side in range(2):
-        m = coordinates.what[q, 1 + side]
-        b, u, J = markers.body[m], markers.u[m], coordinates.J[2 * q + side]
+    for part in range(coordinates.start[q], coordinates.start[q + 1]):
+        m = coordinates.part_marker[part]
+        b, u, J = markers.body[m], markers.u[m], coordinates.J[part]
         alpha = angular_acceleration(bodies, b)
         a = bodies.Rddot[b]
         total += J[0] * (a[0] + alpha[1] * u[2] - alpha[2] * u[1])

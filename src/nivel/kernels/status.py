@@ -14,4 +14,5 @@ MULTIPLIERS_NOT_FOUND = 13  # the augmented Lagrangian does not converge
 EVENT_NOT_FINITE = 12  # the value of an event is no longer a number: control.failure is its number
 NOT_CONVERGED = 10  # an implicit step has no solution that its iteration finds
 STEP_TOO_SMALL = 11  # the error of even the smallest step is above the tolerance
+NOT_ON_RAIL = 15  # a slider has no place on its beam, or is beyond its end: control.failure is its coordinate
 NO_MASS_LEFT = 14  # the modes of a flexible body take up all the mass of its frame: control.failure is its number

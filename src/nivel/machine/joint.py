@@ -35,6 +35,10 @@ JointType = Literal[
     "revolute-spherical",
     "revolute-cylindrical",
     "revolute-translational",
+    "point-on-beam",
+    "keyed-on-beam",
+    "cylindrical-on-beam",
+    "translational-on-beam",
 ]
 
 PERPENDICULAR: Final = 1e-3  # [rad] by which the two axes of a universal joint may miss the right angle
@@ -47,7 +51,7 @@ class JointKind:
     place : keys that it needs beside `bodies` where it is placed by points. may : keys that it may have there.
     size : keys that it needs however it is placed. may_size : keys that it may have however it is placed.
     coordinates : names of its joint coordinates. held : the joint itself holds these coordinates.
-    axes : what the two `axes` are to each other.
+    axes : what the two `axes` are to each other. rail : the second of its `bodies` is a beam, along which it slides.
     """
 
     place: tuple[str, ...]
@@ -57,8 +61,10 @@ class JointKind:
     may_size: tuple[str, ...] = ()
     held: tuple[str, ...] = ()
     axes: Literal["", "perpendicular", "not parallel"] = ""
+    rail: bool = False
 
 
+_ON_BEAM: Final = JointKind(("point",), ("displacement",), rail=True)
 _ROD: Final = JointKind(("points",), ("distance",), may_size=("distance",), held=("distance",))
 
 JOINT_KINDS: Final[dict[str, JointKind]] = {
@@ -77,6 +83,10 @@ JOINT_KINDS: Final[dict[str, JointKind]] = {
     "revolute-spherical": JointKind(("points", "axis"), ("angle",), may=("x_axis",)),
     "revolute-cylindrical": JointKind(("points", "axes")),
     "revolute-translational": JointKind(("point", "axes"), ("angle", "displacement"), axes="not parallel"),
+    "point-on-beam": _ON_BEAM,
+    "keyed-on-beam": _ON_BEAM,
+    "cylindrical-on-beam": _ON_BEAM,
+    "translational-on-beam": _ON_BEAM,
 }
 JOINT_COORDINATES: Final = {name: kind.coordinates for name, kind in JOINT_KINDS.items()}
 
@@ -173,6 +183,8 @@ class Joint(Checked):
 
     def problems(self) -> Iterator[Problem]:
         kind = JOINT_KINDS[self.type]
+        if kind.rail and self.markers is not None:
+            yield superfluous("markers", f"a {self.type} joint needs `bodies`, of which the second is a beam, and a `point`")
         yield from self._problems_by_markers() if self.markers is not None else self._problems_by_points(kind)
         for key in _SIZE:
             if key not in (*kind.size, *kind.may_size) and self._gives(key):
@@ -197,7 +209,7 @@ class Joint(Checked):
 
     def _problems_by_points(self, kind: JointKind) -> Iterator[Problem]:
         where = kind.place[0]
-        by_interface = where == "point" and self.interface is not None
+        by_interface = where == "point" and self.interface is not None and not kind.rail
         if by_interface and self.point is not None:
             yield Problem(("interface",), "give `point` or `interface`, not both", at_key=True)
         if self.bodies is None or not (self._gives(where) or by_interface):
@@ -208,7 +220,7 @@ class Joint(Checked):
         for key in kind.place[1:]:
             if not self._gives(key):
                 yield self._missing(key)
-        allowed = (*kind.place, *kind.may, *(("interface",) if where == "point" else ()))
+        allowed = (*kind.place, *kind.may, *(("interface",) if where == "point" and not kind.rail else ()))
         for key in _PLACE:
             if self._gives(key) and key not in allowed:
                 instead = _INSTEAD.get(key, "")

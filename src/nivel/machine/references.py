@@ -11,6 +11,7 @@ from nivel.machine.coordinate_uses import coordinate_faults
 from nivel.machine.forces import FORCES, Contact
 from nivel.machine.forces.contact import SHAPES_ON_PLANE
 from nivel.machine.index import SECTIONS, Index, Place, as_list, elements
+from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.point_masses import point_mass_faults
 from nivel.machine.record import GROUND, Record, entry, unknown_word
 from nivel.machine.symbols import symbol_faults
@@ -35,7 +36,7 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
         if isinstance(marker, Mapping | Record) and entry(marker, "name") is None:
             yield ("markers", at), "`name` is missing"
     for at, joint in enumerate(elements(machine, "joints")):
-        yield from _of_pair(joint, index, ("joints", at), "a joint needs two different bodies")
+        yield from _of_joint(joint, index, ("joints", at))
     for at, driver in enumerate(elements(machine, "drivers")):
         yield from _of_driver(driver, index, ("drivers", at))
     for at, force in enumerate(elements(machine, "forces")):
@@ -140,6 +141,29 @@ def _outputs(force: Any) -> tuple[str, ...]:
     """What a sensor can read of a force."""
     its = _OUTPUTS.get(str(entry(force, "type")), ())
     return its if entry(force, "model") in (None, "lugre") else tuple(name for name in its if name != "bristle")
+
+
+def _of_joint(joint: Any, index: Index, place: Place) -> Faults:
+    kind = JOINT_KINDS.get(str(entry(joint, "type")))
+    bodies = as_list(entry(joint, "bodies"))
+    placed = bool(entry(joint, "nodes"))  # its beam is nodes already
+    if kind is None or not kind.rail or placed or len(bodies) != 2:
+        yield from _of_pair(joint, index, place, "a joint needs two different bodies")
+        return
+    slider, beam = bodies
+    if isinstance(slider, str) and slider in index.beams:
+        yield (*place, "bodies", 0), f"`{slider}` is a beam; what slides comes first, the beam second"
+    else:
+        yield from _unknown_body(slider, index, (*place, "bodies", 0))
+    if not isinstance(beam, str):
+        return
+    if beam not in index.beams:
+        known = ", ".join(f"`{each}`" for each in index.beams) or "none"
+        whole = beam.partition(".")[0]
+        hint = f"write `{whole}`, the whole beam" if whole in index.beams else f"there are {known}"
+        yield (*place, "bodies", 1), f"`{beam}` is not a beam, along which this joint slides; {hint}"
+    elif isinstance(slider, str) and slider.partition(".")[0] == beam:
+        yield (*place, "bodies"), f"`{slider}` is on the beam `{beam}` itself, and cannot slide along it"
 
 
 def _of_pair(element: Any, index: Index, place: Place, needs: str) -> Faults:

@@ -91,6 +91,12 @@ def _pin_in_slot(seen: bool) -> str:
     return '<rect x="-15" y="-5.5" width="30" height="11" rx="5.5"/><circle r="3.8" class="solid"/>'
 
 
+def _on_beam(slider: str) -> Callable[[bool], str]:
+    """What slides on a line that bends."""
+    line = '<path d="M-17 4Q0 -4 17 4" class="axis"/>'
+    return lambda seen: f'{line}{slider}'
+
+
 def _rod(first: str, second: str) -> Callable[[bool], str]:
     """A massless link, small, between the signs of its ends."""
     bar = '<path d="M-11 0H11" class="axis"/>'
@@ -121,6 +127,10 @@ SIGNS: dict[str, Callable[[bool], str]] = {
     "revolute-spherical": _rod(_HINGE, _BALL),
     "revolute-cylindrical": _rod(_HINGE, _SLEEVE),
     "revolute-translational": _pin_in_slot,
+    "point-on-beam": _on_beam('<circle r="4.2" class="solid"/>'),
+    "keyed-on-beam": _on_beam('<circle r="4.2" class="solid"/><path d="M0 -9.5V-4" class="axis"/>'),
+    "cylindrical-on-beam": _on_beam('<rect x="-8" y="-5" width="16" height="10" rx="2.5"/>'),
+    "translational-on-beam": _on_beam('<rect x="-8" y="-5" width="16" height="10" class="solid"/>'),
 }
 _ICON_AXES = {"planar": (0.0, -1.0), "point-on-plane": (0.0, -1.0)}  # on a level plane
 _ICON_END_ON = ("revolute", "spherical", "universal", "fixed")

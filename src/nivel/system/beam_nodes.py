@@ -12,16 +12,21 @@ from nivel.machine.inertia import Inertia
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.orientation import Orientation, euler_parameters_from_matrix
 from nivel.system.beam_elements import masses_of
+from nivel.system.rails import on_beams
 
 
 def with_nodes(machine: MachineRecord) -> MachineRecord:
-    """The machine with one body a node of its beams, behind its own bodies, with the mass lumped there; the same where it has them."""
+    """The machine with one body a node of its beams, behind its own bodies, with the mass lumped there; the same where it has them.
+
+    Joints that slide along a beam get its nodes.
+    """
     known = {body.name for body in machine.bodies}
     missing = [beam for beam in machine.beams if beam.node_names[0] not in known]
     if not missing:
         return machine
     given: dict[str, Any] = {name: getattr(machine, name) for name in type(machine).model_fields}
     given["bodies"] = (*machine.bodies, *(node for beam in missing for node in _nodes(beam)))
+    given["joints"] = on_beams(machine.joints, missing)
     return type(machine).model_construct(machine.model_fields_set | {"bodies"}, **given)
 
 

@@ -14,8 +14,10 @@ from nivel.kernels.record import (
     BOTH,
     FALLING,
     FRICTION,
+    HOOKS,
     MEASURE,
     NONE,
+    RAIL,
     RISING,
     SENSE,
     Bodies,
@@ -176,9 +178,11 @@ def _watched(draft: Draft) -> Watched:
 
 def _hooks(draft: Draft, sensors: bool) -> Hooks:
     """Addresses of the compiled functions that only some machines need."""
-    address = np.zeros(8, dtype=np.uint64)
+    address = np.zeros(HOOKS, dtype=np.uint64)
     if draft.coordinates.what:
         address[MEASURE] = import_module("nivel.kernels.measure").measure.address
+    if draft.coordinates.rails:
+        address[RAIL] = import_module("nivel.kernels.rail").slide.address
     if draft.frictions:
         address[FRICTION] = import_module("nivel.kernels.friction").rub.address
     if sensors:
@@ -187,10 +191,10 @@ def _hooks(draft: Draft, sensors: bool) -> Hooks:
 
 
 def _extra_parts(draft: Draft, rows: RowTable, row_count: int) -> list[tuple[int, int, int]]:
-    """(row, part, marker) of the parts of the extra rows of friction: two a row, behind all others."""
+    """(row, part, marker) of the parts of the extra rows of friction, behind all others."""
     parts: list[tuple[int, int, int]] = []
     for k, (index, _) in enumerate(draft.frictions):
-        for marker in draft.coordinates.what[index[0]][1:3]:
+        for marker in draft.coordinates.markers(index[0]):
             parts.append((row_count + k, len(rows.part_row) + len(parts), marker))
     return parts
 
@@ -204,7 +208,7 @@ def _friction(draft: Draft, saddle: Saddle, extra: list[tuple[int, int, int]], r
     return Friction(
         columns=padded([index for index, _ in draft.frictions], NONE).astype(np.uint32),
         number=padded([numbers for _, numbers in draft.frictions], 0.0),
-        part=index_array([part for _, part, _ in extra], 1).reshape(-1, 2),
+        part=index_array([min(part for row, part, _ in extra if row == row_count + k) for k in range(count)], 1),
         block=index_array(list(pairwise(first)), 2),
         force=np.zeros(count),
         S=np.zeros((count, count)),

@@ -133,7 +133,7 @@ class Draft:
 
     def _measured(self, name: str) -> int:
         index = self.joint_coordinates[name]
-        self._note(*self.coordinates.what[index][1:3])
+        self._note(*self.coordinates.markers(index))
         return self.coordinates.use(index)
 
     def function(self, value: TimeFunction, local: dict[str, Signal] | None = None, *, motion: bool = False) -> int:

@@ -11,21 +11,28 @@ from math import pi
 from typing import Final, Literal
 
 from nivel.kernels.coordinate import (
+    ACROSS_Y,
+    ACROSS_Z,
+    ALONG,
     COSINE,
     CROSS_FIRST,
     CROSS_SECOND,
     DISTANCE,
+    LEAN_X,
+    LEAN_Y,
     MOMENT,
     POLAR,
     RADIUS,
     ROTATION,
     TRANSLATION,
+    TWIST,
 )
 from nivel.machine.joint import Joint
 
 AXES: Final = {"x": 0, "y": 1, "z": 2}
-# From which marker to which: first to second, second to first, or from the slot, a third marker, on the second body, to the first.
-View = Literal["first", "second", "slot"]
+# From which marker to which: first to second, second to first, from the slot, a third marker, on the second body, to the first, or from
+# the first to the nodes of a beam.
+View = Literal["first", "second", "slot", "rail"]
 
 
 @dataclass(frozen=True)
@@ -77,12 +84,13 @@ Factor = (
 
 @dataclass(frozen=True)
 class Combination:
-    """Σ factor coordinate is constant: what it is as placed, or the number that the joint's field `given` holds."""
+    """Σ factor coordinate is constant: what it is as placed, the number that the joint's field `given` holds, or, with `zero`, nothing."""
 
     name: str
     terms: tuple[tuple[Measured, Factor], ...]
     units: str = "m"
     given: str = ""
+    zero: bool = False
 
     @property
     def rows(self) -> tuple[str, ...]:
@@ -132,6 +140,22 @@ TURN = "angle: right-handed turn of the second body about the first marker's z a
 SLIDE = "displacement: of the second marker's point from the first's along the first marker's z axis"
 PLACE = "x: of the second marker's point from the first's along the first marker's x axis; y: along its y axis"
 NOTHING = "no joint coordinate"
+
+RAIL = (
+    "displacement: of the point along the beam, in unstressed length from its start; the joint's z axis is that of the beam, its x axis "
+    "the sections' y"
+)
+
+
+def on_rail(name: str, kind: int, units: str = "m") -> Combination:
+    """A row that holds a coordinate of a slider on a beam at zero."""
+    return Combination(name, ((Measured(kind, seen_from="rail"), 1.0),), units=units, zero=True)
+
+
+ON_LINE = (on_rail("across.y", ACROSS_Y), on_rail("across.z", ACROSS_Z))
+WITH_LINE = (on_rail("lean.x", LEAN_X, "1"), on_rail("lean.y", LEAN_Y, "1"))
+KEY = on_rail("twist", TWIST, "1")
+PLACE_ON_BEAM = JointCoordinate("displacement", Measured(ALONG, seen_from="rail"), "m")
 
 ROD = Composition(
     (Combination("distance", ((Measured(DISTANCE), 1.0),), given="distance"),),
@@ -209,4 +233,8 @@ JOINTS: Final[dict[str, Composition]] = {
         True,
         f"{TURN}; displacement: of the first marker's point from the second's along the slot in the second body",
     ),
+    "point-on-beam": Composition(ON_LINE, (PLACE_ON_BEAM,), 4, False, RAIL),
+    "keyed-on-beam": Composition((*ON_LINE, KEY), (PLACE_ON_BEAM,), 3, False, RAIL),
+    "cylindrical-on-beam": Composition((*ON_LINE, *WITH_LINE), (PLACE_ON_BEAM,), 2, False, RAIL),
+    "translational-on-beam": Composition((*ON_LINE, *WITH_LINE, KEY), (PLACE_ON_BEAM,), 1, False, RAIL),
 }

@@ -25,10 +25,12 @@ from nivel.system.joints import (
     PerpendicularDistance,
 )
 from nivel.system.located import located
-from nivel.system.tables import index_array
+from nivel.system.rails import OnBeam
+from nivel.system.tables import Rail, index_array
 
 # cosines of axes that count as parallel differ from ±1 by less than this: 0.001 rad
 PARALLEL = 5e-7
+Views = dict[str, tuple[int, int | Rail]]  # from which marker to which, or to a beam
 
 
 @dataclass
@@ -51,7 +53,8 @@ class RowTable:
     d1: list[tuple[int, ...]] = field(default_factory=list)
     d2: list[tuple[int, ...]] = field(default_factory=list)
     combination: list[tuple[int, ...]] = field(default_factory=list)
-    term: list[tuple[int, int, int]] = field(default_factory=list)
+    term: list[tuple[int, int]] = field(default_factory=list)
+    term_part: list[int] = field(default_factory=list)
     factor: list[float] = field(default_factory=list)
     given: list[float | None] = field(default_factory=list)
     reports: list[tuple[int, int]] = field(default_factory=list)
@@ -87,11 +90,12 @@ class RowTable:
         parts = {marker: self.part(row, marker) for marker in markers}
         first_term = len(self.term)
         for coordinate, factor in terms:
-            _, first, second, _ = draft.coordinates.what[draft.coordinates.use(coordinate)]
-            for marker in (first, second):
+            ends = draft.coordinates.markers(draft.coordinates.use(coordinate))
+            for marker in ends:
                 if marker not in parts:
                     parts[marker] = self.part(row, marker)
-            self.term.append((coordinate, parts[first], parts[second]))
+            self.term.append((coordinate, len(self.term_part)))
+            self.term_part += [parts[marker] for marker in ends]
             self.factor.append(factor)
         first_part = min(parts.values())
         span = (first_part, first_part + len(parts))
@@ -113,7 +117,8 @@ class RowTable:
             d1=index_array(self.d1, 6),
             d2=index_array(self.d2, 5),
             combination=index_array(self.combination, 6),
-            term=index_array(self.term, 3),
+            term=index_array(self.term, 2),
+            term_part=index_array(self.term_part, 1),
             factor=np.array(self.factor, dtype=float),
             offset=np.array([given or 0.0 for given in self.given], dtype=float),
             motion=np.zeros(len(self.given)),
@@ -130,7 +135,9 @@ def add_joint(draft: Draft, rows: RowTable, joint: Joint) -> None:
     """Markers, joint coordinates and rows of a joint."""
     placed = joint_frames(draft.machine, joint)
     first, second = (draft.place(each) for each in placed)
-    views = {"first": (first, second), "second": (second, first)}
+    views: Views = {"first": (first, second), "second": (second, first)}
+    if isinstance(joint, OnBeam):
+        views["rail"] = first, Rail(tuple(draft.frame(node) for node in joint.nodes), joint.stations, joint.place)
     if joint.type == "revolute-translational":
         views["slot"] = (draft.place(slot_frame(draft.machine, joint)), first)
     cosine = cosine_as_placed(draft.machine, *placed)
@@ -151,14 +158,17 @@ def composition(joint: Joint, cosine: float) -> Composition:
     return kind.when_parallel if kind.when_parallel is not None and 1.0 - abs(cosine) < PARALLEL else kind
 
 
-def _measured(draft: Draft, measured: Measured, views: dict[str, tuple[int, int]]) -> int:
-    return draft.coordinates.add(measured.kind, *views[measured.seen_from], measured.axis)
+def _measured(draft: Draft, measured: Measured, views: Views) -> int:
+    first, second = views[measured.seen_from]
+    if isinstance(second, Rail):
+        return draft.coordinates.on_rail(measured.kind, first, second)
+    return draft.coordinates.add(measured.kind, first, second, measured.axis)
 
 
-def _add_basic(
-    draft: Draft, rows: RowTable, joint: Joint, basic: Basic, views: dict[str, tuple[int, int]], cosine: float
-) -> None:
-    markers = first, second = views["first"]
+def _add_basic(draft: Draft, rows: RowTable, joint: Joint, basic: Basic, views: Views, cosine: float) -> None:
+    first, second = views["first"]
+    assert not isinstance(second, Rail)
+    markers = first, second
     units = basic.units if isinstance(basic, Combination) else "1" if isinstance(basic, PerpendicularAxes) else "m"
     new = [rows.row(joint.name, name, units) for name in basic.rows]
     row = new[0]
@@ -167,11 +177,13 @@ def _add_basic(
             (_measured(draft, measured, views), factor(joint, cosine) if callable(factor) else factor)
             for measured, factor in basic.terms
         ]
-        given = getattr(joint, basic.given) if basic.given else None
-        rows.first_part.append(rows.combine(draft, row, terms, markers=markers, offset=given))
+        given = getattr(joint, basic.given) if basic.given else 0.0 if basic.zero else None
+        ends = () if isinstance(joint, OnBeam) else markers
+        rows.first_part.append(rows.combine(draft, row, terms, markers=ends, offset=given))
         return
     if isinstance(basic, PerpendicularDistance):
         first, second = views[basic.seen_from]
+        assert not isinstance(second, Rail)
     part = len(rows.part_row)
     for each in new:
         rows.part(each, first)

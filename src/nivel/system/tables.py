@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.coordinate import LAST_ANGLE
+from nivel.kernels.coordinate import ALONG, LAST_ANGLE
 from nivel.kernels.record import NONE, Coordinates, Elements, Markers
 
 Array = NDArray[np.float64]
@@ -57,11 +57,21 @@ class MarkerTable:
         )
 
 
+@dataclass(frozen=True)
+class Rail:
+    """A beam that something slides on: markers of its nodes, their places along the unstressed line, that of the slider as placed [m]."""
+
+    nodes: tuple[int, ...]
+    stations: tuple[float, ...]
+    place: float
+
+
 @dataclass
 class CoordinateTable:
-    """Scalars measured between two markers; the same one is measured once."""
+    """Scalars measured between two markers, or a slider and the nodes of its rail; the same one is measured once."""
 
     what: list[tuple[int, int, int, int]] = field(default_factory=list)  # kind, first marker, second marker, axis
+    rails: dict[int, Rail] = field(default_factory=dict)  # of sliders
     active: set[int] = field(default_factory=set)
     _index: dict[tuple[int, int, int, int], int] = field(default_factory=dict)
 
@@ -73,6 +83,18 @@ class CoordinateTable:
             self.what.append(entry)
         return self._index[entry]
 
+    def on_rail(self, kind: int, slider: int, rail: Rail) -> int:
+        """The same for a kind of slider; it is followed through its place along the rail."""
+        along = self.add(ALONG, slider, rail.nodes[0])
+        index = along if kind == ALONG else self.add(kind, slider, rail.nodes[0], along)
+        self.rails[index] = rail
+        return index
+
+    def markers(self, coordinate: int) -> tuple[int, ...]:
+        """Markers that a coordinate looks at, one for each of its parts."""
+        _, first, second, _ = self.what[coordinate]
+        return (first, *self.rails[coordinate].nodes) if coordinate in self.rails else (first, second)
+
     def use(self, coordinate: int) -> int:
         """The same index; the coordinate is measured in every evaluation from now on."""
         self.active.add(coordinate)
@@ -80,15 +102,23 @@ class CoordinateTable:
 
     def arrays(self) -> Coordinates:
         count = len(self.what)
+        markers = [self.markers(k) for k in range(count)]
+        nothing = (0.0, 0.0)
+        stations = [(0.0, *self.rails[k].stations) if k in self.rails else nothing for k in range(count)]
+        parts = sum(map(len, markers))
+        followed = [k for k, entry in enumerate(self.what) if entry[0] <= LAST_ANGLE or entry[0] == ALONG]
         return Coordinates(
             what=index_array(self.what, 4),
             active=index_array(sorted(self.active), 1),
-            followed=index_array([k for k, entry in enumerate(self.what) if entry[0] <= LAST_ANGLE], 1),
-            reference=np.zeros(count),
+            start=np.cumsum([0, *map(len, markers)]).astype(np.uint32),
+            part_marker=index_array([marker for each in markers for marker in each], 1),
+            station=np.array([place for each in stations for place in each], dtype=float),
+            followed=index_array(followed, 1),
+            reference=np.array([self.rails[k].place if k in self.rails else 0.0 for k in range(count)], dtype=float),
             value=np.zeros(count),
             rate=np.zeros(count),
             bias=np.zeros(count),
-            J=np.zeros((2 * count + 2, 6)),
+            J=np.zeros((parts + 2, 6)),
         )
 
 

@@ -11,9 +11,9 @@ def push_coordinate(machine, q, effort):
     """Add the generalised force `effort` [N or N m] on coordinate q, positive where it drives the coordinate up; returns its power."""
     record = record_at(machine)
     bodies, markers, coordinates = record.bodies, record.markers, record.coordinates
-    for side in range(2):
-        m = coordinates.what[q, 1 + side]
-        J, u, F = coordinates.J[2 * q + side], markers.u[m], bodies.wrench[markers.body[m]]
+    for part in range(coordinates.start[q], coordinates.start[q + 1]):
+        m = coordinates.part_marker[part]
+        J, u, F = coordinates.J[part], markers.u[m], bodies.wrench[markers.body[m]]
         x, y, z = effort * J[0], effort * J[1], effort * J[2]
         F[0] += x
         F[1] += y

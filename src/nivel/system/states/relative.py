@@ -278,15 +278,21 @@ def _markers_in_use(old: Record, nodes: list[Node], followed: Index) -> Index:
     """Markers that every evaluation needs: not those of joints that carry bodies, unless a coordinate in use is measured between them."""
     carrying = {marker for node in nodes for marker in (node.near, node.far)}
     in_use = np.union1d(old.coordinates.active, followed)
-    measured = set(old.coordinates.what[in_use, 1:3].ravel().tolist())
+    measured = _ends(old, in_use)
     return index_array([k for k in range(len(old.markers.body)) if k not in carrying or k in measured], 1)
 
 
 def _with_axes(old: Record, left: Constraints, followed: Index) -> Index:
     """Markers whose axes an evaluation may need, or more: those of rows with axes, of coordinates, and all that forces name by number."""
     measured = np.union1d(old.coordinates.active, followed)
-    of_rows = [left.d1[:, [0, 2]], left.d2[:, [0, 2]], old.coordinates.what[measured, 1:3]]
+    of_rows = [left.d1[:, [0, 2]], left.d2[:, [0, 2]], np.array(sorted(_ends(old, measured)), dtype=np.uint32)]
     return np.concatenate([table.ravel() for table in (*of_rows, old.elements.columns, old.friction.columns)])
+
+
+def _ends(old: Record, coordinates: Index) -> set[int]:
+    """Markers that these coordinates look at."""
+    start, markers = old.coordinates.start, old.coordinates.part_marker
+    return {int(marker) for k in coordinates for marker in markers[start[k] : start[k + 1]]}
 
 
 def _reactions(old: Record, nodes: list[Node]) -> dict[str, Index]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.kernels.coordinate import CROSS_FIRST, CROSS_SECOND, LAST_ANGLE, ROTATION
+from nivel.kernels.coordinate import ALONG, CROSS_FIRST, CROSS_SECOND, LAST_ANGLE, ROTATION
 from nivel.kernels.record import U1, U2, Coordinates
 from nivel.system.states.joint_start import Node
 from nivel.system.system import Array
@@ -29,13 +29,14 @@ class Turns:
 def turns(coordinates: Coordinates, nodes: Sequence[Node], q: Array) -> Turns:
     """How the angles of `coordinates`, whose `reference` is that at the start, follow from joint coordinates, q at the start.
 
-    Angles that every evaluation measures are followed as in all coordinates.
+    Angles that every evaluation measures, and places along beams, are followed as in all coordinates.
     """
     carried = {frozenset((node.near, node.far)): node for node in nodes}
     counted, numbers, followed = [], [], []
     active = set(coordinates.active.tolist())
     for k, (kind, first, second, _) in enumerate(coordinates.what.tolist()):
         if kind > LAST_ANGLE:
+            followed += [k] if kind == ALONG else []
             continue
         node = carried.get(frozenset((first, second)))
         place = None if node is None or k in active else _place(kind, node, first == node.near)

@@ -1,0 +1,94 @@
+"""Joints that slide along a beam: which nodes they may come by, and where they start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from nivel.errors import Fault, ModelError
+from nivel.machine.beam import Beam
+from nivel.machine.checked import Problem
+from nivel.machine.joint import JOINT_KINDS, Joint
+from nivel.system.tables import Array
+
+SAMPLES = 8  # of the line between two nodes, from which the nearest point is looked for
+OFF = 1e-3  # of the length of a beam by which the point of a joint may miss its line: the joint is on the line
+
+
+class OnBeam(Joint):
+    """A joint whose second body is a beam, as placed: on the line through its nodes, axis along the line and x along the sections' y.
+
+    Its second body is the nearest node. nodes : all nodes of the beam as bodies. stations : their places along its unstressed line [m].
+    place : that of the joint's point.
+    """
+
+    nodes: tuple[str, ...] = ()
+    stations: tuple[float, ...] = ()
+    place: float = 0.0
+
+    def problems(self) -> Iterator[Problem]:
+        """None: the joint that it is made of was checked."""
+        yield from ()
+
+
+def on_beams(joints: Sequence[Joint], beams: Sequence[Beam]) -> tuple[Joint, ...]:
+    """The joints, those that slide along one of the `beams` as `OnBeam`. Raises ModelError where their points are beside the beam."""
+    named, made, faults = {beam.name: beam for beam in beams}, [], []
+    for joint in joints:
+        try:
+            made.append(_on_beam(joint, named))
+        except ModelError as error:
+            faults += error.faults
+    if faults:
+        raise ModelError(faults)
+    return tuple(made)
+
+
+def _on_beam(joint: Joint, beams: dict[str, Beam]) -> Joint:
+    if not JOINT_KINDS[joint.type].rail or joint.bodies is None or joint.bodies[1] not in beams:
+        return joint
+    assert joint.point is not None  # the record was checked
+    beam = beams[joint.bodies[1]]
+    stations = beam.line.length * beam.shares
+    places, axes = beam.frames(beam.shares)
+    place, point, along = _nearest(stations, places, axes[:, :, 0], np.array(joint.point))
+    gap = float(np.linalg.norm(point - joint.point))
+    if gap > OFF * beam.line.length:
+        near = ", ".join(f"{x:.6g}" for x in point)
+        message = f"the `point` is {gap:.3g} m beside the line of the beam `{beam.name}`; the nearest point on it is [{near}] m"
+        raise ModelError(Fault("", 0, 0, f"joints.{joint.name}.point", message))
+    across = np.array([np.interp(place, stations, axes[:, k, 1]) for k in range(3)])
+    across -= (across @ along) * along / (along @ along)
+    given: dict[str, Any] = {name: getattr(joint, name) for name in type(joint).model_fields}
+    given |= {
+        "bodies": (joint.bodies[0], beam.node_names[int(np.argmin(np.abs(stations - place)))]),
+        "point": tuple(point.tolist()),
+        "axis": tuple(along.tolist()),
+        "x_axis": tuple(across.tolist()),
+        "nodes": beam.node_names,
+        "stations": tuple(stations.tolist()),
+        "place": place,
+    }
+    return OnBeam.model_construct(joint.model_fields_set | {"axis", "x_axis"}, **given)
+
+
+def _nearest(stations: Array, places: Array, tangents: Array, point: Array) -> tuple[float, Array, Array]:
+    """Where the line through the nodes is nearest to a global point (3,): place along the beam [m], the point (3,), the slope there (3,)."""
+    from scipy.interpolate import CubicHermiteSpline
+    from scipy.optimize import minimize_scalar
+
+    line = CubicHermiteSpline(stations, places, tangents)
+    samples = np.linspace(stations[0], stations[-1], SAMPLES * (len(stations) - 1) + 1)
+    k = int(np.argmin(np.linalg.norm(line(samples) - point, axis=1)))
+    low, high = float(samples[max(k - 1, 0)]), float(samples[min(k + 1, len(samples) - 1)])
+
+    def square(s: float) -> float:
+        return float(np.sum((line(s) - point) ** 2))
+
+    found = minimize_scalar(
+        square, bounds=(low, high), method="bounded", options={"xatol": 1e-12 * float(stations[-1])}
+    )
+    place = min((float(found.x), low, high), key=square)
+    return place, line(place), line(place, 1)

@@ -125,5 +125,5 @@ def test_telescopic_boom_rests_on_its_pads_and_is_pushed_out(run):
     forces = np.linalg.norm(result.array("joint_force")[0], axis=1)
     assert forces[at["front"]] == pytest.approx(front, rel=1e-3)
     assert forces[at["rear"]] == pytest.approx(hook + weight - front, rel=2e-3)
-    _, reach, _ = result.array("joint_coordinate").T  # of foot, rear, front
+    _, reach, _, _ = result.array("joint_coordinate").T  # of foot, rear, front, rope
     np.testing.assert_allclose(reach, 0.5 + 2.0 * (1.0 - np.cos(np.pi * result.time / 5.0)), atol=1e-9)

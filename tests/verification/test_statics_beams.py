@@ -213,3 +213,51 @@ def test_frame_snaps_back():
     down = position[:, names.index("left.end"), 1]
     assert np.any(np.diff(down) > 0)  # snap-back
     assert down[-1] < down[0]
+
+
+def two_beams(joint, **more):
+    """A clamped beam that carries another one by a joint, which a bushing of the joint's coordinates or the joint itself holds."""
+    beam = {"section": general(1e5, 4e4, 80.0, 100.0, 1.0, (0.1, 0.1, 0.1)), "elements": 4}
+    return {
+        "gravity": [0, 0, -0.5],
+        "beams": {
+            "first": {"from": [0, 0, 0], "to": [3, 0, 0], **beam},
+            "second": {"from": [3, 0, 0], "to": [5, 1, 0], **beam},
+        },
+        "joints": {
+            "wall": {"type": "fixed", "bodies": ["ground", "first.start"], "point": [0, 0, 0]},
+            "joint": {"type": joint, "bodies": ["first.end", "second.start"], "point": [3, 0, 0], **more},
+        },
+        "forces": {
+            "pull": {"type": "force", "body": "second.end", "vector": [1, 3, -2]},
+            "hold": {
+                "type": "bushing",
+                "bodies": ["first.end", "second.start"],
+                "points": [[3, 0, 0]] * 2,
+                "stiffness": [50, 50, 50, 20, 20, 20],
+            },
+        },
+    }
+
+
+@pytest.mark.parametrize(
+    ("joint", "more"),
+    [
+        ("revolute", {"axis": [0, 0, 1]}),
+        ("spherical", {}),
+        ("universal", {"axes": [[0, 1, 0], [0, 0, 1]]}),
+        ("cylindrical", {"axis": [1, 0, 0]}),
+        ("translational", {"axis": [0, 1, 0]}),
+        ("planar", {"axis": [0, 0, 1]}),
+        ("screw", {"axis": [1, 0, 0], "pitch": 0.3}),
+        ("fixed", {}),
+    ],
+)
+def test_eliminated_and_kept_joints_rest_in_the_same_place(joint, more):
+    """Every kind of joint between bent beams, to 1e-10 of the machine's size."""
+    rest = [machine(two_beams(joint, **more)).statics(coordinates=each) for each in ("absolute", "relative")]
+    places = [each.array("position")[0] for each in rest]
+    assert np.abs(places[0][-1] - [5, 1, 0]).max() > 0.05
+    np.testing.assert_allclose(places[0], places[1], rtol=0, atol=5e-10)
+    forces = [each.array("joint_force")[0] for each in rest]
+    np.testing.assert_allclose(forces[0], forces[1], rtol=0, atol=1e-8 * np.abs(forces[0]).max())

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from importlib import import_module
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.kernels.coordinate import ALONG
 from nivel.kernels.record import NONE
 from nivel.system.system import System
 
@@ -38,11 +39,14 @@ def unknown_groups(
     number = {joint: moving + states + k for k, joint in enumerate(joints)}
     couples = {(body, count + f) for f, body in enumerate(record.flexible.body.tolist())}
     bodies_of: dict[int, set[int]] = {}
+    rows_of: dict[int, set[int]] = {}
     for k, _, _, body in part.tolist():
         bodies_of.setdefault(number[owners[k]], set()).add(body)
+        rows_of.setdefault(number[owners[k]], set()).add(int(row[k]))
     for joint, bodies in bodies_of.items():
-        moved = _moved_by(system, bodies)
-        couples |= {(body, joint) for body in moved} | set(combinations(sorted(moved), 2))
+        couples |= {(body, joint) for body in _moved_by(system, bodies)}
+        for together in _together(system, rows_of[joint], bodies):
+            couples |= set(combinations(sorted(_moved_by(system, together)), 2))
     for bodies in system.coupled:
         couples |= set(combinations(sorted(_moved_by(system, bodies)), 2))
     for bodies, state, joint in _frictions(system):
@@ -76,18 +80,46 @@ def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int],
     sizes = [last - first for *_, first, last in nodes] + [1] * states + [owners.count(joint) for joint in joints]
     constraint = [k >= moving + states for k in range(len(sizes))]
     bodies_of: dict[int, set[int]] = {}
+    rows_of: dict[int, set[int]] = {}
     for k, _, _, body in part.tolist():
-        bodies_of.setdefault(moving + states + joints.index(owners[k]), set()).add(body)
+        joint = moving + states + joints.index(owners[k])
+        bodies_of.setdefault(joint, set()).add(body)
+        rows_of.setdefault(joint, set()).add(int(row[k]))
     couples: set[tuple[int, int]] = set()
     for body in parent:
         couples |= set(combinations(sorted(carriers([body])), 2))
-    for bodies in {*system.coupled, *(frozenset(each) for each in bodies_of.values())}:
+    together = {each for joint, bodies in bodies_of.items() for each in _together(system, rows_of[joint], bodies)}
+    for bodies in {*system.coupled, *together}:
         couples |= set(combinations(sorted(carriers(bodies)), 2))
     for joint, bodies in bodies_of.items():
         couples |= {(node, joint) for node in carriers(bodies)}
     # bristles belong to frictions; a machine without any has no other states
     couples |= {(node, moving + state) for node in range(moving) for state in range(states)}
     return sizes, constraint, couples
+
+
+def _together(system: System, rows: Iterable[int], bodies: Iterable[int]) -> Iterator[frozenset[int]]:
+    """Sets of the `bodies` of these rows that their second derivatives join: all; but of the nodes that a slider may come by, it is at
+    two neighbours at a time."""
+    record = system.record
+    coordinates, combination = record.coordinates, record.constraints.combination.tolist()
+    terms = [
+        int(record.constraints.term[n, 0])
+        for row, first, last, *_ in combination
+        if row in rows
+        for n in range(first, last)
+    ]
+    ends = {
+        q: record.markers.body[coordinates.part_marker[slice(*coordinates.start[q : q + 2])]].tolist() for q in terms
+    }
+    rails = {tuple(ends[q][1:]) for q in terms if coordinates.what[q, 0] >= ALONG}
+    if not rails or not set(rows) <= {row for row, *_ in combination}:
+        yield frozenset(bodies)
+        return
+    always = {body for q in terms for body in (ends[q][:1] if coordinates.what[q, 0] >= ALONG else ends[q])}
+    for rail in rails:
+        for pair in pairwise(rail):
+            yield frozenset(always.union(pair))
 
 
 def _moved_by(system: System, bodies: Iterable[int]) -> set[int]:

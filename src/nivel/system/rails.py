@@ -75,7 +75,7 @@ def _on_beam(joint: Joint, beams: dict[str, Beam]) -> Joint:
 
 
 def _nearest(stations: Array, places: Array, tangents: Array, point: Array) -> tuple[float, Array, Array]:
-    """Where the line through the nodes is nearest to a global point (3,): place along the beam [m], the point (3,), the slope there (3,)."""
+    """Where the line through the nodes is nearest to a global point (3,): place along the beam [m], the point, the slope there."""
     from scipy.interpolate import CubicHermiteSpline
     from scipy.optimize import minimize_scalar
 

@@ -13,6 +13,7 @@ from click.testing import CliRunner
 from nivel.cli import COMMANDS, failures, main
 from nivel.errors import ModelError, SolveError
 from nivel.files import parse_machine, read_machine
+from pace import free_share
 
 HEAVY = ("pydantic", "numpy", "numba", "xarray", "pint", "yaml", "rich", "scipy", "matplotlib", "h5py")
 
@@ -32,7 +33,7 @@ def test_help_is_there_at_once_and_loads_nothing_heavy():
         begin = time.perf_counter()
         assert subprocess.run([sys.executable, "-c", code], check=False, capture_output=True).returncode == 0
         times.append(time.perf_counter() - begin)
-    assert min(times) < 0.3
+    assert min(times) * free_share() < 0.3
 
 
 def test_help_lists_every_command():

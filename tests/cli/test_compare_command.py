@@ -24,6 +24,23 @@ joints:
 simulation: {duration: 0.5, step: 5 ms}
 """
 BURST = 'forces:\n  burst: {type: torque, body: bar, vector: [0, 0, "log(0.2 - time)"]}\n'
+# `nivel` that writes a letter for every run it makes
+TELLING = """
+from nivel.analysis import compare
+from nivel.cli import main
+
+run = compare.run_in_memory
+
+def told(*given):
+    done = run(*given)
+    with open("runs", "a") as file:
+        file.write("x")
+    return done
+
+compare.run_in_memory = told
+main()
+"""
+IN_THE_FIRST_CELL = 40  # runs: far more than there are references
 
 
 @pytest.fixture
@@ -144,15 +161,20 @@ def test_code_two_where_every_cell_is_refused(folder):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
 def test_an_interrupt_ends_with_code_130_and_writes_what_there_is(folder):
-    command = [sys.executable, "-m", "nivel", "compare", "pendulum.yaml", "--steps", "5ms,10ms", "--force", "--repeat"]
+    command = [sys.executable, "-c", TELLING, "compare", "pendulum.yaml", "--steps", "5ms,10ms", "--force", "--repeat"]
     subprocess.run([*command, "1"], cwd=folder, check=True, capture_output=True)  # compiles
+    (folder / "runs").unlink()
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     # a shell that runs the tests in the background has SIGINT ignored, and children inherit that
     heard = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
     with subprocess.Popen([*command, "1000000"], cwd=folder, **pipes, **heard) as process:
-        time.sleep(20)  # in the repeats of the first cell
+        end = time.monotonic() + 240
+        while not (folder / "runs").exists() or (folder / "runs").stat().st_size < IN_THE_FIRST_CELL:
+            assert process.poll() is None, process.communicate()
+            assert time.monotonic() < end, "the comparison did not start"
+            time.sleep(0.1)
         process.send_signal(signal.SIGINT)
-        out, errors = process.communicate(timeout=120)
+        out, errors = process.communicate(timeout=240)
     assert process.returncode == 130, errors
     assert "cells are missing" in out
     assert Comparison.from_json((folder / "pendulum-compare.json").read_text(encoding="utf-8")).outcome == "interrupted"

@@ -259,7 +259,7 @@ def start_long_run(folder):
 def test_interruption_keeps_what_was_computed(folder):
     process, path = start_long_run(folder)
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate(timeout=240)
     assert process.returncode == 130, errors
     result = Result.open(path)
     assert result.outcome == "interrupted"
@@ -271,7 +271,7 @@ def test_interruption_keeps_what_was_computed(folder):
 def test_killed_run_leaves_a_readable_result(folder):
     process, path = start_long_run(folder)
     process.kill()
-    process.communicate(timeout=60)
+    process.communicate(timeout=240)
     result = Result.open(path)
     assert result.outcome == "running"
     assert len(result.time) > 100

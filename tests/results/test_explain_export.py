@@ -115,4 +115,4 @@ def test_a_reader_that_has_enough_is_no_failure(folder):
         assert process.stdout.readline().startswith(b"time [s]")
         process.stdout.close()
         assert process.stderr.read() == b""
-        assert process.wait(timeout=60) == 0
+        assert process.wait(timeout=240) == 0

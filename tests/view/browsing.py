@@ -26,6 +26,7 @@ FLAGS = [
     "--disable-sync",
     "--no-first-run",
 ]
+PATIENCE = 90.0  # seconds: a machine in use may be ten times slower than one at rest
 LOCAL = ("file:", "data:", "blob:", "about:", "http://127.0.0.1:")
 
 
@@ -40,7 +41,7 @@ def chromium():
         _miss("playwright is not installed: what the page does in a browser is not tested")
     root = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
     with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, *root])
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, *root], timeout=1000 * PATIENCE)
         try:
             yield browser
         finally:
@@ -53,12 +54,24 @@ def _miss(reason) -> NoReturn:
     pytest.skip(reason)
 
 
-def until(page, condition, patience=30.0):
-    """Wait until an expression is true in a page, whose policy forbids it to evaluate texts by itself."""
+def until(page, condition, patience=PATIENCE):
+    """Wait until an expression is true in a page, whose policy forbids it to evaluate texts by itself; or until a function says so."""
     end = time.monotonic() + patience
-    while not page.evaluate(condition):
+    while not (condition() if callable(condition) else page.evaluate(condition)):
         assert time.monotonic() < end, f"never: {condition}"
         page.wait_for_timeout(25)
+
+
+def drawn(page, pictures=2):
+    """Wait until so many further pictures are on the screen. One is drawn only when something changed: each is asked for."""
+    page.evaluate("(more) => { window.awaited = nivel.frames() + more }", pictures)
+    until(page, "(nivel.app.world.invalidate(), nivel.frames() >= awaited)")
+
+
+def landed(page):
+    """Wait until the camera is where it was told to go, and shows it."""
+    until(page, "nivel.app.world.flight === null")
+    drawn(page)
 
 
 class Watched:
@@ -68,6 +81,7 @@ class Watched:
         self.context = browser.new_context(
             viewport={"width": width, "height": height}, color_scheme=scheme, has_touch=touch
         )
+        self.context.set_default_timeout(1000 * PATIENCE)
         self.page = self.context.new_page()
         self.said, self.left = [], []
         self.page.on("console", self._console)
@@ -84,7 +98,7 @@ class Watched:
     def open(self, address):
         self.page.goto(address)
         until(self.page, "!!window.nivel")
-        self.page.wait_for_timeout(100)
+        drawn(self.page)
         return self.page
 
     def pose(self, body=0):
@@ -127,10 +141,10 @@ def served(source, address=None):
 
     thread = threading.Thread(target=lambda: loop.run_until_complete(serve()), daemon=True)
     thread.start()
-    assert ready.wait(10)
+    assert ready.wait(PATIENCE)
     try:
         yield viewing
     finally:
         loop.call_soon_threadsafe(stop.set)
-        thread.join(10)
+        thread.join(PATIENCE)
         loop.close()

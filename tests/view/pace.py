@@ -1,4 +1,4 @@
-"""Pictures a second as they are, and how much of this machine's processors other programs leave, to say what may be asked of it."""
+"""Pictures a second as they are, and how much of a processor's work this machine has left, to say what may be asked of it."""
 
 import os
 import statistics
@@ -7,12 +7,13 @@ import sys
 import time
 
 WINDOWS, WINDOW = 7, 1.5  # seconds each
-# a processor's time that a busy loop gets in half a second
+# sums of numbers below 10 000 that one processor forms in a second
 SPIN = (
-    "import time; a, b = time.perf_counter(), time.process_time()\n"
-    "while time.perf_counter() < a + 0.5: pass\n"
-    "print((time.process_time() - b) / (time.perf_counter() - a))"
+    "import time; begin, rounds = time.perf_counter(), 0\n"
+    "while time.perf_counter() < begin + 0.5: sum(range(10_000)); rounds += 1\n"
+    "print(rounds / (time.perf_counter() - begin))"
 )
+REFERENCE = 8000.0  # of a processor of the year 2021 at rest, which what is asked is meant for
 
 
 def frame_rates(page):
@@ -26,6 +27,7 @@ def frame_rates(page):
 
 
 def free_share():
-    """The share (0 to 1) of the processors that other programs leave to this one: drawing with the processor is as much slower."""
+    """How fast a processor is here and now (0 to 1 of the reference): one that is slower, or that others use, draws as much slower."""
     spins = [subprocess.Popen([sys.executable, "-c", SPIN], stdout=subprocess.PIPE) for _ in range(os.cpu_count() or 1)]
-    return min(1.0, statistics.mean(float(each.communicate(timeout=30)[0]) for each in spins))
+    paces = [float(each.communicate(timeout=120)[0]) for each in spins]
+    return min(1.0, statistics.mean(paces) / REFERENCE)

@@ -8,7 +8,7 @@ import pytest
 
 import nivel
 import synthetic_run as pendulum
-from browsing import chromium, served, watched
+from browsing import chromium, drawn, served, until, watched
 from many_bodies import ARC, NODES, RADIUS, arc, beam
 from nivel.looks import sweeps
 from nivel.looks.poses import rotation
@@ -152,7 +152,7 @@ def test_everything_is_in_the_list_and_lights_up(browser, result, tmp_path):
             assert page.evaluate("nivel.app.actor.marked.length") > 0, name
             assert page.locator(".chosen h2").inner_text() == name
         page.evaluate("nivel.app.name('force', true)")
-        page.wait_for_timeout(100)
+        drawn(page)
         shown = page.locator(".label.force:visible").all_inner_texts()
         assert {"drive", "push", "shake"} <= set(shown)
 
@@ -185,7 +185,7 @@ def shown(browser, smooth):
     live.show(0.0, *arc())
     with served(live) as viewing, watched(browser) as seen:
         page = seen.open(viewing.address.url)
-        page.wait_for_timeout(300)
+        until(page, "nivel.app.actor.swept[0].mesh.geometry.attributes.position.array.some((x) => x !== 0)")
         read = "(name) => Array.from(nivel.app.actor.swept[0].mesh.geometry.attributes[name].array)"
         vertices, normals = (np.reshape(page.evaluate(read, name), (-1, 3)) for name in ("position", "normal"))
         assert not page.get_by_role(

@@ -11,7 +11,7 @@ import pytest
 
 import nivel
 import synthetic_run as pendulum
-from browsing import chromium, served, until, watched
+from browsing import PATIENCE, chromium, drawn, landed, served, until, watched
 from nivel.results import Memory
 from nivel.view.export import write_scene
 from nivel.view.sources import Playback
@@ -67,18 +67,18 @@ def test_every_example_plays_scrubs_and_opens_from_a_file(path, browser, tmp_pat
         slider = page.get_by_role("slider", name="Time")
         slider.focus()
         page.keyboard.press("End")
-        page.wait_for_timeout(150)
+        until(page, "nivel.app.player.time === nivel.span()[1]")
         assert_drawn(seen, result, -1, page)
         assert page.locator("output.time").inner_text().startswith(f"{result.time[-1]:.1f}"[:3])
         # somewhere else than at the start, where many machines come by again at the end
         frame = int(0.37 * len(result.time))
         page.evaluate(f"nivel.app.goTo({float(result.time[frame])!r})")
-        page.wait_for_timeout(150)
+        drawn(page)
         assert_drawn(seen, result, frame, page)
         later = picture(page)
         slider.focus()
         page.keyboard.press("Home")
-        page.wait_for_timeout(150)
+        until(page, "nivel.app.player.time === nivel.span()[0]")
         assert_drawn(seen, result, 0, page)
         # something is to be seen, and it moved
         assert len(np.unique(start.reshape(-1, 3), axis=0)) > 100
@@ -134,14 +134,13 @@ def test_a_machine_is_moved_by_its_sliders(browser):
         slider.focus()
         for _ in range(20):
             page.keyboard.press("ArrowRight")
-        page.wait_for_timeout(400)
-        values = source._movable.values()
-        assert values[0] > source._movable.movements[0].value + 0.05
-        np.testing.assert_allclose(seen.pose(1)[:3], source._movable.pose()[0][1], atol=1e-5)
+        wanted = float(slider.input_value())
+        assert wanted > source._movable.movements[0].value + 0.05
+        until(page, lambda: abs(source._movable.values()[0] - wanted) < 1e-9)
+        until(page, lambda: np.allclose(seen.pose(1)[:3], source._movable.pose()[0][1], atol=1e-5))
         assert np.abs(np.array(seen.pose(1)) - before).max() > 1e-3
         page.get_by_role("button", name="Back to the assembled position").click()
-        page.wait_for_timeout(300)
-        np.testing.assert_allclose(seen.pose(1), before, atol=1e-5)
+        until(page, lambda: np.allclose(seen.pose(1), before, atol=1e-5))
 
 
 def test_the_time_is_dragged_with_the_mouse_and_tapped_with_a_finger(browser, tmp_path):
@@ -234,7 +233,7 @@ def test_keys_do_what_the_help_says(browser, tmp_path):
         page.keyboard.press("Space")
         # views: gravity is along -Y, so the top is seen from +Y
         page.keyboard.press("3")
-        page.wait_for_timeout(600)
+        landed(page)
         towards = page.evaluate(
             "() => { const w = nivel.app.world, v = w.camera.position.clone().sub(w.controls.target).normalize(); return v.toArray() }"
         )
@@ -247,7 +246,7 @@ def test_keys_do_what_the_help_says(browser, tmp_path):
         page.locator("canvas").first.focus()
         page.keyboard.press("f")
         page.evaluate("nivel.app.goTo(1.0)")
-        page.wait_for_timeout(100)
+        drawn(page)
         target = page.evaluate("nivel.app.world.controls.target.toArray()")
         np.testing.assert_allclose(target, seen.pose(1)[:3], atol=1e-4)
 
@@ -261,7 +260,7 @@ def test_everything_can_be_switched_on_without_complaint(browser, tmp_path):
         for switch in page.get_by_role("switch").all():
             switch.check()
         page.evaluate("nivel.app.goTo(2.0)")
-        page.wait_for_timeout(200)
+        drawn(page)
         lengths = page.evaluate("nivel.app.arrows.drawn.filter((a) => a.visible).length")
         assert lengths >= 3
         assert page.evaluate("nivel.app.violations.exaggeration") >= 1e3
@@ -294,8 +293,7 @@ def test_of_sheets_one_stays_when_the_page_gets_narrow(browser, tmp_path):
         page = seen.open(file.as_uri())
         assert page.locator(".panel:visible").count() == 2
         page.set_viewport_size({"width": 390, "height": 800})
-        page.wait_for_timeout(100)
-        assert page.locator(".panel:visible").count() == 1
+        until(page, lambda: page.locator(".panel:visible").count() == 1)
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
 
 
@@ -347,7 +345,7 @@ def test_the_page_fits_its_window_and_every_control_has_a_name(browser, tmp_path
             button = page.get_by_role("button", name=name, exact=True)
             if button.get_attribute("aria-pressed") != "true":
                 button.click()
-            page.wait_for_timeout(50)
+            drawn(page)
             outside = page.evaluate(
                 "() => [...document.querySelectorAll('button, input, select, .panel, .timeline, .top')].filter((e) => {"
                 "const b = e.getBoundingClientRect(); return b.width && (b.left < -1 || b.right > innerWidth + 1) })"
@@ -374,10 +372,15 @@ def test_poses_that_are_not_finite_hide_their_body(browser, tmp_path):
         page = seen.open(file.as_uri())
         assert "the step became too small" in page.locator(".notes").inner_text()
         page.evaluate("nivel.app.goTo(0.9)")
-        page.wait_for_timeout(100)
         assert page.evaluate("nivel.app.actor.bodies[0].visible") is False
         page.evaluate("nivel.app.goTo(0.1)")
         assert page.evaluate("nivel.app.actor.bodies[0].visible") is True
+
+
+def inner(page):
+    """The page of the viewer inside another page."""
+    until(page, lambda: len(page.frames) > 1 and page.frames[1].evaluate("!!window.nivel"))
+    return page.frames[1]
 
 
 def test_a_report_plays_its_run_and_a_notebook_too(browser, tmp_path):
@@ -387,15 +390,12 @@ def test_a_report_plays_its_run_and_a_notebook_too(browser, tmp_path):
         page = seen.page
         page.goto(report.as_uri())
         page.get_by_role("button", name="Play the motion").click()
-        page.wait_for_timeout(300)
-        frame = page.frames[1]
-        until(frame, "!!window.nivel")
+        frame = inner(page)
         assert frame.evaluate("nivel.span()") == pytest.approx([0.0, 8.0])
         notebook = tmp_path / "notebook.html"
         notebook.write_text(f"<!doctype html><meta charset=utf-8>{result.view()._repr_html_()}", encoding="utf-8")
         page.goto(notebook.as_uri())
-        page.wait_for_timeout(300)
-        until(page.frames[1], "!!window.nivel")
+        inner(page)
 
 
 def test_damaged_data_are_told_in_the_page(browser, tmp_path):
@@ -404,6 +404,7 @@ def test_damaged_data_are_told_in_the_page(browser, tmp_path):
     start = text.index('id="package">') + len('id="package">')
     (tmp_path / "cut.html").write_text(text[: start + 400] + text[text.index("</script>", start) :], encoding="utf-8")
     page = browser.new_page()
+    page.set_default_timeout(1000 * PATIENCE)
     page.goto((tmp_path / "cut.html").as_uri())
     page.wait_for_selector(".complaint")
     assert "cannot be shown" in page.locator(".complaint").inner_text()

@@ -1,6 +1,6 @@
 """50 bodies with a deforming mesh of 1000 vertices, and a chain of 300 links: pictures a second in software rendering, server time a frame.
 
-The middle one of several windows of time counts. Where other programs keep the processors busy, as much less is asked as they take.
+The middle one of several windows of time counts. Of a slower machine, or one that other programs keep busy, as much less is asked.
 """
 
 import statistics
@@ -12,13 +12,14 @@ import numpy as np
 import pytest
 
 import many_bodies
-from browsing import chromium, served, watched
+from browsing import chromium, drawn, served, until, watched
 from nivel.view.package import Block
 from nivel.view.sources import Live
 from pace import frame_rates, free_share
 
 ENOUGH = 30.0  # frames a second
 SERVER_TIME = 0.3e-3  # [s] a frame
+LEARNING = 48  # pictures in which the page finds out what this machine can do
 
 
 @contextmanager
@@ -55,16 +56,15 @@ def opened(stage, moment):
         watched(browser, width=1024, height=640) as seen,
     ):
         page = seen.open(viewing.address.url)
-        page.wait_for_timeout(3000)  # it finds out what this machine can do
+        drawn(page, LEARNING)
         (stream,) = viewing.streams
         yield page, stream
 
 
-def assert_fast(page, before):
-    rates = frame_rates(page)
+def assert_fast(rates, free):
     middle = statistics.median(rates)
-    print(f"{middle:.1f} of {np.round(rates, 1)} frames a second; {before:.2f} of the processors were free")
-    assert middle >= ENOUGH * before
+    print(f"{middle:.1f} of {np.round(rates, 1)} frames a second; {free:.2f} of a processor's work was free")
+    assert middle >= ENOUGH * free
 
 
 @pytest.mark.parametrize(
@@ -75,20 +75,21 @@ def assert_fast(page, before):
 def test_large_scenes_are_shown_at_thirty_frames_a_second(stage, moment):
     before = free_share()
     with opened(stage, moment) as (page, stream):
-        assert_fast(page, before)
+        rates = frame_rates(page)
         assert stream.send_seconds / stream.frame_count <= SERVER_TIME
+    assert_fast(rates, min(before, free_share()))
 
 
 def test_frames_are_new_and_vertices_have_their_colours():
     count = "(() => { const m = nivel.app.actor.deforming[0].mesh.geometry; return [m.attributes.position.count,"
-    colours = "new Set(Array.from(m.attributes.color.array).map((c) => c.toFixed(2))).size, Array.from(m.attributes.position.array)] })()"
+    colours = "new Set(Array.from(m.attributes.color.array).map((c) => c.toFixed(2))).size] })()"
+    places = "nivel.app.actor.deforming[0].mesh.geometry.attributes.position.array"
     with opened(many_bodies.stage, many_bodies.moment) as (page, _):
-        vertices, tones, first = page.evaluate(count + colours)
-        page.wait_for_timeout(300)
-        *_, later = page.evaluate(count + colours)
+        vertices, tones = page.evaluate(count + colours)
+        page.evaluate(f"window.first = {places}.slice()")
+        until(page, f"{places}.some((x, k) => Math.abs(x - first[k]) > 1e-3)")
     assert vertices == 1000
     assert tones > 20
-    assert np.abs(np.array(first) - later).max() > 1e-3
 
 
 def test_links_of_a_chain_are_solids_near_by_and_lines_from_afar():
@@ -98,7 +99,7 @@ def test_links_of_a_chain_are_solids_near_by_and_lines_from_afar():
         page.evaluate(
             "() => { nivel.app.choose({ kind: 'body', name: 'link_150' }); nivel.app.followOrFit(); nivel.app.world.zoom(0.01) }"
         )
-        page.wait_for_timeout(500)
+        until(page, "nivel.app.actor.levels[150] === 0 && nivel.app.actor.levels[0] === 3")
         near = page.evaluate(levels)
     assert set(far) == {2}  # lines
     assert near[150] == 0  # everything is drawn of the link that is looked at

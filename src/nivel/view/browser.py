@@ -51,7 +51,7 @@ FLAGS: Final = (
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
 )
-PATIENCE: Final = 60.0  # seconds for the browser to start, and for each of its answers
+PATIENCE: Final = 90.0  # seconds for the browser to start, and for each of its answers
 WANTED: Final = (
     "pictures and films are drawn by a browser, and none was found: install chromium, chrome or edge, "
     "or set the environment variable NIVEL_BROWSER to the program of one"

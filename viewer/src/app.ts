@@ -7,6 +7,7 @@ import type { Opened } from "./package";
 import { Player } from "./player";
 import { Actor, type Picked } from "./stage/actor";
 import { Arrows } from "./stage/arrows";
+import { Colours } from "./stage/colours";
 import { cloudNow, cloudOf } from "./stage/cloud";
 import { Labels } from "./stage/labels";
 import { Follower } from "./stage/follower";
@@ -19,6 +20,7 @@ import { Coordinates } from "./ui/coordinates";
 import { Display } from "./ui/display";
 import { el } from "./ui/dom";
 import { Inspector } from "./ui/inspector";
+import { Legend } from "./ui/legend";
 import { helpDialog, listenToKeys } from "./ui/keys";
 import { Panels, type PanelName } from "./ui/panels";
 import { Plots } from "./ui/plots";
@@ -36,11 +38,13 @@ export class App {
   readonly motion: Motion | null;
   readonly player: Player | null = null;
   readonly arrows: Arrows;
+  readonly colours: Colours;
   readonly traces: Traces;
   readonly violations: Violations;
   readonly labels: Labels;
   readonly plots: Plots;
   private readonly follower: Follower;
+  private readonly legend = new Legend();
   private readonly timeline: Timeline | null = null;
   private readonly tree: Tree;
   private readonly inspector: Inspector;
@@ -78,6 +82,7 @@ export class App {
       const ghosts = this.ghosts.flatMap(({ actor, motion }) => cloudOf(actor, motion).map((point) => point.add(actor.root.position)));
       this.world.see([...cloudOf(this.actor, this.motion), ...ghosts]);
     }
+    this.colours = new Colours(this.actor);
     this.arrows = new Arrows(this.actor, this.world.look);
     this.traces = new Traces(this.actor, this.motion, this.world.look);
     this.violations = new Violations(this.actor, this.world.look);
@@ -85,7 +90,7 @@ export class App {
     this.labels.shown.body = stage.bodies.length <= FEW_NAMES;
     this.follower = new Follower(this.world, this.actor);
     this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
-    holder.append(names);
+    holder.append(names, this.legend.element);
     const columns = new Columns(opened, connection);
     const ghostTime = this.ghosts[0]?.motion.time ?? null;
     const times = { main: this.motion?.time ?? new Float64Array(), ghost: ghostTime, ghostTitle: others[0]?.title ?? "" };
@@ -140,6 +145,7 @@ export class App {
     const { player, motion } = this;
     if (!player || !motion) return;
     motion.sample(player.time, this.actor.frame);
+    this.actor.time = player.time;
     for (const ghost of this.ghosts) {
       ghost.motion.sample(player.time, ghost.actor.frame);
       ghost.actor.apply();
@@ -186,6 +192,7 @@ export class App {
   /** Everything that depends on the frame that is shown. */
   refreshFrame(): void {
     this.actor.apply();
+    this.legend.show(this.colours.scales());
     this.follower.update();
     this.arrows.update();
     this.violations.update();
@@ -231,6 +238,14 @@ export class App {
 
   name(kind: "body" | "joint" | "force", on: boolean): void {
     this.change(() => (this.labels.shown[kind] = on));
+  }
+
+  /** Colour beams, or flexible bodies, by one of their quantities; whether there is such a one. */
+  colour(quantity: string): boolean {
+    const { ofBeams, ofBodies, all } = this.colours;
+    if (ofBeams.includes(quantity)) this.change(() => this.colours.beams(quantity));
+    if (ofBodies.includes(quantity)) this.change(() => this.colours.bodies(quantity));
+    return all.includes(quantity);
   }
 
   /** The picture alone, without controls. */

@@ -1,8 +1,8 @@
 // Packages: records as JSON and their arrays in one block of bytes. The layout is described in package.py.
-import { PROTOCOL, type Package, type Packed } from "./generated/records";
+import { PROTOCOL, type Package, type Packed, type Steps } from "./generated/records";
 
-const KINDS = { f4: Float32Array, f8: Float64Array, u4: Uint32Array } as const;
-type Numbers = Float32Array | Float64Array | Uint32Array;
+const KINDS = { f4: Float32Array, f8: Float64Array, u4: Uint32Array, u2: Uint16Array } as const;
+type Numbers = Float32Array | Float64Array | Uint32Array | Uint16Array;
 
 /** The arrays of a package. */
 export class Arrays {
@@ -18,6 +18,18 @@ export class Arrays {
 
   indices(packed: Packed): Uint32Array {
     return this.read(packed, "u4") as Uint32Array;
+  }
+
+  /** Numbers that came as steps. */
+  rounded({ numbers, low, step }: Steps): Float32Array {
+    const whole = this.read(numbers, "u2");
+    const each = whole.length / low.length;
+    const out = new Float32Array(whole.length);
+    for (let k = 0; k < whole.length; k++) {
+      const i = Math.floor(k / each);
+      out[k] = low[i]! + step[i]! * whole[k]!;
+    }
+    return out;
   }
 
   private read(packed: Packed, kind: keyof typeof KINDS): Numbers {

@@ -41,6 +41,9 @@ MACHINES = (".yaml", ".yml")
     "--frames-per-second", "rate", default=25, show_default=True, type=click.IntRange(1, 60), help="Of films."
 )
 @click.option("--speed", default=1.0, show_default=True, type=float, help="Of films: seconds of motion in a second.")
+@click.option(
+    "--colours", default="", metavar="QUANTITY", help="What beams or flexible bodies show in stills and films: axial force, …"
+)
 @click.option("--dark", is_flag=True, help="Dark stills and films.")
 @click.option("--port", default=0, type=click.IntRange(0, 65535), help="Port to listen at; default: a free one.")
 @click.option(
@@ -65,6 +68,7 @@ def command(
     side: str,
     rate: int,
     speed: float,
+    colours: str,
     dark: bool,
     port: int,
     host: str,
@@ -85,7 +89,7 @@ def command(
 
     if not host.strip():
         raise click.BadParameter("an address was expected, got none", param_hint="--host")
-    look = Look.of(size=size, side=side, rate=rate, speed=speed, dark=dark)
+    look = Look.of(size=size, side=side, rate=rate, speed=speed, dark=dark, colours=colours)
     written = [*exports, *([still] if still else [])]
     _refuse_targets(written, [file, *ghosts], force)
     if Path(file).suffix.lower() in MACHINES:

@@ -21,11 +21,15 @@ MOST: Final = 3_000_000
 
 @dataclass(frozen=True)
 class MovingSurface:
-    """vertices (n, 3) [m] undeformed, body frame; triangles (m, 3); modes (k, n, 3) displacement of each vertex by each mode."""
+    """vertices (n, 3) [m] undeformed, body frame; triangles (m, 3); modes (k, n, 3) displacement of each vertex by each mode.
+
+    nodes : (n,) place of the node of the body that each vertex is at, or moves with.
+    """
 
     vertices: Array
     triangles: Triangles
     modes: Array
+    nodes: NDArray[np.int64]
 
 
 def moving_surface(body: ReducedBody) -> MovingSurface | None:
@@ -33,7 +37,7 @@ def moving_surface(body: ReducedBody) -> MovingSurface | None:
     if len(body.triangles):
         used, triangles = np.unique(body.triangles, return_inverse=True)
         displacement = np.nan_to_num(body.modes[used, :3]).transpose(2, 0, 1)
-        surface = MovingSurface(body.position[used], triangles.reshape(-1, 3).astype(np.uint32), displacement)
+        surface = MovingSurface(body.position[used], triangles.reshape(-1, 3).astype(np.uint32), displacement, used)
     elif len(body.lines):
         surface = _bars(body)
     else:
@@ -59,4 +63,4 @@ def _bars(body: ReducedBody) -> MovingSurface:
     caps = [(0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7)]
     first = 8 * np.arange(len(ends))[:, None, None]
     triangles = (first + np.array([*sides, *caps])).reshape(-1, 3).astype(np.uint32)
-    return MovingSurface(vertices, triangles, displacement)
+    return MovingSurface(vertices, triangles, displacement, np.repeat(body.lines[:, :2], 4).astype(np.int64))

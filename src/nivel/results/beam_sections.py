@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.machine.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.record import unknown_word
 
@@ -15,7 +18,52 @@ if TYPE_CHECKING:
 
     from nivel.results.result import Result
 
+Array = NDArray[np.float64]
 COMPONENTS = ("x", "y", "z")
+AT_ONCE: Final = 20_000  # elements, counted anew at every time
+
+
+@dataclass(frozen=True)
+class Felt:
+    """What a beam feels at times t and points p, the Gauss points of its elements.
+
+    share : (p,) of the length. weight : (p,) [m]. strain : (t, p, 6) Γ [1] and Κ [1/m], axes of the section, beyond those of the unstressed
+    beam. stress : (t, p, 6) force [N] and moment [N m] that go with it.
+    """
+
+    share: Array
+    weight: Array
+    strain: Array
+    stress: Array
+
+
+def felt(beam: Beam, place: Array, theta: Array) -> Felt:
+    """From places (t, N, 3) and Euler parameters (t, N, 4) of the nodes of `beam`."""
+    from scipy.spatial.transform import Rotation
+
+    from nivel.system.beam_elements import elements_of, strains
+
+    elements = elements_of(beam)
+    count, points = elements.N.shape[:2]
+    times, rows = len(place), max(AT_ONCE // count, 1)
+    parts = [np.zeros((0, count * points, 6))]
+    for start in range(0, times, rows):
+        x, turned = place[start : start + rows], theta[start : start + rows]
+        axes = (
+            Rotation.from_quat(turned[:, :, [1, 2, 3, 0]].reshape(-1, 4)).as_matrix().reshape(*turned.shape[:2], 3, 3)
+        )
+        many = len(x)
+        now = strains(
+            x[:, elements.nodes].reshape(many * count, -1, 3),
+            axes[:, elements.nodes].reshape(many * count, -1, 3, 3),
+            elements.reference,
+            np.tile(elements.N, (many, 1, 1)),
+            np.tile(elements.slope, (many, 1, 1)),
+        )
+        parts.append((now.reshape(many, count, points, 6) - elements.strain).reshape(many, -1, 6))
+    strain = np.concatenate(parts)
+    share = np.einsum("nga,na->ng", elements.N, beam.shares[elements.nodes]).ravel()
+    return Felt(share, elements.weight.ravel(), strain, strain @ beam.properties.stiffness)
 
 
 def beam_sections(result: Result, name: str) -> xr.Dataset:
@@ -29,45 +77,32 @@ def beam_sections(result: Result, name: str) -> xr.Dataset:
     Raises ModelError where the machine has no such beam.
     """
     import xarray as xr
-    from scipy.spatial.transform import Rotation
 
     machine = MachineRecord.model_validate_json(result.dataset.attrs["machine_record"])
     found = {beam.name: beam for beam in machine.beams}
     if name not in found:
         raise ModelError(unknown_word(name, tuple(found), "beam") if found else f"{machine.name} has no beams")
-    from nivel.system.beam_elements import elements_of, strains
-
     beam = found[name]
-    elements, stiffness = elements_of(beam), beam.properties.stiffness
     data = result.dataset.sel(body=list(beam.node_names))
-    place, theta = data["position"].values, data["orientation"].values
-    turned = Rotation.from_quat(theta[:, :, [1, 2, 3, 0]].reshape(-1, 4))
-    axes = turned.as_matrix().reshape(*theta.shape[:2], 3, 3)
-    now = np.array(
-        [
-            strains(x[elements.nodes], A[elements.nodes], elements.reference, elements.N, elements.slope)
-            for x, A in zip(place, axes, strict=True)
-        ]
-    )
-    change = now - elements.strain
-    stress = change @ stiffness
-    energy = 0.5 * np.einsum("tngi,tngi,ng->t", change, stress, elements.weight)
-    times, points = len(place), change.shape[1] * change.shape[2]
-    flat, felt = change.reshape(times, points, 6), stress.reshape(times, points, 6)
-    share = np.einsum("nga,na->ng", elements.N, beam.shares[elements.nodes]).ravel()
+    of = felt(beam, data["position"].values, data["orientation"].values)
+    energy = 0.5 * np.einsum("tpi,tpi,p->t", of.strain, of.stress, of.weight)
     dims = ("time", "point", "component")
     out = xr.Dataset(
         {
-            "strain": (dims, flat[:, :, :3], {"units": "1", "long_name": "stretch and shears"}),
-            "curvature": (dims, flat[:, :, 3:], {"units": "1/m", "long_name": "twist and curvatures"}),
-            "force": (dims, felt[:, :, :3], {"units": "N", "long_name": "force in the section, axes of the section"}),
+            "strain": (dims, of.strain[:, :, :3], {"units": "1", "long_name": "stretch and shears"}),
+            "curvature": (dims, of.strain[:, :, 3:], {"units": "1/m", "long_name": "twist and curvatures"}),
+            "force": (
+                dims,
+                of.stress[:, :, :3],
+                {"units": "N", "long_name": "force in the section, axes of the section"},
+            ),
             "moment": (
                 dims,
-                felt[:, :, 3:],
+                of.stress[:, :, 3:],
                 {"units": "N m", "long_name": "moment in the section, axes of the section"},
             ),
             "energy": (("time",), energy, {"units": "J", "long_name": "energy stored in the beam"}),
         },
-        {"time": data["time"].values, "point": np.arange(points), "component": list(COMPONENTS)},
+        {"time": data["time"].values, "point": np.arange(len(of.share)), "component": list(COMPONENTS)},
     )
-    return out.assign_coords(share=("point", share))
+    return out.assign_coords(share=("point", of.share))

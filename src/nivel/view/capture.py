@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import subprocess
@@ -31,7 +32,8 @@ NO_PILLOW: Final = "a .gif film needs pillow: pip install 'nivel[film]'"
 
 @dataclass(frozen=True)
 class Look:
-    """How stills and films look. rate : frames a second of film. speed : seconds of motion in one of film."""
+    """How stills and films look. rate : frames a second of film. speed : seconds of motion in one of film. colours : the quantity that
+    beams or flexible bodies show, or empty."""
 
     width: int = 1280
     height: int = 720
@@ -39,9 +41,10 @@ class Look:
     rate: int = 25
     speed: float = 1.0
     dark: bool = False
+    colours: str = ""
 
     @classmethod
-    def of(cls, *, size: str, side: str, rate: int, speed: float, dark: bool) -> Look:
+    def of(cls, *, size: str, side: str, rate: int, speed: float, dark: bool, colours: str = "") -> Look:
         """From words. Raises ModelError with all that is wrong."""
         faults = []
         found = re.fullmatch(r"(\d{2,4})\s*[x×*]\s*(\d{2,4})", size.strip())
@@ -54,7 +57,7 @@ class Look:
             faults.append(f"a speed greater than zero was expected, got {speed:g}")
         if faults:
             raise ModelError([Fault("", 0, 0, "", message) for message in faults])
-        return cls(width, height, side, rate, speed, dark)
+        return cls(width, height, side, rate, speed, dark, colours)
 
 
 def still(source: Source, path: Path, look: Look, moment: float | None = None) -> None:
@@ -98,6 +101,13 @@ def _opened(source: Source, look: Look) -> Iterator[Tab]:
         page.write_text(page_of(source), encoding="utf-8")
         with tab(page, look.width, look.height, dark=look.dark) as opened:
             opened.run(f"nivel.bare('{look.side}')")
+            if look.colours and not opened.run(f"nivel.app.colour({json.dumps(look.colours)})"):
+                known = opened.run("nivel.app.colours.all")
+                missing = opened.run("nivel.app.stage.colourless")
+                raise ModelError(
+                    f"there are no colours by {look.colours!r}; there are {', '.join(known) or 'none'}"
+                    + "".join(f"; {text}" for text in missing)
+                )
             yield opened
 
 

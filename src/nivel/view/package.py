@@ -22,12 +22,13 @@ from typing import Any, Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.view.records import Package, Packed
+from nivel.view.records import Package, Packed, Steps
 
 MAGIC: Final = b"NVL1"
 LEVEL: Final = 9  # of compression: it is done once
-KINDS: Final[dict[str, str]] = {"f4": "<f4", "f8": "<f8", "u4": "<u4"}
-Kind = Literal["f4", "f8", "u4"]
+KINDS: Final[dict[str, str]] = {"f4": "<f4", "f8": "<f8", "u4": "<u4", "u2": "<u2"}
+Kind = Literal["f4", "f8", "u4", "u2"]
+STEPS: Final = 65535  # of a number that is sent as one of 16 bits
 
 
 class Block:
@@ -46,6 +47,21 @@ class Block:
         self._parts.append(content + bytes(-len(content) % 8))
         self.size += len(self._parts[-1])
         return packed
+
+    def add_steps(self, values: NDArray[Any]) -> Steps:
+        """Put an array to the end with 16 bits a number, each part of its first axis from its smallest to its largest number.
+
+        What is not finite becomes the smallest.
+        """
+        flat = np.asarray(values, dtype=float).reshape(len(values), -1)
+        known = np.isfinite(flat)
+        low = np.min(flat, axis=1, initial=np.inf, where=known)
+        high = np.max(flat, axis=1, initial=-np.inf, where=known)
+        low = np.where(np.isfinite(low), low, 0.0)
+        step = np.maximum(high - low, 0.0) / STEPS
+        whole = (np.where(known, flat, low[:, None]) - low[:, None]) / np.where(step > 0.0, step, 1.0)[:, None]
+        numbers = self.add(np.rint(whole).reshape(np.shape(values)), "u2")
+        return Steps(numbers, low.tolist(), step.tolist())
 
     def content(self) -> bytes:
         """All of it."""

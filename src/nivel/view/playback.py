@@ -19,7 +19,9 @@ from nivel.view.couplings import couplings
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.records import PROTOCOL, Arrow, Joint, Moment, Motion, Package, Stage
+from nivel.view.section_colours import sections
 from nivel.view.stage import Cast, cast, flexible
+from nivel.view.stress_colours import with_stress
 from nivel.view.violations import violation_vectors
 
 Array = NDArray[np.float64]
@@ -29,16 +31,19 @@ LARGEST: Final = 1e30  # [m] beyond it bodies are not drawn: 32-bit numbers coul
 
 @dataclass(frozen=True)
 class Budget:
-    """Bytes that a motion and its columns may take before compression; frames that are shown at most; whether arrows come along."""
+    """Bytes that a motion, its columns, the strains of beams and the modal stresses of flexible bodies may take before compression; frames
+    that are shown at most; whether arrows come along."""
 
     motion: int
     columns: int
     frames: int
+    sections: int = 0
+    stress: int = 0
     vectors: bool = True
 
 
-SERVED: Final = Budget(motion=64_000_000, columns=0, frames=20_000)
-ALONE: Final = Budget(motion=3_000_000, columns=1_000_000, frames=4_000)
+SERVED: Final = Budget(motion=64_000_000, columns=0, frames=20_000, sections=16_000_000, stress=24_000_000)
+ALONE: Final = Budget(motion=3_000_000, columns=1_000_000, frames=4_000, sections=500_000, stress=2_000_000)
 SMALL: Final = Budget(motion=600_000, columns=0, frames=1200, vectors=False)
 
 
@@ -84,6 +89,9 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     vectors = drawn.values if budget.vectors else np.zeros((len(position), 0, 3))
     modal = _read(result, "modal_coordinate", frames)
     rows = frame_plan.rows(position - np.array(where.origin), orientation, modal, vectors)
+    felt, plain_beams = sections(result, frames, block, budget.sections) if number == 0 else (None, [])
+    bending = flexible(scene, block, modal)
+    bending, plain_bodies = with_stress(result, bending, block, budget.stress) if number == 0 else (bending, [])
     return Stage(
         name=result.name,
         title=str(result.path.name) if result.path else result.name,
@@ -94,7 +102,9 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         high=where.high,
         size=where.size,
         layout=frame_plan.layout(bodies, 0 if modal is None else modal.shape[1], vectors.shape[1]),
-        flexible=flexible(scene, block, modal),
+        flexible=bending,
+        sections=felt,
+        colourless=[*plain_beams, *plain_bodies],
         bodies=players.bodies,
         joints=drawn.joints or players.joints,
         forces=players.forces,

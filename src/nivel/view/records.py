@@ -36,14 +36,23 @@ COLUMN: Final = 3  # binary message: number of the request (32 bits), 4 bytes un
 
 @dataclass(frozen=True)
 class Packed:
-    """An array in the block of bytes. kind : f4, f8 or u4, little-endian. start : its first byte.
+    """An array in the block of bytes. kind : f4, f8, u4 or u2, little-endian. start : its first byte.
 
     The bytes are shuffled, which compresses better: the first bytes of all numbers, then the second bytes, and so on.
     """
 
-    kind: Literal["f4", "f8", "u4"]
+    kind: Literal["f4", "f8", "u4", "u2"]
     shape: list[int]
     start: int
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Numbers rounded to 65536 even steps: low[i] + step[i] * numbers[i, …]."""
+
+    numbers: Packed
+    low: list[float]
+    step: list[float]
 
 
 @dataclass(frozen=True)
@@ -82,6 +91,19 @@ class Body:
 
 
 @dataclass(frozen=True)
+class Stress:
+    """Von Mises stress [Pa] of a flexible body: that of Σ q_k modes[k] at stations, the largest of those of a vertex.
+
+    modes (modes, 6, stations) : xx, yy, zz, xy, yz, zx. stations (n, 2) : of each vertex the first, and the one after the last; equal
+    where its stress is not known. high : the largest of the motion.
+    """
+
+    modes: Steps
+    stations: Packed
+    high: float
+
+
+@dataclass(frozen=True)
 class Flexible:
     """A mesh that deforms: a vertex is vertices + Σ q_k modes[k], in the body's frame; q are modal coordinates of the frame.
 
@@ -101,6 +123,7 @@ class Flexible:
     unit: str
     quantity: str
     field: Packed | None = None
+    stress: Stress | None = None
 
 
 @dataclass(frozen=True)
@@ -211,6 +234,42 @@ class Sweep:
 
 
 @dataclass(frozen=True)
+class Quantity:
+    """What colours of beams can show, from `low` to `high` in the motion. rows : one of the numbers of a point, or the length of several.
+
+    A point has 12: strains (stretch, two shears), twist and two curvatures; then force and moment of the section in its axes.
+    """
+
+    name: str
+    unit: str
+    rows: list[int]
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Felt:
+    """What points along a sweep feel. sweep : its place in the stage. places (p,) : numbers of frames of bodies, with fractions, ascending.
+
+    strain (6, n, p) : of the frames of `Sections.time`. stiffness (6, 6) : force and moment of a point are stiffness times its strain.
+    """
+
+    sweep: int
+    places: list[float]
+    strain: Steps
+    stiffness: list[list[float]]
+
+
+@dataclass(frozen=True)
+class Sections:
+    """What the sections of beams feel at some frames of the motion, `time` (n,), and what of it colours can show."""
+
+    time: Packed
+    quantities: list[Quantity]
+    beams: list[Felt]
+
+
+@dataclass(frozen=True)
 class Arrow:
     """A vector of the frames drawn as an arrow at a point of a body. first : its place among the vectors of the frame.
 
@@ -309,7 +368,7 @@ class Stage:
     """Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted.
 
     up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by.
-    notes : what the user has to know, for instance that the run failed.
+    notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why.
     """
 
     name: str
@@ -330,6 +389,8 @@ class Stage:
     couplings: list[Coupling] = field(default_factory=list)
     sweeps: list[Sweep] = field(default_factory=list)
     flexible: list[Flexible] = field(default_factory=list)
+    sections: Sections | None = None
+    colourless: list[str] = field(default_factory=list)
     columns: list[Column] = field(default_factory=list)
     moments: list[Moment] = field(default_factory=list)
     coordinates: list[Coordinate] = field(default_factory=list)

@@ -5,11 +5,18 @@ export const PACKAGE = 1;
 export const FRAME = 2;
 export const COLUMN = 3;
 
-/** An array in the block of bytes. kind : f4, f8 or u4, little-endian. start : its first byte. The bytes are shuffled, which compresses better: the first bytes of all numbers, then the second bytes, and so on. */
+/** An array in the block of bytes. kind : f4, f8, u4 or u2, little-endian. start : its first byte. The bytes are shuffled, which compresses better: the first bytes of all numbers, then the second bytes, and so on. */
 export interface Packed {
-  kind: "f4" | "f8" | "u4";
+  kind: "f4" | "f8" | "u4" | "u2";
   shape: number[];
   start: number;
+}
+
+/** Numbers rounded to 65536 even steps: low[i] + step[i] * numbers[i, …]. */
+export interface Steps {
+  numbers: Packed;
+  low: number[];
+  step: number[];
 }
 
 /** A solid in the body frame with its centre at `centre`. size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; extrusion: length; a capsule's length is that of its straight part. along : the axis of round bars and extrusions. outline : of an extrusion, corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh. */
@@ -35,6 +42,13 @@ export interface Body {
   facts: [string, string][];
 }
 
+/** Von Mises stress [Pa] of a flexible body: that of Σ q_k modes[k] at stations, the largest of those of a vertex. modes (modes, 6, stations) : xx, yy, zz, xy, yz, zx. stations (n, 2) : of each vertex the first, and the one after the last; equal where its stress is not known. high : the largest of the motion. */
+export interface Stress {
+  modes: Steps;
+  stations: Packed;
+  high: number;
+}
+
 /** A mesh that deforms: a vertex is vertices + Σ q_k modes[k], in the body's frame; q are modal coordinates of the frame. vertices (n, 3), triangles (m, 3), modes (modes, n, 3). first : place of its first modal coordinate among those of the frame. field : (modes, n) what the colours show is Σ q_k field[k], or without it the length of the displacement; low, high : ends of the colours, in `unit`. */
 export interface Flexible {
   body: number;
@@ -48,6 +62,7 @@ export interface Flexible {
   unit: string;
   quantity: string;
   field: Packed | null;
+  stress: Stress | null;
 }
 
 /** A joint: points and axes on its two bodies, in their frames. slot : direction of a slot in the second body. place : at which of the two points its sign stands. rod : it is a massless link between them. violation : places of the two vectors of its constraint violation among those of the frame: how far the second point is from where it should be, and how far the second frame is turned, in axes of the first marker turned into global ones; -1 without. */
@@ -122,6 +137,30 @@ export interface Sweep {
   smooth: boolean;
 }
 
+/** What colours of beams can show, from `low` to `high` in the motion. rows : one of the numbers of a point, or the length of several. A point has 12: strains (stretch, two shears), twist and two curvatures; then force and moment of the section in its axes. */
+export interface Quantity {
+  name: string;
+  unit: string;
+  rows: number[];
+  low: number;
+  high: number;
+}
+
+/** What points along a sweep feel. sweep : its place in the stage. places (p,) : numbers of frames of bodies, with fractions, ascending. strain (6, n, p) : of the frames of `Sections.time`. stiffness (6, 6) : force and moment of a point are stiffness times its strain. */
+export interface Felt {
+  sweep: number;
+  places: number[];
+  strain: Steps;
+  stiffness: number[][];
+}
+
+/** What the sections of beams feel at some frames of the motion, `time` (n,), and what of it colours can show. */
+export interface Sections {
+  time: Packed;
+  quantities: Quantity[];
+  beams: Felt[];
+}
+
 /** A vector of the frames drawn as an arrow at a point of a body. first : its place among the vectors of the frame. source : reactions of joints, or what is applied: forces and drivers. owner : name of the element. largest, typical : greatest length in the whole motion, and the root of its mean square. */
 export interface Arrow {
   owner: string;
@@ -190,7 +229,7 @@ export interface Motion {
   stride: number;
 }
 
-/** Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted. up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by. notes : what the user has to know, for instance that the run failed. */
+/** Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted. up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by. notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why. */
 export interface Stage {
   name: string;
   title: string;
@@ -210,6 +249,8 @@ export interface Stage {
   couplings: Coupling[];
   sweeps: Sweep[];
   flexible: Flexible[];
+  sections: Sections | null;
+  colourless: string[];
   columns: Column[];
   moments: Moment[];
   coordinates: Coordinate[];

@@ -14,6 +14,7 @@ import { jointSigns } from "./signs";
 import { ball, bar, edgesOf, partGeometry } from "./solids";
 import { coupled } from "./coupled";
 import { stretching, type Stretching } from "./stretching";
+import { Sections } from "./sections";
 import { Swept } from "./swept";
 
 const LINK = 0.013; // radius of automatic links, of the size near the body
@@ -38,6 +39,8 @@ export class Actor {
   readonly palette: Palette;
   readonly deforming: Deforming[];
   readonly swept: Swept[];
+  readonly sections: Sections;
+  time = 0; // of the frame that is shown
   readonly nearness: Nearness;
   readonly frame: Float32Array; // as shown
   readonly isBad: boolean[];
@@ -87,10 +90,11 @@ export class Actor {
     this.pieces = [...this.solids, ...TONES.flatMap((tone) => [...signs[tone], ...pieces[tone]])];
     this.swept = stage.sweeps.map((each) => new Swept(each, this, this.palette.bodyOf(each.colour)));
     for (const each of this.swept) this.root.add(each.mesh);
+    this.sections = new Sections(stage, arrays);
     this.bones = this.isLarge ? new Bones(this, isGhost) : null;
     if (this.bones) this.root.add(this.bones.object);
     this.recolour(look);
-    this.deforming = stage.flexible.map((each) => new Deforming(each, arrays, isGhost));
+    this.deforming = stage.flexible.map((each) => new Deforming(each, arrays, isGhost, stage.size));
     for (const each of this.deforming) this.holder(each.record.body).add(each.mesh);
   }
 
@@ -120,6 +124,9 @@ export class Actor {
   apply(): void {
     this.pose();
     for (const each of [...this.stretching, ...this.swept]) each.update();
+    this.sections.moveTo(this.time);
+    const { low = 0, high = 0 } = this.sections.shown ?? {};
+    this.swept.forEach((each, k) => each.paint(this.sections.of(k), low, high));
     this.arrange();
     this.bones?.update();
     const first = 7 * this.stage.layout.bodies;

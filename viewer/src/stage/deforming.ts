@@ -3,11 +3,28 @@ import * as THREE from "three";
 import type { Flexible } from "../generated/records";
 import type { Arrays } from "../package";
 import { ramp } from "./ramp";
+import { Stressed } from "./stressed";
 import { triangleMesh } from "./solids";
+
+const UNKNOWN = 0.55; // lightness of vertices whose stress is not known
+const PEAK = 0.012; // radius of the ball at the largest stress, of the machine's size
+
+/** What colours show, and their ends. */
+interface Ends {
+  quantity: string;
+  unit: string;
+  low: number;
+  high: number;
+}
 
 export class Deforming {
   readonly mesh: THREE.Mesh;
+  readonly values: Float32Array; // that the colours of the vertices show
+  readonly stressed: Stressed | null;
   exaggeration = 1;
+  showsStress = false;
+  scale: Ends;
+  private readonly peak: THREE.Mesh;
   private readonly rest: Float32Array;
   private readonly modes: Float32Array; // (modes, 3 n)
   private readonly field: Float32Array | null; // (modes, n)
@@ -18,11 +35,15 @@ export class Deforming {
     readonly record: Flexible,
     arrays: Arrays,
     isGhost: boolean,
+    size: number,
   ) {
     this.rest = arrays.floats(record.vertices);
     this.modes = arrays.floats(record.modes);
     this.field = record.field ? arrays.floats(record.field) : null;
     this.count = this.rest.length / 3;
+    this.values = new Float32Array(this.count);
+    this.stressed = record.stress ? new Stressed(record.stress, arrays) : null;
+    this.scale = this.ownScale;
     this.modeCount = record.modes.shape[0] ?? 0;
     const geometry = triangleMesh(this.rest.slice(), arrays.indices(record.triangles));
     geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(3 * this.count).fill(1), 3));
@@ -32,6 +53,21 @@ export class Deforming {
     this.mesh.castShadow = !isGhost;
     this.mesh.frustumCulled = false; // its extent changes
     this.mesh.userData = { kind: "body", name: record.name };
+    this.peak = new THREE.Mesh(new THREE.SphereGeometry(PEAK * size, 16, 12), new THREE.MeshBasicMaterial({ color: 0xd0021b, depthTest: false, transparent: true }));
+    this.peak.renderOrder = 2; // seen through the body
+    this.peak.visible = false;
+    this.mesh.add(this.peak);
+  }
+
+  /** Of this body alone. */
+  get ownScale(): Ends {
+    const { quantity, unit, low, high, stress } = this.record;
+    return this.showsStress && stress ? { quantity: "von Mises stress", unit: "Pa", low: 0, high: stress.high } : { quantity, unit, low, high };
+  }
+
+  /** The largest stress at this moment. */
+  get peakValue(): number {
+    return this.stressed && this.stressed.peak >= 0 ? this.stressed.values[this.stressed.peak]! : 0;
   }
 
   /** `first` : place of the first modal coordinate of the frame. */
@@ -49,16 +85,23 @@ export class Deforming {
       for (let k = 0; k < 3 * count; k++) moved[k]! += q * modes[shape + k]!;
       if (field) for (let k = 0; k < count; k++) shown[k]! += q * field[count * mode + k]!;
     }
-    const { low, high } = this.record;
+    if (this.showsStress) this.stressed?.update(frame, first + this.record.first);
+    const { low, high } = this.scale;
     const span = high > low ? high - low : 1;
+    const colours = colour.array as Float32Array;
     for (let k = 0; k < count; k++) {
       const [x, y, z] = [moved[3 * k]!, moved[3 * k + 1]!, moved[3 * k + 2]!];
       at[3 * k] = rest[3 * k]! + this.exaggeration * x;
       at[3 * k + 1] = rest[3 * k + 1]! + this.exaggeration * y;
       at[3 * k + 2] = rest[3 * k + 2]! + this.exaggeration * z;
-      const value = field ? shown[k]! : Math.hypot(x, y, z);
-      ramp((value - low) / span, colour.array as Float32Array, 3 * k);
+      const value = this.showsStress ? this.stressed!.values[k]! : field ? shown[k]! : Math.hypot(x, y, z);
+      this.values[k] = value;
+      if (Number.isNaN(value)) colours.fill(UNKNOWN, 3 * k, 3 * k + 3);
+      else ramp((value - low) / span, colours, 3 * k);
     }
+    const vertex = this.showsStress ? this.stressed!.peak : -1;
+    this.peak.visible = vertex >= 0;
+    if (vertex >= 0) this.peak.position.fromArray(at, 3 * vertex);
     position.needsUpdate = true;
     colour.needsUpdate = true;
     this.mesh.geometry.computeVertexNormals();

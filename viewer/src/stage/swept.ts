@@ -5,6 +5,7 @@
 import * as THREE from "three";
 import type { Sweep } from "../generated/records";
 import type { Actor, Picked } from "./actor";
+import { ramp } from "./ramp";
 
 const MOST_RINGS = 240; // of one sweep, where there are not more frames
 const MOST_FRAMES = 500; // that the line goes through; of more it takes some, evenly
@@ -26,14 +27,18 @@ export class Swept {
   private readonly steps: number; // rings from one frame to the next
   private readonly turns: THREE.Quaternion[]; // of the section's axes in the frame of each body
 
+  private readonly kept: readonly number[]; // places of its frames among those of the whole
+  private readonly painted = new THREE.MeshPhongMaterial({ vertexColors: true, shininess: 20, specular: 0x1a1a1a, side: THREE.DoubleSide });
+
   readonly record: Sweep;
 
   constructor(
     whole: Sweep,
     private readonly actor: Actor,
-    material: THREE.Material,
+    private readonly material: THREE.Material,
   ) {
-    const record = thinned(whole);
+    this.kept = keptFrames(whole.bodies.length);
+    const record = thinned(whole, this.kept);
     this.record = record;
     const spans = record.bodies.length - 1;
     this.steps = record.smooth ? Math.min(Math.max(Math.floor(MOST_RINGS / spans), 1), FINEST) : 1;
@@ -45,6 +50,7 @@ export class Swept {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+    geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(3 * count).fill(1), 3));
     geometry.setIndex(this.triangles(rings));
     this.mesh = new THREE.Mesh(geometry, material);
     this.mesh.castShadow = !material.transparent;
@@ -115,6 +121,32 @@ export class Swept {
     this.mesh.geometry.boundingSphere = null; // clicks look for it where it is now
   }
 
+  /** Show by colours from low to high what is felt at places, in numbers of frames; or be of one colour. */
+  paint(felt: { at(place: number): number } | null, low: number, high: number): void {
+    this.mesh.material = felt ? this.painted : this.material;
+    if (!felt) return;
+    const colour = this.mesh.geometry.getAttribute("color") as THREE.BufferAttribute;
+    const colours = colour.array as Float32Array;
+    const span = high > low ? high - low : 1;
+    const rings = (this.record.bodies.length - 1) * this.steps + 1;
+    const fill = (from: number, count: number, place: number) => {
+      ramp((felt.at(place) - low) / span, colours, 3 * from);
+      for (let k = 1; k < count; k++) colours.copyWithin(3 * (from + k), 3 * from, 3 * from + 3);
+    };
+    for (let ring = 0; ring < rings; ring++) fill(ring * this.corners.length, this.corners.length, this.placeOf(ring));
+    const first = rings * this.corners.length;
+    fill(first, this.caps.length, 0);
+    fill(first + this.caps.length, this.caps.length, this.kept.at(-1)!);
+    colour.needsUpdate = true;
+  }
+
+  /** Of a ring, in numbers of frames of the whole. */
+  private placeOf(ring: number): number {
+    const k = Math.min(Math.floor(ring / this.steps), this.kept.length - 1);
+    const [from, to] = [this.kept[k]!, this.kept[k + 1] ?? this.kept[k]!];
+    return from + ((to - from) * (ring - k * this.steps)) / this.steps;
+  }
+
   private ring(ring: number, at: THREE.Vector3, turn: THREE.Quaternion): void {
     this.corners.forEach(({ at: [y, z], normal: [ny, nz] }, k) => this.vertex(ring * this.corners.length + k, at, turn, y, z, 0, ny, nz));
   }
@@ -152,11 +184,14 @@ export class Swept {
   }
 }
 
-/** The sweep through some of its frames, the first and the last among them. */
-function thinned(whole: Sweep): Sweep {
-  const last = whole.bodies.length - 1;
-  if (last < MOST_FRAMES) return whole;
-  const kept = Array.from({ length: MOST_FRAMES }, (_, k) => Math.round((k * last) / (MOST_FRAMES - 1)));
+/** Numbers of the frames that the line goes through, the first and the last among them. */
+function keptFrames(count: number): number[] {
+  const most = Math.min(count, MOST_FRAMES);
+  return Array.from({ length: most }, (_, k) => Math.round((k * (count - 1)) / (most - 1)));
+}
+
+/** The sweep through some of its frames. */
+function thinned(whole: Sweep, kept: readonly number[]): Sweep {
   const some = <T>(list: T[]) => kept.map((k) => list[k]!);
   return { ...whole, bodies: some(whole.bodies), points: some(whole.points), axes: some(whole.axes), across: some(whole.across) };
 }

@@ -1,9 +1,8 @@
 // What is shown, and from where: the panel behind the eye.
-import { rampGradient } from "../stage/ramp";
 import { FAMILIES, type Family } from "../stage/arrows";
 import type { View } from "../stage/views";
 import type { App } from "../app";
-import { el, short, toggle } from "./dom";
+import { choice, el, short, toggle } from "./dom";
 
 const SIDES: readonly [View, string, string][] = [
   ["first", "First", "0"],
@@ -30,6 +29,7 @@ export class Display {
       "div",
       { class: "display" },
       section("Look from", el("div", { class: "chips" }, ...sides)),
+      this.colours(),
       section("Show", ...this.shown()),
       this.arrows(),
       this.violations(),
@@ -92,20 +92,25 @@ export class Display {
     return section("Open joints", toggle("Constraint violations", false, (on) => app.change(() => (app.violations.on = on))), slider, el("p", { class: "note" }, "Exaggerated ", factor));
   }
 
+  private colours(): HTMLElement | null {
+    const { app } = this;
+    const { ofBeams, ofBodies } = app.colours;
+    const missing = app.actor.stage.colourless.map((text) => el("p", { class: "note" }, text));
+    const beams = ofBeams.length ? choice("Beams by", ["", ...ofBeams], "nothing", (name) => app.change(() => app.colours.beams(name))) : null;
+    const bodies = ofBodies.length ? choice("Bodies by", ofBodies, "", (name) => app.change(() => app.colours.bodies(name))) : null;
+    return beams || bodies || missing.length ? section("Colours", beams, bodies, ...missing) : null;
+  }
+
   private flexible(): HTMLElement | null {
     const { app } = this;
-    const [first] = app.actor.deforming;
-    if (!first) return null;
-    const { record } = first;
-    const bar = el("div", { class: "ramp" });
-    bar.style.background = rampGradient();
+    if (!app.actor.deforming.length) return null;
     const factor = el("output", {}, "× 1");
     const slider = range("Exaggerate the deformation", 0, 3, 0, (value) => {
       for (const each of app.actor.deforming) each.exaggeration = 10 ** value;
       factor.textContent = `× ${short(10 ** value)}`;
       app.refreshFrame();
     });
-    return section("Deformation", el("p", { class: "note" }, `${record.quantity} [${record.unit}]`), bar, el("p", { class: "ends" }, el("span", {}, short(record.low)), el("span", {}, short(record.high))), slider, el("p", { class: "note" }, "Drawn ", factor));
+    return section("Deformation", slider, el("p", { class: "note" }, "Drawn ", factor));
   }
 
   private ghost(): HTMLElement | null {

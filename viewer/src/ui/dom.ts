@@ -58,6 +58,13 @@ export function toggle(label: string, checked: boolean, onchange: (on: boolean) 
   return el("label", { class: "toggle" }, input, el("span", {}, label));
 }
 
+/** One of some words; the empty one is shown as `nothing`. */
+export function choice(label: string, words: readonly string[], nothing: string, onchange: (word: string) => void): HTMLLabelElement {
+  const select = el("select", {}, ...words.map((word) => el("option", { value: word }, word || nothing)));
+  select.addEventListener("change", () => onchange(select.value));
+  return el("label", { class: "choice" }, el("span", {}, label), select);
+}
+
 /** A name that goes on in the next line after a dot or underscore, not within a word. */
 export function breakable(name: string): (Node | string)[] {
   return name.split(/(?<=[._-])/).flatMap((piece, k) => (k ? [document.createElement("wbr"), piece] : [piece]));
@@ -70,4 +77,14 @@ export function short(value: number): string {
   if (size === 0) return "0";
   const text = size >= 1e-3 && size < 1e6 ? String(+value.toPrecision(5)) : value.toExponential(2).replace(/\.?0+e/, "e").replace("e+", "e");
   return text.replace(/^-/, "−").replace("e-", "e−");
+}
+
+const PREFIXED = ["N", "N m", "Pa", "J", "W"]; // units that take prefixes
+const PREFIXES: readonly [number, string][] = [[1e9, "G"], [1e6, "M"], [1e3, "k"]];
+
+/** Numbers with one unit for all of them, whose prefix suits the largest. */
+export function measured(values: readonly number[], unit: string): { texts: string[]; unit: string } {
+  const size = Math.max(...values.map(Math.abs));
+  const [factor, prefix] = (PREFIXED.includes(unit) && PREFIXES.find(([each]) => size >= each)) || [1, ""];
+  return { texts: values.map((value) => short(+(value / factor).toPrecision(4))), unit: unit === "1" ? "" : prefix + unit };
 }

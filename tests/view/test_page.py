@@ -3,7 +3,6 @@
 import json
 import runpy
 from functools import cache
-from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +14,7 @@ from browsing import PATIENCE, chromium, drawn, landed, served, until, watched
 from nivel.results import Memory
 from nivel.view.export import write_scene
 from nivel.view.sources import Playback
+from playing import assert_plays_and_scrubs
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 MACHINES = [*sorted(EXAMPLES.glob("*.yaml")), EXAMPLES / "double_pendulum.py"]
@@ -33,57 +33,9 @@ def result_of(path):
     return nivel.load(path, allow_code=True).simulate()
 
 
-def picture(page):
-    """The screen as (height, width, 3)."""
-    image = pytest.importorskip("PIL.Image")
-    return np.asarray(image.open(BytesIO(page.screenshot())).convert("RGB"))
-
-
-def assert_drawn(seen, result, frame, page):
-    """Every body of the page stands where the result says."""
-    position, orientation = result.array("position")[frame], result.array("orientation")[frame]
-    size = page.evaluate("nivel.app.stage.size")
-    for body, (r, theta) in enumerate(zip(position, orientation, strict=True)):
-        pose = np.array(seen.pose(body))
-        np.testing.assert_allclose(pose[:3], r, atol=1e-5 * size)
-        sign = np.sign(pose[3:] @ theta)
-        np.testing.assert_allclose(sign * pose[3:], theta, atol=1e-5)
-
-
 @pytest.mark.parametrize("path", MACHINES, ids=lambda path: path.stem)
 def test_every_example_plays_scrubs_and_opens_from_a_file(path, browser, tmp_path):
-    result = result_of(path)
-    file = write_scene([result], tmp_path / "scene.html")
-    with watched(browser) as seen:
-        page = seen.open(file.as_uri())
-        assert page.evaluate("nivel.span()") == pytest.approx([result.time[0], result.time[-1]])
-        assert_drawn(seen, result, 0, page)
-        start = picture(page)
-        # play
-        page.get_by_role("button", name="Play", exact=True).click()
-        until(page, "nivel.app.player.time > nivel.span()[0]")
-        page.get_by_role("button", name="Pause").click()
-        # scrub
-        slider = page.get_by_role("slider", name="Time")
-        slider.focus()
-        page.keyboard.press("End")
-        until(page, "nivel.app.player.time === nivel.span()[1]")
-        assert_drawn(seen, result, -1, page)
-        assert page.locator("output.time").inner_text().startswith(f"{result.time[-1]:.1f}"[:3])
-        # somewhere else than at the start, where many machines come by again at the end
-        frame = int(0.37 * len(result.time))
-        page.evaluate(f"nivel.app.goTo({float(result.time[frame])!r})")
-        drawn(page)
-        assert_drawn(seen, result, frame, page)
-        later = picture(page)
-        slider.focus()
-        page.keyboard.press("Home")
-        until(page, "nivel.app.player.time === nivel.span()[0]")
-        assert_drawn(seen, result, 0, page)
-        # something is to be seen, and it moved
-        assert len(np.unique(start.reshape(-1, 3), axis=0)) > 100
-        moved = np.abs(start.astype(int) - later).max(axis=2) > 25
-        assert moved[60:700, 260:940].sum() > 30
+    assert_plays_and_scrubs(browser, result_of(path), tmp_path / "scene.html")
 
 
 def test_the_served_page_fetches_what_it_plots(browser):
@@ -164,6 +116,37 @@ def test_the_time_is_dragged_with_the_mouse_and_tapped_with_a_finger(browser, tm
         page.touchscreen.tap(box["x"] + 0.25 * box["width"], y)
         until(page, "!nivel.app.player.playing")
         assert share() == pytest.approx(0.25, abs=0.02)
+
+
+def test_a_body_moved_out_of_the_picture_is_followed(browser):
+    body = {"mass": 1, "inertia": (0.1, 0.1, 0.1), "shape": {"type": "sphere", "radius": 0.05}}
+    bodies = [
+        nivel.Body(name="kite", position=(0, 0, 0), **body),
+        nivel.Body(name="rock", position=(0.3, 0, 0), **body),
+    ]
+    joints = [nivel.Joint(name="hold", type="fixed", bodies=("ground", "rock"), point=(0.3, 0, 0))]
+    inside = (
+        "(() => { const { x, y } = nivel.app.actor.bodies[0].position.clone().project(nivel.app.world.camera);"
+        "return Math.abs(x) < 1 && Math.abs(y) < 1 })()"
+    )
+    with served(nivel.Machine("far", bodies=bodies, joints=joints).shown()) as viewing, watched(browser) as seen:
+        page = seen.open(viewing.address.url)
+        slider = page.get_by_role("slider", name="kite.z", exact=True)
+        for share, looks_closer in ((1.0, False), (-1.0, True)):
+            if looks_closer:
+                page.evaluate("nivel.app.world.zoom(0.5)")
+            place = share * float(slider.get_attribute("max"))
+            slider.fill(str(place))
+            until(page, f"Math.abs(nivel.app.actor.bodies[0].position.z - {place}) < 1e-5")
+            landed(page)
+            assert page.evaluate(inside)
+        # what is in sight stays as it is looked at
+        eye = "nivel.app.world.camera.position.toArray()"
+        before = page.evaluate(eye)
+        slider.fill(str(0.95 * place))
+        until(page, f"Math.abs(nivel.app.actor.bodies[0].position.z - {0.95 * place}) < 1e-5")
+        landed(page)
+        np.testing.assert_allclose(page.evaluate(eye), before)
 
 
 def test_fit_finds_a_machine_that_was_moved_away(browser):
@@ -392,10 +375,18 @@ def test_a_report_plays_its_run_and_a_notebook_too(browser, tmp_path):
         page.get_by_role("button", name="Play the motion").click()
         frame = inner(page)
         assert frame.evaluate("nivel.span()") == pytest.approx([0.0, 8.0])
+        until(frame, "nivel.app.player.playing && nivel.app.player.time > 0")
         notebook = tmp_path / "notebook.html"
         notebook.write_text(f"<!doctype html><meta charset=utf-8>{result.view()._repr_html_()}", encoding="utf-8")
         page.goto(notebook.as_uri())
         inner(page)
+
+
+def test_an_exported_page_plays_at_once_where_its_address_asks_for_it(browser, tmp_path):
+    file = write_scene([result_of(EXAMPLES / "slider-crank.yaml")], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(f"{file.as_uri()}#play")
+        until(page, "nivel.app.player.playing && nivel.app.player.time > 0")
 
 
 def test_damaged_data_are_told_in_the_page(browser, tmp_path):

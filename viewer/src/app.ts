@@ -9,6 +9,7 @@ import { Actor, type Picked } from "./stage/actor";
 import { Arrows } from "./stage/arrows";
 import { Colours } from "./stage/colours";
 import { cloudNow, cloudOf } from "./stage/cloud";
+import type { Extra } from "./stage/extras";
 import { Labels } from "./stage/labels";
 import { Follower } from "./stage/follower";
 import { listenToPicks } from "./stage/picking";
@@ -18,7 +19,7 @@ import type { View } from "./stage/views";
 import { World } from "./stage/world";
 import { Coordinates } from "./ui/coordinates";
 import { Display } from "./ui/display";
-import { el } from "./ui/dom";
+import { el, short } from "./ui/dom";
 import { Inspector } from "./ui/inspector";
 import { Legend } from "./ui/legend";
 import { helpDialog, listenToKeys } from "./ui/keys";
@@ -54,6 +55,7 @@ export class App {
   private readonly status = el("p", { class: "status", role: "status" });
   private picked: Picked | null = null;
   private latest: Frame | null = null;
+  private byHand = -1; // body that is moved
   private came = 0; // ms: when the last frame came
 
   constructor(
@@ -93,8 +95,8 @@ export class App {
     holder.append(names, this.legend.element);
     const columns = new Columns(opened, connection);
     const ghostTime = this.ghosts[0]?.motion.time ?? null;
-    const times = { main: this.motion?.time ?? new Float64Array(), ghost: ghostTime, ghostTitle: others[0]?.title ?? "" };
-    this.plots = new Plots(columns, times, (time) => this.goTo(time), () => this.inspector?.refresh());
+    const times = { main: this.motion?.time ?? new Float64Array(), ghost: ghostTime, ghostTitle: others[0]?.title ?? "", isPath: !!this.motion?.load };
+    this.plots = new Plots(columns, times, (time) => this.goTo(time), () => this.inspector?.refresh(), (time) => this.motion?.says(time, short) ?? short(time));
     this.inspector = new Inspector(stage, columns, this.plots, this.traces, {
       follow: () => this.followOrFit(),
       isFollowed: (picked) => this.follower.name === picked.name,
@@ -111,7 +113,10 @@ export class App {
     if (content.mode === "machine" && connection) {
       this.coordinates = new Coordinates(
         stage.coordinates,
-        (coordinate, value) => connection?.send({ type: "move", coordinate, value }),
+        (coordinate, value) => {
+          this.byHand = this.bodyOf(coordinate);
+          connection?.send({ type: "move", coordinate, value });
+        },
         () => this.reset(),
       );
     }
@@ -183,6 +188,7 @@ export class App {
       this.connection?.send({ type: "shown", frame: this.latest.number });
       this.latest = null;
       this.refreshFrame();
+      this.keepInSight();
     }
     const { clientWidth, clientHeight } = this.world.holder;
     for (const actor of [this.actor, ...this.ghosts.map((ghost) => ghost.actor)]) actor.look(this.world.camera, clientHeight);
@@ -198,6 +204,21 @@ export class App {
     this.violations.update();
     this.traces.update(this.player?.frame ?? 0);
     this.world.invalidate();
+  }
+
+  /** What is moved by hand stays in the picture: all of the machine, or if the user looks closer the body that moves. */
+  private keepInSight(): void {
+    const body = this.actor.bodies[this.byHand];
+    if (!this.world.around || !body || this.actor.isBad[this.byHand]) return;
+    if (!this.world.holds(this.world.isFitted ? this.world.around() : [body.position])) this.world.fit();
+  }
+
+  /** The body that a coordinate moves: of a joint the second one, unless that is the ground. */
+  private bodyOf(coordinate: string): number {
+    const owner = this.stage.coordinates.find((each) => each.name === coordinate)?.joint;
+    const joint = this.stage.joints.find((each) => each.name === owner);
+    if (joint) return joint.bodies[1] >= 0 ? joint.bodies[1] : joint.bodies[0];
+    return this.stage.bodies.findIndex((each) => each.name === owner);
   }
 
   // --- what is chosen and shown ---
@@ -232,7 +253,7 @@ export class App {
     this.refreshFrame();
   }
 
-  show(what: "signs" | "triads" | "centres", on: boolean): void {
+  show(what: "signs" | Extra, on: boolean): void {
     this.change(() => this.actor.show(what, on));
   }
 

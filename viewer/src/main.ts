@@ -79,7 +79,8 @@ async function start(): Promise<void> {
     const app = new App(openPackage(await inflate(embedded.textContent)), null);
     embedded.remove();
     present(app);
-    if (location.hash === "#play") app.player?.toggle(true);
+    // asked for by the address of an exported page, or by the frame of a report
+    if (location.hash === "#play" || window.name === "play") app.player?.toggle(true);
   } catch (error) {
     complain(inWords(error));
     throw error;

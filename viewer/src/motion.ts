@@ -6,6 +6,7 @@ export class Motion {
   readonly time: Float64Array;
   readonly count: number;
   readonly layout: Layout;
+  readonly load: Float64Array | null; // of equilibria
   private readonly frames: Float32Array; // (width, count)
 
   constructor(stage: Stage, arrays: Arrays) {
@@ -14,6 +15,17 @@ export class Motion {
     this.time = arrays.times(stage.motion.time);
     this.count = this.time.length;
     this.frames = arrays.floats(stage.motion.frames);
+    this.load = stage.motion.load ? arrays.times(stage.motion.load) : null;
+  }
+
+  /** A time in words: of equilibria the load factor there. */
+  says(time: number, write: (value: number) => string): string {
+    if (!this.load) return `${write(time)} s`;
+    const k = this.at(time);
+    const next = Math.min(k + 1, this.count - 1);
+    const span = this.time[next]! - this.time[k]!;
+    const share = span > 0 ? Math.min(Math.max((time - this.time[k]!) / span, 0), 1) : 0;
+    return `load factor ${write(this.load[k]! + share * (this.load[next]! - this.load[k]!))}`;
   }
 
   get start(): number {

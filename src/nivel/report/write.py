@@ -59,6 +59,7 @@ def report_html(result: Result) -> str:
     environment.filters["number"] = number
     record = json.loads(str(result.attributes.get("machine_record", "{}")))
     shown = panels(result)
+    motion, motion_left_out = _motion(result)
     return environment.get_template("page.html.j2").render(
         result=result,
         description=record.get("description") or "",
@@ -75,7 +76,8 @@ def report_html(result: Result) -> str:
         paths=load_paths(result),
         vibrations=vibration_table(result),
         buckling=json.loads(str(result.attributes.get("buckling", "[]"))),
-        motion=_motion(result),
+        motion=motion,
+        motion_left_out=motion_left_out,
         shapes=beam_shapes(result),
         peaks=peak_reactions(result),
         icon=joint_icon,
@@ -107,15 +109,21 @@ def _picture(result: Result, record: dict[str, Any]) -> str:
     return machine_picture(result.scene, position, orientation, upwards(record.get("gravity")))
 
 
-def _motion(result: Result) -> str:
-    """The page that plays the motion, to be shown in a frame; empty where there is none, or where it would be large."""
+def _motion(result: Result) -> tuple[str, str]:
+    """The page that plays the motion, to be shown in a frame, or in a sentence why it is left out; both empty where there is none."""
     if len(result.time) < MOVING:
-        return ""
+        return "", ""
     try:
         text = scene_html([result], SMALL)
     except ModelError:  # nothing to draw: the report says the rest
-        return ""
-    return text if len(text) <= LARGEST_MOTION else ""
+        return "", ""
+    if len(text) <= LARGEST_MOTION:
+        return text, ""
+    name = result.path.name if result.path else "RESULT.nc"
+    return "", (
+        f"The motion is not in this page, where it would take {len(text) / 1e6:.1f} MB: `nivel view {name}` plays it, "
+        f"`nivel view {name} --export scene.html` writes it as a page of its own."
+    )
 
 
 def _data(result: Result, shown: list[Panel]) -> str:

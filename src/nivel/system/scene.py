@@ -10,7 +10,7 @@ a body (`ground` among them) is in that body's frame, which `position` and `orie
 ``ground_points``  where joints hold the ground
 ``joints``         list of ``name``, ``type``, ``bodies``, ``points``, ``axes`` (z of the markers), ``x_axes``: first and
                    second; a pin in a slot has ``slot`` too, its direction in the second body
-``markers``        named markers: list of ``name``, ``body``, ``position``
+``markers``        named markers: list of ``name``, ``body``, ``position``, ``x_axis``, ``axis`` (x and z of the marker)
 ``forces``         what acts between two bodies at two points: list of ``name``, ``type``, ``bodies``, ``points``;
                    ``axis`` too where it has one, see below
 ``sweeps``         of machines with beams; one solid drawn through the frames of bodies in a row: list of ``name``,
@@ -70,9 +70,16 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
     for body, looks in _flexible(machine):
         bodies[body]["flexible"] = looks
     markers = [
-        {"name": m.name, "body": m.body, "position": marker_place(machine, m)[1].tolist()}
+        {
+            "name": m.name,
+            "body": m.body,
+            "position": position.tolist(),
+            "x_axis": axes[:, 0].tolist(),
+            "axis": axes[:, 2].tolist(),
+        }
         for m in machine.markers
         if m.name
+        for _, position, axes in [marker_place(machine, m)]
     ]
     sweeps = [_sweep(beam) for beam in machine.beams]
     return {

@@ -116,7 +116,13 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         columns=columns(result, frames, block, budget.columns) if number == 0 or budget.columns else [],
         moments=[Moment(name, float(at)) for name, at in _marks(result)],
         notes=_notes(result, rows[:, : 7 * bodies], frames),
-        motion=Motion(block.add(result.abscissa[frames], "f8"), block.add(rows.T), len(result.time), frames.step),
+        motion=Motion(
+            block.add(result.abscissa[frames], "f8"),
+            block.add(rows.T),
+            len(result.time),
+            frames.step,
+            block.add(result.time[frames], "f8") if result.is_statics else None,
+        ),
     )
 
 

@@ -289,11 +289,13 @@ class Arrow:
 
 @dataclass(frozen=True)
 class Marker:
-    """A named point of a body, to be traced."""
+    """A named point of a body, to be traced; x_axis, axis : of its frame, x and z, in the body's."""
 
     name: str
     body: int
     point: Triple
+    x_axis: Triple = (1.0, 0.0, 0.0)
+    axis: Triple = (0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True)
@@ -352,7 +354,7 @@ class Coordinate:
 
 @dataclass(frozen=True)
 class Motion:
-    """time (n,) of the frames, frames (width, n).
+    """time (n,) of the frames, frames (width, n). load (n,) : of equilibria the load factor, while time is the place along their path.
 
     total : frames of the result; every `stride`th is here.
     """
@@ -361,6 +363,7 @@ class Motion:
     frames: Packed
     total: int
     stride: int
+    load: Packed | None = None
 
 
 @dataclass(frozen=True)

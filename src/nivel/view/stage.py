@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import zlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from nivel.looks.colours import colour_of
 from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL
 from nivel.looks.links import held_points, link_ends
-from nivel.looks.sweeps import swept_bodies
 from nivel.machine.surface import surface_arrays
 from nivel.view.acting import drivers, forces
 from nivel.view.package import Block
@@ -44,9 +43,11 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
     """The elements of a machine. scene : as in a result; record : its machine record as JSON, which may be empty."""
     bodies = scene.get("bodies", [])
     places = {body["name"]: k for k, body in enumerate(bodies)} | {"ground": -1}
-    swept = swept_bodies(scene)
+    chains = {body: each for each in scene.get("sweeps", []) for body in each["bodies"]}
     drawn = [
-        _body(scene, body, colour_of(k), block, automatic=not (body.get("flexible") or body["name"] in swept))
+        _part_of(chains[body["name"]], scene, body, places, block)
+        if body["name"] in chains
+        else _body(scene, body, colour_of(k), block, automatic=not body.get("flexible"))
         for k, body in enumerate(bodies)
     ]
     joints = [_joint(joint, places) for joint in scene.get("joints", [])]
@@ -58,7 +59,13 @@ def cast(scene: dict[str, Any], record: dict[str, Any], block: Block) -> Cast:
         forces(scene, record, places, drawn, joints),
         drivers(record, places, drawn, joints),
         [
-            Marker(m["name"], places[m["body"]], triple(m["position"]))
+            Marker(
+                m["name"],
+                places[m["body"]],
+                triple(m["position"]),
+                triple(m.get("x_axis", (1, 0, 0))),
+                triple(m.get("axis", (0, 0, 1))),
+            )
             for m in scene.get("markers", [])
             if m["body"] != "ground"
         ],
@@ -116,6 +123,18 @@ def _body(scene: dict[str, Any], body: dict[str, Any], colour: str, block: Block
         automatic,
         [("mass", f"{body['mass']:.5g} kg")] if "mass" in body else [],
     )
+
+
+def _part_of(
+    chain: dict[str, Any], scene: dict[str, Any], body: dict[str, Any], places: dict[str, int], block: Block
+) -> Body:
+    """A body of a chain that is drawn as one solid: arms lead from it to what holds it beside the solid."""
+    drawn = _body(scene, body, colour_of(places[chain["bodies"][0]]), block, automatic=False)
+    section = np.reshape(np.asarray(chain["section"], dtype=float), (-1, 2))
+    beside = 1.01 * float(np.linalg.norm(section, axis=1).max(initial=0.0))
+    held = np.reshape(np.array(drawn.held), (-1, 3))
+    far = held[np.linalg.norm(held - np.array(drawn.centre_of_mass), axis=1) > beside]
+    return replace(drawn, links=[triple(point) for point in _apart(far)])
 
 
 def _apart(points: Array) -> Array:

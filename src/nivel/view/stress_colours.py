@@ -25,9 +25,7 @@ WORK: Final = 2e9  # products that the largest stress is found with: of a long r
 AT_ONCE: Final = 1_000_000  # stresses
 
 
-def with_stress(
-    result: Result, bodies: list[Flexible], block: Block, budget: int
-) -> tuple[list[Flexible], list[str]]:
+def with_stress(result: Result, bodies: list[Flexible], block: Block, budget: int) -> tuple[list[Flexible], list[str]]:
     """The flexible bodies of a result with their stress, where it is known and has room within `budget` bytes; in sentences which have not.
 
     Bodies whose reduction knows no stress say nothing.

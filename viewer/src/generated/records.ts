@@ -173,11 +173,13 @@ export interface Arrow {
   typical: number;
 }
 
-/** A named point of a body, to be traced. */
+/** A named point of a body, to be traced; x_axis, axis : of its frame, x and z, in the body's. */
 export interface Marker {
   name: string;
   body: number;
   point: [number, number, number];
+  x_axis: [number, number, number];
+  axis: [number, number, number];
 }
 
 /** Floats of a frame: 7 a body (position, Euler parameters scalar first), then modal coordinates, then vectors of 3. */
@@ -221,12 +223,13 @@ export interface Coordinate {
   free: boolean;
 }
 
-/** time (n,) of the frames, frames (width, n). total : frames of the result; every `stride`th is here. */
+/** time (n,) of the frames, frames (width, n). load (n,) : of equilibria the load factor, while time is the place along their path. total : frames of the result; every `stride`th is here. */
 export interface Motion {
   time: Packed;
   frames: Packed;
   total: number;
   stride: number;
+  load: Packed | null;
 }
 
 /** Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted. up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by. notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why. */

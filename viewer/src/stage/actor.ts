@@ -6,7 +6,7 @@ import type { Arrays } from "../package";
 import { Batch, COARSE, FINE, HIDDEN, LINES, noPieces, type Piece } from "./batch";
 import { Bones } from "./bones";
 import { Deforming } from "./deforming";
-import { Extras } from "./extras";
+import { Extras, type Extra } from "./extras";
 import type { Instances } from "./instances";
 import { Palette, TONES, type Look, type Tone } from "./look";
 import { Nearness } from "./nearness";
@@ -178,7 +178,7 @@ export class Actor {
     });
   }
 
-  show(what: "signs" | "triads" | "centres" | "edges", on: boolean): void {
+  show(what: "signs" | "edges" | Extra, on: boolean): void {
     if (what === "signs") for (const each of this.signBatches) each.mesh.visible = on;
     else if (what === "edges") for (const each of this.edges) each.visible = on;
     else this.extras.show(what, on);

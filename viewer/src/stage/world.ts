@@ -121,6 +121,21 @@ export class World {
     this.flyTo(towards, this.up, this.middle(), this.distance(towards), animate);
   }
 
+  /** Everything is in sight, as long as nobody looks closer. */
+  get isFitted(): boolean {
+    return this.fitted;
+  }
+
+  /** Whether all points are in the picture, or will be when the camera has arrived. */
+  holds(points: THREE.Vector3[]): boolean {
+    if (this.flight) return true;
+    this.camera.updateMatrixWorld();
+    return points.every((point) => {
+      const { x, y, z } = point.clone().project(this.camera);
+      return Math.abs(x) <= 1 && Math.abs(y) <= 1 && Math.abs(z) <= 1;
+    });
+  }
+
   /** Turn the camera about its target by angles in radians. */
   orbit(sideways: number, upwards: number): void {
     const offset = this.camera.position.clone().sub(this.controls.target);

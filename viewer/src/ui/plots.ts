@@ -11,6 +11,7 @@ export interface Times {
   main: Float64Array;
   ghost: Float64Array | null;
   ghostTitle: string;
+  isPath: boolean; // of equilibria, whose times are places along it
 }
 
 interface Chart {
@@ -33,6 +34,7 @@ export class Plots {
     private readonly times: Times,
     private readonly seek: (time: number) => void,
     private readonly onChange: () => void,
+    private readonly says: (time: number) => string,
   ) {
     new ResizeObserver(() => this.resize()).observe(this.element);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => void this.show(this.names));
@@ -70,7 +72,7 @@ export class Plots {
       const line = chart.holder.querySelector<HTMLElement>(".now");
       const shown = chart.series.map((each) => `${each.label} ${short(at(each.times, each.values, time) ?? NaN)}`);
       chart.plot.over.setAttribute("aria-valuenow", String(time));
-      chart.plot.over.setAttribute("aria-valuetext", `${short(time)} s: ${shown.join(", ")}`);
+      chart.plot.over.setAttribute("aria-valuetext", `${this.says(time)}: ${shown.join(", ")}`);
       if (line) line.style.transform = `translateX(${left}px)`;
       chart.readout.replaceChildren(
         ...chart.series.filter((each) => !each.label.startsWith("ghost ")).map((each) => {
@@ -102,7 +104,8 @@ export class Plots {
   private frame(chart: Chart): HTMLElement {
     const ghost = chart.series.some((each) => each.label.startsWith("ghost ")) ? `, dashed: ${this.times.ghostTitle}` : "";
     const unit = chart.unit && chart.unit !== "1" ? `[${chart.unit}]` : "[–]";
-    return el("figure", { class: "chart", "aria-label": `${chart.names.join(", ")} over time` }, el("figcaption", {}, unit + ghost), chart.holder, chart.readout);
+    const over = this.times.isPath ? " over the path of equilibria" : "";
+    return el("figure", { class: "chart", "aria-label": `${chart.names.join(", ")}${over || " over time"}` }, el("figcaption", {}, unit + over + ghost), chart.holder, chart.readout);
   }
 
   private draw(chart: Chart): void {

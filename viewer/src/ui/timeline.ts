@@ -1,7 +1,10 @@
 // The bar at the bottom: play, time, speed, and where in the motion it is.
 import type { Moment } from "../generated/records";
+import type { Motion } from "../motion";
 import { SPEEDS, type Player } from "../player";
 import { el, iconButton, renew } from "./dom";
+
+const LOAD_DIGITS = 3; // of a load factor, behind the point
 
 export class Timeline {
   readonly element: HTMLElement;
@@ -18,10 +21,11 @@ export class Timeline {
   ) {
     const { motion } = player;
     const span = motion.end - motion.start;
-    this.digits = Math.min(Math.max(Math.ceil(-Math.log10((span || 1) / Math.max(motion.count - 1, 1)) + 0.001), 1), 6);
+    const needed = Math.ceil(-Math.log10((span || 1) / Math.max(motion.count - 1, 1)) + 0.001);
+    this.digits = Math.min(Math.max(needed, motion.load ? LOAD_DIGITS : 1), 6);
     this.play = iconButton("play", "Play", () => player.toggle(), "space");
     this.play.classList.add("main-button");
-    this.slider = el("input", { type: "range", class: "scrub", min: 0, max: 1, step: "any", value: 0, "aria-label": "Time" });
+    this.slider = el("input", { type: "range", class: "scrub", min: 0, max: 1, step: "any", value: 0, "aria-label": motion.load ? "Path of equilibria" : "Time" });
     this.slider.addEventListener("input", () => {
       const share = Number(this.slider.value); // to pause puts the slider back to where the motion is
       player.toggle(false);
@@ -37,8 +41,8 @@ export class Timeline {
       player.loop = !player.loop;
       player.onChange();
     }, "L");
-    const end = `${this.inWords(motion.end)} s`;
-    const track = el("div", { class: "track" }, this.slider, el("div", { class: "ticks", "aria-hidden": "true" }, ...ticks(moments, motion.start, span)));
+    const end = motion.load ? `${motion.count} states` : motion.says(motion.end, (value) => this.inWords(value));
+    const track = el("div", { class: "track" }, this.slider, el("div", { class: "ticks", "aria-hidden": "true" }, ...ticks(moments, motion)));
     this.element = el(
       "footer",
       { class: "timeline", role: "group", "aria-label": "Playback" },
@@ -71,17 +75,19 @@ export class Timeline {
     const share = end > start ? (this.player.time - start) / (end - start) : 0;
     this.slider.value = String(share);
     this.slider.style.setProperty("--share", `${100 * share}%`);
-    const text = `${this.inWords(this.player.time)} s`;
+    const text = this.player.motion.says(this.player.time, (value) => this.inWords(value));
     this.now.textContent = text;
     this.slider.setAttribute("aria-valuetext", text);
   }
 }
 
-function ticks(moments: Moment[], start: number, span: number): HTMLElement[] {
+function ticks(moments: Moment[], motion: Motion): HTMLElement[] {
+  const { start } = motion;
+  const span = motion.end - start;
   return moments
     .filter((each) => span > 0 && each.time >= start && each.time <= start + span)
     .map((each) => {
-      const tick = el("i", { title: `${each.name}, ${each.time.toPrecision(5)} s` });
+      const tick = el("i", { title: `${each.name}, ${motion.says(each.time, (value) => value.toPrecision(5))}` });
       tick.style.left = `${(100 * (each.time - start)) / span}%`;
       return tick;
     });

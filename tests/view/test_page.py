@@ -382,6 +382,16 @@ def test_a_report_plays_its_run_and_a_notebook_too(browser, tmp_path):
         inner(page)
 
 
+def test_a_report_says_that_a_motion_is_left_out_and_how_to_see_it(monkeypatch, tmp_path):
+    result = result_of(EXAMPLES / "slider-crank.yaml")
+    assert "The motion is not in this page" not in result.report(tmp_path / "with.html").read_text(encoding="utf-8")
+    monkeypatch.setattr("nivel.report.write.LARGEST_MOTION", 1000)
+    text = result.report(tmp_path / "without.html").read_text(encoding="utf-8")
+    assert "<iframe" not in text
+    assert "`nivel view RESULT.nc` plays it" in text
+    assert "--export scene.html" in text
+
+
 def test_an_exported_page_plays_at_once_where_its_address_asks_for_it(browser, tmp_path):
     file = write_scene([result_of(EXAMPLES / "slider-crank.yaml")], tmp_path / "scene.html")
     with watched(browser) as seen:

@@ -12,6 +12,7 @@ import { cloudNow, cloudOf } from "./stage/cloud";
 import type { Extra } from "./stage/extras";
 import { Labels } from "./stage/labels";
 import { Follower } from "./stage/follower";
+import { Handled } from "./stage/handled";
 import { listenToPicks } from "./stage/picking";
 import { Traces } from "./stage/traces";
 import { Violations } from "./stage/violations";
@@ -45,6 +46,7 @@ export class App {
   readonly labels: Labels;
   readonly plots: Plots;
   private readonly follower: Follower;
+  private readonly handled: Handled;
   private readonly legend = new Legend();
   private readonly timeline: Timeline | null = null;
   private readonly tree: Tree;
@@ -55,7 +57,6 @@ export class App {
   private readonly status = el("p", { class: "status", role: "status" });
   private picked: Picked | null = null;
   private latest: Frame | null = null;
-  private byHand = -1; // body that is moved
   private came = 0; // ms: when the last frame came
 
   constructor(
@@ -91,6 +92,7 @@ export class App {
     this.labels = new Labels(this.actor, names);
     this.labels.shown.body = stage.bodies.length <= FEW_NAMES;
     this.follower = new Follower(this.world, this.actor);
+    this.handled = new Handled(this.world, this.actor);
     this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
     holder.append(names, this.legend.element);
     const columns = new Columns(opened, connection);
@@ -114,7 +116,7 @@ export class App {
       this.coordinates = new Coordinates(
         stage.coordinates,
         (coordinate, value) => {
-          this.byHand = this.bodyOf(coordinate);
+          this.handled.move(coordinate);
           connection?.send({ type: "move", coordinate, value });
         },
         () => this.reset(),
@@ -188,7 +190,7 @@ export class App {
       this.connection?.send({ type: "shown", frame: this.latest.number });
       this.latest = null;
       this.refreshFrame();
-      this.keepInSight();
+      this.handled.keepInSight();
     }
     const { clientWidth, clientHeight } = this.world.holder;
     for (const actor of [this.actor, ...this.ghosts.map((ghost) => ghost.actor)]) actor.look(this.world.camera, clientHeight);
@@ -204,21 +206,6 @@ export class App {
     this.violations.update();
     this.traces.update(this.player?.frame ?? 0);
     this.world.invalidate();
-  }
-
-  /** What is moved by hand stays in the picture: all of the machine, or if the user looks closer the body that moves. */
-  private keepInSight(): void {
-    const body = this.actor.bodies[this.byHand];
-    if (!this.world.around || !body || this.actor.isBad[this.byHand]) return;
-    if (!this.world.holds(this.world.isFitted ? this.world.around() : [body.position])) this.world.fit();
-  }
-
-  /** The body that a coordinate moves: of a joint the second one, unless that is the ground. */
-  private bodyOf(coordinate: string): number {
-    const owner = this.stage.coordinates.find((each) => each.name === coordinate)?.joint;
-    const joint = this.stage.joints.find((each) => each.name === owner);
-    if (joint) return joint.bodies[1] >= 0 ? joint.bodies[1] : joint.bodies[0];
-    return this.stage.bodies.findIndex((each) => each.name === owner);
   }
 
   // --- what is chosen and shown ---

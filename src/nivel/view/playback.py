@@ -18,10 +18,8 @@ from nivel.view.columns import columns
 from nivel.view.couplings import couplings
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
-from nivel.view.records import PROTOCOL, Arrow, Joint, Moment, Motion, Package, Stage
-from nivel.view.section_colours import sections
+from nivel.view.records import PROTOCOL, Arrow, Flexible, Joint, Moment, Motion, Package, Sections, Stage
 from nivel.view.stage import Cast, cast, flexible
-from nivel.view.stress_colours import with_stress
 from nivel.view.violations import violation_vectors
 
 Array = NDArray[np.float64]
@@ -89,9 +87,9 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
     vectors = drawn.values if budget.vectors else np.zeros((len(position), 0, 3))
     modal = _read(result, "modal_coordinate", frames)
     rows = frame_plan.rows(position - np.array(where.origin), orientation, modal, vectors)
-    felt, plain_beams = sections(result, frames, block, budget.sections) if number == 0 else (None, [])
-    bending = flexible(scene, block, modal)
-    bending, plain_bodies = with_stress(result, bending, block, budget.stress) if number == 0 else (bending, [])
+    bending, felt, colourless = flexible(scene, block, modal), None, []
+    if number == 0:
+        bending, felt, colourless = _coloured(result, bending, frames, block, budget)
     return Stage(
         name=result.name,
         title=str(result.path.name) if result.path else result.name,
@@ -104,7 +102,7 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         layout=frame_plan.layout(bodies, 0 if modal is None else modal.shape[1], vectors.shape[1]),
         flexible=bending,
         sections=felt,
-        colourless=[*plain_beams, *plain_bodies],
+        colourless=colourless,
         bodies=players.bodies,
         joints=drawn.joints or players.joints,
         forces=players.forces,
@@ -124,6 +122,23 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
             block.add(result.time[frames], "f8") if result.is_statics else None,
         ),
     )
+
+
+def _coloured(
+    result: Result, bending: list[Flexible], frames: slice, block: Block, budget: Budget
+) -> tuple[list[Flexible], Sections | None, list[str]]:
+    """Flexible bodies with their stress, what beams feel, and in sentences what is left out. Machines without both load nothing for it."""
+    felt, missing = None, []
+    if result.scene.get("sweeps"):
+        from nivel.view.section_colours import sections
+
+        felt, missing = sections(result, frames, block, budget.sections)
+    if bending:
+        from nivel.view.stress_colours import with_stress
+
+        bending, more = with_stress(result, bending, block, budget.stress)
+        missing = [*missing, *more]
+    return bending, felt, missing
 
 
 @dataclass(frozen=True)

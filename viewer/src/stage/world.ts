@@ -2,12 +2,12 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Stage } from "../generated/records";
+import { Flight } from "./flight";
 import { Floor } from "./floor";
 import { readLook, type Look } from "./look";
 import { corners, distanceFor, sideOf, vector, type View } from "./views";
 
 const FIELD = 26; // degrees, of the shorter side of the picture
-const TURN_TIME = 260; // ms from one view to another
 const SLOW = 30; // ms a frame: slower than this is not smooth
 const PACED = 12; // frames that the pace is taken of
 const LEAST = 3; // quality: nothing more can be left out
@@ -41,7 +41,7 @@ export class World {
   private learnt = 0; // the quality at which motion is smooth
   private last = 0;
   private readonly paces: number[] = [];
-  private flight: { from: THREE.Vector3; to: THREE.Vector3; target: THREE.Vector3; start: number; aim: THREE.Vector3 } | null = null;
+  private flight: Flight | null = null;
   running = false; // frames follow each other, as long as this is set
 
   constructor(
@@ -160,8 +160,7 @@ export class World {
     this.fitted = false;
     this.camera.position.add(by);
     this.controls.target.add(by);
-    this.flight?.to.add(by);
-    this.flight?.aim.add(by);
+    this.flight?.shift(by);
     this.controls.update();
   }
 
@@ -232,23 +231,12 @@ export class World {
       this.invalidate();
       return;
     }
-    this.flight = { from: this.camera.position.clone(), to, target: this.controls.target.clone(), aim, start: performance.now() };
+    this.flight = new Flight(this.camera.position.clone(), this.controls.target.clone(), to, aim.clone());
   }
 
   private fly(now: number): void {
-    const flight = this.flight!;
-    const t = Math.min(Math.max((now - flight.start) / TURN_TIME, 0), 1);
-    const share = t * t * (3 - 2 * t);
-    const target = flight.target.clone().lerp(flight.aim, share);
-    const a = flight.from.clone().sub(flight.target);
-    const b = flight.to.clone().sub(flight.aim);
-    const length = THREE.MathUtils.lerp(a.length(), b.length(), share);
-    const turn = new THREE.Quaternion().setFromUnitVectors(a.clone().normalize(), b.clone().normalize());
-    const step = new THREE.Quaternion().slerp(turn, share);
-    this.camera.position.copy(a.applyQuaternion(step).setLength(length)).add(target);
-    this.controls.target.copy(target);
+    if (this.flight!.bring(this.camera.position, this.controls.target, now)) this.flight = null;
     this.controls.update();
-    if (t >= 1) this.flight = null;
     this.invalidate();
   }
 

@@ -5,9 +5,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import nivel
+from browsing import chromium, watched
 from models import bar, reduced
 from nivel.flexible.body_file import write_body
 from nivel.flexible.picture import moving_surface
+from nivel.view.export import write_scene
 from nivel.view.package import KINDS, Block
 from nivel.view.playback import SERVED, stage
 
@@ -81,3 +83,22 @@ def test_bars_are_closed_and_keep_their_thickness_where_they_turn():
     moved = (surface.vertices + 1e-6 * surface.modes[0]).reshape(-1, 4, 3)
     radius = np.linalg.norm(start - start.mean(axis=1, keepdims=True), axis=2)
     np.testing.assert_allclose(np.linalg.norm(moved - moved.mean(axis=1, keepdims=True), axis=2), radius, rtol=1e-9)
+
+
+def test_a_marker_of_a_body_that_bends_is_traced_where_its_sensor_is(result, tmp_path):
+    write_scene([result], tmp_path / "scene.html")
+    with chromium() as browser, watched(browser) as seen:
+        page = seen.open((tmp_path / "scene.html").as_uri())
+        page.get_by_role("button", name="bar", exact=True).click()
+        page.get_by_role("button", name="Trace tip").click()
+        path = "Array.from(nivel.app.traces.paths.get('marker tip').whole.geometry.attributes.position.array)"
+        traced = np.reshape(page.evaluate(path), (-1, 3))
+        sensor = np.stack([result.array(f"sensor.tip.{axis}") for axis in "xyz"], axis=1)
+        np.testing.assert_allclose(traced, sensor, atol=5e-6)
+        page.evaluate(f"nivel.app.goTo({float(result.time[-1])!r})")
+        dot = page.evaluate("nivel.app.traces.paths.get('marker tip').dot.position.toArray()")
+        np.testing.assert_allclose(dot, sensor[-1], atol=5e-6)
+    rigid = result.array("bar.position")[-1] + Rotation.from_quat(
+        result.array("bar.orientation")[-1], scalar_first=True
+    ).apply([2.0, 0.0, 0.0])
+    assert np.linalg.norm(rigid - sensor[-1]) > 1e-4  # it bends by more than what is allowed above

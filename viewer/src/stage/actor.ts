@@ -26,6 +26,8 @@ const ROUGH = 6; // and from afar
 const NEAR = 6; // pixels of a link's radius from which on it is drawn finely
 const FAR = 0.75; // and below which it is a line
 
+const POINT = new THREE.Vector3();
+
 export type Kind = "body" | "joint" | "force" | "driver" | "coupling";
 export interface Picked {
   kind: Kind;
@@ -53,6 +55,7 @@ export class Actor {
   private readonly signBatches: Batch[] = [];
   private readonly edges: THREE.Object3D[] = [];
   private readonly extras = new Extras(this);
+  private readonly bending = new Map<number, Deforming>(); // by the numbers of bodies
   private marked: THREE.Object3D[] = [];
 
   constructor(
@@ -95,7 +98,10 @@ export class Actor {
     if (this.bones) this.root.add(this.bones.object);
     this.recolour(look);
     this.deforming = stage.flexible.map((each) => new Deforming(each, arrays, isGhost, stage.size));
-    for (const each of this.deforming) this.holder(each.record.body).add(each.mesh);
+    for (const each of this.deforming) {
+      this.holder(each.record.body).add(each.mesh);
+      this.bending.set(each.record.body, each);
+    }
   }
 
   /** The group of a body, or of the ground. */
@@ -103,10 +109,18 @@ export class Actor {
     return this.bodies[body] ?? this.ground;
   }
 
-  /** A point of a body in space, into `out`. */
+  /** A point of a body in space, into `out`; of one that bends, where it is drawn. */
   place(body: number, point: readonly [number, number, number], out: THREE.Vector3): THREE.Vector3 {
     const group = this.holder(body);
-    return out.set(...point).applyQuaternion(group.quaternion).add(group.position);
+    this.bent(body, point, this.frame, out, this.bending.get(body)?.exaggeration);
+    return out.applyQuaternion(group.quaternion).add(group.position);
+  }
+
+  /** A point of a body in its frame, carried by the modes of that in a frame, into `out`. */
+  bent(body: number, point: readonly [number, number, number], frame: Float32Array, out: THREE.Vector3, exaggeration = 1): THREE.Vector3 {
+    const bending = this.bending.get(body);
+    if (!bending) return out.set(...point);
+    return bending.carried(point, frame, 7 * this.stage.layout.bodies, out).multiplyScalar(exaggeration).add(POINT.set(...point));
   }
 
   private get origin(): THREE.Vector3 {

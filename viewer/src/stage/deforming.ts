@@ -9,6 +9,8 @@ import { triangleMesh } from "./solids";
 const UNKNOWN = 0.55; // lightness of vertices whose stress is not known
 const PEAK = 0.012; // radius of the ball at the largest stress, of the machine's size
 
+const ALIKE = 1.001; // distances that differ by less are the same: those of the corners of a bar from its node
+
 /** What colours show, and their ends. */
 interface Ends {
   quantity: string;
@@ -25,6 +27,7 @@ export class Deforming {
   showsStress = false;
   scale: Ends;
   private readonly peak: THREE.Mesh;
+  private readonly near = new WeakMap<readonly [number, number, number], number[]>(); // vertices nearest to points
   private readonly rest: Float32Array;
   private readonly modes: Float32Array; // (modes, 3 n)
   private readonly field: Float32Array | null; // (modes, n)
@@ -68,6 +71,29 @@ export class Deforming {
   /** The largest stress at this moment. */
   get peakValue(): number {
     return this.stressed && this.stressed.peak >= 0 ? this.stressed.values[this.stressed.peak]! : 0;
+  }
+
+  /** How far a point of the body is carried by its modes, in its frame: as the nearest vertices on the average. first : as of `update`. */
+  carried(point: readonly [number, number, number], frame: Float32Array, first: number, out: THREE.Vector3): THREE.Vector3 {
+    let near = this.near.get(point);
+    if (!near) this.near.set(point, (near = this.nearest(point)));
+    out.set(0, 0, 0);
+    for (let mode = 0; mode < this.modeCount; mode++) {
+      const q = frame[first + this.record.first + mode]! / near.length;
+      for (const vertex of near) {
+        const at = 3 * (this.count * mode + vertex);
+        out.x += q * this.modes[at]!;
+        out.y += q * this.modes[at + 1]!;
+        out.z += q * this.modes[at + 2]!;
+      }
+    }
+    return out;
+  }
+
+  private nearest([x, y, z]: readonly [number, number, number]): number[] {
+    const far = Array.from({ length: this.count }, (_, k) => Math.hypot(this.rest[3 * k]! - x, this.rest[3 * k + 1]! - y, this.rest[3 * k + 2]! - z));
+    const least = far.reduce((a, b) => Math.min(a, b));
+    return far.flatMap((each, k) => (each <= ALIKE * least + 1e-12 ? [k] : []));
   }
 
   /** `first` : place of the first modal coordinate of the frame. */

@@ -41,14 +41,15 @@ export class Extras {
 
   /** levels : how much is seen of each body. */
   update(levels: Uint8Array): void {
-    for (const { spots, instances } of this.made.values()) {
+    for (const [what, { spots, instances }] of this.made) {
       if (!instances.mesh.visible) continue;
       spots.forEach(({ body, point, turn, size }, k) => {
         if (this.actor.isBad[body] || (levels[body] ?? 0) >= LINES) {
           instances.hide(k);
           return;
         }
-        this.actor.place(body, point, this.at);
+        if (what === "triads") this.at.copy(this.actor.holder(body).position); // not carried by what bends
+        else this.actor.place(body, point, this.at);
         this.turn.copy(this.actor.holder(body).quaternion).multiply(turn);
         instances.set(k, this.at, this.turn, this.scale.setScalar(size));
       });

@@ -84,7 +84,7 @@ export class Traces {
       motion.sample(time, frame);
       const [x, y, z, e0, e1, e2, e3] = frame.subarray(7 * of.body, 7 * of.body + 7) as unknown as number[];
       turn.set(e1!, e2!, e3!, e0!);
-      at.set(...of.point).applyQuaternion(turn).add(new THREE.Vector3(x, y, z));
+      this.actor.bent(of.body, of.point, frame, at).applyQuaternion(turn).add(new THREE.Vector3(x, y, z));
       if (!Number.isFinite(at.x + at.y + at.z)) continue;
       points.push(at.x, at.y, at.z);
       frames.push(k);

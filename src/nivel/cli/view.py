@@ -42,7 +42,10 @@ MACHINES = (".yaml", ".yml")
 )
 @click.option("--speed", default=1.0, show_default=True, type=float, help="Of films: seconds of motion in a second.")
 @click.option(
-    "--colours", default="", metavar="QUANTITY", help="What beams or flexible bodies show in stills and films: axial force, …"
+    "--colours",
+    default="",
+    metavar="QUANTITY",
+    help="What beams or flexible bodies show in stills and films: axial force, …",
 )
 @click.option("--dark", is_flag=True, help="Dark stills and films.")
 @click.option("--port", default=0, type=click.IntRange(0, 65535), help="Port to listen at; default: a free one.")

@@ -15,7 +15,7 @@ from test_flexible_examples import MACHINES, folder, machine  # noqa: F401
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 # seconds of the motion: enough to see that it moves
-BEAMS = {"cable": 0.2, "hinged-beams": 0.6, "slider-crank": 0.12, "spin-up": 4.0}
+BEAMS = {"cable": 0.2, "hinged-beams": 0.6, "slider-crank": 0.12, "spin-up": 4.0, "telescopic-boom": 0.5}
 FLEXIBLE = {"crane": 1.0, "lever-spring": 0.2, "pendulum": 0.5, "slider-crank": 0.1, "spinning-blade": 0.5}
 BESIDE = """
 format: 1
@@ -87,6 +87,23 @@ def test_joints_beside_a_beam_have_signs_and_arms(browser, tmp_path):
         for name in ("clamp", "thread"):
             page.evaluate(f"nivel.app.choose({{ kind: 'joint', name: '{name}' }})")
             assert page.evaluate("nivel.app.actor.marked.length") >= 1
+
+
+def test_what_slides_along_a_beam_stands_at_the_slider(browser, tmp_path):
+    """Its node of the beam is only where it began: no arm leads there, and no frame stands there."""
+    result = nivel.load(EXAMPLES / "beams" / "telescopic-boom.yaml").simulate(duration=0.5)
+    stage = from_bytes(playback([result], ALONE))[0]["stages"][0]
+    assert not any(each["links"] for each in stage["bodies"])
+    file = write_scene([result], tmp_path / "scene.html")
+    with watched(browser) as seen:
+        page = seen.open(file.as_uri())
+        page.evaluate(f"nivel.app.show('joints', true), nivel.app.goTo({float(result.time[-1])!r})")
+        drawn(page)
+        spots = page.evaluate(
+            "() => nivel.app.actor.extras.made.get('joints').spots.map((each) => [each.owner.name, each.body])"
+        )
+        names = [each["name"] for each in stage["bodies"]]
+        assert [names[body] for name, body in spots if name in ("rear", "front")] == ["inner.start", "outer.end"]
 
 
 def test_axes_and_frames_of_joints_and_markers_stand_where_they_are(browser, tmp_path):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.looks.colours import colour_of
-from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL
+from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL, SLIDING_ON_BEAMS
 from nivel.looks.links import held_points, link_ends
 from nivel.machine.surface import surface_arrays
 from nivel.view.acting import drivers, forces
@@ -132,7 +132,12 @@ def _part_of(
     drawn = _body(scene, body, colour_of(places[chain["bodies"][0]]), block, automatic=False)
     section = np.reshape(np.asarray(chain["section"], dtype=float), (-1, 2))
     beside = 1.01 * float(np.linalg.norm(section, axis=1).max(initial=0.0))
-    held = np.reshape(np.array(drawn.held), (-1, 3))
+    passed = [
+        triple(joint["points"][1])
+        for joint in scene.get("joints", [])
+        if joint["type"] in SLIDING_ON_BEAMS and joint["bodies"][1] == body["name"]
+    ]
+    held = np.reshape(np.array([point for point in drawn.held if point not in passed]), (-1, 3))
     far = held[np.linalg.norm(held - np.array(drawn.centre_of_mass), axis=1) > beside]
     return replace(drawn, links=[triple(point) for point in _apart(far)])
 

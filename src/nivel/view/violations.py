@@ -2,7 +2,7 @@
 
 Rows are named `joint.basic.axes` (NOTATION.md): `s.x` is a gap along global x; `d2.y` one along y of the first marker; `distance` one
 along the line between the two points; `d1.xz` says that x of the first is not perpendicular to z of the second marker: with a small
-turn φ of the second, a·(φ × b) = φ·(b × a).
+turn φ of the second, a·(φ × b) = φ·(b × a); `across.y` that a slider is off the line of a beam along y of its section.
 """
 
 from __future__ import annotations
@@ -40,6 +40,8 @@ def violation_vectors(joints: list[Joint], rows: tuple[str, ...], violation: Arr
         elif basic == "d1" and len(axes) == 2 and set(axes) <= set("xyz"):
             a, b = first[..., "xyz".index(axes[0])], second[..., "xyz".index(axes[1])]
             out[:, 2 * k + 1] += values * np.cross(b, a)
+        elif basic == "across" and axes in ("y", "z"):  # of the section, which are x and y of the second marker
+            out[:, 2 * k] -= values * second[..., "yz".index(axes)]
         elif basic == "distance":
             out[:, 2 * k] += values * apart
     return out

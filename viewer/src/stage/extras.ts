@@ -11,7 +11,7 @@ const OF_JOINT = 0.7; // frames of joints and markers are as much smaller than t
 const CENTRE = 0.014; // radius
 const LINE = 0.16; // half the length of the line along a joint's axis
 const THIN = 0.0012; // its radius
-const AXIAL = ["revolute", "cylindrical", "translational", "screw", "planar", "point-on-line", "point-on-plane", "revolute-spherical", "revolute-cylindrical", "revolute-translational", "universal"];
+const AXIAL = ["revolute", "cylindrical", "translational", "screw", "planar", "point-on-line", "point-on-plane", "revolute-spherical", "revolute-cylindrical", "revolute-translational", "universal", "cylindrical-on-beam", "translational-on-beam"];
 
 type Point = readonly [number, number, number];
 export type Extra = "triads" | "centres" | "joints" | "markers" | "axes";
@@ -84,7 +84,7 @@ export class Extras {
       case "axes":
         return stage.joints.flatMap((joint) => {
           if (what === "axes" && !AXIAL.includes(joint.kind)) return [];
-          const sides = ([0, 1] as const).filter((side) => what === "joints" || side === joint.place || joint.kind === "universal");
+          const sides = ([0, 1] as const).filter((side) => (what === "joints" && !(side && joint.kind.endsWith("-on-beam"))) || side === joint.place || joint.kind === "universal");
           return sides.map((side) => ({ owner: { kind: "joint" as const, name: joint.name }, body: joint.bodies[side], point: joint.points[side], turn: turnOf(joint.axes[side], joint.x_axes?.[side]), size: (what === "joints" ? OF_JOINT : 1) * nearness.joint(joint) }));
         });
     }

@@ -53,6 +53,13 @@ function shapes(kind: string, s: number, facets: number): Solid[] {
       return [dark(new THREE.BoxGeometry(1.5 * s, 1.5 * s, 1.5 * s))];
     case "planar":
       return [light(new THREE.BoxGeometry(4.2 * s, 4.2 * s, 0.3 * s))];
+    case "point-on-beam":
+    case "keyed-on-beam":
+      return [light(globe(0.9 * s)), ...(kind === "keyed-on-beam" ? [dark(new THREE.BoxGeometry(2.6 * s, 0.5 * s, 0.5 * s))] : [])];
+    case "cylindrical-on-beam":
+      return [light(round(1.1 * s, 2.8 * s)), dark(round(0.5 * s, 3.4 * s))];
+    case "translational-on-beam":
+      return [light(new THREE.BoxGeometry(1.9 * s, 1.9 * s, 2.8 * s))];
     case "point-on-line":
       return [dark(round(0.22 * s, 6 * s)), light(globe(0.8 * s))];
     case "point-on-plane":

@@ -11,11 +11,11 @@ import synthetic_run as pendulum
 from nivel.errors import ModelError
 from nivel.machine import Body, Driver, Joint, Motor, PairForce, PointForce, SpringDamper, Torque
 from nivel.results import Memory
+from nivel.view import records
 from nivel.view.arrows import Moments
 from nivel.view.export import scene_html
 from nivel.view.package import from_bytes, unpacked
 from nivel.view.playback import ALONE, SERVED, SMALL, Budget, playback
-from nivel.view.records import Joint
 from nivel.view.violations import violation_vectors
 
 TIME = np.linspace(0.0, 8.0, 801)
@@ -296,11 +296,11 @@ def test_the_budget_of_columns_is_kept():
 
 
 def test_a_slider_off_the_line_of_its_beam_has_a_gap_across_the_section():
-    """`across.y` is y·(p - X) of the slider's point p: the line is as far from it the other way; x of the second marker is y of the section."""
+    """`across.y` is y·(p - X) of the slider's point p: the line is off the other way. x of the second marker is y of the section."""
     turned = np.array([[np.cos(0.2), 0.0, 0.0, np.sin(0.2)]])  # about z by 0.4
     moments = Moments.of(np.zeros((1, 2, 3)), np.stack([np.array([[1.0, 0, 0, 0]]), turned], axis=1))
     # the beam's line along its x axis: y of the section is x of the marker, z of the section its y
-    joint = Joint("pad", "point-on-beam", (0, 1), ((0, 0, 0),) * 2, ((1, 0, 0),) * 2, ((0, 1, 0),) * 2)
+    joint = records.Joint("pad", "point-on-beam", (0, 1), ((0, 0, 0),) * 2, ((1, 0, 0),) * 2, ((0, 1, 0),) * 2)
     gap, turn = violation_vectors([joint], ("pad.across.y", "pad.across.z"), np.array([[2e-6, 5e-6]]), moments)[0]
     y = np.array([-np.sin(0.4), np.cos(0.4), 0.0])
     np.testing.assert_allclose(gap, -2e-6 * y - 5e-6 * np.array([0, 0, 1]), atol=1e-18)

@@ -81,7 +81,9 @@ class Coordinates(NamedTuple):
     start: U1  # (Q + 1,) first part of each, and behind the last
     part_marker: U1  # of each part
     station: F1  # [m] of each part that is a node of a beam, its place along the unstressed line
-    followed: U1  # those that are measured at every accepted state: angles, to count their turns, and places along beams
+    followed: (
+        U1  # those that are measured at every accepted state: angles, to count their turns, and places along beams
+    )
     reference: F1  # (Q,) [rad or m] value at the last accepted state: they are followed from there
     # work, of the active ones
     value: W1  # (Q,) [m or rad]
@@ -100,7 +102,9 @@ class Constraints(NamedTuple):
     d1: U2  # (·, 6) first marker, its axis, second marker, its axis, row, part
     d2: U2  # (·, 5) first marker, its axis, second marker, row, part
     combination: U2  # (·, 6) row, first term, one past the last, function or NONE, first part, one past the last
-    term: U2  # (·, 2) coordinate, place in term_part of the row's part for the coordinate's first one; the others follow
+    term: (
+        U2  # (·, 2) coordinate, place in term_part of the row's part for the coordinate's first one; the others follow
+    )
     term_part: U1
     factor: F1  # (·,) of each term
     offset: F1  # (combinations,) Σ factor coordinate - offset - f(t) = 0

@@ -94,7 +94,7 @@ def _pin_in_slot(seen: bool) -> str:
 def _on_beam(slider: str) -> Callable[[bool], str]:
     """What slides on a line that bends."""
     line = '<path d="M-17 4Q0 -4 17 4" class="axis"/>'
-    return lambda seen: f'{line}{slider}'
+    return lambda seen: f"{line}{slider}"
 
 
 def _rod(first: str, second: str) -> Callable[[bool], str]:

@@ -48,7 +48,7 @@ def test_given_values_move_least():
     np.testing.assert_allclose(q[:, 0], 0.01, atol=1e-12)
 
 
-@pytest.mark.parametrize("kind", JOINTS)
+@pytest.mark.parametrize("kind", machines.BETWEEN_BODIES)
 @pytest.mark.parametrize("formulation", ["newton-euler", "lagrange"])
 def test_disturbed_positions_and_velocities_become_consistent(kind, formulation, rng):
     machine = machines.pair(kind, rng)

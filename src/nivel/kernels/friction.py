@@ -287,6 +287,19 @@ def newton(machine, anchor, scale):
     sweep(machine, anchor)
 
 
+@stage
+def report(machine, k, force):
+    """The outputs of friction k with this effort; it takes its power from the machine."""
+    record = record_at(machine)
+    friction, out = record.friction, record.outputs.value
+    first = friction.columns[k, OUTPUT]
+    power = force * record.coordinates.rate[friction.columns[k, COORDINATE]]
+    record.control.power[1] -= power
+    out[first], out[first + 1], out[first + 2] = force, power, normal_load(machine, k)
+    if friction.columns[k, MODEL] == LUGRE:
+        out[first + 3] = record.elements.state[friction.columns[k, STATE]]
+
+
 @family
 def rub(machine, number, t):
     """Efforts of all frictions, consistent with the reactions that they cause; multipliers and accelerations are left with them.
@@ -295,7 +308,7 @@ def rub(machine, number, t):
     BRISTLE_TOO_FAST where the bristles of LuGre relax faster than a Runge–Kutta step of fixed size can follow.
     """
     record = record_at(machine)
-    friction, coordinates, saddle, control = record.friction, record.coordinates, record.saddle, record.control
+    friction, saddle, control = record.friction, record.saddle, record.control
     count = friction.columns.shape[0]
     respond(machine)
     start(machine)
@@ -315,17 +328,11 @@ def rub(machine, number, t):
         control.failure[0] = worst
         return FRICTION_DIVERGES
     for k in range(count):
-        q, force, out = friction.columns[k, COORDINATE], friction.force[k], friction.columns[k, OUTPUT]
-        power = force * coordinates.rate[q]
-        control.power[1] -= power
-        record.outputs.value[out] = force
-        record.outputs.value[out + 1] = power
-        record.outputs.value[out + 2] = normal_load(machine, k)
-        if friction.columns[k, MODEL] == LUGRE:
-            record.outputs.value[out + 3] = record.elements.state[friction.columns[k, STATE]]
-            if relaxation(machine, k) * control.stick[1] > FASTEST:
-                control.failure[0] = k
-                return BRISTLE_TOO_FAST
+        force = friction.force[k]
+        report(machine, k, force)
+        if friction.columns[k, MODEL] == LUGRE and relaxation(machine, k) * control.stick[1] > FASTEST:
+            control.failure[0] = k
+            return BRISTLE_TOO_FAST
         for body in range(saddle.z.shape[0]):
             for i in range(saddle.z.shape[1]):
                 saddle.z[body, i] += force * friction.change[k, body, i]

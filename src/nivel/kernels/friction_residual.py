@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nivel.kernels.forces.push import push_coordinate
-from nivel.kernels.friction import COORDINATE, sliding_effort
+from nivel.kernels.friction import COORDINATE, report, sliding_effort
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
@@ -11,9 +11,10 @@ from nivel.kernels.status import OK
 
 @family
 def rub(machine, number, t):
-    """Add the efforts of all frictions for the multipliers of the constraints to the wrenches of the bodies."""
+    """Add the efforts of all frictions for the multipliers of the constraints to the wrenches of the bodies, and report them."""
     record = record_at(machine)
     for k in range(record.friction.columns.shape[0]):
         force = sliding_effort(machine, k)
-        record.control.power[1] -= push_coordinate(machine, record.friction.columns[k, COORDINATE], force)
+        push_coordinate(machine, record.friction.columns[k, COORDINATE], force)
+        report(machine, k, force)
     return OK

@@ -184,9 +184,7 @@ class Joint(Checked):
     def problems(self) -> Iterator[Problem]:
         kind = JOINT_KINDS[self.type]
         if kind.rail and self.markers is not None:
-            yield superfluous(
-                "markers", f"a {self.type} joint needs `bodies`, of which the second is a beam, and a `point`"
-            )
+            yield superfluous("markers", f"do not place a {self.type} joint: give `bodies`, the second a beam, and a `point`")
         yield from self._problems_by_markers() if self.markers is not None else self._problems_by_points(kind)
         for key in _SIZE:
             if key not in (*kind.size, *kind.may_size) and self._gives(key):
@@ -216,7 +214,8 @@ class Joint(Checked):
             yield Problem(("interface",), "give `point` or `interface`, not both", at_key=True)
         if self.bodies is None or not (self._gives(where) or by_interface):
             what = "a `point`" if where == "point" else "`points`"
-            yield Problem((), f"a {self.type} joint needs `bodies` and {what}, or two `markers`")
+            what += "; the second body is a beam" if kind.rail else ", or two `markers`"
+            yield Problem((), f"a {self.type} joint needs `bodies` and {what}")
         if self.bodies is not None and self.bodies[0] == self.bodies[1]:
             yield Problem(("bodies",), f"`bodies`: a joint needs two different bodies, got `{self.bodies[0]}` twice")
         for key in kind.place[1:]:

@@ -60,6 +60,9 @@ from nivel.march.step_control import (
 
 # Of the tolerance; a step grows only by so much at least; after an iteration that found nothing it is halved.
 SHARE, WORTH, AFTER_FAILURE = 0.3, 1.3, 0.5
+# A step over a jump of the accelerations errs in proportion to its length, as its part of the tolerance gets smaller. The part is no
+# smaller than that of a step of this share of the time of the run: with less than a million such steps that is no more than SHARE.
+LEAST_PART = 1e-6
 # What the iteration leaves, as a share of what a step may be wrong by: it must not look like an error of the step.
 CLOSE = 0.01
 
@@ -170,7 +173,7 @@ def controlled_step(evaluate, machine, history):
             start(evaluate, machine, history, t, h)
         elif newton.level[0] == 2:
             refresh(machine, run)
-        allowed = max(SHARE * clock[TOLERANCE] * h / span, EXACT)
+        allowed = max(SHARE * clock[TOLERANCE] * max(h / span, LEAST_PART), EXACT)
         end = before(clock[REACHED]) if corner < np.inf else clock[REACHED]
         status = attempt(machine, history, h, end, min(newton.settings[NEWTON_TOLERANCE], max(CLOSE * allowed, EXACT)))
         if status == OK:

@@ -14,6 +14,9 @@ from nivel.machine.orientation import Orientation, euler_parameters_from_matrix
 from nivel.system.beam_elements import masses_of
 from nivel.system.rails import on_beams
 
+# how unwilling nodes are to be moved by the assembly, which would stress the beam: bodies beside it are moved instead
+HELD = 1e6
+
 
 def with_nodes(machine: MachineRecord) -> MachineRecord:
     """The machine with one body a node of its beams, behind its own bodies, with the mass lumped there; the same where it has them.
@@ -46,6 +49,7 @@ def _nodes(beam: Beam) -> list[Body]:
             ),
             velocity=tuple(speed[k].tolist()),
             angular_velocity=beam.angular_velocity,
+            assembly_weight=HELD,
         )
         for k, name in enumerate(beam.node_names)
     ]

@@ -10,6 +10,7 @@ import numpy as np
 
 from nivel.kernels.analytic import real
 from nivel.kernels.compile import leaf, stage
+from nivel.kernels.flexible_record import SHORTENING, TURNING
 from nivel.kernels.floating_frame import dot_modes, modes_of
 from nivel.kernels.geometric_stiffening import add_velocity_forces
 from nivel.kernels.record import NONE, record_at
@@ -21,64 +22,91 @@ from nivel.kernels.status import NO_MASS_LEFT, OK
 def gather(machine):
     """Bring the wrenches at interfaces to the floating frames and to `Q`, with weight, elastic and damping forces of the modes."""
     record = record_at(machine)
-    bodies, own, control = record.bodies, record.flexible, record.control
-    for j in range(own.Q.shape[0]):
-        own.Q[j] = 0.0
+    bodies, own = record.bodies, record.flexible
+    load_modes(machine)
     for k in range(own.frame.shape[0]):
         f, v = own.frame[k, 0], own.frame[k, 1]
         b = own.body[f]
         first, n = modes_of(own, f)
         F, total = bodies.wrench[v], bodies.wrench[b]
         moment = cross(bodies.c[v], F)
-        for j in range(n):
-            power = 0.0 * F[0]
-            for i in range(3):
-                power += own.displacement[k, i, j] * F[i] + own.turn[k, i, j] * F[3 + i]
-            own.Q[first + j] += power
+        for i in range(3):
+            force, torque, displacement, turn = F[i], F[3 + i], own.displacement[k, i], own.turn[k, i]
+            for j in range(n):
+                own.Q[first + j] += displacement[j] * force + turn[j] * torque
         for i in range(3):
             total[i] += F[i]
             total[3 + i] += F[3 + i] + moment[i]
         for i in range(6):
             F[i] = 0.0
+
+
+@stage
+def load_modes(machine):
+    """Start `Q` with weight, elastic and damping forces of the modes."""
+    record = record_at(machine)
+    bodies, own, control = record.bodies, record.flexible, record.control
     for f in range(own.body.shape[0]):
         A, g, B = bodies.A[own.body[f]], bodies.gravity, own.coupling[f]
         first, n = modes_of(own, f)
-        g_b = dot(A[:, 0], g), dot(A[:, 1], g), dot(A[:, 2], g)
+        g0, g1, g2 = dot(A[:, 0], g), dot(A[:, 1], g), dot(A[:, 2], g)
         for j in range(n):
-            elastic = dot_modes(own.stiffness[f, j], own.p, first, n)
-            damping = dot_modes(own.damping[f, j], own.pdot, first, n)
-            weight = B[0, j] * g_b[0] + B[1, j] * g_b[1] + B[2, j] * g_b[2]
-            own.Q[first + j] += weight - elastic - damping
+            elastic, damping = own.stiffness[f, j] * own.p[first + j], own.damping[f, j] * own.pdot[first + j]
+            own.Q[first + j] = B[0, j] * g0 + B[1, j] * g1 + B[2, j] * g2 - elastic - damping
             control.stored[0] += 0.5 * own.p[first + j] * elastic
             control.power[1] += own.pdot[first + j] * damping
 
 
 @stage
 def velocity_forces(bodies, own, f, out):
-    """Quadratic velocity force of the frame of flexible body f into out (6,), axes of the body; that of its modes is added to `Q`."""
+    """Quadratic velocity force of the frame of flexible body f into out (6,), axes of the body; that of its modes is added to `Q`.
+
+    By Lagrange's equations of ½ m |v|² + vᵀ (ω̄ × S + S_p ṗ) + ½ ω̄ᵀ J̄ ω̄ + ω̄ᵀ C ṗ + ½ |ṗ|², v in axes of the body: on the frame
+    -(ω̄ × (ω̄ × S + 2 Ṡ) + S_pp ṗ ṗ) and -(J̄' ω̄ + ω̄ × (J̄ ω̄ + C ṗ) + C_p ṗ ṗ), on a mode ½ ω̄ᵀ J̄_p ω̄ + ω̄ᵀ (C_p - C_pᵀ) ṗ.
+    """
     b = own.body[f]
     first, n = modes_of(own, f)
-    width, w, S, J = own.I3.shape[2], bodies.omega_b[b], own.first[f], own.inertia[f]
-    drift = (
-        dot_modes(own.I3[f, 0], own.pdot, first, n),
-        dot_modes(own.I3[f, 1], own.pdot, first, n),
-        dot_modes(own.I3[f, 2], own.pdot, first, n),
+    w, S, J, B, T = bodies.omega_b[b], own.first[f], own.inertia[f], own.coupling[f], own.bulge[f]
+    drift = (dot_modes(B[0], own.pdot, first, n), dot_modes(B[1], own.pdot, first, n), dot_modes(B[2], own.pdot, first, n))
+    xx, yy, zz, xy, yz, zx = (
+        2.0 * dot_modes(T[0], own.pdot, first, n),
+        2.0 * dot_modes(T[1], own.pdot, first, n),
+        2.0 * dot_modes(T[2], own.pdot, first, n),
+        2.0 * dot_modes(T[3], own.pdot, first, n),
+        2.0 * dot_modes(T[4], own.pdot, first, n),
+        2.0 * dot_modes(T[5], own.pdot, first, n),
+    )
+    momentum = (
+        dot(J[0], w) + dot_modes(B[3], own.pdot, first, n),
+        dot(J[1], w) + dot_modes(B[4], own.pdot, first, n),
+        dot(J[2], w) + dot_modes(B[5], own.pdot, first, n),
     )
     centripetal(w, S, out[:3])
-    coriolis = cross(w, drift)
-    gyroscopic = cross(w, (dot(J[0], w), dot(J[1], w), dot(J[2], w)))
+    coriolis, gyroscopic = cross(w, drift), cross(w, momentum)
     for i in range(3):
         out[i] = -out[i] - 2.0 * coriolis[i]
-        out[3 + i] = -gyroscopic[i]
+    out[3] = -gyroscopic[0] - (xx * w[0] + xy * w[1] + zx * w[2])
+    out[4] = -gyroscopic[1] - (xy * w[0] + yy * w[1] + yz * w[2])
+    out[5] = -gyroscopic[2] - (zx * w[0] + yz * w[1] + zz * w[2])
+    w0, w1, w2 = w[0], w[1], w[2]
     for j in range(n):
-        at, t = f * width + j, own.static[f, j]
-        force = dot(w, t)
-        for i in range(3):
-            out[3 + i] -= 2.0 * own.pdot[first + j] * t[i]
-            force += 2.0 * w[i] * dot_modes(own.I5[at, i], own.pdot, first, n)
-        own.Q[first + j] += force
-    if own.of_spin.shape[0] > 0:
-        add_velocity_forces(own, f, w, first, n, out)
+        own.Q[first + j] += (
+            w0 * w0 * T[0, j] + w1 * w1 * T[1, j] + w2 * w2 * T[2, j]
+            + 2.0 * (w0 * w1 * T[3, j] + w1 * w2 * T[4, j] + w2 * w0 * T[5, j])
+        )  # fmt: skip
+    if own.terms[f, TURNING] != 0:
+        x, y, z, force = own.I5[3 * f], own.I5[3 * f + 1], own.I5[3 * f + 2], own.scratch[2]
+        for j in range(n):
+            force[j] = 0.0
+        for k in range(n):
+            a = 2.0 * own.pdot[first + k]
+            a0, a1, a2, xk, yk, zk = a * w0, a * w1, a * w2, x[k], y[k], z[k]
+            for j in range(n):
+                force[j] -= a0 * xk[j] + a1 * yk[j] + a2 * zk[j]
+        for j in range(n):
+            own.Q[first + j] += force[j]
+    if own.terms[f, SHORTENING] != 0:
+        add_velocity_forces(own, f, first, n, out)
 
 
 @stage

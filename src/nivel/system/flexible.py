@@ -14,11 +14,15 @@ from nivel.errors import Fault, ModelError
 from nivel.flexible.body import Interface, ReducedBody
 from nivel.flexible.body_file import read_body
 from nivel.kernels.flexible_record import Flexible
+from nivel.kernels.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
 from nivel.machine.body import Body
 from nivel.machine.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.located import located
 from nivel.system.tables import Array, index_array
+
+# of what ω_a ω_b does in each component of a symmetric tensor: those off the diagonal count twice
+SHARE = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
 
 
 @dataclass(frozen=True)
@@ -98,23 +102,31 @@ def flexible_tables(
     table = _Padded(bending, n)
     rigid = np.ones(bodies, dtype=np.uint32)
     rigid[[each.body for each in bending]] = 0
+    I8, I9, stiffening = table.of("I8", (n, 3, 3)), table.of("I9", (n, n, 3, 3)), _stiffening(bending, frames, n)
+    turning = np.ascontiguousarray(table.of("I5", (n, 3, n)).transpose(0, 2, 1, 3))
+    spin = stiffening.pop("of_spin")
     return Flexible(
         body=index_array([each.body for each in bending], 1),
         rigid=rigid,
         mode=index_array(np.column_stack([ends[:-1], ends[1:]]), 2),
+        terms=index_array([_terms(each) for each in bending], 3),
         frame=index_array([(frame.flexible, bodies + 1 + k) for k, frame in enumerate(frames)], 2),
+        loaded=stiffening["of_load"].any(axis=(1, 2, 3)).astype(np.uint32),
         place_b=np.array([_interface(bending, frame).position for frame in frames]).reshape(N, 3),
         shape=_shapes(bending, frames, n),
         I2=np.array([each.reduced.invariants.I2 for each in bending]).reshape(F, 3),
         I3=table.of("I3", (3, n)),
         I4=table.of("I4", (3, n)),
-        I5=table.of("I5", (n, 3, n)).reshape(F * n, 3, n),
+        I5=turning.reshape(3 * F, n, n),
         I7=table.of("I7", (3, 3)),
-        I8=table.of("I8", (n, 3, 3)).reshape(F * n, 3, 3),
-        I9=table.of("I9", (n, n, 3, 3)).reshape(F * n * n, 3, 3),
-        stiffness=_diagonals([each.reduced.eigenvalues for each in bending], n),
-        damping=_diagonals([each.damping for each in bending], n),
-        **_stiffening(bending, frames, n),
+        I8=np.ascontiguousarray(_components(I8).transpose(0, 2, 1)),
+        stiffness=_rows([each.reduced.eigenvalues for each in bending], n),
+        damping=_rows([each.damping for each in bending], n),
+        of_inertia=np.ascontiguousarray(
+            (_components(I9).transpose(0, 3, 1, 2) - SHARE[:, None, None] * spin).reshape(6 * F, n, n)
+        ),
+        of_coupling=np.ascontiguousarray((turning + stiffening["of_turning"]).reshape(3 * F, n, n)),
+        **{name: np.ascontiguousarray(value).reshape(value.shape[0] * value.shape[1], n, n) for name, value in stiffening.items()},
         block=index_array(block, 4),
         p=np.zeros(m),
         pdot=np.zeros(m),
@@ -123,11 +135,11 @@ def flexible_tables(
         first=np.zeros((F, 3)),
         inertia=np.zeros((F, 3, 3)),
         coupling=np.zeros((F, 6, n)),
-        static=np.zeros((F, n, 3)),
-        drift=np.zeros((F, 3)),
-        spin=np.zeros((F, 3)),
+        bulge=np.zeros((F, 6, n)),
         velocity_force=np.zeros((F, 6)),
+        scratch=np.zeros((3, n)),
         now=np.zeros((N, 6, n)),
+        node=np.zeros((N, 29)),
         displacement=np.zeros((N, 3, n)),
         turn=np.zeros((N, 3, n)),
         bias=np.zeros((N, 6)),
@@ -150,10 +162,24 @@ class _Padded:
         return out
 
 
-def _diagonals(values: Sequence[Array], n: int) -> Array:
-    out = np.zeros((len(values), n, n))
+def _terms(bending: Bending) -> tuple[int, int, int]:
+    """`Flexible.terms` of one body."""
+    its, stiff = bending.reduced.invariants, bool(bending.reduced.stiffening)
+    return int(np.any(its.I5)), int(stiff or np.any(its.I9)), int(stiff)
+
+
+def _components(tensors: Array) -> Array:
+    """(…, 6) xx, yy, zz, xy, yz, zx of the symmetric part of (…, 3, 3), symmetric too in the two indices before if there are two."""
+    both = 0.5 * (tensors + np.swapaxes(tensors, -1, -2))
+    if both.ndim == 5:
+        both = 0.5 * (both + np.swapaxes(both, 1, 2))
+    return both[..., FIRST_AXIS, SECOND_AXIS]
+
+
+def _rows(values: Sequence[Array], n: int) -> Array:
+    out = np.zeros((len(values), n))
     for f, each in enumerate(values):
-        out[f, range(len(each)), range(len(each))] = each
+        out[f, : len(each)] = each
     return out
 
 
@@ -172,10 +198,8 @@ def _shapes(bending: Sequence[Bending], frames: Sequence[Frame], n: int) -> Arra
 
 
 def _stiffening(bending: Sequence[Bending], frames: Sequence[Frame], n: int) -> dict[str, Array]:
-    """The tables of geometric stiffening, without numbers where no body has any."""
+    """The tables of geometric stiffening (·, ·, n, n), zero where a body has none."""
     F, N = len(bending), len(frames)
-    if not any(each.reduced.stiffening for each in bending):
-        F = N = 0
     out = {
         "of_acceleration": np.zeros((F, 3, n, n)),
         "of_turning": np.zeros((F, 3, n, n)),
@@ -183,16 +207,16 @@ def _stiffening(bending: Sequence[Bending], frames: Sequence[Frame], n: int) -> 
         "of_load": np.zeros((N, 6, n, n)),
     }
     causes = {"of_acceleration": "acceleration", "of_turning": "angular_acceleration", "of_spin": "centrifugal"}
-    for f, each in enumerate(bending[:F]):
+    for f, each in enumerate(bending):
         for table, cause in causes.items():
             if cause in each.reduced.stiffening:
                 value = each.reduced.stiffening[cause]
                 out[table][f, :, : value.shape[1], : value.shape[2]] = value
-    for k, frame in enumerate(frames[:N]):
+    for k, frame in enumerate(frames):
         value = bending[frame.flexible].reduced.stiffening.get(f"interface.{_interface(bending, frame).name}")
         if value is not None:
             out["of_load"][k, : len(value), : value.shape[1], : value.shape[2]] = value
-    return {table: value.reshape(value.shape[0] * value.shape[1], n, n) for table, value in out.items()}
+    return {table: 0.5 * (value + np.swapaxes(value, -1, -2)) for table, value in out.items()}
 
 
 def modal_blocks(count: int) -> int:

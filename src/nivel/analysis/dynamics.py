@@ -166,7 +166,12 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     arrange = import_module(facts.arrangement).arrange
     system, y = arrange(machine, motion.system, assembly.y, rank, choose_cut(machine))
     if rest is not None and machine.is_flexible:
-        y[: len(rest.q)] = rest.q  # with the modes bent by the loads
+        # with the modes bent by the loads
+        if coordinates == "relative":
+            arrange_deformed = import_module(facts.arrangement).arrange_deformed
+            system, y = arrange_deformed(machine, motion.system, rest.q, rank, choose_cut(machine))
+        else:
+            y[: len(rest.q)] = rest.q
     prepared = MotionEquations(system, import_module(facts.module))
     integrator = INTEGRATORS[machine.simulation.integrator]
     if machine.shares_mass:

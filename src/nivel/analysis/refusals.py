@@ -15,6 +15,7 @@ from nivel.machine.python_law import PythonLaw
 from nivel.machine.settings import SimulationSettings
 from nivel.machine.table import Table
 from nivel.march.catalogue import INTEGRATORS, chooses
+from nivel.motion.catalogue import FLEXIBLE
 from nivel.system.laws import false_derivative
 from nivel.system.system import Array
 
@@ -171,8 +172,9 @@ def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: s
         return
     faults = []
     names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
-    if coordinates != "absolute":
-        faults.append(("coordinates", f"'{coordinates}' does not go with flexible bodies ({names}): take absolute"))
+    if coordinates not in FLEXIBLE:
+        message = f"'{coordinates}' does not go with flexible bodies ({names}): take {' or '.join(FLEXIBLE)}"
+        faults.append(("coordinates", message))
     if formulation != "newton-euler":
         faults.append(("formulation", f"'{formulation}' does not go with flexible bodies ({names}): take newton-euler"))
     if INTEGRATORS[machine.simulation.integrator].whole:

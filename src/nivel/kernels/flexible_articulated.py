@@ -378,7 +378,7 @@ def accelerate_flexible(machine, change):
         elif kind == MODAL:
             f = modal.link[n]
             first, size = modes_of(own, f)
-            M, s = modal.factor[f], modal.column[f]
+            M, motion = modal.factor[f], modal.column[f]
             for m in range(size):
                 k = size - 1 - m
                 row = M[k]
@@ -391,9 +391,8 @@ def accelerate_flexible(machine, change):
                 change[low + k] = own.pddot[first + k]
             if modal.carrier[f] < own.frame.shape[0]:
                 for i in range(6):
-                    row = s[i]
                     for j in range(size):
-                        a[i] += row[j] * own.pddot[first + j]
+                        a[i] += motion[i, j] * own.pddot[first + j]
         else:
             for k in range(low, np.int64(node[5])):
                 s, U = tree.column[k], tree.U[k]

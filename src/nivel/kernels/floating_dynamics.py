@@ -232,42 +232,55 @@ def unwhiten_flexible(machine):
 
 
 @stage
-def flexible_rows(machine):
-    """Rows of the residual of flexible bodies: M v̇ - Q_v - Q of their frames and modes."""
-    record = record_at(machine)
-    bodies, own, residual = record.bodies, record.flexible, record.residual
-    modal = 6 * np.int64(bodies.mass.shape[0])
-    for f in range(own.body.shape[0]):
-        b = own.body[f]
-        first, n = modes_of(own, f)
-        A, S, J, B, F, q = (
-            bodies.A[b],
-            own.first[f],
-            own.inertia[f],
-            own.coupling[f],
-            bodies.wrench[b],
-            own.velocity_force[f],
-        )
-        at = 6 * np.int64(b)
-        x, alpha = residual.vdot[at : at + 3], residual.vdot[at + 3 : at + 6]
-        a = dot(A[:, 0], x), dot(A[:, 1], x), dot(A[:, 2], x)
-        velocity_forces(bodies, own, f, q)
-        swing, heave = cross(alpha, S), cross(S, a)
-        for i in range(3):
-            q[i] = bodies.mass[b] * a[i] + swing[i] - q[i]
-            q[3 + i] = heave[i] + dot(J[i], alpha) - q[3 + i] - dot(A[:, i], F[3:6])
-        for j in range(n):
-            rate = own.pddot[first + j]
-            total = rate - own.Q[first + j]
-            for i in range(3):
-                total += B[i, j] * a[i] + B[3 + i, j] * alpha[i]
-                q[i] += B[i, j] * rate
-                q[3 + i] += B[3 + i, j] * rate
-            residual.value[modal + first + j] = total
-        multiply(A, q[:3], residual.value[at : at + 3])
-        for i in range(3):
-            residual.value[at + i] -= F[i]
-            residual.value[at + 3 + i] = q[3 + i]
+def flexible_wrench(bodies, own, f, acceleration, wrench, effort):
+    """What the accelerations of flexible body f ask for, less all applied and velocity forces: on its frame into wrench[b], as
+    (moment, force), on its modes into effort (m,). acceleration : (α, R̈) of all bodies; of the modes `pddot`."""
+    b = own.body[f]
+    first, n = modes_of(own, f)
+    A, B, x = bodies.A[b], own.coupling[f], acceleration[b]
+    velocity_forces(bodies, own, f, own.velocity_force[f])
+    alpha = dot(A[:, 0], x[0:3]), dot(A[:, 1], x[0:3]), dot(A[:, 2], x[0:3])
+    a = dot(A[:, 0], x[3:6]), dot(A[:, 1], x[3:6]), dot(A[:, 2], x[3:6])
+    a0, a1, a2, b0, b1, b2 = a[0], a[1], a[2], alpha[0], alpha[1], alpha[2]
+    for j in range(n):
+        effort[first + j] = (
+            own.pddot[first + j] - own.Q[first + j]
+            + (a0 * B[0, j] + a1 * B[1, j] + a2 * B[2, j] + b0 * B[3, j] + b1 * B[4, j] + b2 * B[5, j])
+        )  # fmt: skip
+    needed_by_frame(bodies, own, f, alpha, a, wrench[b])
+
+
+@stage
+def needed_by_frame(bodies, own, f, alpha, a, out):
+    """(moment, force) that the frame of flexible body f needs for ᾱ and R̈ in axes of the body, less all applied and velocity forces."""
+    b = own.body[f]
+    first, n = modes_of(own, f)
+    A, S, J, B, F, q = bodies.A[b], own.first[f], own.inertia[f], own.coupling[f], bodies.wrench[b], own.velocity_force[f]
+    swing, heave, m = cross(alpha, S), cross(S, a), bodies.mass[b]
+    force = (
+        m * a[0] + swing[0] - q[0] + dot_modes(B[0], own.pddot, first, n),
+        m * a[1] + swing[1] - q[1] + dot_modes(B[1], own.pddot, first, n),
+        m * a[2] + swing[2] - q[2] + dot_modes(B[2], own.pddot, first, n),
+    )
+    moment = (
+        heave[0] + dot(J[0], alpha) - q[3] + dot_modes(B[3], own.pddot, first, n),
+        heave[1] + dot(J[1], alpha) - q[4] + dot_modes(B[4], own.pddot, first, n),
+        heave[2] + dot(J[2], alpha) - q[5] + dot_modes(B[5], own.pddot, first, n),
+    )
+    multiply(A, moment, out[0:3])
+    multiply(A, force, out[3:6])
+    for i in range(3):
+        out[i] -= F[3 + i]
+        out[3 + i] -= F[i]
+
+
+@stage
+def inertia_wrench(bodies, own, f, out):
+    """The same into out (6,) for the accelerations `Rddot`, `alpha_b` and `pddot` of the state last evaluated."""
+    b = own.body[f]
+    A, x, y = bodies.A[b], bodies.Rddot[b], bodies.alpha_b[b]
+    a = dot(A[:, 0], x), dot(A[:, 1], x), dot(A[:, 2], x)
+    needed_by_frame(bodies, own, f, (y[0], y[1], y[2]), a, out)
 
 
 @stage

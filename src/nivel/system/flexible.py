@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from nivel.errors import Fault, ModelError
 from nivel.flexible.body import Interface, ReducedBody
 from nivel.flexible.body_file import read_body
-from nivel.kernels.flexible_record import Flexible
+from nivel.kernels.flexible_record import Flexible, ModalTree
 from nivel.kernels.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
 from nivel.machine.body import Body
 from nivel.machine.inertia import MassProperties
@@ -90,6 +90,29 @@ def bending_bodies(machine: MachineRecord) -> tuple[Bending, ...]:
 def no_flexible() -> Flexible:
     """For machines of rigid bodies: all arrays empty."""
     return flexible_tables(0, (), (), ())
+
+
+def no_modal_tree() -> ModalTree:
+    """For other than relative coordinates with flexible bodies: all arrays empty."""
+    return modal_tree((), (), (), 0, 0, 0)
+
+
+def modal_tree(
+    link: Sequence[int], carrier: Sequence[int], heavy: Sequence[bool], modes: int, most: int, bundle: int
+) -> ModalTree:
+    """Tables as in `ModalTree` for so many modes, the most of one body and rows in the largest bundle."""
+    F = len(carrier)
+    return ModalTree(
+        link=index_array(link, 1),
+        carrier=index_array(carrier, 1),
+        heavy=index_array(heavy, 1),
+        column=np.zeros((F, 6, most)),
+        effort=np.zeros(modes),
+        coupling=np.zeros((F, 6, most)),
+        factor=np.zeros((F, most, most + 6)),
+        push=np.zeros((6, most)),
+        load=np.zeros((bundle, modes)),
+    )
 
 
 def flexible_tables(

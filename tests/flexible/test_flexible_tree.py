@@ -27,7 +27,7 @@ def prepared_in(record, coordinates, integrator="generalised-alpha"):
     return prepare(record.replace(simulation=settings), "newton-euler", coordinates)
 
 
-def moving(record, rng, *, bend=0.01):
+def moving(record, rng):
     """A state in relative coordinates in motion, on its constraints, with accelerations and multipliers."""
     prepared = prepared_in(record, "relative")
     motion, path = prepared.motion, prepared.path
@@ -35,9 +35,9 @@ def moving(record, rng, *, bend=0.01):
     positions, states = system.positions, len(system.record.elements.state)
     n = len(y) - positions - states - 2
     modal = np.array(system.map.units)[: positions + n]
-    # loops are closed again from not too far
-    spread = 0.03 if len(system.record.saddle.row) else 0.3
-    y[:positions] += np.where(modal[:positions] == "kg^0.5 m", bend, spread) * rng.uniform(-1, 1, positions)
+    # loops are closed again from not too far: what is least in the mass metric bends the bodies
+    spread = 0.01 if len(system.record.saddle.row) > len(record.drivers) else 1.0
+    y[:positions] += spread * np.where(modal[:positions] == "kg^0.5 m", 0.01, 0.3) * rng.uniform(-1, 1, positions)
     y[positions : positions + n] += np.where(modal[positions:] == "kg^0.5 m/s", 0.3, 1.0) * rng.uniform(-1, 1, n)
     system.record.control.stabilise[2:] = 1e-14
     correct = import_module(path.correction).correct

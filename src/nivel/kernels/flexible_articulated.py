@@ -63,10 +63,11 @@ def modal_inertia(bodies, tree, own, modal, f):
             out[i, j] = A0 * B[3, j] + A1 * B[4, j] + A2 * B[5, j]
         for j in range(n):
             out[3 + i, j] = A0 * B[0, j] + A1 * B[1, j] + A2 * B[2, j]
+    first = np.int64(own.mode[f, 0])
     for j in range(n):
         for k in range(j, n):
             M[j, k] = 0.0
-        M[j, j] = 1.0
+        M[j, j] = 1.0 + modal.shift[first + j]
 
 
 @leaf
@@ -259,8 +260,8 @@ def applied_on_modes(bodies, tree, own, modal, f):
 def whiten_flexible_efforts(machine):
     """z of all applied and inertia forces, from the outermost node inwards."""
     record = record_at(machine)
-    bodies, tree, own, modal, z = record.bodies, record.tree, record.flexible, record.modal, record.saddle.z
-    ground, count = bodies.mass.shape[0], tree.node.shape[0]
+    bodies, tree, own, modal = record.bodies, record.tree, record.flexible, record.modal
+    ground = bodies.mass.shape[0]
     for b in range(ground):
         if own.rigid[b] == 1:
             applied(bodies, tree, b, tree.wrench[b])
@@ -269,6 +270,15 @@ def whiten_flexible_efforts(machine):
         out[0], out[1], out[2], out[3], out[4], out[5] = F[3], F[4], F[5], F[0], F[1], F[2]
     for f in range(own.body.shape[0]):
         applied_on_modes(bodies, tree, own, modal, f)
+    hand_efforts_inwards(machine)
+
+
+@stage
+def hand_efforts_inwards(machine):
+    """z of the wrenches in `tree.wrench` and the modal efforts in `modal.effort`."""
+    record = record_at(machine)
+    tree, own, modal, z = record.tree, record.flexible, record.modal, record.saddle.z
+    ground, count = record.bodies.mass.shape[0], tree.node.shape[0]
     for m in range(count):
         n = count - 1 - m
         node = tree.node[n]

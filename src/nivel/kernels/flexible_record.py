@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from nivel.kernels.arrays import F2, F3, U1, U2, W1, W2, W3
+from nivel.kernels.arrays import F1, F2, F3, U1, U2, W1, W2, W3
 
 # columns of Flexible.terms
 TURNING, BULGING, SHORTENING = 0, 1, 2
@@ -71,6 +71,7 @@ class ModalTree(NamedTuple):
     link: U1  # (D,) flexible body of a MODAL node, frame of an OUTWARD one
     carrier: U1  # (F,) the frame by which each flexible body is carried, or NONE
     heavy: U1  # (D,) whether an OUTWARD node carries bodies
+    shift: F1  # (m,) added to the mass of the modes, see `nivel.motion.modal_shift`; else zero
     # work
     column: W3  # (F, 6, n) motion (angular, of the origin) of the body for a modal velocity while its carrier is at rest, global axes
     effort: W1  # (m,) modal efforts, rows of the residual

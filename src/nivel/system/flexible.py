@@ -106,6 +106,7 @@ def modal_tree(
         link=index_array(link, 1),
         carrier=index_array(carrier, 1),
         heavy=index_array(heavy, 1),
+        shift=np.zeros(modes),
         column=np.zeros((F, 6, most)),
         effort=np.zeros(modes),
         coupling=np.zeros((F, 6, most)),

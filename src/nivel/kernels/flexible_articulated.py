@@ -71,12 +71,13 @@ def modal_inertia(bodies, tree, own, modal, f):
 
 
 @leaf
-def add_outer(M, x, y, n):
-    """Upper triangle of M += xᵀ y for rows x and y (n,)."""
+def add_outer(M, x, y, first, n):
+    """Upper triangle of M += Σ x_iᵀ y_i over three rows of x and y from `first` on of y."""
+    y0, y1, y2 = y[first], y[first + 1], y[first + 2]
     for j in range(n):
-        share, row = x[j], M[j]
+        a, b, c, row = x[0, j], x[1, j], x[2, j], M[j]
         for k in range(j, n):
-            row[k] += share * y[k]
+            row[k] += a * y0[k] + b * y1[k] + c * y2[k]
 
 
 @stage
@@ -88,9 +89,8 @@ def take_frame(bodies, tree, own, modal, k):
     B, M = modal.coupling[f], modal.factor[f]
     _, n = modes_of(own, f)
     times_inertia(P, turn, displacement, n, push)
-    for i in range(3):
-        add_outer(M, turn[i], push[i], n)
-        add_outer(M, displacement[i], push[3 + i], n)
+    add_outer(M, turn, push, 0, n)
+    add_outer(M, displacement, push, 3, n)
     r0, r1, r2 = r[0], r[1], r[2]
     for j in range(n):
         B[0, j] += push[0, j] + r1 * push[5, j] - r2 * push[4, j]
@@ -110,11 +110,13 @@ def eliminate_modes(bodies, tree, own, modal, f):
     _, n = modes_of(own, f)
     if modal.carrier[f] < own.frame.shape[0]:
         times_inertia(P, s[0:3], s[3:6], n, push)
+        add_outer(M, B[0:3], s, 0, n)
+        add_outer(M, B[3:6], s, 3, n)
         for i in range(6):
-            add_outer(M, B[i], s[i], n)
             for j in range(n):
                 B[i, j] += push[i, j]
-            add_outer(M, s[i], B[i], n)
+        add_outer(M, s[0:3], B, 0, n)
+        add_outer(M, s[3:6], B, 3, n)
     for j in range(n):
         for i in range(6):
             M[j, n + i] = B[i, j]

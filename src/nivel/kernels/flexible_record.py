@@ -3,7 +3,8 @@
 F flexible bodies, m modes in all, n the most of one body (tables are padded with zeros), N frames at their interfaces. Such a frame is a
 body to markers, joints and forces: it has a place, axes, velocities and a wrench in `Bodies`, behind the ground.
 
-Inner loops run along modes, which are the last index everywhere. Symmetric tensors have the components xx, yy, zz, xy, yz, zx.
+Inner loops run along modes, which are the last index everywhere; tables of matrices that are multiplied by one vector stand side by side,
+row by row: [f n + k, c n + j] has entry k, j of matrix c of body f. Symmetric tensors have the components xx, yy, zz, xy, yz, zx.
 """
 
 from __future__ import annotations
@@ -30,17 +31,17 @@ class Flexible(NamedTuple):
     I2: F2  # (F, 3)
     I3: F3  # (F, 3, n)
     I4: F3  # (F, 3, n)
-    I5: F3  # (3 F, n, n) component i of mode j: [3 f + i, j], antisymmetric
+    I5: F2  # (F n, 3 n) antisymmetric
     I7: F3  # (F, 3, 3)
     I8: F3  # (F, 6, n) symmetric part
     stiffness: F2  # (F, n) [1/s²]
     damping: F2  # (F, n) [1/s]
-    of_inertia: F3  # (6 F, n, n) I9, its symmetric part, less the stiffening by ω_a ω_b: J̄ has pᵀ K p
-    of_coupling: F3  # (3 F, n, n) I5 and the stiffening by angular acceleration: momentum of turning has Σ p_j K_jk ṗ_k
+    of_inertia: F2  # (F n, 6 n) I9, its symmetric part, less the stiffening by ω_a ω_b: J̄ has pᵀ K p
+    of_coupling: F2  # (F n, 3 n) I5 and the stiffening by angular acceleration: momentum of turning has Σ p_j K_jk ṗ_k
     # geometric stiffening, see `nivel.kernels.geometric_stiffening`; zero where a body has none
-    of_acceleration: F3  # (3 F, n, n) of the frame's origin less gravity, per m/s²
-    of_turning: F3  # (3 F, n, n) per rad/s²
-    of_load: F3  # (6 N, n, n) per N and N m on the frame at an interface, axes of the body
+    of_acceleration: F2  # (F n, 3 n) of the frame's origin less gravity, per m/s²
+    of_turning: F2  # (F n, 3 n) per rad/s²
+    of_load: F2  # (N n, 6 n) per N and N m on the frame at an interface, axes of the body
     block: U2  # (·, 4) block of the saddle, its frame or NONE, its flexible body, first of the blocks for its modes
     # work
     p: W1  # (m,) modal coordinates
@@ -50,9 +51,9 @@ class Flexible(NamedTuple):
     first: W2  # (F, 3) [kg m] I2 + I3 p
     inertia: W3  # (F, 3, 3) [kg m²] about the frame origin, deformed
     coupling: W3  # (F, 6, n) momentum and angular momentum of a modal velocity, axes of the body
-    bulge: W3  # (F, 6, n) half of what a mode adds to the inertia, deformed
+    bulge: W2  # (F, 6 n) half of what a mode adds to the inertia, deformed
     velocity_force: W2  # (F, 6) on the frame, axes of the body
-    scratch: W2  # (3, n)
+    scratch: W2  # (2, 6 n)
     now: W3  # (N, 6, n) what a mode moves and turns the node by, deformed, axes of the body
     node: W2  # (N, 29) motion of the node seen from the body, columns named in `nivel.kernels.floating_frame`
     displacement: W3  # (N, 3, n) of the node by a mode, global axes

@@ -12,7 +12,7 @@ from nivel.kernels.analytic import real
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.flexible_record import SHORTENING, TURNING
 from nivel.kernels.floating_frame import dot_modes, modes_of
-from nivel.kernels.geometric_stiffening import add_velocity_forces
+from nivel.kernels.geometric_stiffening import add_velocity_forces, multiply_rows
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.spatial import centripetal, cross, dot, multiply
 from nivel.kernels.status import NO_MASS_LEFT, OK
@@ -64,17 +64,25 @@ def velocity_forces(bodies, own, f, out):
     By Lagrange's equations of ½ m |v|² + vᵀ (ω̄ × S + S_p ṗ) + ½ ω̄ᵀ J̄ ω̄ + ω̄ᵀ C ṗ + ½ |ṗ|², v in axes of the body: on the frame
     -(ω̄ × (ω̄ × S + 2 Ṡ) + S_pp ṗ ṗ) and -(J̄' ω̄ + ω̄ × (J̄ ω̄ + C ṗ) + C_p ṗ ṗ), on a mode ½ ω̄ᵀ J̄_p ω̄ + ω̄ᵀ (C_p - C_pᵀ) ṗ.
     """
-    b = own.body[f]
+    b, most = own.body[f], own.I3.shape[2]
     first, n = modes_of(own, f)
     w, S, J, B, T = bodies.omega_b[b], own.first[f], own.inertia[f], own.coupling[f], own.bulge[f]
     drift = (dot_modes(B[0], own.pdot, first, n), dot_modes(B[1], own.pdot, first, n), dot_modes(B[2], own.pdot, first, n))
+    T0, T1, T2, T3, T4, T5 = (
+        T[0:n],
+        T[most : most + n],
+        T[2 * most : 2 * most + n],
+        T[3 * most : 3 * most + n],
+        T[4 * most : 4 * most + n],
+        T[5 * most : 5 * most + n],
+    )
     xx, yy, zz, xy, yz, zx = (
-        2.0 * dot_modes(T[0], own.pdot, first, n),
-        2.0 * dot_modes(T[1], own.pdot, first, n),
-        2.0 * dot_modes(T[2], own.pdot, first, n),
-        2.0 * dot_modes(T[3], own.pdot, first, n),
-        2.0 * dot_modes(T[4], own.pdot, first, n),
-        2.0 * dot_modes(T[5], own.pdot, first, n),
+        2.0 * dot_modes(T0, own.pdot, first, n),
+        2.0 * dot_modes(T1, own.pdot, first, n),
+        2.0 * dot_modes(T2, own.pdot, first, n),
+        2.0 * dot_modes(T3, own.pdot, first, n),
+        2.0 * dot_modes(T4, own.pdot, first, n),
+        2.0 * dot_modes(T5, own.pdot, first, n),
     )
     momentum = (
         dot(J[0], w) + dot_modes(B[3], own.pdot, first, n),
@@ -91,20 +99,14 @@ def velocity_forces(bodies, own, f, out):
     w0, w1, w2 = w[0], w[1], w[2]
     for j in range(n):
         own.Q[first + j] += (
-            w0 * w0 * T[0, j] + w1 * w1 * T[1, j] + w2 * w2 * T[2, j]
-            + 2.0 * (w0 * w1 * T[3, j] + w1 * w2 * T[4, j] + w2 * w0 * T[5, j])
+            w0 * w0 * T0[j] + w1 * w1 * T1[j] + w2 * w2 * T2[j]
+            + 2.0 * (w0 * w1 * T3[j] + w1 * w2 * T4[j] + w2 * w0 * T5[j])
         )  # fmt: skip
     if own.terms[f, TURNING] != 0:
-        x, y, z, force = own.I5[3 * f], own.I5[3 * f + 1], own.I5[3 * f + 2], own.scratch[2]
+        turning = own.scratch[0]
+        multiply_rows(own.I5, f * most, own.pdot, first, n, turning, 3 * most)
         for j in range(n):
-            force[j] = 0.0
-        for k in range(n):
-            a = 2.0 * own.pdot[first + k]
-            a0, a1, a2, xk, yk, zk = a * w0, a * w1, a * w2, x[k], y[k], z[k]
-            for j in range(n):
-                force[j] -= a0 * xk[j] + a1 * yk[j] + a2 * zk[j]
-        for j in range(n):
-            own.Q[first + j] += force[j]
+            own.Q[first + j] -= 2.0 * (w0 * turning[j] + w1 * turning[most + j] + w2 * turning[2 * most + j])
     if own.terms[f, SHORTENING] != 0:
         add_velocity_forces(own, f, first, n, out)
 

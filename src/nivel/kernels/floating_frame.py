@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.flexible_record import BULGING, SHORTENING, TURNING
-from nivel.kernels.geometric_stiffening import FIRST_AXIS, SECOND_AXIS, add_product, add_products, add_shortening
+from nivel.kernels.geometric_stiffening import FIRST_AXIS, SECOND_AXIS, add_shortening, multiply_rows
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.spatial import centripetal, cross, dot, multiply
 
@@ -48,28 +48,32 @@ def modes_of(own, f):
 @stage
 def bend_body(bodies, own, f):
     """First moment, inertia and coupling of flexible body f from its modal coordinates; also its centre of mass, which the weight acts at."""
-    b = own.body[f]
+    b, most = own.body[f], own.I3.shape[2]
     first, n = modes_of(own, f)
     S, J, B, T, I8 = own.first[f], own.inertia[f], own.coupling[f], own.bulge[f], own.I8[f]
     for i in range(3):
         for k in range(n):
             B[i, k], B[3 + i, k] = own.I3[f, i, k], own.I4[f, i, k]
         S[i] = own.I2[f, i] + dot_modes(own.I3[f, i], own.p, first, n)
+    if own.terms[f, BULGING] != 0:
+        multiply_rows(own.of_inertia, f * most, own.p, first, n, T, 6 * most)
+    else:
+        for k in range(6 * most):
+            T[k] = 0.0
     for c in range(6):
+        value, row = 0.0 * own.p[first], T[c * most : c * most + n]
         for k in range(n):
-            T[c, k] = 0.0
-        if own.terms[f, BULGING] != 0:
-            add_product(own.of_inertia[6 * f + c], own.p, first, n, T[c])
-        value = 0.0 * own.p[first]
-        for k in range(n):
-            value += own.p[first + k] * (2.0 * I8[c, k] + T[c, k])
-            T[c, k] += I8[c, k]
+            value += own.p[first + k] * (2.0 * I8[c, k] + row[k])
+            row[k] += I8[c, k]
         i, j = FIRST_AXIS[c], SECOND_AXIS[c]
         J[i, j] = own.I7[f, i, j] + value
         J[j, i] = J[i, j]
     if own.terms[f, TURNING] != 0 or own.terms[f, SHORTENING] != 0:
+        extra = own.scratch[0]
+        multiply_rows(own.of_coupling, f * most, own.p, first, n, extra, 3 * most)
         for i in range(3):
-            add_product(own.of_coupling[3 * f + i], own.p, first, n, B[3 + i])
+            for k in range(n):
+                B[3 + i, k] += extra[i * most + k]
     if own.terms[f, SHORTENING] != 0:
         add_shortening(own, f, first, n)
     multiply(bodies.A[b], S, bodies.c[b])
@@ -100,23 +104,25 @@ def dot_modes(row, p, first, n):
 
 @stage
 def follow_node(own, k, i, first, n):
-    """Displacement (i below 3) or turn of the node of frame k by the modes, its rate, and its second derivative for p̈ = 0; what one of
-    each mode moves it by is left in `now`."""
-    shape, now = own.shape[k, i], own.now[k, i]
+    """Displacement (i below 3) or turn of the node of frame k by the modes, its rate, and its second derivative for p̈ = 0, with the
+    products of its stiffening in `scratch`; what one of each mode moves it by is left in `now`."""
+    shape, now, at = own.shape[k, i], own.now[k, i], i * own.I3.shape[2]
     value, rate, second = 0.0 * own.p[first], 0.0 * own.p[first], 0.0 * own.p[first]
-    for j in range(n):
-        now[j] = shape[j] + 0.0 * own.p[first]
     if own.loaded[k] != 0:
-        K, along, across = own.of_load[6 * k + i], own.scratch[0], own.scratch[1]
+        along, across = own.scratch[0, at : at + n], own.scratch[1, at : at + n]
         for j in range(n):
-            along[j], across[j] = 0.0, 0.0
-        add_products(K, own.p, own.pdot, first, n, along, across)
+            p, pdot = own.p[first + j], own.pdot[first + j]
+            a = shape[j] - along[j]
+            now[j] = a
+            value += 0.5 * (shape[j] + a) * p
+            rate += a * pdot
+            second -= pdot * across[j]
+    else:
         for j in range(n):
-            now[j] -= along[j]
-            second -= own.pdot[first + j] * across[j]
-    for j in range(n):
-        value += 0.5 * (shape[j] + now[j]) * own.p[first + j]
-        rate += now[j] * own.pdot[first + j]
+            a = shape[j] + 0.0 * own.p[first]
+            now[j] = a
+            value += a * own.p[first + j]
+            rate += a * own.pdot[first + j]
     return value, rate, second
 
 
@@ -124,7 +130,10 @@ def follow_node(own, k, i, first, n):
 def find_node(own, k):
     """Motion of the node of frame k by the modes, seen from its body, into `node`."""
     first, n = modes_of(own, own.frame[k, 0])
-    out = own.node[k]
+    out, most = own.node[k], own.I3.shape[2]
+    if own.loaded[k] != 0:
+        multiply_rows(own.of_load, k * most, own.p, first, n, own.scratch[0], 6 * most)
+        multiply_rows(own.of_load, k * most, own.pdot, first, n, own.scratch[1], 6 * most)
     ux, out[SPEED], out[BEND] = follow_node(own, k, 0, first, n)
     uy, out[SPEED + 1], out[BEND + 1] = follow_node(own, k, 1, first, n)
     uz, out[SPEED + 2], out[BEND + 2] = follow_node(own, k, 2, first, n)

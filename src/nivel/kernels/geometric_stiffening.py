@@ -19,46 +19,46 @@ FIRST_AXIS, SECOND_AXIS = (0, 1, 2, 0, 1, 2), (0, 1, 2, 1, 2, 0)
 
 
 @leaf
-def add_product(K, x, first, n, out):
-    """out += Kᵀ x for one body's part of a modal vector."""
-    for k in range(n):
-        share, row = x[first + k], K[k]
-        for j in range(n):
-            out[j] += share * row[j]
-
-
-@leaf
-def add_products(K, x, y, first, n, along, across):
-    """along += Kᵀ x, across += Kᵀ y."""
-    for k in range(n):
-        share, other, row = x[first + k], y[first + k], K[k]
-        for j in range(n):
-            along[j] += share * row[j]
-            across[j] += other * row[j]
+def multiply_rows(K, base, x, first, n, out, width):
+    """out (width,) = Σ x[first + k] K[base + k] over n rows, two at a time."""
+    for j in range(width):
+        out[j] = 0.0
+    k = 0
+    while k + 1 < n:
+        a, b, one, other = x[first + k], x[first + k + 1], K[base + k], K[base + k + 1]
+        for j in range(width):
+            out[j] += a * one[j] + b * other[j]
+        k += 2
+    if k < n:
+        a, one = x[first + k], K[base + k]
+        for j in range(width):
+            out[j] += a * one[j]
 
 
 @stage
 def add_shortening(own, f, first, n):
     """Terms of the second order in the first moment and the coupling of flexible body f; its inertia has them in `of_inertia`."""
-    S, B, along = own.first[f], own.coupling[f], own.scratch[0]
+    S, B, along, most = own.first[f], own.coupling[f], own.scratch[0], own.I3.shape[2]
+    multiply_rows(own.of_acceleration, f * most, own.p, first, n, along, 3 * most)
     for i in range(3):
+        row = along[i * most : i * most + n]
+        total = 0.0 * own.p[first]
         for j in range(n):
-            along[j] = 0.0
-        add_product(own.of_acceleration[3 * f + i], own.p, first, n, along)
-        for j in range(n):
-            S[i] += 0.5 * own.p[first + j] * along[j]
-            B[i, j] += along[j]
+            total += own.p[first + j] * row[j]
+            B[i, j] += row[j]
+        S[i] += 0.5 * total
 
 
 @stage
 def add_velocity_forces(own, f, first, n, out):
     """What the modal velocities do on the frame by these terms, into out (6,)."""
-    along, across = own.scratch[0], own.scratch[1]
+    along, across, most = own.scratch[0], own.scratch[1], own.I3.shape[2]
+    multiply_rows(own.of_acceleration, f * most, own.pdot, first, n, along, 3 * most)
+    multiply_rows(own.of_turning, f * most, own.pdot, first, n, across, 3 * most)
     for i in range(3):
+        force, moment = 0.0 * own.p[first], 0.0 * own.p[first]
         for j in range(n):
-            along[j], across[j] = 0.0, 0.0
-        add_product(own.of_acceleration[3 * f + i], own.pdot, first, n, along)
-        add_product(own.of_turning[3 * f + i], own.pdot, first, n, across)
-        for j in range(n):
-            out[i] -= own.pdot[first + j] * along[j]
-            out[3 + i] -= own.pdot[first + j] * across[j]
+            force += own.pdot[first + j] * along[i * most + j]
+            moment += own.pdot[first + j] * across[i * most + j]
+        out[i] -= force
+        out[3 + i] -= moment

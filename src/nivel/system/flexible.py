@@ -127,7 +127,7 @@ def flexible_tables(
     rigid = np.ones(bodies, dtype=np.uint32)
     rigid[[each.body for each in bending]] = 0
     I8, I9, stiffening = table.of("I8", (n, 3, 3)), table.of("I9", (n, n, 3, 3)), _stiffening(bending, frames, n)
-    turning = np.ascontiguousarray(table.of("I5", (n, 3, n)).transpose(0, 2, 1, 3))
+    turning = table.of("I5", (n, 3, n)).transpose(0, 2, 1, 3)
     spin = stiffening.pop("of_spin")
     return Flexible(
         body=index_array([each.body for each in bending], 1),
@@ -141,16 +141,14 @@ def flexible_tables(
         I2=np.array([each.reduced.invariants.I2 for each in bending]).reshape(F, 3),
         I3=table.of("I3", (3, n)),
         I4=table.of("I4", (3, n)),
-        I5=turning.reshape(3 * F, n, n),
+        I5=_beside(turning),
         I7=table.of("I7", (3, 3)),
         I8=np.ascontiguousarray(_components(I8).transpose(0, 2, 1)),
         stiffness=_rows([each.reduced.eigenvalues for each in bending], n),
         damping=_rows([each.damping for each in bending], n),
-        of_inertia=np.ascontiguousarray(
-            (_components(I9).transpose(0, 3, 1, 2) - SHARE[:, None, None] * spin).reshape(6 * F, n, n)
-        ),
-        of_coupling=np.ascontiguousarray((turning + stiffening["of_turning"]).reshape(3 * F, n, n)),
-        **{name: np.ascontiguousarray(value).reshape(value.shape[0] * value.shape[1], n, n) for name, value in stiffening.items()},
+        of_inertia=_beside(_components(I9).transpose(0, 3, 1, 2) - SHARE[:, None, None] * spin),
+        of_coupling=_beside(turning + stiffening["of_turning"]),
+        **{name: _beside(value) for name, value in stiffening.items()},
         block=index_array(block, 4),
         p=np.zeros(m),
         pdot=np.zeros(m),
@@ -159,9 +157,9 @@ def flexible_tables(
         first=np.zeros((F, 3)),
         inertia=np.zeros((F, 3, 3)),
         coupling=np.zeros((F, 6, n)),
-        bulge=np.zeros((F, 6, n)),
+        bulge=np.zeros((F, 6 * n)),
         velocity_force=np.zeros((F, 6)),
-        scratch=np.zeros((3, n)),
+        scratch=np.zeros((2, 6 * n)),
         now=np.zeros((N, 6, n)),
         node=np.zeros((N, 29)),
         displacement=np.zeros((N, 3, n)),
@@ -198,6 +196,12 @@ def _components(tensors: Array) -> Array:
     if both.ndim == 5:
         both = 0.5 * (both + np.swapaxes(both, 1, 2))
     return both[..., FIRST_AXIS, SECOND_AXIS]
+
+
+def _beside(tables: Array) -> Array:
+    """(F n, c n) from c matrices of each of F bodies (F, c, n, n)."""
+    F, c, n, _ = tables.shape
+    return np.ascontiguousarray(tables.transpose(0, 2, 1, 3)).reshape(F * n, c * n)
 
 
 def _rows(values: Sequence[Array], n: int) -> Array:

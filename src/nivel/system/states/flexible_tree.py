@@ -141,8 +141,9 @@ def _nodes_of(record: Record, p: Array) -> tuple[Array, Array]:
     for k, (f, _) in enumerate(flexible.frame):
         first, last = flexible.mode[f]
         q, n = p[first:last], int(last - first)
-        K = flexible.of_load[6 * k : 6 * k + 6, :n, :n]
-        motion[k] = flexible.shape[k, :, :n] @ q - 0.5 * np.einsum("ijk,j,k->i", K, q, q)
+        most = flexible.shape.shape[2]
+        K = flexible.of_load[k * most : k * most + n].reshape(n, 6, most)[:, :, :n]
+        motion[k] = flexible.shape[k, :, :n] @ q - 0.5 * np.einsum("jik,j,k->i", K, q, q)
     return flexible.place_b + motion[:, :3], motion[:, 3:]
 
 

@@ -1,13 +1,22 @@
 """Relative coordinates with flexible bodies: at equal states all is as in absolute ones, and so are motions."""
 
+from dataclasses import replace
 from importlib import import_module
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
+from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.implicit import evaluate_residual
+from nivel.analysis.simulate import simulate
+from nivel.analysis.statics.newton import Iteration
+from nivel.analysis.statics.run import prepare_statics
+from nivel.analysis.statics.search import settle
+from nivel.analysis.statics.settings import StaticsSettings
+from nivel.flexible import reference
 from nivel.flexible.body_file import read_body
 from nivel.machine import SimulationSettings
 from running import run
@@ -86,8 +95,6 @@ def of_absolute(seen, states):
 
 def body_rates(seen):
     """Angular velocities in axes of the bodies' own frames."""
-    from scipy.spatial.transform import Rotation
-
     A = Rotation.from_quat(seen.theta, scalar_first=True).as_matrix()
     return np.einsum("bij,bi->bj", A, seen.omega)
 
@@ -241,3 +248,103 @@ def test_start_from_equilibrium(folder):
         assert np.abs(r.modal_coordinate - r.modal_coordinate[0]).max() < 1e-8 * np.abs(r.modal_coordinate[0]).max()
         assert np.abs(r.position - r.position[0]).max() < 1e-10
     np.testing.assert_allclose(out["relative"].position[0], out["absolute"].position[0], atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["flying", "loop"])
+def test_ros2_by_modes_is_of_order_two(folder, name):
+    """Without any matrix; the longest steps are past the bound of stability of RK4, ω h = 2.8."""
+    record = MACHINES[name](folder)
+    common = {"duration": 0.2, "output_interval": 0.05, "coordinates": "relative"}
+    fine = run(record, integrator="dop853", tolerance=1e-11, **common)
+    highest = np.sqrt(fine.prepared.motion.system.record.flexible.stiffness.max())
+    errors = []
+    for step in (1e-3, 5e-4, 2.5e-4, 1.25e-4):
+        r = run(record, integrator="ros2", step=step, **common)
+        assert len(r.prepared.motion.system.record.residual.vdot) == 0
+        errors.append(np.abs(r.position - fine.position).max())
+    assert 1e-3 * highest > 2.8
+    slopes = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+    assert np.all(slopes[1:] > 1.7)
+    assert errors[-1] < 1e-4
+
+
+def test_ros2_goes_by_modes_only_without_other_stiffness(folder):
+    """A spring is in the exact matrix, and then absolute coordinates are the ones that are chosen."""
+    chain = MACHINES["chain"](folder)
+    free = chain.replace(forces=tuple(each for each in chain.forces if each.type == "force"))
+    for record, coordinates in ((chain, "absolute"), (free, "relative")):
+        settings = SimulationSettings(integrator="ros2")
+        assert choose_coordinates(record.replace(simulation=settings)) == coordinates
+    common = {"integrator": "ros2", "coordinates": "relative", "step": 1e-4, "duration": 1e-3}
+    assert len(run(chain, **common).prepared.motion.system.record.residual.vdot) > 0
+    assert len(run(free, **common).prepared.motion.system.record.residual.vdot) == 0
+
+
+@pytest.mark.parametrize("formulation", ["penalty", "augmented-lagrangian"])
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_penalties_hold_flexible_bodies(folder, formulation, coordinates):
+    record = MACHINES["loop"](folder)
+    common = {"integrator": "rk4", "step": 2e-5, "duration": 0.02, "output_interval": 0.01, "coordinates": coordinates}
+    expected = run(record, **common)
+    r = run(record, formulation=formulation, **common)
+    assert r.finished.outcome == "done"
+    assert np.abs(r.position - expected.position).max() < 1e-6
+    assert np.abs(r.constraint_violation).max() < 1e-6
+
+
+@EACH
+def test_neglected_invariants_cost_what_is_said_and_no_energy(folder, name):
+    """Without I5 and I9 the equations still are those of an energy that is kept."""
+    record = MACHINES[name](folder)
+    less = record.replace(
+        bodies=tuple(
+            each.replace(flexible=each.flexible.replace(neglect=("I5", "I9"))) if each.flexible else each
+            for each in record.bodies
+        )
+    )
+    common = {"coordinates": "relative", "integrator": "rk4", "duration": 0.05, "output_interval": 0.01}
+    whole = run(record, step=2e-5, **common)
+    errors = []
+    for step in (4e-5, 2e-5):
+        r = run(less, step=step, **common)
+        errors.append(np.abs(r.energy_error).max() / max(r.kinetic_energy.max(), 1e-3))
+    assert errors[1] < max(errors[0] / 10.0, 1e-11)
+    own = r.prepared.motion.system.record.flexible
+    assert not own.terms[:, 0].any()
+    # not nothing, and little
+    assert 0.0 < np.abs(r.modal_coordinate - whole.modal_coordinate).max() < 1e-2 * np.abs(whole.modal_coordinate).max()
+
+
+def test_neglect_is_told_by_the_trust_report(folder):
+    """As a share of the mass matrix, which is that of the reference."""
+    body = beam(folder, "a", (0, 0, 0), angular_velocity=(0.0, 1.0, 2.0), modes=3)
+    record = machine("free", [body.replace(flexible=body.flexible.replace(neglect=("I5", "I9")))], [])
+    record = record.replace(simulation=SimulationSettings(duration=0.1, step=1e-4, output_interval=0.01))
+    result = simulate(record)
+    item = next(item for item in result.trust.items if item.name == "neglected")
+    assert "without I5 and I9 the mass matrix of a lacks" in item.text
+    its = read_body(folder / "beam.nc").keeping([0, 1, 2]).invariants
+    none = replace(its, I5=0.0 * its.I5, I9=0.0 * its.I9)
+    largest = 0.0
+    for q in result.array("modal_coordinate"):
+        lack = np.abs(reference.mass_matrix(its, np.eye(3), q) - reference.mass_matrix(none, np.eye(3), q))
+        scale = np.abs(its.I7).max()
+        largest = max(largest, lack[3:6, 3:6].max() / scale, lack[3:6, 6:].max() / np.sqrt(scale))
+    assert item.fraction == pytest.approx(largest, rel=1e-9)
+
+
+def test_static_equilibria_are_those_of_absolute_coordinates(folder):
+    record = machine(
+        "hung",
+        [beam(folder, "a", (0, 0, 0), file="soft", modes=4), beam(folder, "b", (1, 0, 0), file="soft", modes=4)],
+        [hinge("w", "ground", "a", 0.0, kind="fixed", axis=None), hinge("e", "a", "b", 1.0, kind="fixed", axis=None)],
+    )
+    found = []
+    for coordinates in ("absolute", "relative"):
+        prepared, equations = prepare_statics(record, StaticsSettings(duration=0.0, step=1.0, coordinates=coordinates))
+        settled = settle(equations, equations.start(prepared.start), Iteration())
+        equations.evaluate(settled.state)
+        own = prepared.motion.system.record
+        found.append((own.flexible.p.copy(), equations.record.bodies.R[:2].copy()))
+    assert np.abs(found[0][0]).max() > 1e-3
+    np.testing.assert_allclose(found[1][0], found[0][0], atol=1e-9)

@@ -175,7 +175,7 @@ def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: s
     if coordinates not in FLEXIBLE:
         message = f"'{coordinates}' does not go with flexible bodies ({names}): take {' or '.join(FLEXIBLE)}"
         faults.append(("coordinates", message))
-    if formulation != "newton-euler":
+    if formulation == "lagrange":
         faults.append(("formulation", f"'{formulation}' does not go with flexible bodies ({names}): take newton-euler"))
     if INTEGRATORS[machine.simulation.integrator].whole:
         message = (

@@ -96,7 +96,7 @@ def path_of(
     flexible : for machines with flexible bodies. shared : for those with mass that bodies have in common.
     """
     if flexible:
-        path = FLEXIBLE.get(coordinates) if formulation == "newton-euler" else None
+        path = FLEXIBLE.get(coordinates) if formulation != "lagrange" else None
     else:
         velocities = "lagrange" if formulation == "lagrange" else "newton-euler"
         path = PATHS.get((coordinates, velocities, rotations))

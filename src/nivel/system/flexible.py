@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from nivel.errors import Fault, ModelError
 from nivel.flexible.body import Interface, ReducedBody
 from nivel.flexible.body_file import read_body
+from nivel.flexible.invariants import Invariants
 from nivel.kernels.flexible_record import Flexible, ModalTree
 from nivel.kernels.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
 from nivel.machine.body import Body
@@ -27,12 +28,20 @@ SHARE = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
 
 @dataclass(frozen=True)
 class Bending:
-    """A body of the machine that bends: its number, its modes, their damping (n,) [1/s], their places among all of its file."""
+    """A body of the machine that bends: its number, its modes, their damping (n,) [1/s], their places among all of its file, names of the
+    inertia invariants that it moves without."""
 
     body: int
     reduced: ReducedBody
     damping: Array
     modes: tuple[int, ...]
+    neglected: tuple[str, ...] = ()
+
+    @property
+    def invariants(self) -> Invariants:
+        """Those that it moves with."""
+        its = self.reduced.invariants
+        return replace(its, **{name: np.zeros_like(getattr(its, name)) for name in self.neglected})
 
 
 @dataclass(frozen=True)
@@ -81,7 +90,7 @@ def bending_bodies(machine: MachineRecord) -> tuple[Bending, ...]:
         taken = np.sort(np.argsort(whole.eigenvalues, kind="stable")[:count])
         reduced = whole.keeping(taken)
         damping = 2.0 * body.flexible.damping_ratio * np.sqrt(reduced.eigenvalues)
-        bending.append(Bending(k, reduced, damping, tuple(taken.tolist())))
+        bending.append(Bending(k, reduced, damping, tuple(taken.tolist()), body.flexible.neglect))
     if faults:
         raise ModelError(faults)
     return tuple(bending)
@@ -179,14 +188,14 @@ class _Padded:
     def of(self, name: str, shape: tuple[int, ...]) -> Array:
         out = np.zeros((len(self.bending), *shape))
         for f, each in enumerate(self.bending):
-            value = getattr(each.reduced.invariants, name)
+            value = getattr(each.invariants, name)
             out[(f, *(slice(length) for length in value.shape))] = value
         return out
 
 
 def _terms(bending: Bending) -> tuple[int, int, int]:
     """`Flexible.terms` of one body."""
-    its, stiff = bending.reduced.invariants, bool(bending.reduced.stiffening)
+    its, stiff = bending.invariants, bool(bending.reduced.stiffening)
     return int(np.any(its.I5)), int(stiff or np.any(its.I9)), int(stiff)
 
 

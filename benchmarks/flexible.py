@@ -1,4 +1,4 @@
-"""What flexible bodies cost: the evaluation of one with 20 modes beside the rigid one, and a loader crane with two flexible booms in real time.
+"""What flexible bodies cost: an evaluation with 20 modes beside that of a rigid body, and a loader crane with two flexible booms.
 
     OMP_NUM_THREADS=1 python benchmarks/flexible.py
 
@@ -65,7 +65,15 @@ simulation: {{step: 1 ms, duration: 2, output_interval: 0.1}}
 """
 
 
-def beam_file(folder: Path, name: str, section: str, nodes: dict[str, str], beams: list[tuple[str, str]], modes: int, stiffening: bool) -> Path:
+def beam_file(
+    folder: Path,
+    name: str,
+    section: str,
+    nodes: dict[str, str],
+    beams: list[tuple[str, str]],
+    modes: int,
+    stiffening: bool,
+) -> Path:
     """A reduced frame of beams, all of whose nodes are interfaces."""
     text = BAR.format(
         section=section,
@@ -141,7 +149,15 @@ def evaluation_time(machine, coordinates: str) -> float:
 def pendulum(folder: Path, modes: int, *, stiffening: bool, rigid: bool = False):
     """A bar on a hinge."""
     nodes = {"root": "[0, 0, 0]", "tip": "[2, 0, 0]"}
-    path = beam_file(folder, f"bar{modes}{stiffening}", "rectangle, width: 0.02, height: 0.03", nodes, [("root", "tip")], 14, stiffening)
+    path = beam_file(
+        folder,
+        f"bar{modes}{stiffening}",
+        "rectangle, width: 0.02, height: 0.03",
+        nodes,
+        [("root", "tip")],
+        14,
+        stiffening,
+    )
     body = f"{{flexible: {{file: {path}, modes: {modes}}}}}"
     if rigid:
         body = "{mass: 9.42 kg, centre_of_mass: [1, 0, 0], inertia: [0.01, 3.14, 3.14]}"
@@ -170,9 +186,11 @@ def main() -> None:
         for method in methods:
             for coordinates in ("absolute", "relative"):
                 machine = crane(folder, integrator=method, coordinates=coordinates, stabilisation="direct")
-                microseconds, timing, error = run_time(machine)
+                microseconds, _, error = run_time(machine)
                 ratio = 1e6 * STEP / microseconds
-                print(f"crane, {method}, {coordinates:9}: {microseconds:8.1f} µs a step, {ratio:6.1f} × real time, energy error {error:.1e}")
+                print(
+                    f"crane, {method}, {coordinates:9}: {microseconds:8.1f} µs a step, {ratio:6.1f} × real time, energy error {error:.1e}"
+                )
 
 
 if __name__ == "__main__":

@@ -231,8 +231,12 @@ def test_stiff_modes_are_a_rigid_body(tmp_path):
 def test_start_positions_of_joints_are_taken(folder):
     """Beside flexible bodies too: the machine is assembled before it bends."""
     record = MACHINES["pendulum"](folder)
-    turned = record.replace(joints=tuple(each.replace(start={"angle": 0.7}, start_rates={"angle": 2.0}) for each in record.joints))
-    a, r = (run(turned, coordinates=each, step=1e-5, duration=1e-3, integrator="rk4") for each in ("absolute", "relative"))
+    turned = record.replace(
+        joints=tuple(each.replace(start={"angle": 0.7}, start_rates={"angle": 2.0}) for each in record.joints)
+    )
+    a, r = (
+        run(turned, coordinates=each, step=1e-5, duration=1e-3, integrator="rk4") for each in ("absolute", "relative")
+    )
     assert r.joint_coordinate[0, 0] == pytest.approx(0.7)
     assert r.joint_rate[0, 0] == pytest.approx(2.0)
     np.testing.assert_allclose(r.position, a.position, atol=1e-10)
@@ -240,10 +244,16 @@ def test_start_positions_of_joints_are_taken(folder):
 
 def test_start_from_equilibrium(folder):
     """A bent beam at rest stays where it is, in both coordinates."""
-    record = machine("clamped", [beam(folder, "a", (0, 0, 0)), beam(folder, "b", (1, 0, 0))], [hinge("w", "ground", "a", 0.0, kind="fixed", axis=None), hinge("e", "a", "b", 1.0, kind="fixed", axis=None)])
+    record = machine(
+        "clamped",
+        [beam(folder, "a", (0, 0, 0)), beam(folder, "b", (1, 0, 0))],
+        [hinge("w", "ground", "a", 0.0, kind="fixed", axis=None), hinge("e", "a", "b", 1.0, kind="fixed", axis=None)],
+    )
     out = {}
     for coordinates in ("absolute", "relative"):
-        out[coordinates] = r = run(record, coordinates=coordinates, start="equilibrium", integrator="rk4", step=1e-5, duration=0.01)
+        out[coordinates] = r = run(
+            record, coordinates=coordinates, start="equilibrium", integrator="rk4", step=1e-5, duration=0.01
+        )
         assert np.abs(r.modal_coordinate[0]).max() > 1e-4
         assert np.abs(r.modal_coordinate - r.modal_coordinate[0]).max() < 1e-8 * np.abs(r.modal_coordinate[0]).max()
         assert np.abs(r.position - r.position[0]).max() < 1e-10

@@ -84,8 +84,8 @@ def test_bodies_that_bend_in_the_plane_only_are_redundant_out_of_it(tmp_path):
 
 
 def test_a_square_of_bars_with_one_bend_out_of_the_plane_is_singular(tmp_path):
-    """A symmetric bend turns the ends of a bar against each other about its perpendicular bisector. Three lines in a plane take up the three
-    constraints out of it unless they meet or are parallel: those of two sides of a square are one line, those of leaning ones are two."""
+    """A symmetric bend turns the ends of a bar against each other about its perpendicular bisector. Three lines in a plane take up the
+    three constraints out of it unless they meet or are parallel: those of two sides of a square are one line, those of leaning ones are two."""
     out = "reference: mean-axis, modes: given, shapes: [{z: x^2 - x}]"
     with pytest.raises(ModelError, match="starts in a singular position"):
         prepare(four_bar(tmp_path, out))
@@ -99,6 +99,9 @@ def test_redundant_square_moves_like_the_determinate_one(tmp_path, reduction, in
     """Motion and reactions in the plane are unique whatever is redundant; nothing pushes out of the plane."""
     settings = {"integrator": integrator, "step": step, "duration": 0.2, "output_interval": 0.02}
     settings["coordinates"] = coordinates
+    if integrator != "rk4":
+        # what little is left of an iteration pushes against the stiffness out of the plane
+        settings["corrector"] = {"tolerance": 1e-12}
     r = run(four_bar(tmp_path, reduction), **settings)
     plain = run(four_bar(tmp_path, reduction, redundant=False), **settings)
     assert r.finished.outcome == "done"

@@ -1,4 +1,4 @@
-"""Machines with flexible bodies for relative coordinates: chains, loops, bodies that fly, joints of every kind at interfaces on both sides."""
+"""Machines with flexible bodies for relative coordinates: chains, loops, bodies that fly, joints at interfaces on both sides."""
 
 from math import radians, sin
 
@@ -78,11 +78,20 @@ def chain(folder):
         hinge("grip", "c", "d", 1.5, axis=(1, 0, 0), kind="cylindrical"),
     ]
     forces = (
-        SpringDamper(name="rope", bodies=("b", "d"), points=((2, 0, 0), (1.5, 0, 0)), stiffness=300, free_length=0.3, damping=2),
+        SpringDamper(
+            name="rope", bodies=("b", "d"), points=((2, 0, 0), (1.5, 0, 0)), stiffness=300, free_length=0.3, damping=2
+        ),
         PointForce(name="push", body="b", position=(0.5, 0, 0), vector=(1.0, 2.0, -3.0)),
     )
     sensors = (Sensor(name="end", marker="end", quantity="acceleration"),)
-    return machine("chain", bodies, joints, forces=forces, markers=(Marker(name="end", body="b", position=(1, 0, 0)),), sensors=sensors)
+    return machine(
+        "chain",
+        bodies,
+        joints,
+        forces=forces,
+        markers=(Marker(name="end", body="b", position=(1, 0, 0)),),
+        sensors=sensors,
+    )
 
 
 def flying(folder):

@@ -97,7 +97,8 @@ def _absolute_cost(machine: MachineRecord) -> float:
 
 
 def _relative_cost(machine: MachineRecord) -> float:
-    from nivel.system.states.relative import KINDS, tree_of
+    from nivel.system.states.relative import tree_of
+    from nivel.system.states.tree_nodes import KINDS
     from nivel.system.topology import FREE
 
     tree = tree_of(machine, machine.simulation)

@@ -20,8 +20,8 @@ from nivel.analysis.implicit import Wanted, equip
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
 from nivel.analysis.mobility import bound_pivots
-from nivel.analysis.modal_stiffness import integrator_of
 from nivel.analysis.modal_rows import modal_rows
+from nivel.analysis.modal_stiffness import integrator_of
 from nivel.analysis.outcome import failure
 from nivel.analysis.penalties import feedback, penalise
 from nivel.analysis.redundancy import Redundancy, analyse

@@ -9,7 +9,11 @@ from nivel.march.catalogue import BY_MODES, INTEGRATORS, IntegratorFacts
 
 def only_modes_are_stiff(machine: MachineRecord) -> bool:
     """Whether a machine has flexible bodies, and besides weight no forces but those that are given in time."""
-    return machine.is_flexible and not machine.beams and all(isinstance(each, PointForce | Torque) for each in machine.forces)
+    return (
+        machine.is_flexible
+        and not machine.beams
+        and all(isinstance(each, PointForce | Torque) for each in machine.forces)
+    )
 
 
 def integrator_of(machine: MachineRecord, coordinates: str) -> IntegratorFacts:

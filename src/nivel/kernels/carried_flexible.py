@@ -1,4 +1,5 @@
-"""What a frame shows of a machine in relative coordinates with flexible bodies beyond what its equations need; see `nivel.kernels.carried`."""
+"""What a frame shows of a machine in relative coordinates with flexible bodies beyond what its equations need: as in
+`nivel.kernels.carried`."""
 
 from __future__ import annotations
 

@@ -23,7 +23,8 @@ class Flexible(NamedTuple):
     body: U1  # (F,)
     rigid: U1  # (B,) 1 for the bodies that are not flexible
     mode: U2  # (F, 2) first of its modes, one past the last
-    terms: U2  # (F, 3) whether it has TURNING terms, BULGING (those of the inertia, quadratic in the modes) and SHORTENING (geometric stiffening)
+    # (F, 3) whether it has TURNING terms, BULGING (those of the inertia, quadratic in the modes) and SHORTENING (geometric stiffening)
+    terms: U2
     frame: U2  # (N, 2) flexible body, its number among `Bodies`
     loaded: U1  # (N,) whether loads on the frame stiffen its body
     place_b: F2  # (N, 3) [m] undeformed, axes of the body
@@ -76,7 +77,9 @@ class ModalTree(NamedTuple):
     # work
     column: W3  # (F, 6, n) motion (angular, of the origin) of the body for a modal velocity while its carrier is at rest, global axes
     effort: W1  # (m,) modal efforts, rows of the residual
-    coupling: F3  # (F, 6, n) angular momentum and momentum of a modal velocity, with all that the body carries, global axes
+    coupling: (
+        F3  # (F, 6, n) angular momentum and momentum of a modal velocity, with all that the body carries, global axes
+    )
     factor: F3  # (F, n, n + 6) upper Cholesky factor U of the modal mass, and U⁻ᵀ couplingᵀ
     push: F2  # (6, n)
     load: F2  # (rows of the largest bundle, m) zero between uses

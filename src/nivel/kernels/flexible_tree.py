@@ -6,9 +6,9 @@ What a joint carries, and what a joint hangs on, is the frame at an interface of
     MODAL     from the frame at the interface by which the body is carried to the floating frame: A = A_k exp(q~)ᵀ, R = R_k - A (x + φ p)
     OUTWARD   from the floating frame to the frame at every other interface
 
-so a modal velocity moves, while its carrier is at rest, the floating frame by the column (-turn, turn × u - displacement) of its node, u from
-the floating frame to the node, and all further frames with it and by their own displacement. A flexible body that hangs on nothing is carried
-by a frame that is its floating frame, and its modes move that frame by nothing.
+so a modal velocity moves, while its carrier is at rest, the floating frame by the column (-turn, turn × u - displacement) of its node, u
+from the floating frame to the node, and all further frames with it and by their own displacement. A flexible body that hangs on nothing
+is carried by a frame that is its floating frame, and its modes move that frame by nothing.
 """
 
 from __future__ import annotations

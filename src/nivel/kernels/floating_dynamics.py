@@ -67,7 +67,11 @@ def velocity_forces(bodies, own, f, out):
     b, most = own.body[f], own.I3.shape[2]
     first, n = modes_of(own, f)
     w, S, J, B, T = bodies.omega_b[b], own.first[f], own.inertia[f], own.coupling[f], own.bulge[f]
-    drift = (dot_modes(B[0], own.pdot, first, n), dot_modes(B[1], own.pdot, first, n), dot_modes(B[2], own.pdot, first, n))
+    drift = (
+        dot_modes(B[0], own.pdot, first, n),
+        dot_modes(B[1], own.pdot, first, n),
+        dot_modes(B[2], own.pdot, first, n),
+    )
     T0, T1, T2, T3, T4, T5 = (
         T[0:n],
         T[most : most + n],
@@ -257,7 +261,14 @@ def needed_by_frame(bodies, own, f, alpha, a, out):
     """(moment, force) that the frame of flexible body f needs for ᾱ and R̈ in axes of the body, less all applied and velocity forces."""
     b = own.body[f]
     first, n = modes_of(own, f)
-    A, S, J, B, F, q = bodies.A[b], own.first[f], own.inertia[f], own.coupling[f], bodies.wrench[b], own.velocity_force[f]
+    A, S, J, B, F, q = (
+        bodies.A[b],
+        own.first[f],
+        own.inertia[f],
+        own.coupling[f],
+        bodies.wrench[b],
+        own.velocity_force[f],
+    )
     swing, heave, m = cross(alpha, S), cross(S, a), bodies.mass[b]
     force = (
         m * a[0] + swing[0] - q[0] + dot_modes(B[0], own.pddot, first, n),

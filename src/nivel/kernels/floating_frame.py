@@ -16,8 +16,8 @@ from nivel.kernels.spatial import centripetal, cross, dot, multiply
 
 # terms of the series of the rotation of a node, exact to round-off up to two radians
 TERMS = 12
-# columns of Flexible.node, axes of the body: place, its rate and second derivative for p̈ = 0, angular velocity and its rate for p̈ = 0, axes,
-# rotation vector, its `turn_factors`
+# columns of Flexible.node, axes of the body: place, its rate and second derivative for p̈ = 0, angular velocity and its rate for p̈ = 0,
+# axes, rotation vector, its `turn_factors`
 PLACE, SPEED, BEND, SPIN, TWIST, AXES, TURN, FACTORS = 0, 3, 6, 9, 12, 15, 24, 27
 
 
@@ -47,7 +47,7 @@ def modes_of(own, f):
 
 @stage
 def bend_body(bodies, own, f):
-    """First moment, inertia and coupling of flexible body f from its modal coordinates; also its centre of mass, which the weight acts at."""
+    """First moment, inertia and coupling of flexible body f from its modal coordinates; also its centre of mass, where the weight acts."""
     b, most = own.body[f], own.I3.shape[2]
     first, n = modes_of(own, f)
     S, J, B, T, I8 = own.first[f], own.inertia[f], own.coupling[f], own.bulge[f], own.I8[f]
@@ -158,8 +158,8 @@ def find_node(own, k):
 
 @stage
 def move_node(A, w, own, k, arm, rate, turning):
-    """Of the node of frame k on a body with axes A and angular velocity w: arm from the origin, rate and angular velocity by the modes alone,
-    global axes; its accelerations for none of the body and of the modes in `bias`, and what each mode moves and turns it by."""
+    """Of the node of frame k on a body with axes A and angular velocity w: arm from the origin, rate and angular velocity by the modes
+    alone, global axes; its accelerations for none of the body and of the modes in `bias`, and what each mode moves and turns it by."""
     node, now, bias = own.node[k], own.now[k], own.bias[k]
     _, n = modes_of(own, own.frame[k, 0])
     multiply(A, node[PLACE : PLACE + 3], arm)

@@ -10,7 +10,6 @@ from pydantic import BeforeValidator, Field
 from nivel.machine.quantity import fault, shown
 from nivel.machine.record import Record
 
-
 Invariant = Literal["I5", "I8", "I9"]
 
 

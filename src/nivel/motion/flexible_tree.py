@@ -9,13 +9,9 @@ import numpy as np
 
 from nivel.kernels.compile import entry, stage
 from nivel.kernels.constraint import constraint_rows
-from nivel.kernels.flexible_articulated import (
-    accelerate_flexible,
-    factorise_flexible_tree,
-    whiten_flexible_efforts,
-    whiten_flexible_tree_rows,
-)
+from nivel.kernels.flexible_articulated import factorise_flexible_tree
 from nivel.kernels.flexible_tree import clear_frames, move_flexible_tree
+from nivel.kernels.flexible_whitening import accelerate_flexible, whiten_flexible_efforts, whiten_flexible_tree_rows
 from nivel.kernels.floating_dynamics import load_modes
 from nivel.kernels.hook import apply_forces, finish_forces, measure_active
 from nivel.kernels.marker import move_marker, place_point, turn_axes

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import entry
-from nivel.kernels.flexible_articulated import accelerate_flexible, factorise_flexible_tree, whiten_flexible_tree_rows
+from nivel.kernels.flexible_articulated import factorise_flexible_tree
+from nivel.kernels.flexible_whitening import accelerate_flexible, whiten_flexible_tree_rows
 from nivel.kernels.record import correct_signature, record_at
 from nivel.kernels.saddle import correction, exceeds, factorise_rows
 from nivel.kernels.status import OK

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.articulated import hand_wrench
-from nivel.kernels.flexible_articulated import bend_by
+from nivel.kernels.flexible_whitening import bend_by
 from nivel.kernels.floating_dynamics import flexible_wrench
 from nivel.kernels.floating_frame import modes_of
 from nivel.kernels.hook import family

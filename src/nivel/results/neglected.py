@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Neglected:
-    """A body whose modal coordinates are the columns first to last - 1 of a run, its invariants, and the names of those it moves without."""
+    """A body whose modal coordinates are the columns first to last - 1 of a run, its invariants, and names of those it moves without."""
 
     body: str
     first: int

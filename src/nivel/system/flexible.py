@@ -144,7 +144,7 @@ def flexible_tables(
         mode=index_array(np.column_stack([ends[:-1], ends[1:]]), 2),
         terms=index_array([_terms(each) for each in bending], 3),
         frame=index_array([(frame.flexible, bodies + 1 + k) for k, frame in enumerate(frames)], 2),
-        loaded=stiffening["of_load"].any(axis=(1, 2, 3)).astype(np.uint32),
+        loaded=index_array(stiffening["of_load"].any(axis=(1, 2, 3)), 1),
         place_b=np.array([_interface(bending, frame).position for frame in frames]).reshape(N, 3),
         shape=_shapes(bending, frames, n),
         I2=np.array([each.reduced.invariants.I2 for each in bending]).reshape(F, 3),

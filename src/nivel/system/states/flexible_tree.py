@@ -1,4 +1,4 @@
-"""Relative coordinates with flexible bodies: joint coordinates of the spanning tree, and modal coordinates beside that of each body's carrier.
+"""Relative coordinates with flexible bodies: joint coordinates of the spanning tree, and modal coordinates behind that of each carrier.
 
 The machine with modes in absolute coordinates comes first (`nivel.system.states.floating`): its markers are on frames at interfaces, which
 are bodies to the joints of the tree. What the tree has more is named in `nivel.kernels.flexible_tree`.
@@ -19,7 +19,8 @@ from nivel.machine.settings import SimulationSettings
 from nivel.system.flexible import Bending, bending_bodies, modal_tree
 from nivel.system.states.floating import carried_markers, with_modes
 from nivel.system.states.joint_start import Bent, Node, Poses, poses
-from nivel.system.states.relative import in_tree, joint_node, placed, tree_of, velocities_in
+from nivel.system.states.relative import in_tree, tree_of
+from nivel.system.states.tree_nodes import joint_node, placed, velocities_in
 from nivel.system.system import Array, System
 from nivel.system.topology import FREE
 
@@ -125,11 +126,12 @@ def _with_frames(record: Record, own: Poses, p: Array, extra: list[int]) -> Pose
     place, turn = _nodes_of(record, p)
     A = own.A[body]
     arm = np.einsum("kij,kj->ki", A, place)
+    moved = np.asarray(np.cross(own.omega[body], arm), dtype=np.float64)
     return Poses(
         np.vstack([own.R, own.R[body] + arm, own.R[extra]]),
         own.theta,
         np.concatenate([own.A, A @ Rotation.from_rotvec(turn).as_matrix().reshape(-1, 3, 3), own.A[extra]]),
-        np.vstack([own.Rdot, own.Rdot[body] + np.cross(own.omega[body], arm), own.Rdot[extra]]),
+        np.vstack([own.Rdot, own.Rdot[body] + moved, own.Rdot[extra]]),
         np.vstack([own.omega, own.omega[body], own.omega[extra]]),
     )
 

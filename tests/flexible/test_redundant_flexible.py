@@ -85,7 +85,7 @@ def test_bodies_that_bend_in_the_plane_only_are_redundant_out_of_it(tmp_path):
 
 def test_a_square_of_bars_with_one_bend_out_of_the_plane_is_singular(tmp_path):
     """A symmetric bend turns the ends of a bar against each other about its perpendicular bisector. Three lines in a plane take up the
-    three constraints out of it unless they meet or are parallel: those of two sides of a square are one line, those of leaning ones are two."""
+    three constraints out of it unless they meet or are parallel: those of two sides of a square are one line, those of leaning ones two."""
     out = "reference: mean-axis, modes: given, shapes: [{z: x^2 - x}]"
     with pytest.raises(ModelError, match="starts in a singular position"):
         prepare(four_bar(tmp_path, out))

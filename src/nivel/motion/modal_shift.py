@@ -3,8 +3,8 @@
     Δq̇ = Δv        M Δv̇ + C_qᵀ Δλ = -K Δq - D Δv        C_q Δv̇ = 0
 
 with diagonal K and D of the modes, so that x = (r_q + s x_v, r_v + s Δv̇) follows from one recursion over the tree with the modal masses
-1 + s D + s² K and the modal efforts -(D r_v + K (r_q + s r_v)): this costs about an evaluation, and there is no matrix. All that J leaves out
-(weight, velocity and other forces, how M and C_q change) has to be slow against the step; a method that is of its order for any J,
+1 + s D + s² K and the modal efforts -(D r_v + K (r_q + s r_v)): this costs about an evaluation, and there is no matrix. All that J leaves
+out (weight, velocity and other forces, how M and C_q change) has to be slow against the step; a method that is of its order for any J,
 as ROS2, takes it explicitly then.
 """
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+import simulating
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.implicit import evaluate_residual
@@ -16,6 +17,7 @@ from nivel.analysis.statics.newton import Iteration
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.settings import StaticsSettings
+from nivel.errors import ModelError
 from nivel.flexible import reference
 from nivel.flexible.body_file import read_body
 from nivel.machine import SimulationSettings
@@ -358,3 +360,41 @@ def test_static_equilibria_are_those_of_absolute_coordinates(folder):
         found.append((own.flexible.p.copy(), equations.record.bodies.R[:2].copy()))
     assert np.abs(found[0][0]).max() > 1e-3
     np.testing.assert_allclose(found[1][0], found[0][0], atol=1e-9)
+
+
+def with_beam(folder, mass, **simulation):
+    """A flexible body on a hinge that carries a beam by its tip."""
+    section = {"type": "circle", "radius": 0.008}
+    material = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850}
+    flexible = {"file": str(folder / "beam.nc"), "modes": 3, "damping_ratio": 0.01}
+    rod = {"from": [1, 0, 0], "to": [2, 0, 0], "section": section, "material": material, "elements": 2, "mass": mass}
+    return simulating.machine(
+        {
+            "name": "both",
+            "gravity": [0, -9.81, 0],
+            "bodies": {"a": {"flexible": flexible}},
+            "beams": {"rod": rod},
+            "joints": {
+                "root": {"type": "revolute", "bodies": ["ground", "a"], "point": [0, 0, 0], "axis": [0, 0.6, 0.8]},
+                "weld": {"type": "fixed", "bodies": ["a", "rod.start"], "point": [1, 0, 0]},
+            },
+            "simulation": simulation,
+        }
+    ).record
+
+
+def test_a_flexible_body_carries_a_beam(folder):
+    """Nodes of a beam, lumped, are bodies of the tree, which modes of the flexible body move; consistent mass is told."""
+    common = {"integrator": "generalised-alpha", "step": 2e-4, "duration": 0.02, "output_interval": 0.004}
+    a, r = (run(with_beam(folder, "lumped", coordinates=each, **common)) for each in ("absolute", "relative"))
+    assert r.finished.outcome == "done"
+    np.testing.assert_allclose(r.position, a.position, atol=1e-6)
+    here = moving(with_beam(folder, "lumped"), np.random.default_rng(5))
+    unknowns = Unknowns(here)
+    units = here.motion.system.map.units[here.positions : here.positions + here.n]
+    widths = unknowns.widths()
+    widths[: here.n] *= np.where(np.array(units) == "kg^0.5 m/s", 0.5, 1.0)
+    unknowns.widths = lambda: widths
+    assert error_of(unknowns.matrix()[1], unknowns.jacobian(), widths) < 1e-9
+    with pytest.raises(ModelError, match="consistent mass of rod"):
+        run(with_beam(folder, "consistent", coordinates="relative", **common))

@@ -175,6 +175,13 @@ def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: s
     if coordinates not in FLEXIBLE:
         message = f"'{coordinates}' does not go with flexible bodies ({names}): take {' or '.join(FLEXIBLE)}"
         faults.append(("coordinates", message))
+    if coordinates == "relative" and machine.shares_mass:
+        beams = ", ".join(beam.name for beam in machine.beams if beam.mass == "consistent")
+        message = (
+            f"'relative' does not go with flexible bodies ({names}) and the consistent mass of {beams} at once: take absolute, or "
+            f"`mass: lumped` for the beams"
+        )
+        faults.append(("coordinates", message))
     if formulation == "lagrange":
         faults.append(("formulation", f"'{formulation}' does not go with flexible bodies ({names}): take newton-euler"))
     if INTEGRATORS[machine.simulation.integrator].whole:

@@ -18,7 +18,7 @@ from nivel.march.catalogue import INTEGRATORS
 from nivel.march.sink import Header
 from nivel.results.accuracy import error_from_finer
 from nivel.results.memory import Memory
-from nivel.results.neglected import Neglected
+from nivel.results.neglected import Neglected, cost
 from nivel.results.occurrence import to_json
 from nivel.results.result import Result
 from nivel.results.store import Store
@@ -82,7 +82,7 @@ def _close(
         refinement=refinement,
         failure=message,
         stopped_by=finished.stopped_by,
-        neglected=_neglected(machine),
+        neglected=cost(sink.result(), _neglected(machine)),
     )
     attributes: dict[str, str | float | int] = {
         "outcome": finished.outcome,

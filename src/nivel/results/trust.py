@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nivel.results.neglected import Neglected, cost
+from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
 from nivel.results.statements import statements
 from nivel.results.verdicts import Trust, worst
@@ -34,7 +34,7 @@ class Facts:
     degrees_of_freedom : None where unknown; modes : of flexible bodies. drivers : motions that are prescribed.
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
     accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
-    neglected : flexible bodies that move without some of their inertia invariants.
+    neglected : what it cost that flexible bodies moved without some of their inertia invariants.
     failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
     """
 
@@ -48,7 +48,7 @@ class Facts:
     drivers: int = 0
     stopped_by: str = ""
     modes: int = 0
-    neglected: tuple[Neglected, ...] = ()
+    neglected: Cost | None = None
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -62,7 +62,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
     energy = peak(result, "energy_error")
     violation, violation_units = worst_row(result, "constraint_violation", {"m": 1.0 / size, "1": 1.0})
     rate, rate_units = worst_row(result, "constraint_rate_violation", {"m": 1.0 / speed, "1": size / speed})
-    lacking = cost(result, facts.neglected)
+    lacking = facts.neglected
     trust = Trust(
         verdict="green",
         outcome=facts.outcome,

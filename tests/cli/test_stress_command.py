@@ -63,7 +63,8 @@ def test_facts_as_json_alone(run):
     assert [each["node"] for each in facts["nodes"]] == [found.node("tip"), 9]
     assert facts["nodes"][1]["von_mises"] == found.von_mises(9).max()
     assert [each["time"] for each in facts["states"]] == [found.time[20], found.time[10]]
-    assert facts["states"][0]["von_mises"] == found.von_mises()[20].max()
+    # one state is summed in another order than all of them
+    assert facts["states"][0]["von_mises"] == pytest.approx(found.von_mises()[20].max(), rel=1e-12)
     assert facts["hot_spots"][0]["von_mises"] == found.envelope.value.max()
 
 

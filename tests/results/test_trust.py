@@ -8,6 +8,7 @@ import pytest
 import synthetic_run as pendulum
 from nivel.results import Memory
 from nivel.results.accuracy import step_halving
+from nivel.results.neglected import Cost
 from nivel.results.trust import Facts, Peak, Trust, assess
 from nivel.results.verdicts import THRESHOLDS
 
@@ -68,7 +69,7 @@ def test_thresholds_decide_on_each_side(name, factor, verdict):
         "inf": np.inf,
     }[factor]
     reference = assess(run(), Facts("done", 1))
-    histories, accuracy = {}, None
+    histories, accuracy, neglected = {}, None, None
     match name:
         case "energy":
             histories["energy_error"] = spike(1, 0, 77, -fraction * reference.energy_scale)
@@ -78,7 +79,9 @@ def test_thresholds_decide_on_each_side(name, factor, verdict):
             histories["constraint_rate_violation"] = spike(5, 2, 77, -fraction * reference.speed)
         case "accuracy":
             accuracy = Peak(fraction * reference.size, "arm", TIME[77])
-    trust = assess(run(**histories), Facts("done", 1, accuracy=accuracy))
+        case "neglected":
+            neglected = Cost(fraction, "arm", ("I5", "I9"), TIME[77])
+    trust = assess(run(**histories), Facts("done", 1, accuracy=accuracy, neglected=neglected))
     found = item(trust, name)
     assert found.verdict == verdict
     assert found.time == TIME[77]
@@ -158,7 +161,8 @@ def test_a_machine_that_cannot_move_is_amber():
 
 
 def test_every_threshold_is_printed_and_has_a_reason():
-    trust = assess(run(), Facts("done", 1, accuracy=Peak(1e-9, "arm", 1.0)))
+    neglected = Cost(1e-9, "arm", ("I5",), 1.0)
+    trust = assess(run(), Facts("done", 1, accuracy=Peak(1e-9, "arm", 1.0), neglected=neglected))
     for name, threshold in THRESHOLDS.items():
         assert str(threshold) in item(trust, name).text
         assert len(threshold.reason) > 60

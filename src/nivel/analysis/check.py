@@ -249,7 +249,8 @@ def _modes(machine: MachineRecord) -> list[str]:
     for each in bending_bodies(machine):
         frequencies = each.reduced.frequencies
         span = f"{frequencies.min():.4g} to {frequencies.max():.4g} Hz" if len(frequencies) else "rigid"
-        out[each.body] = f"{len(frequencies)} modes, {span}"
+        without = f", without {' and '.join(each.neglected)}" if each.neglected else ""
+        out[each.body] = f"{len(frequencies)} modes, {span}{without}"
     return out
 
 

@@ -12,10 +12,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 
+from nivel.analysis.modal_stiffness import only_modes_are_stiff
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
-from nivel.march.catalogue import INTEGRATORS
+from nivel.march.catalogue import BY_MODES, INTEGRATORS
 from nivel.system.beam_nodes import with_nodes
 
 # relative: a body, a row, a row and a joint velocity, an entry of S; absolute: a body, a row and a body, an entry of S
@@ -38,7 +39,10 @@ def choose_coordinates(machine: MachineRecord) -> str:
     if settings.cut:
         return "relative"
     facts = INTEGRATORS[settings.integrator]
-    if machine.is_flexible or facts.whole or (facts.residual and len(machine.bodies) > MOST_DENSE):
+    if machine.is_flexible:
+        # there ROS2 needs no matrix of all modes
+        return "relative" if settings.integrator in BY_MODES and only_modes_are_stiff(machine) else "absolute"
+    if facts.whole or (facts.residual and len(machine.bodies) > MOST_DENSE):
         return "absolute"
     return "relative" if _relative_cost(machine) < _absolute_cost(machine) else "absolute"
 
@@ -93,7 +97,8 @@ def _absolute_cost(machine: MachineRecord) -> float:
 
 
 def _relative_cost(machine: MachineRecord) -> float:
-    from nivel.system.states.relative import KINDS, tree_of
+    from nivel.system.states.relative import tree_of
+    from nivel.system.states.tree_nodes import KINDS
     from nivel.system.topology import FREE
 
     tree = tree_of(machine, machine.simulation)

@@ -8,12 +8,13 @@ from importlib import import_module
 from time import perf_counter
 
 from nivel.analysis.listener import Listener
+from nivel.analysis.modal_stiffness import integrator_of
 from nivel.kernels import cache
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import INTEGRATORS, chooses
+from nivel.march.catalogue import INTEGRATORS, IntegratorFacts, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import BALANCED, FLOATING, PATHS, path_of
+from nivel.motion.catalogue import BALANCED, FLEXIBLE, PATHS, path_of
 from nivel.system.beams import FAMILIES as BEAMS
 from nivel.system.beams import family_of
 from nivel.system.forces import FORCES
@@ -62,14 +63,14 @@ def compile_path(
             parts.append((facts.correction, "the direct correction"))
     if integrator in INTEGRATORS:
         parts.append(("nivel.march.loop", "the time loop"))
-        parts.append((INTEGRATORS[integrator].module, f"the integrator {integrator}"))
+        parts.append((_facts(machine, path[0], integrator).module, f"the integrator {integrator}"))
     missing = [part for part in parts if part[0] not in sys.modules and not cache.is_warm(part[0].rsplit(".", 1)[1])]
     for module, what in parts:
         if (module, what) in missing:
             place = f"{missing.index((module, what)) + 1}/{len(missing)}"
             listener.say(f"compiling {what} ({place}; only the first run does this)")
         import_module(module)
-    asks = integrator in INTEGRATORS and (INTEGRATORS[integrator].residual or machine.shares_mass)
+    asks = integrator in INTEGRATORS and (_facts(machine, path[0], integrator).residual or machine.shares_mass)
     if asks and facts is not None and facts.residual:
         residual = INTEGRATORS[integrator].whole or facts.residual
         whole = bool(INTEGRATORS[integrator].whole) or INTEGRATORS[integrator].along
@@ -93,10 +94,15 @@ def compile_statics(machine: MachineRecord, coordinates: str, listener: Listener
     return perf_counter() - begin
 
 
+def _facts(machine: MachineRecord, coordinates: str, integrator: str) -> IntegratorFacts:
+    """The integrator of this name for a machine in these coordinates."""
+    return integrator_of(machine.replace(simulation=machine.simulation.replace(integrator=integrator)), coordinates)
+
+
 def complex_modules() -> list[str]:
     """Modules of families that exact derivatives may need on complex numbers."""
     families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])
-    residuals = [path.residual for path in (*PATHS.values(), FLOATING) if path.residual]
+    residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values()) if path.residual]
     residuals += [facts.whole for facts in INTEGRATORS.values() if facts.whole]
     return [*residuals, MEASURE, RAIL, GIVEN_FRICTION, *(f"nivel.kernels.forces.{family}" for family in families)]
 

@@ -21,6 +21,7 @@ from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
 from nivel.analysis.mobility import bound_pivots
 from nivel.analysis.modal_rows import modal_rows
+from nivel.analysis.modal_stiffness import integrator_of
 from nivel.analysis.outcome import failure
 from nivel.analysis.penalties import feedback, penalise
 from nivel.analysis.redundancy import Redundancy, analyse
@@ -44,7 +45,7 @@ from nivel.kernels.record import COMPLETE, WATCH
 from nivel.kernels.saddle import MOST_UNSETTLED
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import INTEGRATORS, IntegratorFacts
+from nivel.march.catalogue import IntegratorFacts
 from nivel.march.run import (
     ALL_STEPS,
     BUDGET,
@@ -98,7 +99,7 @@ LONG = 1e4
 @dataclass(frozen=True)
 class Prepared:
     """A machine ready to run: where its equations are, these and its state at the start in the coordinates of the run, both again in
-    absolute ones as assembled, its redundancy, the number of its drivers."""
+    absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings."""
 
     path: PathFacts
     motion: MotionEquations
@@ -107,6 +108,7 @@ class Prepared:
     assembly: Assembly
     redundancy: Redundancy
     drivers: int
+    integrator: IntegratorFacts
 
 
 @dataclass
@@ -166,9 +168,14 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     arrange = import_module(facts.arrangement).arrange
     system, y = arrange(machine, motion.system, assembly.y, rank, choose_cut(machine))
     if rest is not None and machine.is_flexible:
-        y[: len(rest.q)] = rest.q  # with the modes bent by the loads
+        # with the modes bent by the loads
+        if coordinates == "relative":
+            arrange_deformed = import_module(facts.arrangement).arrange_deformed
+            system, y = arrange_deformed(machine, motion.system, rest.q, rank, choose_cut(machine))
+        else:
+            y[: len(rest.q)] = rest.q
     prepared = MotionEquations(system, import_module(facts.module))
-    integrator = INTEGRATORS[machine.simulation.integrator]
+    integrator = integrator_of(machine, coordinates)
     if machine.shares_mass:
         prepared = _balanced(machine, prepared, y, coordinates, integrator)
     elif FORMULATIONS[formulation].factor > 0.0:
@@ -182,7 +189,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
             integrator.whole, corners(machine), integrator.shifted, machine.shares_mass, integrator.along, free
         )
         prepared = equip(prepared, y, coordinates, wanted)
-    return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers))
+    return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator)
 
 
 def _speeds(system: System, y: Array) -> tuple[float, float]:
@@ -228,7 +235,7 @@ def march(
         system.record.control.stabilise[:2] = feedback(settings.penalty, settings.step, stabilisation.CORRECTS)
     kernels = prepared.motion.kernels
     correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.keep
-    facts = INTEGRATORS[settings.integrator]
+    facts = prepared.integrator
     step = getattr(import_module(facts.module), facts.function)
     advance = import_module("nivel.march.loop").advance
     run = _start(prepared, settings, facts)

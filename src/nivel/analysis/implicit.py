@@ -98,7 +98,8 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     mirrored = wanted.free is None and not len(system.frictions)
     groups = unknown_groups(system, velocities, row, part, coordinates)
     # residuals over a whole step have elements of beams act at the mean place too
-    by_hand = not (wanted.whole or wanted.along) and has_elastic_beams(record)
+    # and by hand nothing is known of modes that move nodes of beams
+    by_hand = not (wanted.whole or wanted.along or len(record.modal.carrier)) and has_elastic_beams(record)
     plain = plain_nodes(system, part) if by_hand else {}
     plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values())
     place = places(system.map, velocities, positions)

@@ -15,6 +15,7 @@ from nivel.machine.python_law import PythonLaw
 from nivel.machine.settings import SimulationSettings
 from nivel.machine.table import Table
 from nivel.march.catalogue import INTEGRATORS, chooses
+from nivel.motion.catalogue import FLEXIBLE
 from nivel.system.laws import false_derivative
 from nivel.system.system import Array
 
@@ -171,9 +172,17 @@ def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: s
         return
     faults = []
     names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
-    if coordinates != "absolute":
-        faults.append(("coordinates", f"'{coordinates}' does not go with flexible bodies ({names}): take absolute"))
-    if formulation != "newton-euler":
+    if coordinates not in FLEXIBLE:
+        message = f"'{coordinates}' does not go with flexible bodies ({names}): take {' or '.join(FLEXIBLE)}"
+        faults.append(("coordinates", message))
+    if coordinates == "relative" and machine.shares_mass:
+        beams = ", ".join(beam.name for beam in machine.beams if beam.mass == "consistent")
+        message = (
+            f"'relative' does not go with flexible bodies ({names}) and the consistent mass of {beams} at once: take absolute, or "
+            f"`mass: lumped` for the beams"
+        )
+        faults.append(("coordinates", message))
+    if formulation == "lagrange":
         faults.append(("formulation", f"'{formulation}' does not go with flexible bodies ({names}): take newton-euler"))
     if INTEGRATORS[machine.simulation.integrator].whole:
         message = (

@@ -18,10 +18,12 @@ from nivel.march.catalogue import INTEGRATORS
 from nivel.march.sink import Header
 from nivel.results.accuracy import error_from_finer
 from nivel.results.memory import Memory
+from nivel.results.neglected import Neglected, cost
 from nivel.results.occurrence import to_json
 from nivel.results.result import Result
 from nivel.results.store import Store
 from nivel.results.trust import Facts, Peak, assess
+from nivel.system.flexible import bending_bodies
 
 
 def simulate(
@@ -55,11 +57,12 @@ def simulate(
         listener.say(f"verifying with {_finer(settings)[1]}", settings.duration)
         accuracy = _estimate(machine, sink.result(), settings, listener)
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
-    return _close(sink, prepared, finished, accuracy, _finer(settings)[1], seconds)
+    return _close(sink, machine, prepared, finished, accuracy, _finer(settings)[1], seconds)
 
 
 def _close(
     sink: Memory | Store,
+    machine: MachineRecord,
     prepared: Prepared,
     finished: Finished,
     accuracy: Peak | None,
@@ -79,6 +82,7 @@ def _close(
         refinement=refinement,
         failure=message,
         stopped_by=finished.stopped_by,
+        neglected=cost(sink.result(), _neglected(machine)),
     )
     attributes: dict[str, str | float | int] = {
         "outcome": finished.outcome,
@@ -93,6 +97,18 @@ def _close(
     if finished.failure is not None:
         raise SolveError(message, time=at, advice=advice, result=result)
     return result
+
+
+def _neglected(machine: MachineRecord) -> tuple[Neglected, ...]:
+    """The flexible bodies that move without some inertia invariants."""
+    out, first = [], 0
+    for each in bending_bodies(machine) if machine.is_flexible else ():
+        last = first + len(each.reduced.eigenvalues)
+        if each.neglected:
+            name = machine.bodies[each.body].name
+            out.append(Neglected(name, first, last, each.reduced.invariants, each.neglected))
+        first = last
+    return tuple(out)
 
 
 def _finer(settings: RunSettings) -> tuple[RunSettings, str, float]:

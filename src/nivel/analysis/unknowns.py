@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nivel.kernels.record import MODAL
 from nivel.system.system import System
 
 DIRECTIONS = ("x of its position", "y of its position", "z of its position", "its turn about its x axis", "its turn about its y axis",
@@ -16,12 +17,15 @@ def unknown_name(system: System, number: int) -> str:
         return f"the constraint {system.rows[record.residual.row[number - n - states]]}"
     if number >= n:
         return "the state of a friction"
-    if number >= 6 * system.body_count and system.modes:
-        return f"the mode {system.modes[number - 6 * system.body_count]}"
     if not len(record.tree.node):
+        if number >= 6 * system.body_count:
+            return f"the mode {system.modes[number - 6 * system.body_count]}"
         return f"{system.bodies[number // 6]}, {DIRECTIONS[number % 6]}"
     of_node = next(node for node in record.tree.node.tolist() if node[4] <= number < node[5])
-    child, _, _, joint, first, last = of_node
+    child, _, kind, joint, first, last = of_node
+    if kind == MODAL:
+        flexible = record.flexible.body.tolist().index(child)
+        return f"the mode {system.modes[int(record.flexible.mode[flexible, 0]) + number - first]}"
     if joint >= len(system.joints):
         return f"{system.bodies[child]}, free in space"
     names = [

@@ -25,8 +25,13 @@ from nivel.kernels.tree import swing
 
 @stage
 def own_inertia(bodies, tree, b):
-    """Inertia of body b about its frame's origin, global axes, and again from column 21 on: A J̄_O Aᵀ; H = m c̃, M = m 1."""
-    A, J, P, m, c = bodies.A[b], bodies.inertia_origin_b[b], tree.inertia[b], bodies.mass[b], bodies.c[b]
+    """Inertia of body b about its frame's origin, global axes."""
+    set_inertia(bodies.A[b], bodies.inertia_origin_b[b], bodies.mass[b], bodies.c[b], tree.inertia[b])
+
+
+@stage
+def set_inertia(A, J, m, c, P):
+    """Inertia in global axes, its moments again from column 21 on: A J̄_O Aᵀ; H = m c̃, M = m 1."""
     x0 = A[0, 0] * J[0, 0] + A[0, 1] * J[1, 0] + A[0, 2] * J[2, 0]
     y0 = A[0, 0] * J[0, 1] + A[0, 1] * J[1, 1] + A[0, 2] * J[2, 1]
     z0 = A[0, 0] * J[0, 2] + A[0, 1] * J[1, 2] + A[0, 2] * J[2, 2]

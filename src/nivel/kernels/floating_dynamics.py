@@ -10,8 +10,9 @@ import numpy as np
 
 from nivel.kernels.analytic import real
 from nivel.kernels.compile import leaf, stage
+from nivel.kernels.flexible_record import SHORTENING, TURNING
 from nivel.kernels.floating_frame import dot_modes, modes_of
-from nivel.kernels.geometric_stiffening import add_velocity_forces
+from nivel.kernels.geometric_stiffening import add_velocity_forces, multiply_rows
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.spatial import centripetal, cross, dot, multiply
 from nivel.kernels.status import NO_MASS_LEFT, OK
@@ -21,64 +22,97 @@ from nivel.kernels.status import NO_MASS_LEFT, OK
 def gather(machine):
     """Bring the wrenches at interfaces to the floating frames and to `Q`, with weight, elastic and damping forces of the modes."""
     record = record_at(machine)
-    bodies, own, control = record.bodies, record.flexible, record.control
-    for j in range(own.Q.shape[0]):
-        own.Q[j] = 0.0
+    bodies, own = record.bodies, record.flexible
+    load_modes(machine)
     for k in range(own.frame.shape[0]):
         f, v = own.frame[k, 0], own.frame[k, 1]
         b = own.body[f]
         first, n = modes_of(own, f)
         F, total = bodies.wrench[v], bodies.wrench[b]
         moment = cross(bodies.c[v], F)
-        for j in range(n):
-            power = 0.0 * F[0]
-            for i in range(3):
-                power += own.displacement[k, i, j] * F[i] + own.turn[k, i, j] * F[3 + i]
-            own.Q[first + j] += power
+        for i in range(3):
+            force, torque, displacement, turn = F[i], F[3 + i], own.displacement[k, i], own.turn[k, i]
+            for j in range(n):
+                own.Q[first + j] += displacement[j] * force + turn[j] * torque
         for i in range(3):
             total[i] += F[i]
             total[3 + i] += F[3 + i] + moment[i]
         for i in range(6):
             F[i] = 0.0
+
+
+@stage
+def load_modes(machine):
+    """Start `Q` with weight, elastic and damping forces of the modes."""
+    record = record_at(machine)
+    bodies, own, control = record.bodies, record.flexible, record.control
     for f in range(own.body.shape[0]):
         A, g, B = bodies.A[own.body[f]], bodies.gravity, own.coupling[f]
         first, n = modes_of(own, f)
-        g_b = dot(A[:, 0], g), dot(A[:, 1], g), dot(A[:, 2], g)
+        g0, g1, g2 = dot(A[:, 0], g), dot(A[:, 1], g), dot(A[:, 2], g)
         for j in range(n):
-            elastic = dot_modes(own.stiffness[f, j], own.p, first, n)
-            damping = dot_modes(own.damping[f, j], own.pdot, first, n)
-            weight = B[0, j] * g_b[0] + B[1, j] * g_b[1] + B[2, j] * g_b[2]
-            own.Q[first + j] += weight - elastic - damping
+            elastic, damping = own.stiffness[f, j] * own.p[first + j], own.damping[f, j] * own.pdot[first + j]
+            own.Q[first + j] = B[0, j] * g0 + B[1, j] * g1 + B[2, j] * g2 - elastic - damping
             control.stored[0] += 0.5 * own.p[first + j] * elastic
             control.power[1] += own.pdot[first + j] * damping
 
 
 @stage
 def velocity_forces(bodies, own, f, out):
-    """Quadratic velocity force of the frame of flexible body f into out (6,), axes of the body; that of its modes is added to `Q`."""
-    b = own.body[f]
+    """Quadratic velocity force of the frame of flexible body f into out (6,), axes of the body; that of its modes is added to `Q`.
+
+    By Lagrange's equations of ½ m |v|² + vᵀ (ω̄ × S + S_p ṗ) + ½ ω̄ᵀ J̄ ω̄ + ω̄ᵀ C ṗ + ½ |ṗ|², v in axes of the body: on the frame
+    -(ω̄ × (ω̄ × S + 2 Ṡ) + S_pp ṗ ṗ) and -(J̄' ω̄ + ω̄ × (J̄ ω̄ + C ṗ) + C_p ṗ ṗ), on a mode ½ ω̄ᵀ J̄_p ω̄ + ω̄ᵀ (C_p - C_pᵀ) ṗ.
+    """
+    b, most = own.body[f], own.I3.shape[2]
     first, n = modes_of(own, f)
-    width, w, S, J = own.I3.shape[2], bodies.omega_b[b], own.first[f], own.inertia[f]
+    w, S, J, B, T = bodies.omega_b[b], own.first[f], own.inertia[f], own.coupling[f], own.bulge[f]
     drift = (
-        dot_modes(own.I3[f, 0], own.pdot, first, n),
-        dot_modes(own.I3[f, 1], own.pdot, first, n),
-        dot_modes(own.I3[f, 2], own.pdot, first, n),
+        dot_modes(B[0], own.pdot, first, n),
+        dot_modes(B[1], own.pdot, first, n),
+        dot_modes(B[2], own.pdot, first, n),
+    )
+    T0, T1, T2, T3, T4, T5 = (
+        T[0:n],
+        T[most : most + n],
+        T[2 * most : 2 * most + n],
+        T[3 * most : 3 * most + n],
+        T[4 * most : 4 * most + n],
+        T[5 * most : 5 * most + n],
+    )
+    xx, yy, zz, xy, yz, zx = (
+        2.0 * dot_modes(T0, own.pdot, first, n),
+        2.0 * dot_modes(T1, own.pdot, first, n),
+        2.0 * dot_modes(T2, own.pdot, first, n),
+        2.0 * dot_modes(T3, own.pdot, first, n),
+        2.0 * dot_modes(T4, own.pdot, first, n),
+        2.0 * dot_modes(T5, own.pdot, first, n),
+    )
+    momentum = (
+        dot(J[0], w) + dot_modes(B[3], own.pdot, first, n),
+        dot(J[1], w) + dot_modes(B[4], own.pdot, first, n),
+        dot(J[2], w) + dot_modes(B[5], own.pdot, first, n),
     )
     centripetal(w, S, out[:3])
-    coriolis = cross(w, drift)
-    gyroscopic = cross(w, (dot(J[0], w), dot(J[1], w), dot(J[2], w)))
+    coriolis, gyroscopic = cross(w, drift), cross(w, momentum)
     for i in range(3):
         out[i] = -out[i] - 2.0 * coriolis[i]
-        out[3 + i] = -gyroscopic[i]
+    out[3] = -gyroscopic[0] - (xx * w[0] + xy * w[1] + zx * w[2])
+    out[4] = -gyroscopic[1] - (xy * w[0] + yy * w[1] + yz * w[2])
+    out[5] = -gyroscopic[2] - (zx * w[0] + yz * w[1] + zz * w[2])
+    w0, w1, w2 = w[0], w[1], w[2]
     for j in range(n):
-        at, t = f * width + j, own.static[f, j]
-        force = dot(w, t)
-        for i in range(3):
-            out[3 + i] -= 2.0 * own.pdot[first + j] * t[i]
-            force += 2.0 * w[i] * dot_modes(own.I5[at, i], own.pdot, first, n)
-        own.Q[first + j] += force
-    if own.of_spin.shape[0] > 0:
-        add_velocity_forces(own, f, w, first, n, out)
+        own.Q[first + j] += (
+            w0 * w0 * T0[j] + w1 * w1 * T1[j] + w2 * w2 * T2[j]
+            + 2.0 * (w0 * w1 * T3[j] + w1 * w2 * T4[j] + w2 * w0 * T5[j])
+        )  # fmt: skip
+    if own.terms[f, TURNING] != 0:
+        turning = own.scratch[0]
+        multiply_rows(own.I5, f * most, own.pdot, first, n, turning, 3 * most)
+        for j in range(n):
+            own.Q[first + j] -= 2.0 * (w0 * turning[j] + w1 * turning[most + j] + w2 * turning[2 * most + j])
+    if own.terms[f, SHORTENING] != 0:
+        add_velocity_forces(own, f, first, n, out)
 
 
 @stage
@@ -204,42 +238,62 @@ def unwhiten_flexible(machine):
 
 
 @stage
-def flexible_rows(machine):
-    """Rows of the residual of flexible bodies: M v̇ - Q_v - Q of their frames and modes."""
-    record = record_at(machine)
-    bodies, own, residual = record.bodies, record.flexible, record.residual
-    modal = 6 * np.int64(bodies.mass.shape[0])
-    for f in range(own.body.shape[0]):
-        b = own.body[f]
-        first, n = modes_of(own, f)
-        A, S, J, B, F, q = (
-            bodies.A[b],
-            own.first[f],
-            own.inertia[f],
-            own.coupling[f],
-            bodies.wrench[b],
-            own.velocity_force[f],
-        )
-        at = 6 * np.int64(b)
-        x, alpha = residual.vdot[at : at + 3], residual.vdot[at + 3 : at + 6]
-        a = dot(A[:, 0], x), dot(A[:, 1], x), dot(A[:, 2], x)
-        velocity_forces(bodies, own, f, q)
-        swing, heave = cross(alpha, S), cross(S, a)
-        for i in range(3):
-            q[i] = bodies.mass[b] * a[i] + swing[i] - q[i]
-            q[3 + i] = heave[i] + dot(J[i], alpha) - q[3 + i] - dot(A[:, i], F[3:6])
-        for j in range(n):
-            rate = own.pddot[first + j]
-            total = rate - own.Q[first + j]
-            for i in range(3):
-                total += B[i, j] * a[i] + B[3 + i, j] * alpha[i]
-                q[i] += B[i, j] * rate
-                q[3 + i] += B[3 + i, j] * rate
-            residual.value[modal + first + j] = total
-        multiply(A, q[:3], residual.value[at : at + 3])
-        for i in range(3):
-            residual.value[at + i] -= F[i]
-            residual.value[at + 3 + i] = q[3 + i]
+def flexible_wrench(bodies, own, f, acceleration, wrench, effort):
+    """What the accelerations of flexible body f ask for, less all applied and velocity forces: on its frame into wrench[b], as
+    (moment, force), on its modes into effort (m,). acceleration : (α, R̈) of all bodies; of the modes `pddot`."""
+    b = own.body[f]
+    first, n = modes_of(own, f)
+    A, B, x = bodies.A[b], own.coupling[f], acceleration[b]
+    velocity_forces(bodies, own, f, own.velocity_force[f])
+    alpha = dot(A[:, 0], x[0:3]), dot(A[:, 1], x[0:3]), dot(A[:, 2], x[0:3])
+    a = dot(A[:, 0], x[3:6]), dot(A[:, 1], x[3:6]), dot(A[:, 2], x[3:6])
+    a0, a1, a2, b0, b1, b2 = a[0], a[1], a[2], alpha[0], alpha[1], alpha[2]
+    for j in range(n):
+        effort[first + j] = (
+            own.pddot[first + j] - own.Q[first + j]
+            + (a0 * B[0, j] + a1 * B[1, j] + a2 * B[2, j] + b0 * B[3, j] + b1 * B[4, j] + b2 * B[5, j])
+        )  # fmt: skip
+    needed_by_frame(bodies, own, f, alpha, a, wrench[b])
+
+
+@stage
+def needed_by_frame(bodies, own, f, alpha, a, out):
+    """(moment, force) that the frame of flexible body f needs for ᾱ and R̈ in axes of the body, less all applied and velocity forces."""
+    b = own.body[f]
+    first, n = modes_of(own, f)
+    A, S, J, B, F, q = (
+        bodies.A[b],
+        own.first[f],
+        own.inertia[f],
+        own.coupling[f],
+        bodies.wrench[b],
+        own.velocity_force[f],
+    )
+    swing, heave, m = cross(alpha, S), cross(S, a), bodies.mass[b]
+    force = (
+        m * a[0] + swing[0] - q[0] + dot_modes(B[0], own.pddot, first, n),
+        m * a[1] + swing[1] - q[1] + dot_modes(B[1], own.pddot, first, n),
+        m * a[2] + swing[2] - q[2] + dot_modes(B[2], own.pddot, first, n),
+    )
+    moment = (
+        heave[0] + dot(J[0], alpha) - q[3] + dot_modes(B[3], own.pddot, first, n),
+        heave[1] + dot(J[1], alpha) - q[4] + dot_modes(B[4], own.pddot, first, n),
+        heave[2] + dot(J[2], alpha) - q[5] + dot_modes(B[5], own.pddot, first, n),
+    )
+    multiply(A, moment, out[0:3])
+    multiply(A, force, out[3:6])
+    for i in range(3):
+        out[i] -= F[3 + i]
+        out[3 + i] -= F[i]
+
+
+@stage
+def inertia_wrench(bodies, own, f, out):
+    """The same into out (6,) for the accelerations `Rddot`, `alpha_b` and `pddot` of the state last evaluated."""
+    b = own.body[f]
+    A, x, y = bodies.A[b], bodies.Rddot[b], bodies.alpha_b[b]
+    a = dot(A[:, 0], x), dot(A[:, 1], x), dot(A[:, 2], x)
+    needed_by_frame(bodies, own, f, (y[0], y[1], y[2]), a, out)
 
 
 @stage

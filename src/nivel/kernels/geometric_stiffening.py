@@ -13,75 +13,52 @@ an energy that is kept.
 from __future__ import annotations
 
 from nivel.kernels.compile import leaf, stage
-from nivel.kernels.spatial import cross
 
-# ω_a ω_b of the six matrices
+# axes of the six components of a symmetric tensor
 FIRST_AXIS, SECOND_AXIS = (0, 1, 2, 0, 1, 2), (0, 1, 2, 1, 2, 0)
 
 
 @leaf
-def product(K, x, y, first, n):
-    """xᵀ K y of one body's part of modal vectors."""
-    total = 0.0 * x[first]
-    for j in range(n):
-        row = 0.0 * x[first]
-        for k in range(n):
-            row += K[j, k] * y[first + k]
-        total += x[first + j] * row
-    return total
+def multiply_rows(K, base, x, first, n, out, width):
+    """out (width,) = Σ x[first + k] K[base + k] over n rows, two at a time."""
+    for j in range(width):
+        out[j] = 0.0
+    k = 0
+    while k + 1 < n:
+        a, b, one, other = x[first + k], x[first + k + 1], K[base + k], K[base + k + 1]
+        for j in range(width):
+            out[j] += a * one[j] + b * other[j]
+        k += 2
+    if k < n:
+        a, one = x[first + k], K[base + k]
+        for j in range(width):
+            out[j] += a * one[j]
 
 
 @stage
 def add_shortening(own, f, first, n):
-    """Terms of the second order in the first moment, the inertia and the coupling of flexible body f."""
-    S, J, B = own.first[f], own.inertia[f], own.coupling[f]
+    """Terms of the second order in the first moment and the coupling of flexible body f; its inertia has them in `of_inertia`."""
+    S, B, along, most = own.first[f], own.coupling[f], own.scratch[0], own.I3.shape[2]
+    multiply_rows(own.of_acceleration, f * most, own.p, first, n, along, 3 * most)
     for i in range(3):
-        Ka, Kt = own.of_acceleration[3 * f + i], own.of_turning[3 * f + i]
+        row = along[i * most : i * most + n]
+        total = 0.0 * own.p[first]
         for j in range(n):
-            along, about = 0.0 * own.p[first], 0.0 * own.p[first]
-            for k in range(n):
-                along += Ka[j, k] * own.p[first + k]
-                about += Kt[j, k] * own.p[first + k]
-            S[i] += 0.5 * own.p[first + j] * along
-            B[i, j] += along
-            B[3 + i, j] += about
-    for c in range(6):
-        a, b = FIRST_AXIS[c], SECOND_AXIS[c]
-        value = product(own.of_spin[6 * f + c], own.p, own.p, first, n)
-        if a == b:
-            J[a, a] -= value
-        else:
-            J[a, b] -= 0.5 * value
-            J[b, a] -= 0.5 * value
+            total += own.p[first + j] * row[j]
+            B[i, j] += row[j]
+        S[i] += 0.5 * total
 
 
 @stage
-def add_velocity_forces(own, f, w, first, n, out):
-    """Quadratic velocity forces of these terms, on the frame into out (6,), on the modes into `Q`. w : ω̄."""
-    drift, spin = own.drift[f], own.spin[f]
+def add_velocity_forces(own, f, first, n, out):
+    """What the modal velocities do on the frame by these terms, into out (6,)."""
+    along, across, most = own.scratch[0], own.scratch[1], own.I3.shape[2]
+    multiply_rows(own.of_acceleration, f * most, own.pdot, first, n, along, 3 * most)
+    multiply_rows(own.of_turning, f * most, own.pdot, first, n, across, 3 * most)
     for i in range(3):
-        Ka, Kt = own.of_acceleration[3 * f + i], own.of_turning[3 * f + i]
-        out[i] -= product(Ka, own.pdot, own.pdot, first, n)
-        out[3 + i] -= product(Kt, own.pdot, own.pdot, first, n)
-        # ΔṠ and ΔC ṗ
-        drift[i] = product(Ka, own.p, own.pdot, first, n)
-        spin[i] = product(Kt, own.p, own.pdot, first, n)
-    coriolis, gyroscopic = cross(w, drift), cross(w, spin)
-    for i in range(3):
-        out[i] -= 2.0 * coriolis[i]
-        out[3 + i] -= gyroscopic[i]
-    for c in range(6):
-        a, b = FIRST_AXIS[c], SECOND_AXIS[c]
-        K, share = own.of_spin[6 * f + c], w[a] * w[b]
+        force, moment = 0.0 * own.p[first], 0.0 * own.p[first]
         for j in range(n):
-            force = 0.0 * own.p[first]
-            for k in range(n):
-                force += K[j, k] * own.p[first + k]
-            own.Q[first + j] -= share * force
-        rate = product(K, own.p, own.pdot, first, n)
-        # -ΔJ̄' ω̄
-        if a == b:
-            out[3 + a] += 2.0 * rate * w[a]
-        else:
-            out[3 + a] += rate * w[b]
-            out[3 + b] += rate * w[a]
+            force += own.pdot[first + j] * along[i * most + j]
+            moment += own.pdot[first + j] * across[i * most + j]
+        out[i] -= force
+        out[3 + i] -= moment

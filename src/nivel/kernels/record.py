@@ -14,7 +14,7 @@ from numba import types
 
 from nivel.kernels.arrays import A1, F1, F2, F3, U1, U2, W1, W2, W3, numba_type
 from nivel.kernels.beam_record import BeamTangent, SharedMass
-from nivel.kernels.flexible_record import Flexible
+from nivel.kernels.flexible_record import Flexible, ModalTree
 from nivel.kernels.handle import address_type, complex_address_type, reader
 from nivel.kernels.implicit_record import Newton, Residual
 
@@ -373,6 +373,7 @@ class Record(NamedTuple):
     tree: Tree
     frames: Frames
     flexible: Flexible
+    modal: ModalTree
     shared: SharedMass
     beams: BeamTangent
     partition: Partition
@@ -390,6 +391,8 @@ record_at = reader(record_type, numba_type(Record, types.complex128))
 state_type = types.Array(types.float64, 1, "C")
 # kinds of nodes
 REVOLUTE, TRANSLATIONAL, CYLINDRICAL, SCREW, UNIVERSAL, SPHERICAL, PLANAR, FIXED, FREE = 0, 1, 2, 3, 4, 5, 6, 7, 8
+# and of what lies between the frames of a flexible body, see `nivel.kernels.flexible_tree`
+MODAL, OUTWARD = 9, 10
 evaluate_signature = types.int64(address_type, types.float64, state_type, state_type)
 observe_signature = types.void(address_type, types.float64, state_type, state_type)
 correct_signature = types.int64(address_type, types.float64, state_type)

@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
 from nivel.machine.quantity import fault, shown
 from nivel.machine.record import Record
+
+Invariant = Literal["I5", "I8", "I9"]
+
+
+def _distinct(values: Any) -> Any:
+    """A list without repetition; one name stands for a list of it."""
+    values = [values] if isinstance(values, str) else values
+    if isinstance(values, list | tuple) and len({str(value) for value in values}) < len(values):
+        raise fault(f"each name at most once was expected, got {shown(values)}")
+    return values
 
 
 class Flexibility(Record):
@@ -17,6 +27,9 @@ class Flexibility(Record):
     file: str = Field(min_length=1, description="of `nivel reduce`, seen from the machine file")
     modes: Annotated[int, Field(ge=1)] | None = Field(default=None, description="how many, lowest first; default all")
     damping_ratio: Annotated[float, Field(ge=0.0, lt=1.0)] = Field(default=0.0, description="of each mode")
+    neglect: Annotated[tuple[Invariant, ...], BeforeValidator(_distinct)] = Field(
+        default=(), description="inertia invariants that the moving body does without: I5, I8, I9"
+    )
 
 
 def _file_or_mapping(value: Any) -> Any:

@@ -81,6 +81,10 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
 }
 
 
+# in place of those of the same name for machines whose only stiffness is that of modes, in relative coordinates: without tangents
+BY_MODES: dict[str, IntegratorFacts] = {"ros2": IntegratorFacts("nivel.march.modal_rosenbrock", "ros2", 2, 2)}
+
+
 def chooses(integrator: str, step_control: str) -> bool:
     """Whether the integrator controls its error in a run with this `step_control`; one that is not known does not."""
     facts = INTEGRATORS.get(integrator)

@@ -52,6 +52,15 @@ FLOATING = PathFacts(
     "nivel.motion.floating_frame_residual",
 )
 
+# and in relative ones
+FLEXIBLE_TREE = PathFacts(
+    "nivel.motion.flexible_tree",
+    "nivel.motion.flexible_tree_correction",
+    "nivel.system.states.flexible_tree",
+    "nivel.motion.flexible_tree_residual",
+)
+FLEXIBLE = {"absolute": FLOATING, "relative": FLEXIBLE_TREE}
+
 # coordinates, velocities and rotations → equations; penalty methods share those of newton-euler
 PATHS: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "newton-euler", "euler-parameters"): _ABSOLUTE,
@@ -87,7 +96,7 @@ def path_of(
     flexible : for machines with flexible bodies. shared : for those with mass that bodies have in common.
     """
     if flexible:
-        path = FLOATING if (coordinates, formulation) == ("absolute", "newton-euler") else None
+        path = FLEXIBLE.get(coordinates) if formulation != "lagrange" else None
     else:
         velocities = "lagrange" if formulation == "lagrange" else "newton-euler"
         path = PATHS.get((coordinates, velocities, rotations))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.floating_dynamics import flexible_rows, gather
+from nivel.kernels.floating_dynamics import flexible_wrench, gather
 from nivel.kernels.floating_frame import move_frames
 from nivel.kernels.hook import apply_forces, family
 from nivel.kernels.record import record_at
@@ -39,11 +39,12 @@ def residual(machine, job, t):
         return status
     gather(machine)
     inertial_wrenches(machine)
+    for f in range(flexible.body.shape[0]):
+        flexible_wrench(bodies, flexible, f, own.acceleration, own.wrench, own.value[6 * count :])
     for b in range(count):
         A, F = bodies.A[b], own.wrench[b]
         for i in range(3):
             own.value[6 * b + i] = F[3 + i]
             own.value[6 * b + 3 + i] = A[0, i] * F[0] + A[1, i] * F[1] + A[2, i] * F[2]
-    flexible_rows(machine)
     write_rows(machine, 6 * count + flexible.p.shape[0])
     return OK

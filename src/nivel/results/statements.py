@@ -30,6 +30,8 @@ def statements(trust: Trust, failure: str, stopped_by: str = "") -> Iterator[Ite
     yield redundancy_item(trust)
     if trust.accuracy_estimate is not None:
         yield _accuracy_item(trust, trust.accuracy_estimate)
+    if trust.neglected_share is not None:
+        yield _neglected_item(trust, trust.neglected_share)
 
 
 def _energy_item(trust: Trust) -> Item:
@@ -82,6 +84,14 @@ def _accuracy_item(trust: Trust, estimate: float) -> Item:
     where = f", largest at {trust.accuracy_body}" if trust.accuracy_body else ""
     when = f" at t = {trust.accuracy_time:.6g} s" if trust.accuracy_time is not None else ""
     return numeric("accuracy", f"{said}{where}{when}", fraction, trust.accuracy_time, trust.accuracy_body)
+
+
+def _neglected_item(trust: Trust, share: float) -> Item:
+    """What flexible bodies lack that move without some inertia invariants."""
+    names = " and ".join(trust.neglected_names)
+    lacks = f"without {names} the mass matrix of {trust.neglected_body} lacks at most {number(share)} as far as it bends here"
+    when = f", at t = {trust.neglected_time:.6g} s" if trust.neglected_time is not None else ""
+    return numeric("neglected", f"Neglected: {lacks}{when}", share, trust.neglected_time, trust.neglected_body)
 
 
 def freedom_item(trust: Trust) -> Item:

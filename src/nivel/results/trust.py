@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
 from nivel.results.statements import statements
 from nivel.results.verdicts import Trust, worst
@@ -33,6 +34,7 @@ class Facts:
     degrees_of_freedom : None where unknown; modes : of flexible bodies. drivers : motions that are prescribed.
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
     accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
+    neglected : what it cost that flexible bodies moved without some of their inertia invariants.
     failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
     """
 
@@ -46,6 +48,7 @@ class Facts:
     drivers: int = 0
     stopped_by: str = ""
     modes: int = 0
+    neglected: Cost | None = None
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -59,6 +62,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
     energy = peak(result, "energy_error")
     violation, violation_units = worst_row(result, "constraint_violation", {"m": 1.0 / size, "1": 1.0})
     rate, rate_units = worst_row(result, "constraint_rate_violation", {"m": 1.0 / speed, "1": size / speed})
+    lacking = facts.neglected
     trust = Trust(
         verdict="green",
         outcome=facts.outcome,
@@ -87,6 +91,10 @@ def assess(result: Readable, facts: Facts) -> Trust:
         accuracy_refinement=facts.refinement,
         size_kind=size_kind,
         at_rest=at_rest,
+        neglected_share=lacking.share if lacking else None,
+        neglected_body=lacking.body if lacking else "",
+        neglected_names=lacking.names if lacking else (),
+        neglected_time=lacking.time if lacking else None,
     )
     items = tuple(statements(trust, facts.failure, facts.stopped_by))
     return replace(trust, items=items, verdict=worst(items))

@@ -53,6 +53,12 @@ THRESHOLDS = {
         "Half the step (or a tenth of the tolerance) moves no point by more than 1e-4 of the machine, a tenth of a millimetre in a "
         "metre: finer than manufacturing tolerances. Above 1e-2 the curves of the two runs are seen apart.",
     ),
+    "neglected": Threshold(
+        1e-3,
+        1e-2,
+        "Inertia of real bodies is rarely known to 1 %: above it the invariants that a flexible body does without are missed. 1e-3 is a "
+        "decade below.",
+    ),
 }
 # of states of equilibrium
 RESIDUAL = Threshold(
@@ -112,7 +118,8 @@ class Trust:
     but the least speed that counts.
     accuracy_refinement : what the run was done again with to find `accuracy_estimate`. degrees_of_freedom : None where the run did not
     live to tell. modes : of flexible bodies, whose coordinates
-    are freedoms that joints may take. drivers : motions that are prescribed.
+    are freedoms that joints may take. neglected_share : the largest share of the mass matrix of a flexible body that is lacking because it
+    moves without the inertia invariants `neglected_names`; None where none does. drivers : motions that are prescribed.
     """
 
     verdict: Verdict
@@ -142,6 +149,10 @@ class Trust:
     size_kind: str = "machine's size"
     at_rest: bool = False
     modes: int = 0
+    neglected_share: float | None = None
+    neglected_body: str = ""
+    neglected_names: tuple[str, ...] = ()
+    neglected_time: float | None = None
     items: tuple[Item, ...] = ()
 
     def to_json(self) -> str:
@@ -153,8 +164,8 @@ class Trust:
         """Read what `to_json` wrote; keys of later versions are passed over."""
         data = json.loads(text)
         data["items"] = tuple(Item(**_known(Item, each)) for each in data["items"])
-        for name in ("redundant_rows", "non_unique_joints"):
-            data[name] = tuple(data[name])
+        for name in ("redundant_rows", "non_unique_joints", "neglected_names"):
+            data[name] = tuple(data.get(name, ()))
         return cls(**_known(cls, data))
 
     def lines(self) -> list[str]:

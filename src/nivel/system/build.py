@@ -40,7 +40,7 @@ from nivel.machine.placement import initial_velocity, placement
 from nivel.system.beams import add_beam, no_tangent, shared_mass
 from nivel.system.draft import Draft
 from nivel.system.elimination import plan
-from nivel.system.flexible import flexible_mass, no_flexible
+from nivel.system.flexible import flexible_mass, no_flexible, no_modal_tree
 from nivel.system.forces import FORCES, family_addresses
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.interfaces import refuse_unknown_interfaces
@@ -117,6 +117,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
             tree=empty_tree(constraints),
             frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),
             flexible=no_flexible(),
+            modal=no_modal_tree(),
             shared=shared_mass(draft, machine.beams),
             beams=no_tangent(),
             partition=no_partition(),

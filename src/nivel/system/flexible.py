@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -13,22 +13,35 @@ from numpy.typing import NDArray
 from nivel.errors import Fault, ModelError
 from nivel.flexible.body import Interface, ReducedBody
 from nivel.flexible.body_file import read_body
-from nivel.kernels.flexible_record import Flexible
+from nivel.flexible.invariants import Invariants
+from nivel.kernels.flexible_record import Flexible, ModalTree
+from nivel.kernels.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
 from nivel.machine.body import Body
 from nivel.machine.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.located import located
 from nivel.system.tables import Array, index_array
 
+# of what ω_a ω_b does in each component of a symmetric tensor: those off the diagonal count twice
+SHARE = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
+
 
 @dataclass(frozen=True)
 class Bending:
-    """A body of the machine that bends: its number, its modes, their damping (n,) [1/s], their places among all of its file."""
+    """A body of the machine that bends: its number, its modes, their damping (n,) [1/s], their places among all of its file, names of the
+    inertia invariants that it moves without."""
 
     body: int
     reduced: ReducedBody
     damping: Array
     modes: tuple[int, ...]
+    neglected: tuple[str, ...] = ()
+
+    @property
+    def invariants(self) -> Invariants:
+        """Those that it moves with."""
+        its = self.reduced.invariants
+        return replace(its, **{name: np.zeros_like(getattr(its, name)) for name in self.neglected})
 
 
 @dataclass(frozen=True)
@@ -77,7 +90,7 @@ def bending_bodies(machine: MachineRecord) -> tuple[Bending, ...]:
         taken = np.sort(np.argsort(whole.eigenvalues, kind="stable")[:count])
         reduced = whole.keeping(taken)
         damping = 2.0 * body.flexible.damping_ratio * np.sqrt(reduced.eigenvalues)
-        bending.append(Bending(k, reduced, damping, tuple(taken.tolist())))
+        bending.append(Bending(k, reduced, damping, tuple(taken.tolist()), body.flexible.neglect))
     if faults:
         raise ModelError(faults)
     return tuple(bending)
@@ -86,6 +99,30 @@ def bending_bodies(machine: MachineRecord) -> tuple[Bending, ...]:
 def no_flexible() -> Flexible:
     """For machines of rigid bodies: all arrays empty."""
     return flexible_tables(0, (), (), ())
+
+
+def no_modal_tree() -> ModalTree:
+    """For other than relative coordinates with flexible bodies: all arrays empty."""
+    return modal_tree((), (), (), 0, 0, 0)
+
+
+def modal_tree(
+    link: Sequence[int], carrier: Sequence[int], heavy: Sequence[bool], modes: int, most: int, bundle: int
+) -> ModalTree:
+    """Tables as in `ModalTree` for so many modes, the most of one body and rows in the largest bundle."""
+    F = len(carrier)
+    return ModalTree(
+        link=index_array(link, 1),
+        carrier=index_array(carrier, 1),
+        heavy=index_array(heavy, 1),
+        shift=np.zeros(modes),
+        column=np.zeros((F, 6, most)),
+        effort=np.zeros(modes),
+        coupling=np.zeros((F, 6, most)),
+        factor=np.zeros((F, most, most + 6)),
+        push=np.zeros((6, most)),
+        load=np.zeros((bundle, modes)),
+    )
 
 
 def flexible_tables(
@@ -98,23 +135,29 @@ def flexible_tables(
     table = _Padded(bending, n)
     rigid = np.ones(bodies, dtype=np.uint32)
     rigid[[each.body for each in bending]] = 0
+    I8, I9, stiffening = table.of("I8", (n, 3, 3)), table.of("I9", (n, n, 3, 3)), _stiffening(bending, frames, n)
+    turning = table.of("I5", (n, 3, n)).transpose(0, 2, 1, 3)
+    spin = stiffening.pop("of_spin")
     return Flexible(
         body=index_array([each.body for each in bending], 1),
         rigid=rigid,
         mode=index_array(np.column_stack([ends[:-1], ends[1:]]), 2),
+        terms=index_array([_terms(each) for each in bending], 3),
         frame=index_array([(frame.flexible, bodies + 1 + k) for k, frame in enumerate(frames)], 2),
+        loaded=index_array(stiffening["of_load"].any(axis=(1, 2, 3)), 1),
         place_b=np.array([_interface(bending, frame).position for frame in frames]).reshape(N, 3),
         shape=_shapes(bending, frames, n),
         I2=np.array([each.reduced.invariants.I2 for each in bending]).reshape(F, 3),
         I3=table.of("I3", (3, n)),
         I4=table.of("I4", (3, n)),
-        I5=table.of("I5", (n, 3, n)).reshape(F * n, 3, n),
+        I5=_beside(turning),
         I7=table.of("I7", (3, 3)),
-        I8=table.of("I8", (n, 3, 3)).reshape(F * n, 3, 3),
-        I9=table.of("I9", (n, n, 3, 3)).reshape(F * n * n, 3, 3),
-        stiffness=_diagonals([each.reduced.eigenvalues for each in bending], n),
-        damping=_diagonals([each.damping for each in bending], n),
-        **_stiffening(bending, frames, n),
+        I8=np.ascontiguousarray(_components(I8).transpose(0, 2, 1)),
+        stiffness=_rows([each.reduced.eigenvalues for each in bending], n),
+        damping=_rows([each.damping for each in bending], n),
+        of_inertia=_beside(_components(I9).transpose(0, 3, 1, 2) - SHARE[:, None, None] * spin),
+        of_coupling=_beside(turning + stiffening["of_turning"]),
+        **{name: _beside(value) for name, value in stiffening.items()},
         block=index_array(block, 4),
         p=np.zeros(m),
         pdot=np.zeros(m),
@@ -123,11 +166,11 @@ def flexible_tables(
         first=np.zeros((F, 3)),
         inertia=np.zeros((F, 3, 3)),
         coupling=np.zeros((F, 6, n)),
-        static=np.zeros((F, n, 3)),
-        drift=np.zeros((F, 3)),
-        spin=np.zeros((F, 3)),
+        bulge=np.zeros((F, 6 * n)),
         velocity_force=np.zeros((F, 6)),
+        scratch=np.zeros((2, 6 * n)),
         now=np.zeros((N, 6, n)),
+        node=np.zeros((N, 29)),
         displacement=np.zeros((N, 3, n)),
         turn=np.zeros((N, 3, n)),
         bias=np.zeros((N, 6)),
@@ -145,15 +188,35 @@ class _Padded:
     def of(self, name: str, shape: tuple[int, ...]) -> Array:
         out = np.zeros((len(self.bending), *shape))
         for f, each in enumerate(self.bending):
-            value = getattr(each.reduced.invariants, name)
+            value = getattr(each.invariants, name)
             out[(f, *(slice(length) for length in value.shape))] = value
         return out
 
 
-def _diagonals(values: Sequence[Array], n: int) -> Array:
-    out = np.zeros((len(values), n, n))
+def _terms(bending: Bending) -> tuple[int, int, int]:
+    """`Flexible.terms` of one body."""
+    its, stiff = bending.invariants, bool(bending.reduced.stiffening)
+    return int(np.any(its.I5)), int(stiff or np.any(its.I9)), int(stiff)
+
+
+def _components(tensors: Array) -> Array:
+    """(…, 6) xx, yy, zz, xy, yz, zx of the symmetric part of (…, 3, 3), symmetric too in the two indices before if there are two."""
+    both = 0.5 * (tensors + np.swapaxes(tensors, -1, -2))
+    if both.ndim == 5:
+        both = 0.5 * (both + np.swapaxes(both, 1, 2))
+    return both[..., FIRST_AXIS, SECOND_AXIS]
+
+
+def _beside(tables: Array) -> Array:
+    """(F n, c n) from c matrices of each of F bodies (F, c, n, n)."""
+    F, c, n, _ = tables.shape
+    return np.ascontiguousarray(tables.transpose(0, 2, 1, 3)).reshape(F * n, c * n)
+
+
+def _rows(values: Sequence[Array], n: int) -> Array:
+    out = np.zeros((len(values), n))
     for f, each in enumerate(values):
-        out[f, range(len(each)), range(len(each))] = each
+        out[f, : len(each)] = each
     return out
 
 
@@ -172,10 +235,8 @@ def _shapes(bending: Sequence[Bending], frames: Sequence[Frame], n: int) -> Arra
 
 
 def _stiffening(bending: Sequence[Bending], frames: Sequence[Frame], n: int) -> dict[str, Array]:
-    """The tables of geometric stiffening, without numbers where no body has any."""
+    """The tables of geometric stiffening (·, ·, n, n), zero where a body has none."""
     F, N = len(bending), len(frames)
-    if not any(each.reduced.stiffening for each in bending):
-        F = N = 0
     out = {
         "of_acceleration": np.zeros((F, 3, n, n)),
         "of_turning": np.zeros((F, 3, n, n)),
@@ -183,16 +244,16 @@ def _stiffening(bending: Sequence[Bending], frames: Sequence[Frame], n: int) -> 
         "of_load": np.zeros((N, 6, n, n)),
     }
     causes = {"of_acceleration": "acceleration", "of_turning": "angular_acceleration", "of_spin": "centrifugal"}
-    for f, each in enumerate(bending[:F]):
+    for f, each in enumerate(bending):
         for table, cause in causes.items():
             if cause in each.reduced.stiffening:
                 value = each.reduced.stiffening[cause]
                 out[table][f, :, : value.shape[1], : value.shape[2]] = value
-    for k, frame in enumerate(frames[:N]):
+    for k, frame in enumerate(frames):
         value = bending[frame.flexible].reduced.stiffening.get(f"interface.{_interface(bending, frame).name}")
         if value is not None:
             out["of_load"][k, : len(value), : value.shape[1], : value.shape[2]] = value
-    return {table: value.reshape(value.shape[0] * value.shape[1], n, n) for table, value in out.items()}
+    return {table: 0.5 * (value + np.swapaxes(value, -1, -2)) for table, value in out.items()}
 
 
 def modal_blocks(count: int) -> int:

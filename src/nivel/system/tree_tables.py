@@ -7,9 +7,11 @@ import numpy as np
 from nivel.kernels.record import Constraints, Tree
 
 
-def empty_tree(constraints: Constraints, nodes: int = 0, columns: int = 0, positions: int = 0, bundle: int = 0) -> Tree:
-    """Work arrays for a tree of so many nodes (one a body), columns, positions and rows in its largest bundle; tables are empty."""
-    bodies = nodes + 1 if nodes else 0
+def empty_tree(
+    constraints: Constraints, nodes: int = 0, columns: int = 0, positions: int = 0, bundle: int = 0, bodies: int = 0
+) -> Tree:
+    """Work arrays for a tree of so many nodes, columns, positions, rows in its largest bundle, bodies (with the ground and frames at
+    interfaces); tables are empty."""
     empty = np.zeros(0, dtype=np.uint32)
     return Tree(
         node=empty.reshape(0, 6),

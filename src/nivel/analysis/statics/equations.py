@@ -123,7 +123,8 @@ class StaticEquations:
         nodes = self.record.tree.node
         if len(nodes):
             for node in nodes.tolist():
-                body[node[4] : node[5]] = node[0]
+                # frames at interfaces are no points
+                body[node[4] : node[5]] = node[0] if node[0] < self.system.body_count else -1
         else:
             count = 6 * self.system.body_count
             body[:count] = np.repeat(np.arange(self.system.body_count), 6)

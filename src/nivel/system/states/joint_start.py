@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +21,7 @@ from nivel.system.system import Array, System
 @dataclass(frozen=True)
 class Node:
     """One node of the tree: bodies, joint (or FREE), the markers of the joint on them (NONE: their frames), and where its positions and
-    velocities stand in the state."""
+    velocities stand in the state. modes : of a node of a flexible body."""
 
     child: int
     parent: int
@@ -30,11 +31,22 @@ class Node:
     far: int
     position: int
     velocity: int
+    modes: int = 0
+
+
+@dataclass(frozen=True)
+class Bent:
+    """What lies between the frames of a flexible body: its modal coordinates where the node has any, and how it turns the child, as Euler
+    parameters."""
+
+    modal: Array
+    turn: Array
 
 
 @dataclass(frozen=True)
 class Frames:
-    """The frames that the bodies (and, last, the ground) have in these coordinates: axes (B+1, 3, 3) and origins (B+1, 3) in their own."""
+    """The frames that the bodies (then the ground, then frames at interfaces) have in these coordinates: axes (·, 3, 3) and origins (·, 3)
+    in their own."""
 
     axes: Array
     origin: Array
@@ -45,9 +57,9 @@ class Frames:
         return self.axes[body].T @ frame, self.axes[body].T @ (point - self.origin[body])
 
 
-def carried_frames(markers: Markers, nodes: list[Node]) -> Frames:
-    """Every body takes the marker by which it is carried for its frame."""
-    axes, origin = np.tile(np.eye(3), (len(nodes) + 1, 1, 1)), np.zeros((len(nodes) + 1, 3))
+def carried_frames(markers: Markers, nodes: list[Node], count: int) -> Frames:
+    """Every one of `count` bodies and frames takes the marker by which it is carried for its frame."""
+    axes, origin = np.tile(np.eye(3), (count, 1, 1)), np.zeros((count, 3))
     for node in nodes:
         if node.far != NONE:
             axes[node.child], origin[node.child] = markers.frame_b[node.far], markers.position_b[node.far]
@@ -67,8 +79,8 @@ class JointStart:
 
 
 @dataclass(frozen=True)
-class _Bodies:
-    """Poses and velocities of all bodies and, last, the ground; global axes."""
+class Poses:
+    """Poses and velocities of all bodies, then the ground, then frames at interfaces; global axes. theta : of the bodies."""
 
     R: Array
     theta: Array
@@ -87,48 +99,59 @@ class _Relative:
     velocity: Array
 
 
-def joint_start(absolute: System, y: Array, frames: Frames, nodes: list[Node], machine: MachineRecord) -> JointStart:
-    """Joint coordinates of all nodes in the state y of absolute coordinates (R, θ; Ṙ, ω̄)."""
-    bodies, markers = _bodies(absolute, y, frames), absolute.record.markers
+def joint_start(
+    own: Poses,
+    markers: Markers,
+    frames: Frames,
+    nodes: list[Node],
+    machine: MachineRecord,
+    bent: Mapping[int, Bent] | None = None,
+) -> JointStart:
+    """Joint coordinates of all nodes for poses of the bodies' own frames. bent : the nodes that are no joints."""
+    bodies, bent = _moved(own, frames), bent or {}
     q: list[float] = []
     v: list[float] = []
     count = len(nodes)
     number, first, theta = np.zeros((count, 7)), np.zeros((count, 3, 3)), np.zeros((count, 4))
-    turned = np.zeros((count + 1, 4))
-    turned[count, 0] = 1.0
+    turned = np.tile([1.0, 0.0, 0.0, 0.0], (len(own.R), 1))
     for n, node in enumerate(nodes):
         first[n], number[n, 4:] = frames.marker(markers, node.near, node.parent)
-        seen = _seen(bodies, node, first[n], number[n, 4:])
-        pitch = machine.joints[node.joint].pitch or 0.0 if node.kind == "screw" else 0.0
-        positions, velocities, number[n, :4] = _coordinates(node.kind, seen, pitch / (2.0 * np.pi))
-        q += positions
-        v += velocities
         theta[n] = euler_parameters_from_matrix(first[n])
-        joint = joint_turn(node.kind, positions, number[n])
+        if n in bent:
+            q += bent[n].modal.tolist()
+            v += [0.0] * len(bent[n].modal)
+            joint = bent[n].turn
+        else:
+            seen = _seen(bodies, node, first[n], number[n, 4:])
+            pitch = machine.joints[node.joint].pitch or 0.0 if node.kind == "screw" else 0.0
+            positions, velocities, number[n, :4] = _coordinates(node.kind, seen, pitch / (2.0 * np.pi))
+            q += positions
+            v += velocities
+            joint = joint_turn(node.kind, positions, number[n])
         turned[node.child] = product(product(turned[node.parent], theta[n]), joint)
-    own_theta = np.array([product(conjugate(e), f) for e, f in zip(turned[:-1], bodies.theta, strict=True)])
-    return JointStart(np.array(q), np.array(v), number, first, theta, own_theta.reshape(count, 4))
+    own_theta = np.array([product(conjugate(e), f) for e, f in zip(turned, bodies.theta, strict=False)])
+    return JointStart(np.array(q), np.array(v), number, first, theta, own_theta.reshape(-1, 4))
 
 
-def _bodies(absolute: System, y: Array, frames: Frames) -> _Bodies:
-    """Poses and velocities of the frames of these coordinates; Euler parameters of the bodies' own."""
+def poses(absolute: System, y: Array) -> Poses:
+    """Of the bodies and the ground, in the state y of absolute coordinates (R, θ; Ṙ, ω̄)."""
     count = absolute.body_count
     q, v = y[: 7 * count].reshape(count, 7), y[7 * count : 13 * count].reshape(count, 6)
     theta = q[:, 3:] / np.linalg.norm(q[:, 3:], axis=1, keepdims=True)
-    own = np.array([*(matrix_from_euler_parameters(e) for e in theta), np.eye(3)])
+    A = np.array([*(matrix_from_euler_parameters(e) for e in theta), np.eye(3)])
     zero = np.zeros((1, 3))
-    omega = np.vstack([np.einsum("bij,bj->bi", own[:-1], v[:, 3:]), zero])
-    u = np.einsum("bij,bj->bi", own, frames.origin)
-    return _Bodies(
-        np.vstack([q[:, :3], zero]) + u,
-        theta,
-        own @ frames.axes,
-        np.asarray(np.vstack([v[:, :3], zero]) + np.cross(omega, u), dtype=np.float64),
-        omega,
-    )
+    omega = np.vstack([np.einsum("bij,bj->bi", A[:-1], v[:, 3:]), zero])
+    return Poses(np.vstack([q[:, :3], zero]), theta, A, np.vstack([v[:, :3], zero]), omega)
 
 
-def _seen(bodies: _Bodies, node: Node, frame: Array, point: Array) -> _Relative:
+def _moved(own: Poses, frames: Frames) -> Poses:
+    """The frames of these coordinates."""
+    u = np.einsum("bij,bj->bi", own.A, frames.origin)
+    speed = np.asarray(own.Rdot + np.cross(own.omega, u), dtype=np.float64)
+    return Poses(own.R + u, own.theta, own.A @ frames.axes, speed, own.omega)
+
+
+def _seen(bodies: Poses, node: Node, frame: Array, point: Array) -> _Relative:
     b, c = node.parent, node.child
     Ai = bodies.A[b] @ frame
     distance = bodies.R[c] - bodies.R[b]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from importlib import import_module
 from itertools import pairwise
@@ -9,7 +10,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels import record as kernels
 from nivel.kernels.record import COMPLETE, NONE, Bodies, Constraints, Frames, Markers, Record, Saddle
 from nivel.kernels.record import Friction as FrictionTables
 from nivel.machine.coordinate_reference import resolve
@@ -18,26 +18,22 @@ from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
 from nivel.system.elimination import plan
+from nivel.system.states.joint_start import Bent, Node, Poses, carried_frames, joint_start, poses
 from nivel.system.states.joint_start import Frames as OwnFrames
-from nivel.system.states.joint_start import Node, carried_frames, joint_start
+from nivel.system.states.tree_nodes import (
+    joint_node,
+    number_of,
+    placed,
+    positions_in,
+    units_of,
+    velocities_in,
+    width_of,
+)
 from nivel.system.states.turns import turns
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array
 from nivel.system.topology import FREE, Edge, SpanningTree, spanning_tree
 from nivel.system.tree_tables import empty_tree
-
-# numbers of the kernels' kinds of nodes, positions and velocities of each, and units of the positions
-KINDS = {
-    "revolute": (kernels.REVOLUTE, ("1",), 1),
-    "translational": (kernels.TRANSLATIONAL, ("m",), 1),
-    "cylindrical": (kernels.CYLINDRICAL, ("1", "m"), 2),
-    "screw": (kernels.SCREW, ("1",), 1),
-    "universal": (kernels.UNIVERSAL, ("1", "1"), 2),
-    "spherical": (kernels.SPHERICAL, ("1",) * 4, 3),
-    "planar": (kernels.PLANAR, ("m", "m", "1"), 3),
-    "fixed": (kernels.FIXED, (), 0),
-    "free": (kernels.FREE, ("m",) * 3 + ("1",) * 4, 6),
-}
 
 # rows that are whitened together
 LARGEST_BUNDLE = 6
@@ -67,10 +63,30 @@ def arrange(
     machine: MachineRecord, absolute: System, y: Array, rank: int, settings: SimulationSettings
 ) -> tuple[System, Array]:
     """Numbers and state in the joint coordinates of the spanning tree."""
-    old = absolute.record
-    nodes, columns, positions = _nodes(machine, old, tree_of(machine, settings))
-    frames = carried_frames(old.markers, nodes)
-    start = joint_start(absolute, y, frames, nodes, machine)
+    nodes = _nodes(machine, absolute.record, tree_of(machine, settings))
+    # the freedoms of the tree less those of the machine (points that do not turn included) are the independent rows that are left
+    independent = velocities_in(nodes) - (6 * absolute.body_count - rank)
+    complete = import_module("nivel.kernels.carried").complete.address
+    return in_tree(machine, absolute, poses(absolute, y), nodes, independent, complete)
+
+
+def in_tree(
+    machine: MachineRecord,
+    absolute: System,
+    own: Poses,
+    nodes: list[Node],
+    rank: int,
+    complete: int,
+    bent: Mapping[int, Bent] | None = None,
+) -> tuple[System, Array]:
+    """Numbers and state in the coordinates of `nodes`.
+
+    own : poses of the bodies' own frames. rank : independent ones of the rows that are left. complete : address of the hook COMPLETE.
+    bent : the nodes that are no joints.
+    """
+    old, positions, columns = absolute.record, positions_in(nodes), velocities_in(nodes)
+    frames = carried_frames(old.markers, nodes, len(own.R))
+    start = joint_start(own, old.markers, frames, nodes, machine, bent)
     carried = {machine.joints[node.joint].name for node in nodes if node.joint != FREE}
     left = np.array([owner not in carried for owner in absolute.row_owner], dtype=bool)
     rows = np.flatnonzero(left).astype(np.uint32)
@@ -80,6 +96,7 @@ def arrange(
     blocks, path_tables = _blocks(nodes, paths, positions)
     angles = turns(old.coordinates, nodes, start.q)
     in_use = _markers_in_use(old, nodes, angles.followed)
+    bundle = int(np.diff(path_tables["bundle"]).max(initial=0))
     record = old._replace(
         coordinates=old.coordinates._replace(followed=angles.followed),
         bodies=_bodies_in(frames, old),
@@ -88,15 +105,13 @@ def arrange(
         saddle=_saddle(rows, blocks, [absolute.row_owner[row] for row in rows], columns),
         outputs=old.outputs._replace(combination=reports),
         friction=_friction(old, blocks, len(rows), columns),
-        tree=empty_tree(
-            old.constraints, len(nodes), columns, positions, int(np.diff(path_tables["bundle"]).max(initial=0))
-        )._replace(
+        tree=empty_tree(old.constraints, len(nodes), columns, positions, bundle, len(own.R))._replace(
             node=_node_table(nodes, positions),
             place=index_array([(node.position, node.velocity) for node in nodes], 2),
             number=start.number,
             first=start.first,
             theta=start.theta,
-            own=-np.einsum("bji,bj->bi", frames.axes, frames.origin)[:-1],
+            own=-np.einsum("bji,bj->bi", frames.axes, frames.origin)[: absolute.body_count],
             own_theta=start.own_theta,
             size=np.array([absolute.size]),
             rows=_chosen(old, ~left)[0],
@@ -109,15 +124,13 @@ def arrange(
             **path_tables,
             **_reactions(old, nodes),
         ),
-        frames=Frames(*(np.zeros((len(nodes) + 1, width)) for width in (3, 4, 3, 3))),
+        frames=Frames(*(np.zeros((absolute.body_count + 1, width)) for width in (3, 4, 3, 3))),
         hooks=old.hooks._replace(address=old.hooks.address.copy()),
     )
-    record.hooks.address[COMPLETE] = import_module("nivel.kernels.carried").complete.address
+    record.hooks.address[COMPLETE] = complete
     x = np.zeros(len(old.elements.state) + 2)
     system = replace(absolute, record=record, state_map=_map(nodes, positions, len(x)))
-    # the freedoms of the tree less those of the machine (points that do not turn included) are the independent rows that are left
-    independent = columns - (6 * absolute.body_count - rank)
-    return system.known_rank(independent), np.concatenate([start.q, start.v, x])
+    return system.known_rank(rank), np.concatenate([start.q, start.v, x])
 
 
 def bodies_of(machine: MachineRecord, joint: Joint) -> tuple[str, str]:
@@ -129,38 +142,35 @@ def bodies_of(machine: MachineRecord, joint: Joint) -> tuple[str, str]:
     return first, second
 
 
-def _nodes(machine: MachineRecord, old: Record, tree: SpanningTree) -> tuple[list[Node], int, int]:
-    """Nodes in the order of the tree, the number of their velocities, the number of their positions."""
-    nodes: list[Node] = []
-    position, velocity = 0, 0
-    for branch in tree.branches:
-        kind, near, far = "free", NONE, NONE
-        if branch.joint != FREE:
-            kind, near = machine.joints[branch.joint].type, int(old.joints.first_marker[branch.joint])
-            near, far = (near + 1, near) if branch.turned else (near, near + 1)
-        nodes.append(Node(branch.child, branch.parent, branch.joint, kind, near, far, position, velocity))
-        position += len(KINDS[kind][1])
-        velocity += KINDS[kind][2]
-    return [replace(node, velocity=position + node.velocity) for node in nodes], velocity, position
+def _nodes(machine: MachineRecord, old: Record, tree: SpanningTree) -> list[Node]:
+    """Nodes in the order of the tree."""
+    return placed([joint_node(machine, old, branch) for branch in tree.branches])
 
 
 def _bodies_in(frames: OwnFrames, old: Record) -> Bodies:
     """What is fixed to the bodies, in the frames of these coordinates, and work arrays of their own."""
-    F, o, bodies = frames.axes[:-1], frames.origin[:-1], old.bodies
+    bodies, count = old.bodies, len(old.bodies.mass)
+    F, o = frames.axes[:count], frames.origin[:count]
     centre = np.einsum("bji,bj->bi", F, bodies.centre_b - o)
     inertia = np.einsum("bji,bjk,bkl->bil", F, bodies.inertia_b, F)
     square = np.einsum("bi,bi->b", centre, centre)
     steiner = square[:, None, None] * np.eye(3) - np.einsum("bi,bj->bij", centre, centre)
     fixed = {
-        "centre_b": centre,
+        # frames at interfaces, behind the ground, have none
+        "centre_b": _longer(np.vstack([centre, np.zeros((1, 3))]), len(frames.axes)),
         "inertia_b": np.ascontiguousarray(inertia),
         "inertia_origin_b": np.ascontiguousarray(inertia + bodies.mass[:, None, None] * steiner),
     }
     work = ("R", "theta", "A", "Rdot", "omega", "omega_b", "c", "wrench", "Rddot", "alpha_b")
-    new = bodies._replace(**fixed, **{name: getattr(bodies, name).copy() for name in work})
+    new = bodies._replace(**fixed, **{name: _longer(getattr(bodies, name), len(frames.axes)) for name in work})
     for name in ("R", "Rdot", "omega", "omega_b", "c"):
-        getattr(new, name)[-1] = 0.0
+        getattr(new, name)[count] = 0.0
     return new
+
+
+def _longer(array: Array, count: int) -> Array:
+    """A copy, with further rows like the last one."""
+    return np.concatenate([array, np.repeat(array[-1:], count - len(array), axis=0)])
 
 
 def _markers_in(frames: OwnFrames, markers: Markers) -> Markers:
@@ -192,8 +202,14 @@ def _parts(old: Record, rows: Index) -> list[tuple[int, int, int, int]]:
     place = {int(row): k for k, row in enumerate(rows)}
     every = len(old.constraints.C)
     place |= {every + k: len(rows) + k for k in range(len(old.friction.columns))}
-    chosen = [(place[int(row)], *map(int, rest)) for row, *rest in old.saddle.block if int(row) in place]
+    chosen = [(place[row], *rest) for row, *rest in _on_bodies(old) if row in place]
     return sorted(chosen)  # type: ignore[arg-type]
+
+
+def _on_bodies(old: Record) -> list[tuple[int, int, int, int]]:
+    """Row, part, marker and its body of all blocks; further blocks of flexible bodies stand for their modes."""
+    blocks, bodies = old.saddle.block.tolist(), len(old.bodies.mass)
+    return [(row, part, m, int(old.markers.body[m])) for row, part, m, body in blocks if body < bodies]
 
 
 def _paths(nodes: list[Node], parts: list[tuple[int, int, int, int]], count: int) -> list[tuple[int, ...]]:
@@ -220,7 +236,7 @@ def _blocks(
         for n in path:
             table.append((n, len(blocks)))
             first = nodes[n].velocity - first_velocity
-            blocks += [(row, NONE, 0, column) for column in reversed(range(first, first + KINDS[nodes[n].kind][2]))]
+            blocks += [(row, NONE, 0, column) for column in reversed(range(first, first + width_of(nodes[n])))]
         lengths.append(len(blocks) - before)
     bundle = [k for k, path in enumerate(paths) if k == 0 or path != paths[k - 1] or k % LARGEST_BUNDLE == 0]
     return blocks, {
@@ -299,7 +315,7 @@ def _reactions(old: Record, nodes: list[Node]) -> dict[str, Index]:
     """Rows of the joint that carries each body, with their parts on it."""
     spans: list[tuple[int, int]] = []
     table: list[tuple[int, int, int]] = []
-    on_body = {(int(row), int(body)): (int(part), int(marker)) for row, part, marker, body in old.saddle.block}
+    on_body = {(row, body): (part, marker) for row, part, marker, body in _on_bodies(old)}
     for node in nodes:
         begin = len(table)
         if node.joint != FREE:
@@ -312,7 +328,7 @@ def _reactions(old: Record, nodes: list[Node]) -> dict[str, Index]:
 def _node_table(nodes: list[Node], positions: int) -> Index:
     first = [node.velocity - positions for node in nodes]
     rows = [
-        (n.child, n.parent, KINDS[n.kind][0], NONE if n.joint == FREE else n.joint, k, k + KINDS[n.kind][2])
+        (n.child, n.parent, number_of(n), NONE if n.joint == FREE else n.joint, k, k + width_of(n))
         for n, k in zip(nodes, first, strict=True)
     ]
     return index_array(rows, 6)
@@ -323,7 +339,7 @@ def _map(nodes: list[Node], positions: int, rest: int) -> StateMap:
     units: list[str] = []
     rates: list[str] = []
     for node in nodes:
-        _, of_positions, count = KINDS[node.kind]
+        of_positions, count = units_of(node), width_of(node)
         units += of_positions
         turning = 3 if node.kind in ("spherical", "free") else 0
         moving = count - turning

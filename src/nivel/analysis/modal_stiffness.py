@@ -1,0 +1,27 @@
+"""Machines whose only stiffness is that of the modes of their flexible bodies: some methods need no tangents of these."""
+
+from __future__ import annotations
+
+from nivel.machine.forces import PointForce, Torque
+from nivel.machine.machine_record import MachineRecord
+from nivel.march.catalogue import BY_MODES, INTEGRATORS, IntegratorFacts
+
+
+def only_modes_are_stiff(machine: MachineRecord) -> bool:
+    """Whether a machine has flexible bodies, and besides weight no forces but those that are given in time."""
+    return (
+        machine.is_flexible
+        and not machine.beams
+        and all(isinstance(each, PointForce | Torque) for each in machine.forces)
+    )
+
+
+def integrator_of(machine: MachineRecord, coordinates: str) -> IntegratorFacts:
+    """The integrator of a run of `machine` in these coordinates."""
+    name = machine.simulation.integrator
+    return BY_MODES[name] if name in BY_MODES and goes_by_modes(machine, coordinates) else INTEGRATORS[name]
+
+
+def goes_by_modes(machine: MachineRecord, coordinates: str) -> bool:
+    """Whether a machine is one for the integrators of BY_MODES."""
+    return coordinates == "relative" and only_modes_are_stiff(machine)

@@ -287,3 +287,87 @@ def test_a_point_beside_the_beam_is_told_with_the_nearest_one():
     sections = bead("point-on-beam", point=(0.2, 0.2, 0.1))
     with pytest.raises(ModelError, match="beside the line of the beam `rail`; the nearest point on it is"):
         machine(sections).simulate()
+
+
+def girder(**simulation):
+    """A trolley of 500 kg on a girder between two bearings, pushed by 200 N against friction."""
+    steel = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850}
+    section = {"type": "box", "width": 0.15, "height": 0.25, "wall": 0.005}
+    beam = {"from": [0, 0, 0], "to": [8, 0, 0], "elements": 6, "order": 2, "section": section, "material": steel}
+    return {
+        "gravity": [0, 0, -9.81],
+        "beams": {"girder": {**beam, "damping": 2e-4}},
+        "bodies": {"trolley": solid(500.0, 10.0, position=[1, 0, 0])},
+        "joints": {
+            "left": {"type": "revolute", "bodies": ["ground", "girder.start"], "point": [0, 0, 0], "axis": [0, 1, 0]},
+            "right": {
+                "type": "point-on-line",
+                "bodies": ["ground", "girder.end"],
+                "point": [8, 0, 0],
+                "axis": [1, 0, 0],
+            },
+            "wheels": {"type": "translational-on-beam", "bodies": ["trolley", "girder"], "point": [1, 0, 0]},
+        },
+        "forces": {
+            "push": {"type": "motor", "coordinate": "wheels.displacement", "effort": 200},
+            "rub": {
+                "type": "friction",
+                "coordinate": "wheels.displacement",
+                "model": "coulomb",
+                "coefficient": 0.02,
+                "transition_speed": 0.005,
+            },
+        },
+        "simulation": {"duration": 0.5, "step": 1e-3, "integrator": "generalised-alpha", **simulation},
+    }
+
+
+def test_friction_on_a_beam_is_reported_with_the_load_that_presses():
+    """The load is the joint's reaction across the beam, in every frame; the effort its share, once the trolley slides."""
+    result = simulate(girder())
+    (wheels,) = np.flatnonzero(result.dataset["joint"].values == "wheels")
+    across = np.linalg.norm(result.array("joint_force_local")[:, wheels, :2], axis=1)
+    load, effort = result.array("force.rub.normal_load"), result.array("force.rub.magnitude")
+    assert across.max() > 4000.0
+    assert_allclose(load, across, rtol=1e-6, atol=1e-3)
+    speed = result.array("joint_rate")[:, -1]
+    assert_allclose(effort, -0.02 * np.tanh(speed / 0.005) * load, rtol=1e-6, atol=1e-3)
+
+
+def flung(kind, integrator):
+    """A bead on a bar that stretches, so that the curvature of its line jumps at nodes, under steps that are chosen."""
+    sections = spinning(3, 2e-3)
+    sections["joints"]["pad"]["type"] = kind
+    sections["beams"]["bar"]["section"] = beams.general(1e4, 1e4, 1e5, 1e5, 1.0, (0.1, 0.1, 0.1))
+    sections["simulation"] |= {"integrator": integrator, "step_control": "error", "tolerance": 1e-4, "duration": 0.8}
+    del sections["simulation"]["step"]
+    return sections
+
+
+@pytest.mark.parametrize(
+    ("kind", "integrator"),
+    [
+        ("keyed-on-beam", "newmark"),
+        ("keyed-on-beam", "generalised-alpha"),
+        ("translational-on-beam", "radau"),
+        ("translational-on-beam", "bdf"),
+    ],
+)
+def test_steps_that_are_chosen_pass_nodes(kind, integrator):
+    result = simulate(flung(kind, integrator))
+    assert result.outcome == "done"
+    assert result.array("joint_coordinate")[-1, -1] > 4 / 3
+
+
+@pytest.mark.parametrize("kind", ["cylindrical-on-beam", "translational-on-beam"])
+def test_chosen_steps_over_jumps_of_the_turning_rate_are_refused(kind):
+    with pytest.raises(ModelError, match="take a fixed step, radau or bdf, or a keyed-on-beam joint"):
+        simulate(flung(kind, "newmark"))
+
+
+def test_a_start_displacement_moves_the_slider_and_leaves_the_beam():
+    sections = girder()
+    sections["joints"]["wheels"]["start"] = {"displacement": 3.0}
+    result = simulate(sections, duration=0.01)
+    assert result.array("joint_coordinate")[0, -1] == pytest.approx(3.0, abs=1e-9)
+    assert_allclose(result.dataset["position"].sel(body="trolley").values[0], [3.0, 0.0, 0.0], atol=1e-8)

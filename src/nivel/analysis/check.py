@@ -12,6 +12,7 @@ from nivel.analysis.choice import choose_coordinates, choose_cut
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.elements import coupling_in_words, driver_in_words, event_in_words, force_in_words, sensor_in_words
 from nivel.analysis.settings import RunSettings, complete
+from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.flexible import bending_bodies
@@ -266,11 +267,14 @@ def _joint(system: System, k: int, name: str, kind: str, values: dict[str, tuple
     record = system.record
     first = int(record.joints.first_marker[k])
     bodies = [*system.bodies, "ground"]
+    second = bodies[int(record.markers.body[first + 1])]
+    if JOINT_KINDS[kind].rail:
+        second = second.rpartition(".")[0]  # the beam, not a node of it
     return JointFacts(
         name=name,
         type=kind,
         first=bodies[int(record.markers.body[first])],
-        second=bodies[int(record.markers.body[first + 1])],
+        second=second,
         point=tuple(record.markers.r[first].tolist()),
         axis=tuple(record.markers.A[first, :, 2].tolist()),
         free=JOINTS[kind].free,

@@ -184,7 +184,9 @@ class Joint(Checked):
     def problems(self) -> Iterator[Problem]:
         kind = JOINT_KINDS[self.type]
         if kind.rail and self.markers is not None:
-            yield superfluous("markers", f"do not place a {self.type} joint: give `bodies`, the second a beam, and a `point`")
+            yield superfluous(
+                "markers", f"do not place a {self.type} joint: give `bodies`, the second a beam, and a `point`"
+            )
         yield from self._problems_by_markers() if self.markers is not None else self._problems_by_points(kind)
         for key in _SIZE:
             if key not in (*kind.size, *kind.may_size) and self._gives(key):

@@ -359,6 +359,20 @@ def test_steps_that_are_chosen_pass_nodes(kind, integrator):
     assert result.array("joint_coordinate")[-1, -1] > 4 / 3
 
 
+def test_friction_on_a_beam_counts_moments_about_the_slider():
+    """2 |M|/length with a bearing of that length: the trolley hangs from the girder by a lever across it."""
+    sections = girder(duration=0.1)
+    sections["bodies"]["trolley"]["centre_of_mass"] = [0.2, 0.0, -0.3]
+    sections["forces"]["rub"]["bearing_length"] = 0.4
+    result = simulate(sections)
+    (wheels,) = np.flatnonzero(result.dataset["joint"].values == "wheels")
+    force, torque = (result.array(f"joint_{each}_local")[:, wheels, :2] for each in ("force", "torque"))
+    turning = 2.0 * np.linalg.norm(torque, axis=1) / 0.4
+    assert turning.max() > 1000.0
+    load = result.array("force.rub.normal_load")
+    assert_allclose(load, np.linalg.norm(force, axis=1) + turning, rtol=1e-6, atol=1e-3)
+
+
 @pytest.mark.parametrize("kind", ["cylindrical-on-beam", "translational-on-beam"])
 def test_chosen_steps_over_jumps_of_the_turning_rate_are_refused(kind):
     with pytest.raises(ModelError, match="take a fixed step, radau or bdf, or a keyed-on-beam joint"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from nivel.kernels.coordinate import CROSS_SECOND
+from nivel.kernels.coordinate import ALONG, CROSS_SECOND
 from nivel.kernels.record import NONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
@@ -33,7 +33,9 @@ def add_friction(draft: Draft, force: Friction) -> None:
     radius = force.radius or 0.0
     kind, seen_from, to, _ = draft.coordinates.what[coordinate]
     frame = to if kind == CROSS_SECOND else seen_from
-    index = [coordinate, model, loaded_by, int(angle), state, first, frame, _bearing(draft, seen_from, to)]
+    # what slides on a beam has its bearing with it: `to` is only the first of the nodes
+    bearing = seen_from if kind == ALONG else _bearing(draft, seen_from, to)
+    index = [coordinate, model, loaded_by, int(angle), state, first, frame, bearing]
     numbers = [
         force.coefficient,
         force.static,

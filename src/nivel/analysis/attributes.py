@@ -50,6 +50,8 @@ def _bodies(machine: MachineRecord) -> list[BodySource]:
     """Where the flexible bodies came from."""
     out = []
     for each in bending_bodies(machine):
+        if each.beam:
+            continue
         body = machine.bodies[each.body]
         assert body.flexible is not None
         file = str(Path(body.flexible.file).resolve())

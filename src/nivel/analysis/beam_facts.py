@@ -11,6 +11,7 @@ from scipy.linalg import eigh
 from nivel.machine.beam import Beam
 from nivel.machine.beam_section import BeamSection
 from nivel.system.beam_elements import elements_of, gauss, lagrange, skew
+from nivel.system.gradient_frequencies import fastest_of_gradients
 
 Array = NDArray[np.float64]
 FIRST_BENDING = 4.730040744862704  # first root above zero of cos x cosh x = 1: a beam with free ends
@@ -62,6 +63,8 @@ def fastest_frequency(beam: Beam, section: BeamSection) -> float:
 
     The frequencies of a structure lie below the highest one of its elements (Irons, Treharne 1971).
     """
+    if beam.model != "exact":
+        return fastest_of_gradients(beam)
     elements = elements_of(beam)
     length = float(elements.weight.sum(axis=1).min())
     stiffness = _stiffness(section, beam.order, length)

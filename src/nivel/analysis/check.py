@@ -248,6 +248,8 @@ def _modes(machine: MachineRecord) -> list[str]:
     """The modes of each body in words, empty where it is rigid."""
     out = [""] * len(machine.bodies)
     for each in bending_bodies(machine):
+        if each.beam:
+            continue
         frequencies = each.reduced.frequencies
         span = f"{frequencies.min():.4g} to {frequencies.max():.4g} Hz" if len(frequencies) else "rigid"
         without = f", without {' and '.join(each.neglected)}" if each.neglected else ""

@@ -15,7 +15,7 @@ from nivel.analysis.unknown_groups import unknown_groups
 from nivel.kernels.arrays import complex_twin
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES
-from nivel.kernels.record import GIVEN_FRICTION, MEASURE, NONE, RAIL, RESIDUAL, TANGENT, Hooks, Record
+from nivel.kernels.record import GIVEN_FRICTION, MEASURE, NONE, POINTS, RAIL, RESIDUAL, TANGENT, Hooks, Record
 from nivel.motion.catalogue import path_of
 from nivel.system.beam_tangent import elastic_family, has_elastic_beams, plain_nodes, tangent_tables
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
@@ -138,7 +138,7 @@ def _twin(record: Record, *, held: bool) -> Handle:
     """
     twin = complex_twin(record)
     address = np.zeros_like(record.hooks.address)
-    for hook in (MEASURE, RAIL, GIVEN_FRICTION):
+    for hook in (MEASURE, RAIL, GIVEN_FRICTION, POINTS):
         address[hook] = _complex(record.hooks.address[hook])
     families = np.array([_complex(each) for each in record.elements.address], dtype=np.uint64)
     if held:

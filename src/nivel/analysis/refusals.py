@@ -193,7 +193,9 @@ def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: s
     if not machine.is_flexible:
         return
     faults = []
-    names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
+    nodes = {name for beam in machine.beams for name in beam.node_names}
+    bending = [body.name for body in machine.bodies if body.flexible is not None and body.name not in nodes]
+    names = ", ".join([*bending, *(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.model != "exact")])
     if coordinates not in FLEXIBLE:
         message = f"'{coordinates}' does not go with flexible bodies ({names}): take {' or '.join(FLEXIBLE)}"
         faults.append(("coordinates", message))

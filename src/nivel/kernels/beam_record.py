@@ -16,6 +16,14 @@ class SharedMass(NamedTuple):
     turn: F3  # (m, 3, 3) from axes of a to axes of b, unstressed
 
 
+class PointInertia(NamedTuple):
+    """What points of beams in absolute nodal coordinates have in common, beside the mass of the bodies that they are on; see
+    `nivel.kernels.point_inertia`. Without numbers for other machines."""
+
+    marker: U2  # (E, 8) points; those without one are NONE
+    matrix: F3  # (E, 8, 8) [kg]
+
+
 class BeamTangent(NamedTuple):
     """Derivatives of elements by hand, for E elements without damping; see `nivel.kernels.beam_tangent`.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nivel.kernels.compile import stage
 from nivel.kernels.floating_dynamics import flexible_kinetic_energy
+from nivel.kernels.point_inertia import point_kinetic_energy
 from nivel.kernels.record import record_at
 from nivel.kernels.rigid import kinetic_energy, potential_energy
 from nivel.kernels.shared_mass import shared_kinetic_energy
@@ -23,4 +24,6 @@ def energies(machine):
         kinetic += flexible_kinetic_energy(bodies, flexible, f) - kinetic_energy(bodies, flexible.body[f])
     for k in range(record.shared.pair.shape[0]):
         kinetic += shared_kinetic_energy(bodies, record.markers, record.shared, k)
+    for e in range(record.points.marker.shape[0]):
+        kinetic += point_kinetic_energy(record.markers, record.points, e)
     return kinetic, potential

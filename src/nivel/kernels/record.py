@@ -13,7 +13,7 @@ from typing import NamedTuple
 from numba import types
 
 from nivel.kernels.arrays import A1, F1, F2, F3, U1, U2, W1, W2, W3, numba_type
-from nivel.kernels.beam_record import BeamTangent, SharedMass
+from nivel.kernels.beam_record import BeamTangent, PointInertia, SharedMass
 from nivel.kernels.flexible_record import Flexible, ModalTree
 from nivel.kernels.handle import address_type, complex_address_type, reader
 from nivel.kernels.implicit_record import Newton, Residual
@@ -211,7 +211,8 @@ class Hooks(NamedTuple):
     """Addresses of what only some machines need, or zero: see `family_signature`."""
 
     address: (
-        A1  # (8,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams
+        A1  # (HOOKS,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams,
+        # rails, mass of points
     )
 
 
@@ -375,6 +376,7 @@ class Record(NamedTuple):
     flexible: Flexible
     modal: ModalTree
     shared: SharedMass
+    points: PointInertia
     beams: BeamTangent
     partition: Partition
     residual: Residual
@@ -402,7 +404,7 @@ complex_family_signature = types.int64(complex_address_type, types.int64, types.
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
-MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RAIL = (
+MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RAIL, POINTS = (
     0,
     1,
     2,
@@ -412,7 +414,8 @@ MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RA
     6,
     7,
     8,
+    9,
 )  # entries of Hooks.address
-HOOKS = 9
+HOOKS = 10
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions

@@ -34,6 +34,7 @@ LEAST: Final = 1e-4  # share of the length by which stations and ends are apart,
 MOST_TURN: Final = (
     0.5 * np.pi + 1e-6
 )  # of an element, unstressed: rotations within it are interpolated as vectors [rad]
+REPRESENTED: Final = 1e-6  # share by which sections may miss what a model can represent
 FARTHEST: Final = 1e9  # m; farther points are slips, and their squares may overflow
 
 Points = Annotated[tuple[Position, ...], BeforeValidator(listed)]
@@ -72,6 +73,10 @@ class Beam(Checked):
     )
     elements: Annotated[int, Field(strict=True, ge=1, le=100_000)] = 10
     order: Annotated[int, Field(strict=True, ge=1, le=3)] = Field(default=1, description="of an element: 1, 2 or 3")
+    model: Literal["exact", "ancf-cable", "ancf-beam"] = Field(
+        default="exact",
+        description="geometrically exact; or in absolute nodal coordinates: places of nodes and slopes there, or all gradients",
+    )
     mass: Literal["consistent", "lumped"] = "consistent"
     interpolation: Literal["relative", "total"] = Field(
         default="relative",
@@ -131,6 +136,8 @@ class Beam(Checked):
         elif not zero:
             yield from self._problems_of_line()
         yield from self._problems_of_section()
+        if self.model != "exact":
+            yield from self._problems_of_model()
         if self.damping < 0.0:
             yield Problem(("damping",), f"zero or more was expected, got {self.damping:g} s")
 
@@ -196,6 +203,47 @@ class Beam(Checked):
             words = " and ".join(f"`{name}`" for name in missing)
             message = (
                 f"{words} {'is' if len(missing) == 1 else 'are'} missing: a beam of large motion deforms by shear too"
+            )
+            yield Problem(("section",), message)
+
+    def _problems_of_model(self) -> Iterator[Problem]:
+        """What beams in absolute nodal coordinates do not have."""
+        if self.order != 1:
+            yield Problem(("order",), f"elements of `model: {self.model}` have two nodes: remove it")
+        if self.mass == "lumped":
+            yield Problem(("mass",), f"the mass of `model: {self.model}` is always consistent: remove it")
+        if self.interpolation == "total":
+            yield Problem(("interpolation",), f"`model: {self.model}` has no rotations to interpolate: remove it")
+        general = isinstance(self.section, GeneralSection)
+        if missing_shear_areas(self.section) or (self.material is None) != general:
+            return
+        if self.model == "ancf-cable":
+            yield from self._problems_of_cable()
+            return
+        J = self.properties.inertia
+        if abs(J[0, 0] - J[1, 1] - J[2, 2]) > REPRESENTED * J[0, 0]:
+            message = (
+                f"gradients have the inertia of matter: about x it is the sum of those about y and z, {J[1, 1] + J[2, 2]:.6g}, "
+                f"not {J[0, 0]:.6g} kg m; give that, or take `model: exact`"
+            )
+            yield Problem(("section", "inertia"), message)
+
+    def _problems_of_cable(self) -> Iterator[Problem]:
+        """A cable is straight, and the same in all directions."""
+        if self.via is not None or self.through or self.twist:
+            name = "via" if self.via is not None else "through" if self.through else "twist"
+            yield Problem(
+                (name,), "an `ancf-cable` is straight and not twisted while unstressed: take `ancf-beam`, or `exact`"
+            )
+        own = self.properties
+        C = own.stiffness
+        largest = float(np.abs(C[4:, 4:]).max())
+        alike = abs(C[4, 4] - C[5, 5]) <= REPRESENTED * largest
+        apart = np.abs(C - np.diag(np.diag(C))) <= REPRESENTED * np.sqrt(np.outer(np.diag(C), np.diag(C)))
+        if not alike or not apart.all() or np.any(own.mass_centre):
+            message = (
+                f"an `ancf-cable` bends alike in all directions and about its line (EI_y = {C[4, 4]:.6g}, EI_z = {C[5, 5]:.6g} N m^2, "
+                "nothing off the diagonal, centres on the line): take `ancf-beam`, or `exact`"
             )
             yield Problem(("section",), message)
 

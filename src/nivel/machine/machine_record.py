@@ -104,8 +104,10 @@ class MachineRecord(Checked):
 
     @property
     def is_flexible(self) -> bool:
-        """Whether a body of it bends."""
-        return any(body.flexible is not None for body in self.bodies)
+        """Whether a body of it bends, or a beam of it has nodes that deform."""
+        return any(body.flexible is not None for body in self.bodies) or any(
+            beam.model != "exact" for beam in self.beams
+        )
 
     @property
     def shares_mass(self) -> bool:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from nivel.kernels.floating_dynamics import flexible_wrench, gather
 from nivel.kernels.floating_frame import move_frames
-from nivel.kernels.hook import apply_forces, family
-from nivel.kernels.record import record_at
+from nivel.kernels.hook import apply_forces, call_hook, family
+from nivel.kernels.record import POINTS, record_at
 from nivel.kernels.residual import inertial_wrenches, load_multipliers, write_rows
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.spatial import multiply
@@ -35,6 +35,9 @@ def residual(machine, job, t):
         flexible.pddot[j] = own.vdot[6 * count + j]
     move_frames(machine)
     status = load_multipliers(machine, t)
+    if status != OK:
+        return status
+    status = call_hook(machine, POINTS, 0, t)
     if status != OK:
         return status
     gather(machine)

@@ -2,47 +2,36 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.machine.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.record import unknown_word
+from nivel.results.felt import Array, Felt
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from nivel.results.result import Result
 
-Array = NDArray[np.float64]
 COMPONENTS = ("x", "y", "z")
 AT_ONCE: Final = 20_000  # elements, counted anew at every time
 
 
-@dataclass(frozen=True)
-class Felt:
-    """What a beam feels at times t and points p, the Gauss points of its elements.
-
-    share : (p,) of the length. weight : (p,) [m]. strain : (t, p, 6) Γ [1] and Κ [1/m], axes of the section, beyond those of the unstressed
-    beam. stress : (t, p, 6) force [N] and moment [N m] that go with it.
-    """
-
-    share: Array
-    weight: Array
-    strain: Array
-    stress: Array
-
-
-def felt(beam: Beam, place: Array, theta: Array) -> Felt:
-    """From places (t, N, 3) and Euler parameters (t, N, 4) of the nodes of `beam`."""
+def felt(beam: Beam, place: Array, theta: Array, modal: Array) -> Felt:
+    """From places (t, N, 3), Euler parameters (t, N, 4) and modal coordinates (t, N, m) of the nodes of `beam`."""
     from scipy.spatial.transform import Rotation
 
     from nivel.system.beam_elements import elements_of, strains
 
+    if beam.model != "exact":
+        from nivel.results.gradient_sections import felt_by_gradients
+
+        turned = Rotation.from_quat(theta[:, :, [1, 2, 3, 0]].reshape(-1, 4)).as_matrix()
+        return felt_by_gradients(beam, place, turned.reshape(*theta.shape[:2], 3, 3), modal)
     elements = elements_of(beam)
     count, points = elements.N.shape[:2]
     times, rows = len(place), max(AT_ONCE // count, 1)
@@ -63,7 +52,17 @@ def felt(beam: Beam, place: Array, theta: Array) -> Felt:
         parts.append((now.reshape(many, count, points, 6) - elements.strain).reshape(many, -1, 6))
     strain = np.concatenate(parts)
     share = np.einsum("nga,na->ng", elements.N, beam.shares[elements.nodes]).ravel()
-    return Felt(share, elements.weight.ravel(), strain, strain @ beam.properties.stiffness)
+    stress, weight = strain @ beam.properties.stiffness, elements.weight.ravel()
+    return Felt(share, weight, strain, stress, 0.5 * np.einsum("tpi,tpi,p->t", strain, stress, weight))
+
+
+def modes_of_nodes(result: Result, beam: Beam) -> Array:
+    """(t, N, m) modal coordinates of the nodes of a beam in a result; m = 0 where they do not deform."""
+    numbers: dict[str, list[int]] = {name: [] for name in beam.node_names}
+    for k, mode in enumerate(result.coordinates.get("mode", ())):
+        numbers.get(mode.rpartition(".")[0], []).append(k)
+    places = np.array(list(numbers.values()), dtype=np.int64)
+    return result.array("modal_coordinate")[:, places] if places.size else np.zeros((len(result.time), len(places), 0))
 
 
 def beam_sections(result: Result, name: str) -> xr.Dataset:
@@ -72,7 +71,8 @@ def beam_sections(result: Result, name: str) -> xr.Dataset:
     Dimensions `time`, `point`, `component` (x along the beam, y and z across it: axes of the section). Variables: `share` (point) of the
     length; `strain` (stretch and two shears) [1] and `curvature` (twist and two curvatures) [1/m], beyond those of the unstressed beam;
     `force` and `moment` of the part behind the section on the part before it [N, N m], elastic and viscous damping apart, which is left
-    out; `energy` (time) [J] stored in the beam.
+    out; `energy` (time) [J] stored in the beam. An `ancf-cable` has no shear strain: its shear force is what the change of the moment asks
+    for.
 
     Raises ModelError where the machine has no such beam.
     """
@@ -84,8 +84,7 @@ def beam_sections(result: Result, name: str) -> xr.Dataset:
         raise ModelError(unknown_word(name, tuple(found), "beam") if found else f"{machine.name} has no beams")
     beam = found[name]
     data = result.dataset.sel(body=list(beam.node_names))
-    of = felt(beam, data["position"].values, data["orientation"].values)
-    energy = 0.5 * np.einsum("tpi,tpi,p->t", of.strain, of.stress, of.weight)
+    of = felt(beam, data["position"].values, data["orientation"].values, modes_of_nodes(result, beam))
     dims = ("time", "point", "component")
     out = xr.Dataset(
         {
@@ -101,7 +100,7 @@ def beam_sections(result: Result, name: str) -> xr.Dataset:
                 of.stress[:, :, 3:],
                 {"units": "N m", "long_name": "moment in the section, axes of the section"},
             ),
-            "energy": (("time",), energy, {"units": "J", "long_name": "energy stored in the beam"}),
+            "energy": (("time",), of.energy, {"units": "J", "long_name": "energy stored in the beam"}),
         },
         {"time": data["time"].values, "point": np.arange(len(of.share)), "component": list(COMPONENTS)},
     )

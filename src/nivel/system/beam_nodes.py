@@ -12,6 +12,7 @@ from nivel.machine.inertia import Inertia
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.orientation import Orientation, euler_parameters_from_matrix
 from nivel.system.beam_elements import masses_of
+from nivel.system.gradient_nodes import gradient_nodes
 from nivel.system.rails import on_beams
 
 # how unwilling nodes are to be moved by the assembly, which would stress the beam: bodies beside it are moved instead
@@ -34,15 +35,13 @@ def with_nodes(machine: MachineRecord) -> MachineRecord:
 
 
 def _nodes(beam: Beam) -> list[Body]:
-    masses, section = masses_of(beam), beam.properties
     place, axes = beam.frames(beam.shares)
     speed = np.array(beam.velocity) + np.cross(np.array(beam.angular_velocity), place - place[0])
+    masses = _masses(beam)
     return [
         Body.model_construct(
             name=name,
-            mass=float(masses.mass[k]),
-            centre_of_mass=tuple(section.mass_centre.tolist()),
-            inertia=_inertia(masses.inertia[k]),
+            **masses[k],
             position=tuple(place[k].tolist()),
             orientation=Orientation.model_construct(
                 euler_parameters=tuple(euler_parameters_from_matrix(axes[k]).tolist())
@@ -52,6 +51,21 @@ def _nodes(beam: Beam) -> list[Body]:
             assembly_weight=HELD,
         )
         for k, name in enumerate(beam.node_names)
+    ]
+
+
+def _masses(beam: Beam) -> list[dict[str, Any]]:
+    """What of `Body` says how heavy each node is: its lumped mass, or for gradients what makes it deform."""
+    if beam.model != "exact":
+        return [{"flexible": each} for each in gradient_nodes(beam)]
+    masses, section = masses_of(beam), beam.properties
+    return [
+        {
+            "mass": float(mass),
+            "centre_of_mass": tuple(section.mass_centre.tolist()),
+            "inertia": _inertia(inertia),
+        }
+        for mass, inertia in zip(masses.mass, masses.inertia, strict=True)
     ]
 
 

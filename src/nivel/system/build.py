@@ -17,6 +17,7 @@ from nivel.kernels.record import (
     HOOKS,
     MEASURE,
     NONE,
+    POINTS,
     RAIL,
     RISING,
     SENSE,
@@ -42,6 +43,7 @@ from nivel.system.draft import Draft
 from nivel.system.elimination import plan
 from nivel.system.flexible import flexible_mass, no_flexible, no_modal_tree
 from nivel.system.forces import FORCES, family_addresses
+from nivel.system.gradient_beams import point_inertia
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.interfaces import refuse_unknown_interfaces
 from nivel.system.layout import frame_layout
@@ -119,6 +121,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
             flexible=no_flexible(),
             modal=no_modal_tree(),
             shared=shared_mass(draft, machine.beams),
+            points=point_inertia(draft, machine.beams),
             beams=no_tangent(),
             partition=no_partition(),
             residual=no_residual(),
@@ -184,6 +187,8 @@ def _hooks(draft: Draft, sensors: bool) -> Hooks:
         address[MEASURE] = import_module("nivel.kernels.measure").measure.address
     if draft.coordinates.rails:
         address[RAIL] = import_module("nivel.kernels.rail").slide.address
+    if any(beam.model != "exact" for beam in draft.machine.beams):
+        address[POINTS] = import_module("nivel.kernels.point_inertia").resist.address
     if draft.frictions:
         address[FRICTION] = import_module("nivel.kernels.friction").rub.address
     if sensors:

@@ -48,6 +48,7 @@ class Draft:
     _noting: set[int] = field(default_factory=set)
     _named: dict[str, int] = field(default_factory=dict)
     _frames: dict[str, int] = field(default_factory=dict)
+    _tips: dict[tuple[str, int], int] = field(default_factory=dict)
 
     def body(self, name: str) -> int:
         """Index of a body or the ground."""
@@ -97,6 +98,13 @@ class Draft:
             self._frames[body] = self.place((body, np.zeros(3), np.eye(3)))
         self._note(self._frames[body])
         return self._frames[body]
+
+    def tip(self, body: str, axis: int, reach: float) -> int:
+        """Index of the marker at a reach [m] along an axis of a node, which is the tip of its gradient there."""
+        if (body, axis) not in self._tips:
+            self._tips[body, axis] = self.place((body, reach * np.eye(3)[axis], np.eye(3)))
+        self._note(self._tips[body, axis])
+        return self._tips[body, axis]
 
     @property
     def frame_markers(self) -> Iterable[int]:

@@ -19,6 +19,7 @@ from nivel.kernels.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
 from nivel.machine.body import Body
 from nivel.machine.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.gradient_nodes import GradientNode
 from nivel.system.located import located
 from nivel.system.tables import Array, index_array
 
@@ -29,13 +30,14 @@ SHARE = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
 @dataclass(frozen=True)
 class Bending:
     """A body of the machine that bends: its number, its modes, their damping (n,) [1/s], their places among all of its file, names of the
-    inertia invariants that it moves without."""
+    inertia invariants that it moves without. beam : name of the beam whose node it is, empty for all others."""
 
     body: int
     reduced: ReducedBody
     damping: Array
     modes: tuple[int, ...]
     neglected: tuple[str, ...] = ()
+    beam: str = ""
 
     @property
     def invariants(self) -> Invariants:
@@ -61,6 +63,8 @@ def flexible_mass(body: Body) -> MassProperties:
 def reduced_body(body: Body) -> ReducedBody:
     """The reduced body of a flexible one, with all its modes. Raises ModelError where its file is none."""
     assert body.flexible is not None
+    if isinstance(body.flexible, GradientNode):
+        return body.flexible.reduced
     with located(f"bodies.{body.name}.flexible"):
         path = Path(body.flexible.file)
         return _read(str(path.resolve()), path.stat().st_mtime_ns if path.exists() else 0)
@@ -90,7 +94,8 @@ def bending_bodies(machine: MachineRecord) -> tuple[Bending, ...]:
         taken = np.sort(np.argsort(whole.eigenvalues, kind="stable")[:count])
         reduced = whole.keeping(taken)
         damping = 2.0 * body.flexible.damping_ratio * np.sqrt(reduced.eigenvalues)
-        bending.append(Bending(k, reduced, damping, tuple(taken.tolist()), body.flexible.neglect))
+        beam = body.flexible.beam if isinstance(body.flexible, GradientNode) else ""
+        bending.append(Bending(k, reduced, damping, tuple(taken.tolist()), body.flexible.neglect, beam))
     if faults:
         raise ModelError(faults)
     return tuple(bending)

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from nivel.machine.beam import Beam
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.beam_sections import felt
+from nivel.results.beam_sections import felt, modes_of_nodes
 from nivel.results.result import Result
 from nivel.view.package import Block
 from nivel.view.records import Felt, Quantity, Sections
@@ -78,9 +78,12 @@ def _felt(result: Result, beam: Beam, taken: NDArray[np.int64]) -> tuple[Array, 
     place = result.array("position")[taken][:, nodes]
     theta = result.array("orientation")[taken][:, nodes]
     fit = np.all(np.isfinite(place), axis=(1, 2)) & np.all(np.linalg.norm(theta, axis=2) > 0.0, axis=1)
-    of = felt(beam, place[fit], theta[fit])
+    of = felt(beam, place[fit], theta[fit], modes_of_nodes(result, beam)[taken][fit])
     both = np.full((2, len(taken), *of.strain.shape[1:]), np.nan)
     both[0, fit], both[1, fit] = of.strain, of.stress
+    if beam.model == "ancf-cable":
+        # the page takes forces from strains: the shear strain that goes with the shear force, though a cable itself has none
+        both[0, fit] = of.stress @ np.linalg.inv(beam.properties.stiffness)
     return both[0], both[1], np.interp(of.share, beam.shares, np.arange(len(nodes)))
 
 

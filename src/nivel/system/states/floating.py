@@ -55,13 +55,15 @@ def carried_markers(absolute: System, machine: MachineRecord, bending: Sequence[
             if marker in absolute.frame_markers:
                 continue
             owner, point = absolute.marker_owners[marker], markers.position_b[marker]
+            if each.beam and owner != f"beams.{each.beam}":
+                continue  # everything but its gradients is fixed to the frame of a node
             used.add(owner)
             nearest = interface_at(each, point)
             if nearest is None:
                 faults.append(_away(owner, body.name, point, each))
             else:
                 found[marker] = (f, nearest)
-        for owner, point in _further(machine, body):
+        for owner, point in () if each.beam else _further(machine, body):
             if owner not in used and interface_at(each, point) is None:
                 faults.append(_away(owner, body.name, point, each))
     if faults:

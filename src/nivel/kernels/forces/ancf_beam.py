@@ -1,0 +1,160 @@
+"""Elements of beams in absolute nodal coordinates with all gradients: d = r' along the line, Y and Z across it.
+
+The line is cubic, the gradients across it linear (Shabana, Yakoub 2001). The strains of the section are Green's, of the first order in
+its coordinates, with the stiffness of the section for them, so shear factors and torsion are those of the section (the elastic line of
+Schwab, Meijaard 2010), and free of Poisson locking:
+
+    ½ (d·d - 1), d·Y, d·Z        ½ (Y'·Z - Z'·Y), d·Z', -d·Y'
+
+They are integrated at three points, the fewest that leave no motion free. The section deforms too: ½ (Y·Y - 1), ½ (Z·Z - 1) and Y·Z cost
+energy at the nodes, between which linear gradients shorten without reason where the beam bends.
+"""
+
+from __future__ import annotations
+
+from nivel.kernels.compile import stage
+from nivel.kernels.gradients import (
+    DAMPING,
+    FORCE,
+    OWN,
+    RATE,
+    VECTOR,
+    add_along_line,
+    along_line,
+    push_vectors,
+    read_vectors,
+)
+from nivel.kernels.hook import family
+from nivel.kernels.record import record_at
+from nivel.kernels.spatial import dot
+from nivel.kernels.status import OK
+
+WIDTH = 4  # vectors of a node
+POINTS = 3
+# columns of `number`: length of the element [m]; stiffness of the strains of the section (36), and of its deformation, yy, zz and yz (3)
+# [N]; for each point its weight [m], place between 0 and 1, weights of r' (4), strain that counts as none (6)
+LENGTH, STIFFNESS, SECTION, POINT = OWN, OWN + 1, OWN + 37, OWN + 40
+SHARE, SLOPE, STRAIN, COLUMNS = 1, 2, 6, 12
+NUMBERS = POINT + POINTS * COLUMNS
+
+
+@stage
+def between(n, first, j, share):
+    """Vector j of both nodes, or its rate, from n[first] on: linear between them."""
+    a, b = first + 3 * j, first + 3 * (WIDTH + j)
+    rest = 1.0 - share
+    return rest * n[a] + share * n[b], rest * n[a + 1] + share * n[b + 1], rest * n[a + 2] + share * n[b + 2]
+
+
+@stage
+def change(n, first, j):
+    """Its derivative along the line."""
+    a, b, over = first + 3 * j, first + 3 * (WIDTH + j), 1.0 / n[LENGTH]
+    return over * (n[b] - n[a]), over * (n[b + 1] - n[a + 1]), over * (n[b + 2] - n[a + 2])
+
+
+@stage
+def pull(n, j, share, value, slope):
+    """Subtract forces on such a vector, and on its derivative, from those on the vectors of the nodes."""
+    a, b, over = FORCE + 3 * j, FORCE + 3 * (WIDTH + j), 1.0 / n[LENGTH]
+    for i in range(3):
+        n[a + i] -= (1.0 - share) * value[i] - over * slope[i]
+        n[b + i] -= share * value[i] + over * slope[i]
+
+
+@stage
+def weighed(a, x, b, y):
+    """a x + b y of 3-vectors."""
+    return a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2]
+
+
+@stage
+def point_of_section(n, q, control):
+    """What one point stores, loses and pulls. q : its columns."""
+    share, weights, unstrained = q[SHARE], q[SLOPE : SLOPE + 4], q[STRAIN : STRAIN + 6]
+    d, v = along_line(n, VECTOR, weights, WIDTH), along_line(n, RATE, weights, WIDTH)
+    Y, Z, Ys, Zs = (
+        between(n, VECTOR, 2, share),
+        between(n, VECTOR, 3, share),
+        change(n, VECTOR, 2),
+        change(n, VECTOR, 3),
+    )
+    y, z, ys, zs = between(n, RATE, 2, share), between(n, RATE, 3, share), change(n, RATE, 2), change(n, RATE, 3)
+    e0, r0 = 0.5 * dot(d, d) - 0.5 - unstrained[0], dot(d, v)
+    e1, r1 = dot(d, Y) - unstrained[1], dot(v, Y) + dot(d, y)
+    e2, r2 = dot(d, Z) - unstrained[2], dot(v, Z) + dot(d, z)
+    e3 = 0.5 * (dot(Ys, Z) - dot(Zs, Y)) - unstrained[3]
+    r3 = 0.5 * (dot(ys, Z) + dot(Ys, z) - dot(zs, Y) - dot(Zs, y))
+    e4, r4 = dot(d, Zs) - unstrained[4], dot(v, Zs) + dot(d, zs)
+    e5, r5 = -dot(d, Ys) - unstrained[5], -dot(v, Ys) - dot(d, ys)
+    lag, stored, lost = n[DAMPING], 0.0 * e0, 0.0 * e0
+    s0, s1, s2, s3, s4, s5 = 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0
+    for i in range(6):
+        C = n[STIFFNESS + 6 * i : STIFFNESS + 6 * i + 6]
+        elastic = C[0] * e0 + C[1] * e1 + C[2] * e2 + C[3] * e3 + C[4] * e4 + C[5] * e5
+        viscous = lag * (C[0] * r0 + C[1] * r1 + C[2] * r2 + C[3] * r3 + C[4] * r4 + C[5] * r5)
+        e = e0 if i == 0 else e1 if i == 1 else e2 if i == 2 else e3 if i == 3 else e4 if i == 4 else e5
+        r = r0 if i == 0 else r1 if i == 1 else r2 if i == 2 else r3 if i == 3 else r4 if i == 4 else r5
+        stored += 0.5 * elastic * e
+        lost += viscous * r
+        total = q[0] * (elastic + viscous)
+        if i == 0:
+            s0 = total
+        elif i == 1:
+            s1 = total
+        elif i == 2:
+            s2 = total
+        elif i == 3:
+            s3 = total
+        elif i == 4:
+            s4 = total
+        else:
+            s5 = total
+    control.stored[0] += q[0] * stored
+    control.power[1] += q[0] * lost
+    on_d, across = weighed(s1, Y, s2, Z), weighed(s4, Zs, -s5, Ys)
+    add_along_line(
+        n,
+        weights,
+        WIDTH,
+        s0 * d[0] + on_d[0] + across[0],
+        s0 * d[1] + on_d[1] + across[1],
+        s0 * d[2] + on_d[2] + across[2],
+    )
+    pull(n, 2, share, weighed(s1, d, -0.5 * s3, Zs), weighed(0.5 * s3, Z, -s5, d))
+    pull(n, 3, share, weighed(s2, d, 0.5 * s3, Ys), weighed(-0.5 * s3, Y, s4, d))
+
+
+@stage
+def section_of_node(n, a, control):
+    """What the deformation of the section at node a stores, loses and pulls, for half the element."""
+    Y, Z = VECTOR + 3 * (WIDTH * a + 2), VECTOR + 3 * (WIDTH * a + 3)
+    y, z = n[Y : Y + 3], n[Z : Z + 3]
+    vy, vz = n[Y + RATE - VECTOR : Y + RATE - VECTOR + 3], n[Z + RATE - VECTOR : Z + RATE - VECTOR + 3]
+    half, lag = 0.5 * n[LENGTH], n[DAMPING]
+    e0, e1, e2 = 0.5 * dot(y, y) - 0.5, 0.5 * dot(z, z) - 0.5, dot(y, z)
+    r0, r1, r2 = dot(y, vy), dot(z, vz), dot(y, vz) + dot(vy, z)
+    k0, k1, k2 = half * n[SECTION], half * n[SECTION + 1], half * n[SECTION + 2]
+    control.stored[0] += 0.5 * (k0 * e0 * e0 + k1 * e1 * e1 + k2 * e2 * e2)
+    control.power[1] += lag * (k0 * r0 * r0 + k1 * r1 * r1 + k2 * r2 * r2)
+    s0, s1, s2 = k0 * (e0 + lag * r0), k1 * (e1 + lag * r1), k2 * (e2 + lag * r2)
+    on_y, on_z = FORCE + 3 * (WIDTH * a + 2), FORCE + 3 * (WIDTH * a + 3)
+    for i in range(3):
+        n[on_y + i] -= s0 * y[i] + s2 * z[i]
+        n[on_z + i] -= s1 * z[i] + s2 * y[i]
+
+
+@family
+def apply(machine, number, t):
+    """All elements."""
+    record = record_at(machine)
+    elements, control = record.elements, record.control
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        read_vectors(record.markers, index, n, WIDTH)
+        for g in range(POINTS):
+            point_of_section(n, n[POINT + COLUMNS * g : POINT + COLUMNS * (g + 1)], control)
+        section_of_node(n, 0, control)
+        section_of_node(n, 1, control)
+        push_vectors(record.bodies, record.markers, index, n, WIDTH)
+    return OK

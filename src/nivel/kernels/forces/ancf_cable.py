@@ -1,0 +1,113 @@
+"""Elements of cables in absolute nodal coordinates: slender beams without shear, by places and slopes of their nodes.
+
+With the slope d = r' and r'', the stretch is ε = |d| - 1 and the curvature K = d × r''/|d|², the turn of the tangent over unstressed
+length (Gerstmayr, Shabana 2006; Gerstmayr, Irschik 2008, for what curvature goes with a moment where the cable is stretched). A cable bends
+alike in all directions. Nodes turn about their slopes, and the twist between two of them is what is left of their turn after the
+least one that takes one slope to the other; its rate is (ω_b - ω_a)·(t_a + t_b)/(1 + t_a·t_b). Stretch is integrated at three points and
+bending at two: the fewest that leave no motion free, which keeps a thin cable free of locking.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.analytic import arctan2
+from nivel.kernels.compile import stage
+from nivel.kernels.gradients import DAMPING, OWN, RATE, VECTOR, add_along_line, along_line, push_vectors, read_vectors
+from nivel.kernels.hook import family
+from nivel.kernels.record import record_at
+from nivel.kernels.spatial import cross, dot
+from nivel.kernels.status import OK
+
+WIDTH = 2  # vectors of a node
+# columns of `columns`, behind the points: markers with the axes of the nodes
+AXES = 4
+# columns of `number`: EA, EI, GJ over the length of the element; for each point of stretch its weight [m] and weights of r'; for each
+# point of bending these and weights of r''
+STRETCH, BENDING, TWIST, STRETCHED, BENT = OWN, OWN + 1, OWN + 2, OWN + 3, OWN + 18
+NUMBERS = OWN + 36
+
+
+@stage
+def stretch_point(n, q, control):
+    """What one point of stretch stores, loses and pulls. q : its columns."""
+    weights = q[1:5]
+    d = along_line(n, VECTOR, weights, WIDTH)
+    length = np.sqrt(dot(d, d))
+    strain, rate = length - 1.0, dot(d, along_line(n, RATE, weights, WIDTH)) / length
+    viscous = n[DAMPING] * n[STRETCH] * rate
+    control.stored[0] += 0.5 * q[0] * n[STRETCH] * strain * strain
+    control.power[1] += q[0] * viscous * rate
+    f = q[0] * (n[STRETCH] * strain + viscous) / length
+    add_along_line(n, weights, WIDTH, f * d[0], f * d[1], f * d[2])
+
+
+@stage
+def bending_point(n, q, control):
+    """The same of one point of bending. What stores acts across the tangent, so the curvature's own turn with it does no work."""
+    slopes, bends = q[1:5], q[5:9]
+    d, dd = along_line(n, VECTOR, slopes, WIDTH), along_line(n, VECTOR, bends, WIDTH)
+    v, vv = along_line(n, RATE, slopes, WIDTH), along_line(n, RATE, bends, WIDTH)
+    over = 1.0 / dot(d, d)
+    c, first, second = cross(d, dd), cross(v, dd), cross(d, vv)
+    K = over * c[0], over * c[1], over * c[2]
+    shrinks = 2.0 * over * dot(d, v)
+    k0 = over * (first[0] + second[0]) - shrinks * K[0]
+    k1 = over * (first[1] + second[1]) - shrinks * K[1]
+    k2 = over * (first[2] + second[2]) - shrinks * K[2]
+    along = over * (k0 * d[0] + k1 * d[1] + k2 * d[2])
+    k0, k1, k2 = k0 - along * d[0], k1 - along * d[1], k2 - along * d[2]
+    EI, lag = n[BENDING], n[DAMPING]
+    control.stored[0] += 0.5 * q[0] * EI * dot(K, K)
+    control.power[1] += q[0] * lag * EI * (k0 * k0 + k1 * k1 + k2 * k2)
+    s = q[0] * EI * over
+    M = s * (K[0] + lag * k0), s * (K[1] + lag * k1), s * (K[2] + lag * k2)
+    of_slope, of_bend, both = cross(dd, M), cross(M, d), 2.0 * dot(K, M)
+    add_along_line(n, slopes, WIDTH, of_slope[0] - both * d[0], of_slope[1] - both * d[1], of_slope[2] - both * d[2])
+    add_along_line(n, bends, WIDTH, of_bend[0], of_bend[1], of_bend[2])
+
+
+@stage
+def twist_of(A, B):
+    """Turn from axes A to axes B about their x axes, beyond the least turn that takes one x axis to the other [rad]."""
+    t, s = (A[0, 0], A[1, 0], A[2, 0]), (B[0, 0], B[1, 0], B[2, 0])
+    y, e = (A[0, 1], A[1, 1], A[2, 1]), (B[0, 1], B[1, 1], B[2, 1])
+    z = B[0, 2], B[1, 2], B[2, 2]
+    share = dot(s, y) / (1.0 + dot(t, s))
+    carried = y[0] - share * (t[0] + s[0]), y[1] - share * (t[1] + s[1]), y[2] - share * (t[2] + s[2])
+    return arctan2(-dot(carried, z), dot(carried, e))
+
+
+@stage
+def twist_nodes(bodies, markers, index, n, control):
+    """What twist between the nodes stores, loses and turns."""
+    a, b = index[AXES], index[AXES + 1]
+    A, B, first, second = markers.A[a], markers.A[b], markers.body[a], markers.body[b]
+    share = 1.0 / (1.0 + A[0, 0] * B[0, 0] + A[1, 0] * B[1, 0] + A[2, 0] * B[2, 0])
+    m = share * (A[0, 0] + B[0, 0]), share * (A[1, 0] + B[1, 0]), share * (A[2, 0] + B[2, 0])
+    angle = twist_of(A, B)
+    rate = dot(m, bodies.omega[second]) - dot(m, bodies.omega[first])
+    viscous = n[DAMPING] * n[TWIST] * rate
+    control.stored[0] += 0.5 * n[TWIST] * angle * angle
+    control.power[1] += viscous * rate
+    torque = n[TWIST] * angle + viscous
+    for i in range(3):
+        bodies.wrench[first, 3 + i] += torque * m[i]
+        bodies.wrench[second, 3 + i] -= torque * m[i]
+
+
+@family
+def apply(machine, number, t):
+    """All elements."""
+    record = record_at(machine)
+    elements, bodies, markers, control = record.elements, record.bodies, record.markers, record.control
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        read_vectors(markers, index, n, WIDTH)
+        for g in range(3):
+            stretch_point(n, n[STRETCHED + 5 * g : STRETCHED + 5 * g + 5], control)
+        for g in range(2):
+            bending_point(n, n[BENT + 9 * g : BENT + 9 * g + 9], control)
+        twist_nodes(bodies, markers, index, n, control)
+        push_vectors(bodies, markers, index, n, WIDTH)
+    return OK

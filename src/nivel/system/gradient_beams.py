@@ -1,0 +1,114 @@
+"""Beams in absolute nodal coordinates in numbers: their elements as families of forces, and the mass that their points have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from nivel.kernels.beam_record import PointInertia
+from nivel.kernels.record import NONE
+from nivel.machine.beam import Beam
+from nivel.system.beam_elements import gauss
+from nivel.system.draft import Draft
+from nivel.system.gradient_elements import (
+    BEAM_POINTS,
+    BENDING_POINTS,
+    STRETCH_POINTS,
+    Array,
+    as_points,
+    beam_strains,
+    consistent_mass,
+    hermite,
+    lengths_of,
+    lumped_mass,
+    reach_of,
+    unstressed_vectors,
+    vectors_of_node,
+)
+from nivel.system.tables import index_array
+
+CABLE, BEAM = FAMILIES = ("ancf_cable", "ancf_beam")
+MOST_VECTORS = 8
+VECTORS = 72  # places, rates and forces of an element
+
+
+def family_of_gradients(beam: Beam) -> str:
+    """The kernel of the elements of a beam in absolute nodal coordinates."""
+    return CABLE if beam.model == "ancf-cable" else BEAM
+
+
+def add_gradient_beam(draft: Draft, beam: Beam) -> None:
+    """The elements of a beam, whose nodes are bodies and whose gradients are points on these."""
+    points, axes = _points(draft, beam), [draft.frame(name) for name in beam.node_names]
+    numbers = _cable_numbers(beam) if beam.model == "ancf-cable" else _beam_numbers(beam)
+    for e, own in enumerate(numbers):
+        index = [*points[e], *points[e + 1]]
+        if beam.model == "ancf-cable":
+            index += axes[e : e + 2]
+        head = [beam.damping, reach_of(beam), reach_of(beam), *[0.0] * VECTORS]
+        draft.elements.add(family_of_gradients(beam), index, [*head, *own])
+        draft.noted.append(frozenset(draft.markers.body[node] for node in axes[e : e + 2]))
+
+
+def _points(draft: Draft, beam: Beam) -> list[list[int]]:
+    """Markers of each node and of the tips of its gradients; the same ones at every call."""
+    reach, width = reach_of(beam), vectors_of_node(beam)
+    with draft.within(f"beams.{beam.name}"):
+        return [
+            [draft.frame(name), *(draft.tip(name, axis, reach) for axis in range(width - 1))]
+            for name in beam.node_names
+        ]
+
+
+def _cable_numbers(beam: Beam) -> list[list[float]]:
+    """Columns from OWN on of `nivel.kernels.forces.ancf_cable`, an element each."""
+    C = beam.properties.stiffness
+    (xi, weight), (at, share) = gauss(STRETCH_POINTS), gauss(BENDING_POINTS)
+    out = []
+    for length in lengths_of(beam).tolist():
+        slope, own, bend = hermite(xi, length, 1), hermite(at, length, 1), hermite(at, length, 2)
+        stretch = np.column_stack([weight * length, slope])
+        bending = np.column_stack([share * length, own, bend])
+        out.append([C[0, 0], C[4, 4], C[3, 3] / length, *stretch.ravel().tolist(), *bending.ravel().tolist()])
+    return out
+
+
+def _beam_numbers(beam: Beam) -> list[list[float]]:
+    """Columns from OWN on of `nivel.kernels.forces.ancf_beam`, an element each."""
+    C = beam.properties.stiffness
+    xi, _ = gauss(BEAM_POINTS)
+    unstressed = beam_strains(beam, unstressed_vectors(beam))
+    out = []
+    for e, length in enumerate(lengths_of(beam).tolist()):
+        table = np.column_stack([unstressed.weight[e], xi, hermite(xi, length, 1), unstressed.value[e]])
+        section = section_stiffness(C)
+        out.append([length, *C.ravel().tolist(), *section.tolist(), *table.ravel().tolist()])
+    return out
+
+
+def section_stiffness(C: Array) -> Array:
+    """(3,) [N] what the deformation of a section of stiffness C costs, yy, zz and yz: as much as stretch and shear of the beam do."""
+    return np.array([C[0, 0], C[0, 0], 0.5 * (C[1, 1] + C[2, 2])])
+
+
+def point_inertia(draft: Draft, beams: Sequence[Beam]) -> PointInertia:
+    """The mass that the points of beams in absolute nodal coordinates have in common."""
+    markers, matrices = [], [np.zeros((0, MOST_VECTORS, MOST_VECTORS))]
+    for beam in beams:
+        if beam.model == "exact":
+            continue
+        width = vectors_of_node(beam)
+        T = np.kron(np.eye(2), as_points(width, reach_of(beam)))
+        points = _points(draft, beam)
+        for e, length in enumerate(lengths_of(beam).tolist()):
+            first, second = lumped_mass(beam, length)
+            rest = consistent_mass(beam, length)
+            rest[:width, :width] -= first
+            rest[width:, width:] -= second
+            matrix = np.zeros((1, MOST_VECTORS, MOST_VECTORS))
+            matrix[0, : 2 * width, : 2 * width] = T.T @ rest @ T
+            matrices.append(matrix)
+            own = [*points[e], *points[e + 1]]
+            markers.append(own + [NONE] * (MOST_VECTORS - len(own)))
+    return PointInertia(index_array(markers, MOST_VECTORS), np.concatenate(matrices))

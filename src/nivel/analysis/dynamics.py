@@ -392,9 +392,10 @@ def _scales(system: System, y: Array, duration: float) -> Array:
     )
     energy = max(*energies, 1e-300)
     floors = {"m": system.size, "1": 1.0, "m/s": system.size / duration, "1/s": 1.0 / duration}
-    # modes of unit modal mass move the body by about p/√mass
-    floors |= {"kg^0.5 m": mass**0.5 * system.size, "kg^0.5 m/s": mass**0.5 * system.size / duration}
-    scale = np.array([floors.get(unit, 0.0) for unit in system.map.units])
+    units = np.array(system.map.units)
+    scale = np.array([floors.get(unit, 0.0) for unit in units])
+    scale[units == "kg^0.5 m"] = system.modal_sizes()
+    scale[units == "kg^0.5 m/s"] = system.modal_sizes() / duration
     states = len(system.record.elements.state)
     scale[len(scale) - 2 - states : -2] = _deflections(system)
     scale[-2:] = energy

@@ -1,8 +1,9 @@
 """Nodes of beams in absolute nodal coordinates as flexible bodies: frames turn with the gradients, modes stretch and shear them.
 
-A gradient is A U e_i with the axes A of the node. Of a cable U stretches the one gradient along the beam; with all three of them U is
-symmetric, 1 at rest, so A and U are the polar decomposition of the gradients and no motion is lost or counted twice. The tips of the
-gradients are interfaces.
+The frame of a node has its section for y and z axes: gradients across the beam stretch along these and shear in their plane. The gradient
+along the beam is any vector in this frame; of a cable, which has no other, it is the x axis and stretches. So no motion is lost or counted
+twice, and what turns the node turns its section: were the frame to go half-way with the gradient along the beam, a couple would shear
+the element by more the shorter it is. The tips of the gradients are interfaces.
 """
 
 from __future__ import annotations
@@ -20,9 +21,9 @@ from nivel.machine.flexibility import Flexibility
 from nivel.system.gradient_elements import as_points, lengths_of, lumped_mass, reach_of, vectors_of_node
 
 Array = NDArray[np.float64]
-# the components of U that are modes, by pairs of axes
-STRETCHES = ((0, 0),)
-ALL = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+# modes: axes along which they move the tip of the gradient along each axis, together
+STRETCHES = (((0, 0),),)
+ALL = (((0, 0),), ((0, 1),), ((0, 2),), ((1, 1),), ((2, 2),), ((1, 2), (2, 1)))
 TIPS = ("x", "y", "z")
 
 
@@ -58,27 +59,26 @@ def modes_in_gradients(beam: Beam, node: ReducedBody) -> Array:
 def _node(name: str, W: Array, roll: float, reach: float) -> ReducedBody:
     """A node whose vectors have the mass matrix W, and roll [kg m²] about the beam beside it."""
     width = len(W)
-    pairs = STRETCHES if width == 2 else ALL
+    shapes = STRETCHES if width == 2 else ALL
     position = np.zeros((width, 3))
     position[1:] = reach * np.eye(3)[: width - 1]
-    displacement = np.zeros((width, 3, len(pairs)))
-    for j, (a, b) in enumerate(pairs):
-        for row, column in {(a, b), (b, a)}:
-            if column < width - 1:
-                displacement[1 + column, row, j] = reach
+    displacement = np.zeros((width, 3, len(shapes)))
+    for j, moves in enumerate(shapes):
+        for tip, axis in moves:
+            displacement[1 + tip, axis, j] = reach
     T = as_points(width, reach)
     raw = of_points(position, displacement, T.T @ W @ T)
     change = np.asarray(np.linalg.inv(np.linalg.cholesky(raw.I6)).T, dtype=float)
     its = raw.of_modes(change)
     phi = displacement @ change
-    modes = np.zeros((width, 6, len(pairs)))
+    modes = np.zeros((width, 6, len(shapes)))
     modes[:, :3] = phi
     return ReducedBody(
         name=name,
-        eigenvalues=np.zeros(len(pairs)),
+        eigenvalues=np.zeros(len(shapes)),
         invariants=replace(its, I7=its.I7 + np.diag([roll, 0.0, 0.0])),
         interfaces=tuple(
-            Interface(TIPS[k], k + 1, position[k + 1], phi[k + 1], np.zeros((3, len(pairs))), False)
+            Interface(TIPS[k], k + 1, position[k + 1], phi[k + 1], np.zeros((3, len(shapes))), False)
             for k in range(width - 1)
         ),
         node_ids=np.arange(width),

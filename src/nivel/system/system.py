@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +41,7 @@ class System:
     and drivers. row_owner : name of the joint, coupling or driver of each of these. point_masses : (B,) bodies that do not turn.
     coupled : bodies that each force acts on or depends on, the ground included.
     frame_markers : markers that are frames of bodies. marker_owners : `joints.hinge`, …: what each marker belongs to.
-    modes : names of the modal coordinates.
+    modes : names of the modal coordinates. gradient_sizes : (modes,) what those of gradients are measured by [kg^½ m], 0 for others.
     as_placed : combinations that keep the value that they have as the machine is placed.
     size : length of the machine [m], the scale of its tolerances. state_map : what the entries of y are; None: as `absolute_map`.
     """
@@ -66,6 +66,7 @@ class System:
     start: Array
     state_map: StateMap | None = None
     modes: tuple[str, ...] = ()
+    gradient_sizes: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def body_count(self) -> int:
@@ -117,6 +118,15 @@ class System:
         else:
             v[:, 3:] = angular_velocity_b
         return np.concatenate([q, v.ravel(), np.zeros(len(self.record.elements.state) + 2)])
+
+    def modal_sizes(self) -> Array:
+        """(modes,) [kg^½ m] what modal coordinates are measured by: modes of unit modal mass move the machine by about p/√m, and stretch
+        the gradients of a node as if these had its mass at their tips."""
+        whole = float(np.sqrt(self.record.bodies.mass.sum())) * self.size
+        out = np.full(len(self.modes), whole)
+        own = self.gradient_sizes[: len(out)]
+        out[np.flatnonzero(own)] = own[own > 0.0]
+        return out
 
     def known_rank(self, rank: int) -> System:
         """The same system prepared for `rank` independent rows: with redundant ones, for the rank-revealing path.

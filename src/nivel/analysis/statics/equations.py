@@ -109,9 +109,8 @@ class StaticEquations:
         self.positions = system.positions
         self.place = self.newton.place.astype(np.int64)
         units = np.array(system.map.units)[self.place[:, 0]]
-        mass = float(self.record.bodies.mass.sum())
-        lengths = {"m": system.size, "kg^0.5 m": mass**0.5 * system.size}
-        self.length = np.array([lengths.get(unit, 1.0) for unit in units])
+        self.length = np.where(units == "m", system.size, 1.0)
+        self.length[units == "kg^0.5 m"] = system.modal_sizes()
         self.free = np.flatnonzero(~self._idle())
         self.row_scale = self.record.constraints.scale[self.residual.row]
         self.energy = 1.0

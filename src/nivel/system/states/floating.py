@@ -144,11 +144,23 @@ def with_modes(
         state_map=_map(absolute, modes),
         start=np.zeros(0),
         modes=names,
+        gradient_sizes=_gradient_sizes(bending),
     )
     start = np.concatenate(
         [y[: 7 * count], np.zeros(modes), y[7 * count : 13 * count], np.zeros(modes), y[13 * count :]]
     )
     return system.known_rank(rank), start
+
+
+def _gradient_sizes(bending: Sequence[Bending]) -> Array:
+    """(modes,) [kg^½ m] √m times reach of nodes of beams, 0 for the modes of other bodies."""
+    return np.array(
+        [
+            np.sqrt(each.reduced.mass) * float(np.ptp(each.reduced.position, axis=0).max()) if each.beam else 0.0
+            for each in bending
+            for _ in each.reduced.eigenvalues
+        ]
+    )
 
 
 def _with_frames(bodies: Bodies, frames: int) -> Bodies:

@@ -319,7 +319,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     record.control.iterations[1:] = 0, MOST_UNSETTLED
     forget(record.partition)
     record.newton.kept[:] = 0.0
-    record.newton.balanced[:] = 0.0
+    record.newton.balanced[0] = 0.0
     record.residual.vdot[:] = 0.0
     record.residual.lam[:] = 0.0
     if settings.corrector is not None:

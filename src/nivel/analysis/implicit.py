@@ -103,7 +103,7 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     plain = plain_nodes(system, part) if by_hand else {}
     plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values())
     place = places(system.map, velocities, positions)
-    room = {"shifted": wanted.shifted, "balance": wanted.balance}
+    room = {"shifted": wanted.shifted, "balance": wanted.balance, "length": system.size}
     newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, **room)
     newton.settings[3] = ROUNDINGS * _longest_chain(record)
     flexible = len(record.flexible.body) > 0

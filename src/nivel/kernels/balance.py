@@ -20,7 +20,7 @@ from nivel.kernels.tangent_parts import ACCELERATION, differentiate_part, own_ra
 
 # A change this small against the accelerations is round-off; with the state's own matrix so is one that gets smaller by no more than SLOW.
 EXACT, SLOW, MOST = 1e-14, 0.2, 40
-# More than this a change after the solution with the state's own matrix is none of round-off.
+# Changes that grow by more than this, with the state's own matrix, are none of round-off.
 GROWN = 10.0
 
 
@@ -36,8 +36,8 @@ def find_matrix(machine, t):
 
 @stage
 def change_accelerations(machine):
-    """Change v̇ and λ by what the residual asks for. Returns the largest change of v̇, as a share of the largest value, turns and
-    others apart; and as it is."""
+    """Change v̇ and λ by what the residual asks for. Returns the largest change of v̇ as a share of the largest value, and as it is
+    [m/s²]; turns count as what they move at the length of the machine: one that vanishes beside other accelerations is round-off of these."""
     record = record_at(machine)
     newton, own = record.newton, record.residual
     f, value = newton.balance, own.value
@@ -53,17 +53,14 @@ def change_accelerations(machine):
         solve_sparse_lu(newton.lu, f.L, f.U, f.Dinv, b, f.work)
     else:
         solve_lu(f.matrix, f.pivot, b)
-    plain, turns, of_plain, of_turns = 0.0, 0.0, 1e-300, 1e-300
+    largest, of_largest = 0.0, 1e-300
     for k in range(n):
         own.vdot[k] += b[k]
-        change, size = np.abs(b[k]), np.abs(own.vdot[k])
-        if newton.place[k, 1] == NONE:
-            plain, of_plain = max(plain, change), max(of_plain, size)
-        else:
-            turns, of_turns = max(turns, change), max(of_turns, size)
+        arm = 1.0 if newton.place[k, 1] == NONE else newton.balanced[1]
+        largest, of_largest = max(largest, arm * np.abs(b[k])), max(of_largest, arm * np.abs(own.vdot[k]))
     for k in range(rows):
         own.lam[k] += b[first + k]
-    return max(plain / of_plain, turns / of_turns), max(plain, turns)
+    return largest / of_largest, largest
 
 
 @stage
@@ -82,7 +79,7 @@ def balance(machine, t, y):
     for k in range(own.lam.shape[0]):
         if not np.abs(own.lam[k]) < np.inf:
             own.lam[k] = 0.0
-    last, before, fresh = np.inf, np.inf, False
+    last, noise, fresh = np.inf, 0.0, False
     for _ in range(MOST):
         status = call_hook(machine, RESIDUAL, 0, t)
         if status != OK:
@@ -94,18 +91,21 @@ def balance(machine, t, y):
             status = find_matrix(machine, t)
             if status != OK:
                 return status
-            newton.balanced[0], fresh, last, before = 1.0, True, np.inf, np.inf
+            newton.balanced[0], fresh, last = 1.0, True, np.inf
         size, change = change_accelerations(machine)
         if size <= EXACT:
             return OK
-        if not size <= SLOW * last:
-            if fresh:
-                # accelerations that vanish are round-off themselves, and so are all changes of them
-                return OK if size < SLOW or change <= GROWN * before else NOT_CONVERGED
-            newton.balanced[0], last = 0.0, np.inf
-        else:
+        if size <= SLOW * last:
             last = size
-        before = change
+        elif not fresh:
+            newton.balanced[0], last = 0.0, np.inf
+        elif size < SLOW or change <= GROWN * noise:
+            return OK
+        elif noise > 0.0:
+            return NOT_CONVERGED
+        else:
+            # where all accelerations vanish they are round-off, and so are all changes of them: these do not grow
+            noise = change
     return NOT_CONVERGED
 
 

@@ -37,7 +37,7 @@ def find_matrix(machine, t):
 @stage
 def change_accelerations(machine):
     """Change v̇ and λ by what the residual asks for. Returns the largest change of v̇ as a share of the largest value, and as it is
-    [m/s²]; turns count as what they move at the length of the machine: one that vanishes beside other accelerations is round-off of these."""
+    [m/s²]; turns count as what they move at the length of the machine: one that vanishes beside other ones is round-off of these."""
     record = record_at(machine)
     newton, own = record.newton, record.residual
     f, value = newton.balance, own.value

@@ -15,7 +15,6 @@ from nivel.machine.python_law import PythonLaw
 from nivel.machine.settings import SimulationSettings
 from nivel.machine.table import Table
 from nivel.march.catalogue import INTEGRATORS, chooses
-from nivel.motion.catalogue import FLEXIBLE
 from nivel.system.laws import false_derivative
 from nivel.system.system import Array
 
@@ -188,15 +187,12 @@ def _jump_of(table: Table, settings: SimulationSettings) -> str:
     return ""
 
 
-def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: str) -> None:
+def refuse_for_flexible(machine: MachineRecord, coordinates: str) -> None:
     """Methods that do not know flexible bodies."""
     if not machine.is_flexible:
         return
     faults = []
     names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
-    if coordinates not in FLEXIBLE:
-        message = f"'{coordinates}' does not go with flexible bodies ({names}): take {' or '.join(FLEXIBLE)}"
-        faults.append(("coordinates", message))
     if coordinates == "relative" and machine.shares_mass:
         beams = ", ".join(beam.name for beam in machine.beams if beam.mass == "consistent")
         message = (
@@ -204,8 +200,6 @@ def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: s
             f"`mass: lumped` for the beams"
         )
         faults.append(("coordinates", message))
-    if formulation == "lagrange":
-        faults.append(("formulation", f"'{formulation}' does not go with flexible bodies ({names}): take newton-euler"))
     if INTEGRATORS[machine.simulation.integrator].whole:
         message = (
             f"'{machine.simulation.integrator}' does not go with flexible bodies ({names}): take generalised-alpha, whose "

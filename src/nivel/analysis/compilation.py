@@ -15,6 +15,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS, IntegratorFacts, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import BALANCED, FLEXIBLE, PATHS, path_of
+from nivel.system.beams import ELASTIC as ELASTIC_FAMILY
 from nivel.system.beams import FAMILIES as BEAMS
 from nivel.system.beams import family_of
 from nivel.system.forces import FORCES
@@ -25,7 +26,7 @@ FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
 MEASURE, FRICTION = "nivel.kernels.measure", "nivel.kernels.friction"
 GIVEN_FRICTION, RAIL = "nivel.kernels.friction_residual", "nivel.kernels.rail"
-ELASTIC, HELD = "nivel.kernels.forces.elastic_beam", "nivel.kernels.forces.held_beam"
+ELASTIC, HELD = f"nivel.kernels.forces.{ELASTIC_FAMILY}", "nivel.kernels.forces.held_beam"
 OF_BEAMS = (HELD, "nivel.kernels.beam_tangent")
 RARE = {
     MEASURE: "measured coordinates",
@@ -146,6 +147,6 @@ def _rare_parts(machine: MachineRecord, chosen: bool) -> list[tuple[str, str]]:
         "nivel.kernels.watch": bool(machine.events) or (chosen and bool(types & {*FOLLOWED})),
     }
     parts = [(f"nivel.kernels.forces.{family}", f"forces: {family}") for family in families]
-    if machine.beams:
+    if any(family_of(beam) == ELASTIC_FAMILY for beam in machine.beams):
         parts += [(module, "beams") for module in OF_BEAMS]
     return parts + [(module, what) for module, what in RARE.items() if needed[module]]

@@ -194,7 +194,7 @@ def refuse_for_flexible(machine: MachineRecord, coordinates: str) -> None:
     faults = []
     names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
     if coordinates == "relative" and machine.shares_mass:
-        beams = ", ".join(beam.name for beam in machine.beams if beam.mass == "consistent")
+        beams = ", ".join(beam.name for beam in machine.beams if beam.shares_mass)
         message = (
             f"'relative' does not go with flexible bodies ({names}) and the consistent mass of {beams} at once: take absolute, or "
             f"`mass: lumped` for the beams"
@@ -214,7 +214,7 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
     """Methods that need a mass matrix of single bodies, for beams of consistent mass."""
     if not machine.shares_mass:
         return
-    names = ", ".join(beam.name for beam in machine.beams if beam.mass == "consistent")
+    names = ", ".join(beam.name for beam in machine.beams if beam.shares_mass)
     why = f"does not go with the consistent mass of {names}: take {{}}, or `mass: lumped` for the beams"
     faults = []
     if coordinates not in ("absolute", "relative"):

@@ -42,7 +42,8 @@ Time = Annotated[float, Quantity("time")]
 
 
 class Beam(Checked):
-    """A slender body that may move and bend by any amount: geometrically exact, with shear (Reissner 1981, Simo 1985).
+    """A slender body that may move and bend by any amount: geometrically exact, with shear (Reissner 1981, Simo 1985), or, for comparison,
+    a row of rigid segments joined by springs.
 
     Joints, forces and markers take hold of it at stations, which are bodies for them: `BEAM.start`, `BEAM.end`, and those named.
     The axes of a station are those of the section there: x along the beam.
@@ -72,7 +73,14 @@ class Beam(Checked):
     )
     elements: Annotated[int, Field(strict=True, ge=1, le=100_000)] = 10
     order: Annotated[int, Field(strict=True, ge=1, le=3)] = Field(default=1, description="of an element: 1, 2 or 3")
-    mass: Literal["consistent", "lumped"] = "consistent"
+    model: Literal["geometrically-exact", "segments"] = Field(
+        default="geometrically-exact",
+        description="finite elements, or rigid segments joined by springs of six directions",
+    )
+    mass: Literal["consistent", "lumped"] | None = Field(
+        default=None,
+        description="of elements: consistent, if not given, or lumped at the nodes; segments have their own",
+    )
     interpolation: Literal["relative", "total"] = Field(
         default="relative",
         description="of rotations in an element: relative to a node of it, or total, which is not objective",
@@ -117,6 +125,11 @@ class Beam(Checked):
         return place[0], axes[0]
 
     @property
+    def shares_mass(self) -> bool:
+        """Whether its nodes have mass in common."""
+        return self.model == "geometrically-exact" and self.mass != "lumped"
+
+    @property
     def properties(self) -> BeamSection:
         """The section in numbers."""
         return beam_section(self.section, self.material, self.centroid, self.shear_centre)
@@ -131,6 +144,12 @@ class Beam(Checked):
         elif not zero:
             yield from self._problems_of_line()
         yield from self._problems_of_section()
+        if self.model == "segments" and self.mass == "consistent":
+            yield superfluous(
+                "mass", "consistent does not go with `model: segments`: a rigid segment has a mass of its own"
+            )
+        if self.model == "segments" and self.interpolation == "total":
+            yield superfluous("interpolation", "does not go with `model: segments`: nothing is interpolated")
         if self.damping < 0.0:
             yield Problem(("damping",), f"zero or more was expected, got {self.damping:g} s")
 

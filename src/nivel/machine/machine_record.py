@@ -110,7 +110,7 @@ class MachineRecord(Checked):
     @property
     def shares_mass(self) -> bool:
         """Whether a beam of it has a consistent mass, which its nodes have in common."""
-        return any(beam.mass == "consistent" for beam in self.beams)
+        return any(beam.shares_mass for beam in self.beams)
 
     def problems(self) -> Iterator[Problem]:
         yield from problems_of_points(self)

@@ -25,7 +25,7 @@ AT_ONCE: Final = 20_000  # elements, counted anew at every time
 
 @dataclass(frozen=True)
 class Felt:
-    """What a beam feels at times t and points p, the Gauss points of its elements.
+    """What a beam feels at times t and points p: the Gauss points of its elements, or where its segments meet.
 
     share : (p,) of the length. weight : (p,) [m]. strain : (t, p, 6) Γ [1] and Κ [1/m], axes of the section, beyond those of the unstressed
     beam. stress : (t, p, 6) force [N] and moment [N m] that go with it.
@@ -43,6 +43,8 @@ def felt(beam: Beam, place: Array, theta: Array) -> Felt:
 
     from nivel.system.beam_elements import elements_of, strains
 
+    if beam.model == "segments":
+        return _felt_by_springs(beam, place, theta)
     elements = elements_of(beam)
     count, points = elements.N.shape[:2]
     times, rows = len(place), max(AT_ONCE // count, 1)
@@ -66,8 +68,20 @@ def felt(beam: Beam, place: Array, theta: Array) -> Felt:
     return Felt(share, elements.weight.ravel(), strain, strain @ beam.properties.stiffness)
 
 
+def _felt_by_springs(beam: Beam, place: Array, theta: Array) -> Felt:
+    """The same where segments meet: the deflection of the spring over the length of its piece of beam."""
+    from scipy.spatial.transform import Rotation
+
+    from nivel.system.beam_segments import boundaries, deflections
+
+    axes = Rotation.from_quat(theta.reshape(-1, 4), scalar_first=True).as_matrix().reshape(*theta.shape[:2], 3, 3)
+    weight = beam.line.length * np.diff(beam.shares)
+    strain = deflections(beam, place, axes) / weight[:, None]
+    return Felt(boundaries(beam), weight, strain, strain @ beam.properties.stiffness)
+
+
 def beam_sections(result: Result, name: str) -> xr.Dataset:
-    """What the sections of the beam `name` feel at all times, at the Gauss points of its elements.
+    """What the sections of the beam `name` feel at all times, at the Gauss points of its elements or where its segments meet.
 
     Dimensions `time`, `point`, `component` (x along the beam, y and z across it: axes of the section). Variables: `share` (point) of the
     length; `strain` (stretch and two shears) [1] and `curvature` (twist and two curvatures) [1/m], beyond those of the unstressed beam;

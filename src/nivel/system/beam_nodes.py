@@ -12,6 +12,7 @@ from nivel.machine.inertia import Inertia
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.orientation import Orientation, euler_parameters_from_matrix
 from nivel.system.beam_elements import masses_of
+from nivel.system.beam_segments import Segments, segments_of
 from nivel.system.rails import on_beams
 
 # how unwilling nodes are to be moved by the assembly, which would stress the beam: bodies beside it are moved instead
@@ -33,16 +34,24 @@ def with_nodes(machine: MachineRecord) -> MachineRecord:
     return type(machine).model_construct(machine.model_fields_set | {"bodies"}, **given)
 
 
+def lumps_of(beam: Beam) -> Segments:
+    """What its nodes weigh by themselves: rigid segments, or the shares of the elements."""
+    if beam.model == "segments":
+        return segments_of(beam)
+    masses = masses_of(beam)
+    return Segments(masses.mass, np.tile(beam.properties.mass_centre, (len(masses.mass), 1)), masses.inertia)
+
+
 def _nodes(beam: Beam) -> list[Body]:
-    masses, section = masses_of(beam), beam.properties
+    lumps = lumps_of(beam)
     place, axes = beam.frames(beam.shares)
     speed = np.array(beam.velocity) + np.cross(np.array(beam.angular_velocity), place - place[0])
     return [
         Body.model_construct(
             name=name,
-            mass=float(masses.mass[k]),
-            centre_of_mass=tuple(section.mass_centre.tolist()),
-            inertia=_inertia(masses.inertia[k]),
+            mass=float(lumps.mass[k]),
+            centre_of_mass=tuple(lumps.centre[k].tolist()),
+            inertia=_inertia(lumps.inertia[k]),
             position=tuple(place[k].tolist()),
             orientation=Orientation.model_construct(
                 euler_parameters=tuple(euler_parameters_from_matrix(axes[k]).tolist())

@@ -73,7 +73,7 @@ def compile_path(
         import_module(module)
     asks = integrator in INTEGRATORS and (_facts(machine, path[0], integrator).residual or machine.shares_mass)
     if asks and facts is not None and facts.residual:
-        residual = INTEGRATORS[integrator].whole or facts.residual
+        residual = INTEGRATORS[integrator].over_step(machine.is_flexible) or facts.residual
         whole = bool(INTEGRATORS[integrator].whole) or INTEGRATORS[integrator].along
         _compile_derivatives(residual, [module for module, _ in parts], listener, held=not whole)
     return perf_counter() - begin
@@ -104,7 +104,7 @@ def complex_modules() -> list[str]:
     """Modules of families that exact derivatives may need on complex numbers."""
     families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])
     residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values()) if path.residual]
-    residuals += [facts.whole for facts in INTEGRATORS.values() if facts.whole]
+    residuals += [module for facts in INTEGRATORS.values() for module in (facts.whole, facts.whole_flexible) if module]
     return [*residuals, MEASURE, RAIL, GIVEN_FRICTION, *(f"nivel.kernels.forces.{family}" for family in families)]
 
 

@@ -189,7 +189,12 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
         free = not touches_ground(machine, prepared.system) if integrator.whole else None
         wanted = Wanted(
-            integrator.whole, corners(machine), integrator.shifted, machine.shares_mass, integrator.along, free
+            integrator.over_step(machine.is_flexible),
+            corners(machine),
+            integrator.shifted,
+            machine.shares_mass,
+            integrator.along,
+            free,
         )
         prepared = equip(prepared, y, coordinates, wanted)
     return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator)

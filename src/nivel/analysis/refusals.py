@@ -200,12 +200,6 @@ def refuse_for_flexible(machine: MachineRecord, coordinates: str) -> None:
             f"`mass: lumped` for the beams"
         )
         faults.append(("coordinates", message))
-    if INTEGRATORS[machine.simulation.integrator].whole:
-        message = (
-            f"'{machine.simulation.integrator}' does not go with flexible bodies ({names}): take generalised-alpha, whose "
-            f"`stabilisation: geometric` keeps the energy"
-        )
-        faults.append(("integrator", message))
     if faults:
         raise ModelError([Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults])
 

@@ -21,9 +21,15 @@ from nivel.kernels.status import NO_MASS_LEFT, OK
 @stage
 def gather(machine):
     """Bring the wrenches at interfaces to the floating frames and to `Q`, with weight, elastic and damping forces of the modes."""
+    load_modes(machine)
+    gather_frames(machine)
+
+
+@stage
+def gather_frames(machine):
+    """Bring the wrenches at interfaces to the floating frames and to `Q`."""
     record = record_at(machine)
     bodies, own = record.bodies, record.flexible
-    load_modes(machine)
     for k in range(own.frame.shape[0]):
         f, v = own.frame[k, 0], own.frame[k, 1]
         b = own.body[f]

@@ -3,7 +3,8 @@
 The beam is cut into `count` rigid bars of equal length l. Between two of them, and between the first and the ground, stands a bushing
 with the stiffness of the piece of beam between their middles: E A/l along it, G A/l across it, G J/l and E I/l about it; the first
 piece is half as long. Turns may be large. Frequencies are right to the order of l², so it takes many more segments than modes; what it
-is good for is a beam between rigid bodies where forces act everywhere along it.
+is good for is a beam between rigid bodies where forces act everywhere along it. Here it is made by hand, to be changed: a beam of a machine
+file with `model: segments` is such a row of bars without any program.
 """
 
 from nivel.machine import Body, Bushing, MachineRecord, Marker, Sensor, SimulationSettings

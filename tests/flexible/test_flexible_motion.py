@@ -332,18 +332,6 @@ def test_cantilever_settles_at_the_deflection_of_the_closed_form(files):
     assert r.joint_torque[-1, 0, 2] == pytest.approx(-weight, rel=1e-4)
 
 
-def test_what_flexible_bodies_cannot_do_is_refused(files):
-    machine = pendulum(files, "plain")
-    for settings, word in (
-        ({"coordinates": "independent"}, "coordinates"),
-        ({"formulation": "lagrange", "coordinates": "absolute"}, "formulation"),
-        ({"integrator": "energy-momentum", "stabilisation": "none"}, "integrator"),
-    ):
-        with pytest.raises(ModelError) as caught:
-            run(machine, **settings)
-        assert [fault.path for fault in caught.value.faults] == [f"simulation.{word}"]
-
-
 def test_markers_away_from_interfaces_and_too_many_modes_are_named(files):
     machine = pendulum(files, "plain")
     away = machine.replace(markers=(Marker(name="tip", body="bar", position=(1.9, 0.0, 0.0)),))

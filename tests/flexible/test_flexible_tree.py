@@ -6,7 +6,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 import simulating
 from nivel.analysis.choice import choose_coordinates
@@ -21,6 +20,7 @@ from nivel.errors import ModelError
 from nivel.flexible import reference
 from nivel.flexible.body_file import read_body
 from nivel.machine import SimulationSettings
+from observing import assert_same_frame, observed, of_absolute
 from running import run
 from tree_machines import MACHINES, beam, hinge, machine, write_beams
 from unknowns import Unknowns, error_of
@@ -76,31 +76,6 @@ def moving(record, rng):
     )
 
 
-def observed(motion, t, y):
-    """Status, frame, and copies of what the record has of bodies and modes."""
-    status, _ = motion.evaluate(t, y)
-    frame = np.zeros(motion.system.layout.width)
-    import_module("nivel.kernels.observe").observe(motion.handle.address, t, y, frame)
-    record = motion.system.record
-    frames, own, count = record.frames, record.flexible, len(record.bodies.mass)
-    parts = {name: getattr(frames, name)[:count].copy() for name in ("R", "theta", "Rdot", "Rddot")}
-    parts |= {name: getattr(record.bodies, name)[:count].copy() for name in ("omega", "omega_b", "alpha_b", "A")}
-    parts |= {name: getattr(own, name).copy() for name in ("p", "pdot", "pddot")}
-    return SimpleNamespace(status=status, frame=frame, **parts)
-
-
-def of_absolute(seen, states):
-    """The state in absolute coordinates of what was observed."""
-    modes = [seen.p, np.column_stack([seen.Rdot, body_rates(seen)]).ravel(), seen.pdot]
-    return np.concatenate([np.column_stack([seen.R, seen.theta]).ravel(), *modes, np.zeros(states + 2)])
-
-
-def body_rates(seen):
-    """Angular velocities in axes of the bodies' own frames."""
-    A = Rotation.from_quat(seen.theta, scalar_first=True).as_matrix()
-    return np.einsum("bij,bi->bj", A, seen.omega)
-
-
 @EACH
 def test_accelerations_at_equal_states(folder, rng, name):
     """Of bodies and modes, reactions, energies and sensors: the frame as a whole."""
@@ -113,17 +88,7 @@ def test_accelerations_at_equal_states(folder, rng, name):
         assert expected.status == 0
         assert np.abs(expected.pddot).max() > 1.0
         np.testing.assert_allclose(seen.pddot, expected.pddot, rtol=0, atol=1e-9 * np.abs(expected.pddot).max())
-        layout = here.motion.system.layout
-        for variable in layout.variables:
-            if variable.name in ("constraint_violation", "constraint_rate_violation", "energy_error"):
-                continue
-            found, wanted = seen.frame[variable.columns], expected.frame[variable.columns]
-            if variable.name == "orientation":
-                found, wanted = np.abs(found), np.abs(wanted)
-            if variable.name == "joint_coordinate":
-                found, wanted = np.exp(1j * found), np.exp(1j * wanted)
-            largest = np.abs(wanted).max(initial=1e-3)
-            np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-9 * largest, err_msg=variable.name)
+        assert_same_frame(here.motion.system.layout, seen.frame, expected.frame)
 
 
 @EACH

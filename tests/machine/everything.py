@@ -59,6 +59,7 @@ EVERYTHING = {
                 "mass_centre": [0, "1 mm"],
             },
             "mass": "lumped",
+            "model": "segments",
         },
         {
             "name": "spring",

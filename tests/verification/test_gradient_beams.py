@@ -269,7 +269,7 @@ def test_all_gradients_bend_twist_and_shear_as_the_exact_beam():
         sections["beams"]["rod"]["model"] = model
         return machine(sections).statics(duration=1, step=0.25).array("position")[-1, -1]
 
-    exact = tip("exact", 24, order=2)
+    exact = tip("geometrically-exact", 24, order=2)
     errors = [np.linalg.norm(tip("ancf-beam", elements) - exact) for elements in (16, 32)]
     assert exact[2] > 6.0
     assert errors[1] < 0.03
@@ -414,7 +414,7 @@ def test_hinged_cables_and_beams_swing_as_exact_beams_do():
         assert float(result.array("dissipated_energy")[-1]) > 1e-7
         return result["outer.end.position"].values
 
-    exact = tip("exact")
+    exact = tip("geometrically-exact")
     assert np.abs(tip("ancf-beam") - exact).max() < 4e-3
     assert np.abs(tip("ancf-cable") - exact).max() < 4e-3
 

@@ -19,10 +19,10 @@ FIRST_BENDING = 4.730040744862704  # first root above zero of cos x cosh x = 1: 
 
 @dataclass(frozen=True)
 class BeamFacts:
-    """One beam, as it is given: mass [kg], length [m] along its line, number and order of its elements, names of its stations.
+    """One beam, as it is given: mass [kg], length [m] along its line, its model, number and order of its elements, names of its stations.
 
     first_bending : about the lowest frequency [Hz] of the beam straight and free. fastest : highest frequency [Hz] of an element
-    of it, unstressed, which no vibration of the unstressed beam exceeds.
+    of it, or of two half segments on their spring, unstressed, which no vibration of the unstressed beam exceeds.
     """
 
     name: str
@@ -30,6 +30,7 @@ class BeamFacts:
     length: float
     start: tuple[float, ...]
     end: tuple[float, ...]
+    model: str
     elements: int
     order: int
     nodes: int
@@ -49,6 +50,7 @@ def beam_facts(beam: Beam) -> BeamFacts:
         length=length,
         start=tuple(beam.from_),
         end=tuple(beam.to),
+        model=beam.model,
         elements=beam.elements,
         order=beam.order,
         nodes=len(beam.shares),
@@ -59,16 +61,19 @@ def beam_facts(beam: Beam) -> BeamFacts:
 
 
 def fastest_frequency(beam: Beam, section: BeamSection) -> float:
-    """Highest frequency [Hz] of the shortest element of a beam, as if that were straight.
+    """Highest frequency [Hz] of the shortest element of a beam, or piece between two nodes, as if that were straight.
 
     The frequencies of a structure lie below the highest one of its elements (Irons, Treharne 1971).
     """
-    if beam.model != "exact":
+    if beam.has_gradients:
         return fastest_of_gradients(beam)
-    elements = elements_of(beam)
-    length = float(elements.weight.sum(axis=1).min())
-    stiffness = _stiffness(section, beam.order, length)
-    mass = _mass(section, beam.order, length, lumped=beam.mass == "lumped")
+    if beam.model == "segments":
+        length = beam.line.length * float(np.diff(beam.shares).min())
+        stiffness, mass = _stiffness(section, 1, length), _mass_of_halves(section, length)
+    else:
+        length = float(elements_of(beam).weight.sum(axis=1).min())
+        stiffness = _stiffness(section, beam.order, length)
+        mass = _mass(section, beam.order, length, lumped=not beam.shares_mass)
     return float(np.sqrt(eigh(stiffness, mass, eigvals_only=True)[-1])) / (2.0 * np.pi)
 
 
@@ -99,3 +104,17 @@ def _mass(section: BeamSection, order: int, length: float, *, lumped: bool) -> A
     point = section.mass * carried.T @ carried
     point[3:, 3:] += section.inertia
     return np.asarray(np.kron(shares, point), dtype=float)
+
+
+def _mass_of_halves(section: BeamSection, length: float) -> Array:
+    """Mass of two rigid halves of a piece of this length for (place, turn) of its nodes, at which their outer ends are."""
+    total = np.zeros((12, 12))
+    for node, share in ((0, 0.5), (6, -0.5)):
+        xi, weight = gauss(2)
+        for place, part in zip(share * length * xi, 0.5 * length * weight, strict=True):
+            lever = -skew(section.mass_centre + np.array([place, 0.0, 0.0]))
+            carried = np.hstack([np.eye(3), lever])
+            point = section.mass * carried.T @ carried
+            point[3:, 3:] += section.inertia
+            total[node : node + 6, node : node + 6] += part * point
+    return total

@@ -138,10 +138,14 @@ def _lines(facts: Check) -> Iterator[str]:
 def _beam_lines(beam: BeamFacts) -> Iterator[str]:
     orders = {1: "", 2: "quadratic ", 3: "cubic "}
     place = f"{beam.length:.6g} m long, from {_vector(beam.start)} to {_vector(beam.end)} m"
-    yield f"  {beam.name}: {beam.mass:.6g} kg, {place}, {beam.elements} {orders[beam.order]}elements, {beam.nodes} nodes"
+    exact = beam.model == "geometrically-exact"
+    parts = (
+        f"{beam.elements} {orders[beam.order]}elements, {beam.nodes} nodes" if exact else f"{beam.nodes} rigid segments"
+    )
+    yield f"  {beam.name}: {beam.mass:.6g} kg, {place}, {parts}"
     yield f"    stations {', '.join(beam.stations)}"
     slow, fast = _frequency(beam.first_bending), _frequency(beam.fastest)
-    yield f"    vibrates from about {slow} (bending, both ends free) to {fast} (a single element), unstressed"
+    yield f"    vibrates from about {slow} (bending, both ends free) to {fast} (a single {'element' if exact else 'spring'}), unstressed"
 
 
 def _frequency(value: float) -> str:

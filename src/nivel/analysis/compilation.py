@@ -15,7 +15,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS, IntegratorFacts, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import BALANCED, FLEXIBLE, PATHS, path_of
-from nivel.system.beams import ELASTIC as ELASTIC_BEAM
+from nivel.system.beams import ELASTIC as ELASTIC_FAMILY
 from nivel.system.beams import FAMILIES as BEAMS
 from nivel.system.beams import family_of
 from nivel.system.forces import FORCES
@@ -26,7 +26,7 @@ FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
 MEASURE, FRICTION = "nivel.kernels.measure", "nivel.kernels.friction"
 GIVEN_FRICTION, RAIL = "nivel.kernels.friction_residual", "nivel.kernels.rail"
-ELASTIC, HELD = "nivel.kernels.forces.elastic_beam", "nivel.kernels.forces.held_beam"
+ELASTIC, HELD = f"nivel.kernels.forces.{ELASTIC_FAMILY}", "nivel.kernels.forces.held_beam"
 OF_BEAMS = (HELD, "nivel.kernels.beam_tangent")
 POINTS = "nivel.kernels.point_inertia"
 RARE = {
@@ -75,7 +75,7 @@ def compile_path(
         import_module(module)
     asks = integrator in INTEGRATORS and (_facts(machine, path[0], integrator).residual or machine.shares_mass)
     if asks and facts is not None and facts.residual:
-        residual = INTEGRATORS[integrator].whole or facts.residual
+        residual = INTEGRATORS[integrator].over_step(machine.is_flexible) or facts.residual
         whole = bool(INTEGRATORS[integrator].whole) or INTEGRATORS[integrator].along
         _compile_derivatives(residual, [module for module, _ in parts], listener, held=not whole)
     return perf_counter() - begin
@@ -106,15 +106,9 @@ def complex_modules() -> list[str]:
     """Modules of families that exact derivatives may need on complex numbers."""
     families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])
     residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values()) if path.residual]
-    residuals += [facts.whole for facts in INTEGRATORS.values() if facts.whole]
-    return [
-        *residuals,
-        MEASURE,
-        RAIL,
-        GIVEN_FRICTION,
-        POINTS,
-        *(f"nivel.kernels.forces.{family}" for family in families),
-    ]
+    residuals += [module for facts in INTEGRATORS.values() for module in (facts.whole, facts.whole_flexible) if module]
+    of_forces = [f"nivel.kernels.forces.{family}" for family in families]
+    return [*residuals, MEASURE, RAIL, GIVEN_FRICTION, POINTS, *of_forces]
 
 
 def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener, *, held: bool = True) -> None:
@@ -152,11 +146,11 @@ def _rare_parts(machine: MachineRecord, chosen: bool) -> list[tuple[str, str]]:
         MEASURE: bool(machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}),
         FRICTION: "friction" in types,
         RAIL: any(JOINT_KINDS[joint.type].rail for joint in machine.joints),
-        POINTS: any(beam.model != "exact" for beam in machine.beams),
+        POINTS: any(beam.has_gradients for beam in machine.beams),
         "nivel.kernels.sensor": bool(machine.sensors),
         "nivel.kernels.watch": bool(machine.events) or (chosen and bool(types & {*FOLLOWED})),
     }
     parts = [(f"nivel.kernels.forces.{family}", f"forces: {family}") for family in families]
-    if any(family_of(beam) == ELASTIC_BEAM for beam in machine.beams):
+    if any(family_of(beam) == ELASTIC_FAMILY for beam in machine.beams):
         parts += [(module, "beams") for module in OF_BEAMS]
     return parts + [(module, what) for module, what in RARE.items() if needed[module]]

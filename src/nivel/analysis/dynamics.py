@@ -134,7 +134,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     Raises ModelError where it cannot be closed, starts in a singular position, or has friction of no certain load.
     """
     machine = with_nodes(machine)
-    refuse_for_flexible(machine, formulation, coordinates)
+    refuse_for_flexible(machine, coordinates)
     refuse_for_shared_mass(machine, formulation, coordinates)
     motion = equations(machine)
     assembly = assemble(machine, motion)
@@ -175,7 +175,8 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
             arrange_deformed = import_module(facts.arrangement).arrange_deformed
             system, y = arrange_deformed(machine, motion.system, rest.q, rank, choose_cut(machine))
         else:
-            y[: len(rest.q)] = rest.q
+            # the bodies are there already
+            y[system.positions - len(system.modes) : system.positions] = rest.q[7 * system.body_count :]
     prepared = MotionEquations(system, import_module(facts.module))
     integrator = integrator_of(machine, coordinates)
     if machine.shares_mass:
@@ -188,7 +189,12 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
         free = not touches_ground(machine, prepared.system) if integrator.whole else None
         wanted = Wanted(
-            integrator.whole, corners(machine), integrator.shifted, machine.shares_mass, integrator.along, free
+            integrator.over_step(machine.is_flexible),
+            corners(machine),
+            integrator.shifted,
+            machine.shares_mass,
+            integrator.along,
+            free,
         )
         prepared = equip(prepared, y, coordinates, wanted)
     return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator)

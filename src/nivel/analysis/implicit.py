@@ -91,9 +91,14 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     part[:, 0] = renumbered[part[:, 0]]
     part = np.ascontiguousarray(part[part[:, 0] != NONE])
     row = np.ascontiguousarray(record.saddle.row[kept])
-    residual = residual_tables(len(record.bodies.wrench) - 1, len(y), velocities, states, row, part, free=wanted.free)
+    own = record.flexible
+    counts = (len(own.p), len(own.frame), len(own.body)) if wanted.free is not None else (0, 0, 0)
+    residual = residual_tables(
+        len(record.bodies.wrench) - 1, len(y), velocities, states, row, part, free=wanted.free, flexible=counts
+    )
     if wanted.free is not None:
-        residual.interval.solid[system.point_masses] = 0.0
+        solid = np.flatnonzero(~system.point_masses)
+        residual.interval.inertia[solid] = record.bodies.inertia_b[solid]
     # over a whole step the forces of joints act at the mean place, C is that of the end
     mirrored = wanted.free is None and not len(system.frictions)
     groups = unknown_groups(system, velocities, row, part, coordinates)

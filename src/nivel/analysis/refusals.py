@@ -15,7 +15,6 @@ from nivel.machine.python_law import PythonLaw
 from nivel.machine.settings import SimulationSettings
 from nivel.machine.table import Table
 from nivel.march.catalogue import INTEGRATORS, chooses
-from nivel.motion.catalogue import FLEXIBLE
 from nivel.system.laws import false_derivative
 from nivel.system.system import Array
 
@@ -188,42 +187,37 @@ def _jump_of(table: Table, settings: SimulationSettings) -> str:
     return ""
 
 
-def refuse_for_flexible(machine: MachineRecord, formulation: str, coordinates: str) -> None:
+def refuse_for_flexible(machine: MachineRecord, coordinates: str) -> None:
     """Methods that do not know flexible bodies."""
     if not machine.is_flexible:
         return
     faults = []
     nodes = {name for beam in machine.beams for name in beam.node_names}
     bending = [body.name for body in machine.bodies if body.flexible is not None and body.name not in nodes]
-    names = ", ".join([*bending, *(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.model != "exact")])
-    if coordinates not in FLEXIBLE:
-        message = f"'{coordinates}' does not go with flexible bodies ({names}): take {' or '.join(FLEXIBLE)}"
-        faults.append(("coordinates", message))
+    names = ", ".join([*bending, *(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)])
     if coordinates == "relative" and machine.shares_mass:
-        beams = ", ".join(beam.name for beam in machine.beams if beam.mass == "consistent")
+        beams = ", ".join(beam.name for beam in machine.beams if beam.shares_mass)
         message = (
             f"'relative' does not go with flexible bodies ({names}) and the consistent mass of {beams} at once: take absolute, or "
-            f"`mass: lumped` for the beams"
+            f"{_lumped(machine)}"
         )
         faults.append(("coordinates", message))
-    if formulation == "lagrange":
-        faults.append(("formulation", f"'{formulation}' does not go with flexible bodies ({names}): take newton-euler"))
-    if INTEGRATORS[machine.simulation.integrator].whole:
-        message = (
-            f"'{machine.simulation.integrator}' does not go with flexible bodies ({names}): take generalised-alpha, whose "
-            f"`stabilisation: geometric` keeps the energy"
-        )
-        faults.append(("integrator", message))
     if faults:
         raise ModelError([Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults])
+
+
+def _lumped(machine: MachineRecord) -> str:
+    """How the beams of a machine would have masses of single bodies, in words."""
+    gradients = any(beam.has_gradients for beam in machine.beams)
+    return f"`mass: lumped` for the beams{', which geometrically-exact ones can have' * gradients}"
 
 
 def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates: str) -> None:
     """Methods that need a mass matrix of single bodies, for beams of consistent mass."""
     if not machine.shares_mass:
         return
-    names = ", ".join(beam.name for beam in machine.beams if beam.mass == "consistent")
-    why = f"does not go with the consistent mass of {names}: take {{}}, or `mass: lumped` for the beams"
+    names = ", ".join(beam.name for beam in machine.beams if beam.shares_mass)
+    why = f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}"
     faults = []
     if coordinates not in ("absolute", "relative"):
         faults.append(("coordinates", f"'{coordinates}' {why.format('absolute or relative')}"))

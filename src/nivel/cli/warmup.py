@@ -21,7 +21,7 @@ def command(quiet: bool) -> None:
     from nivel.kernels import cache
     from nivel.kernels.hook import compile_on_complex_numbers
     from nivel.march.catalogue import INTEGRATORS
-    from nivel.motion.catalogue import FLOATING, PATHS
+    from nivel.motion.catalogue import FLEXIBLE, PATHS
 
     console = Console(stderr=True, highlight=False, quiet=quiet)
     modules = [
@@ -30,7 +30,9 @@ def command(quiet: bool) -> None:
         "nivel.kernels.tangent_entries",
         "nivel.kernels.static_entries",
     ]
-    modules += [module for facts in (*PATHS.values(), FLOATING) for module in (facts.module, facts.correction)]
+    modules += [
+        module for facts in (*PATHS.values(), *FLEXIBLE.values()) for module in (facts.module, facts.correction)
+    ]
     modules += [facts.module for facts in INTEGRATORS.values()]
     modules += rare_modules()
     total = time.perf_counter()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf
+from nivel.kernels.flexible_partition import flexible_forces, moves_with_modes, times_flexible_mass
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import dot
 
@@ -14,7 +15,10 @@ def generalised_forces(machine):
     """Q = Q_e + Q_v about the frame origins (eq. 75): (F - m ω × (ω × c), Aᵀ(τ - c × m ω × (ω × c)) - ω̄ × J̄ ω̄)."""
     record = record_at(machine)
     bodies, Q = record.bodies, record.partition.Q
+    flexible_forces(machine, Q)
     for b in range(bodies.mass.shape[0]):
+        if moves_with_modes(record, b):
+            continue
         F, c, w, w_b = bodies.wrench[b], bodies.c[b], bodies.omega[b], bodies.omega_b[b]
         A, J, m = bodies.A[b], bodies.inertia_b[b], bodies.mass[b]
         wc, ww = dot(w, c), dot(w, w)
@@ -30,12 +34,20 @@ def generalised_forces(machine):
 
 
 @leaf
+def times_masses(machine, x, out):
+    """out (n,) = M x."""
+    record = record_at(machine)
+    times_flexible_mass(machine, x, out)
+    for b in range(record.bodies.mass.shape[0]):
+        if not moves_with_modes(record, b):
+            times_mass(record.bodies, b, x[6 * b : 6 * b + 6], out[6 * b : 6 * b + 6])
+
+
+@leaf
 def subtract_inertia(machine, x):
     """Q -= M x."""
-    record = record_at(machine)
-    partition = record.partition
-    for b in range(record.bodies.mass.shape[0]):
-        times_mass(record.bodies, b, x[6 * b : 6 * b + 6], partition.p[6 * b : 6 * b + 6])
+    partition = record_at(machine).partition
+    times_masses(machine, x, partition.p)
     for i in range(x.shape[0]):
         partition.Q[i] -= partition.p[i]
 
@@ -49,8 +61,7 @@ def embed(machine):
     free, n = B.shape
     subtract_inertia(machine, partition.D)
     for k in range(free):
-        for b in range(record.bodies.mass.shape[0]):
-            times_mass(record.bodies, b, B[k, 6 * b : 6 * b + 6], MB[k, 6 * b : 6 * b + 6])
+        times_masses(machine, B[k], MB[k])
         total = 0.0
         for i in range(n):
             total += B[k, i] * partition.Q[i]

@@ -21,9 +21,15 @@ from nivel.kernels.status import NO_MASS_LEFT, OK
 @stage
 def gather(machine):
     """Bring the wrenches at interfaces to the floating frames and to `Q`, with weight, elastic and damping forces of the modes."""
+    load_modes(machine)
+    gather_frames(machine)
+
+
+@stage
+def gather_frames(machine):
+    """Bring the wrenches at interfaces to the floating frames and to `Q`."""
     record = record_at(machine)
     bodies, own = record.bodies, record.flexible
-    load_modes(machine)
     for k in range(own.frame.shape[0]):
         f, v = own.frame[k, 0], own.frame[k, 1]
         b = own.body[f]
@@ -116,22 +122,31 @@ def velocity_forces(bodies, own, f, out):
 
 
 @stage
-def factorise_frame(bodies, own, f):
-    """root[f] := L of M_b - B Bᵀ = L Lᵀ; whether there is one."""
-    L, B, S, J, b = own.root[f], own.coupling[f], own.first[f], own.inertia[f], own.body[f]
-    m, (_, n) = bodies.mass[b], modes_of(own, f)
+def remaining_mass(bodies, own, f, M):
+    """M_b - B Bᵀ, what is left of the frame's mass matrix without the modes, into the lower triangle of M (6, 6); axes of the body."""
+    B, S, J, b = own.coupling[f], own.first[f], own.inertia[f], own.body[f]
+    _, n = modes_of(own, f)
     for i in range(6):
         for j in range(i + 1):
-            L[i, j] = J[i - 3, j - 3] if i > 2 and j > 2 else 0.0
+            M[i, j] = J[i - 3, j - 3] if i > 2 and j > 2 else 0.0
     for i in range(3):
-        L[i, i] = m
+        M[i, i] = bodies.mass[b]
     # S~ of M_θR
-    L[3, 1], L[3, 2], L[4, 0], L[4, 2], L[5, 0], L[5, 1] = -S[2], S[1], S[2], -S[0], -S[1], S[0]
+    M[3, 1], M[3, 2], M[4, 0], M[4, 2], M[5, 0], M[5, 1] = -S[2], S[1], S[2], -S[0], -S[1], S[0]
     for i in range(6):
         for j in range(i + 1):
-            total = L[i, j]
+            total = M[i, j]
             for k in range(n):
                 total -= B[i, k] * B[j, k]
+            M[i, j] = total
+
+
+@stage
+def factorise_lower(L, size):
+    """Overwrite the lower triangle of a symmetric L (size, size) with its Cholesky factor; whether there is one."""
+    for i in range(size):
+        for j in range(i + 1):
+            total = L[i, j]
             for k in range(j):
                 total -= L[i, k] * L[j, k]
             if i == j and not real(total) > 0.0:
@@ -141,100 +156,153 @@ def factorise_frame(bodies, own, f):
 
 
 @leaf
-def whiten_frame(L, x):
-    """x (6,) := L⁻¹ x."""
-    for i in range(6):
+def forward(L, x, size):
+    """x (size,) := L⁻¹ x."""
+    for i in range(size):
         total = x[i]
         for k in range(i):
             total -= L[i, k] * x[k]
         x[i] = total / L[i, i]
 
 
+@leaf
+def backward(L, x, size):
+    """x (size,) := L⁻ᵀ x."""
+    for i in range(size - 1, -1, -1):
+        total = x[i]
+        for k in range(i + 1, size):
+            total -= L[k, i] * x[k]
+        x[i] = total / L[i, i]
+
+
+@stage
+def flexible_row(machine, e):
+    """C_q of block e of `Flexible.block` into W: of the frame with respect to (Aᵀ Ṙ, ω̄), of the modes, in the blocks behind, to ṗ."""
+    record = record_at(machine)
+    bodies, own, saddle = record.bodies, record.flexible, record.saddle
+    at, k, f, modal = own.block[e, 0], own.block[e, 1], own.block[e, 2], own.block[e, 3]
+    A, (_, n) = bodies.A[own.body[f]], modes_of(own, f)
+    part, W = record.constraints.J[saddle.block[at, 1]], saddle.W[at]
+    across = cross(record.markers.u[saddle.block[at, 2]], part)
+    # about the node; then about the origin of the floating frame
+    M = part[3] + across[0], part[4] + across[1], part[5] + across[2]
+    lever = (0.0, 0.0, 0.0) if k == NONE else cross(bodies.c[own.frame[k, 1]], part)
+    for i in range(3):
+        W[i] = A[0, i] * part[0] + A[1, i] * part[1] + A[2, i] * part[2]
+        W[3 + i] = A[0, i] * (M[0] + lever[0]) + A[1, i] * (M[1] + lever[1]) + A[2, i] * (M[2] + lever[2])
+    for j in range(n):
+        power = 0.0
+        if k != NONE:
+            for i in range(3):
+                power += own.displacement[k, i, j] * part[i] + own.turn[k, i, j] * M[i]
+        saddle.W[modal + j // 6, j % 6] = power
+
+
+@stage
+def leave_modes(own, f, x, modal, at):
+    """x (6,) -= B times the n modal numbers in rows of six from modal[at] on."""
+    B, (_, n) = own.coupling[f], modes_of(own, f)
+    for j in range(n):
+        share = modal[at + j // 6, j % 6]
+        for i in range(6):
+            x[i] -= B[i, j] * share
+
+
+@stage
+def factorise_frames(machine):
+    """root := L of M_b - B Bᵀ = L Lᵀ of all flexible bodies. Returns a status."""
+    record = record_at(machine)
+    own = record.flexible
+    for f in range(own.body.shape[0]):
+        remaining_mass(record.bodies, own, f, own.root[f])
+        if not factorise_lower(own.root[f], 6):
+            record.control.failure[0] = own.body[f]
+            return NO_MASS_LEFT
+    return OK
+
+
 @stage
 def whiten_flexible_rows(machine):
     """W of all blocks of flexible bodies: of their frames L⁻¹ (C_qr - C_qp Bᵀ)ᵀ, of their modes C_qp. Returns a status."""
     record = record_at(machine)
-    bodies, own, markers, saddle, J = (
-        record.bodies,
-        record.flexible,
-        record.markers,
-        record.saddle,
-        record.constraints.J,
-    )
-    for f in range(own.body.shape[0]):
-        if not factorise_frame(bodies, own, f):
-            record.control.failure[0] = own.body[f]
-            return NO_MASS_LEFT
+    own, saddle = record.flexible, record.saddle
+    status = factorise_frames(machine)
+    if status != OK:
+        return status
     for e in range(own.block.shape[0]):
-        at, k, f, modal = own.block[e, 0], own.block[e, 1], own.block[e, 2], own.block[e, 3]
-        A, B = bodies.A[own.body[f]], own.coupling[f]
-        _, n = modes_of(own, f)
-        part, u, W = J[saddle.block[at, 1]], markers.u[saddle.block[at, 2]], saddle.W[at]
-        across = cross(u, part)
-        # about the node; then about the origin of the floating frame
-        M = part[3] + across[0], part[4] + across[1], part[5] + across[2]
-        lever = (0.0, 0.0, 0.0) if k == NONE else cross(bodies.c[own.frame[k, 1]], part)
-        for i in range(3):
-            W[i] = A[0, i] * part[0] + A[1, i] * part[1] + A[2, i] * part[2]
-            W[3 + i] = A[0, i] * (M[0] + lever[0]) + A[1, i] * (M[1] + lever[1]) + A[2, i] * (M[2] + lever[2])
-        # a marker on the frame itself is not moved by modes, and has no blocks for them
-        for j in range(n if k != NONE else 0):
-            power = 0.0
-            for i in range(3):
-                power += own.displacement[k, i, j] * part[i] + own.turn[k, i, j] * M[i]
-            saddle.W[modal + j // 6, j % 6] = power
-            for i in range(6):
-                W[i] -= B[i, j] * power
-        whiten_frame(own.root[f], W)
+        at, f = own.block[e, 0], own.block[e, 2]
+        flexible_row(machine, e)
+        if own.block[e, 1] != NONE:
+            leave_modes(own, f, saddle.W[at], saddle.W, np.int64(own.block[e, 3]))
+        forward(own.root[f], saddle.W[at], 6)
     return OK
+
+
+@stage
+def load_frame(bodies, own, f, out):
+    """Applied and velocity forces on the frame of flexible body f into out (6,), axes of the body; the latter on its modes into `Q`."""
+    A, F = bodies.A[own.body[f]], bodies.wrench[own.body[f]]
+    velocity_forces(bodies, own, f, out)
+    for i in range(3):
+        out[i] += A[0, i] * F[0] + A[1, i] * F[1] + A[2, i] * F[2]
+        out[3 + i] += A[0, i] * F[3] + A[1, i] * F[4] + A[2, i] * F[5]
+
+
+@stage
+def load_modal_rows(own, f, out, at):
+    """The modal forces of flexible body f into rows of six from out[at] on."""
+    first, n = modes_of(own, f)
+    for j in range(n):
+        out[at + j // 6, j % 6] = own.Q[first + j]
 
 
 @stage
 def whiten_flexible_forces(machine):
     """z of all flexible bodies: of their frames, then of their modes in rows of six behind all bodies."""
     record = record_at(machine)
-    bodies, own, saddle = record.bodies, record.flexible, record.saddle
+    bodies, own, z = record.bodies, record.flexible, record.saddle.z
     at = np.int64(bodies.mass.shape[0])
     for f in range(own.body.shape[0]):
-        b = own.body[f]
-        first, n = modes_of(own, f)
-        A, B, F, z = bodies.A[b], own.coupling[f], bodies.wrench[b], saddle.z[b]
-        velocity_forces(bodies, own, f, z)
-        for i in range(3):
-            z[i] += A[0, i] * F[0] + A[1, i] * F[1] + A[2, i] * F[2]
-            z[3 + i] += A[0, i] * F[3] + A[1, i] * F[4] + A[2, i] * F[5]
-        for j in range(n):
-            saddle.z[at + j // 6, j % 6] = own.Q[first + j]
-            for i in range(6):
-                z[i] -= B[i, j] * own.Q[first + j]
-        whiten_frame(own.root[f], z)
-        at += (n + 5) // 6
+        x = z[own.body[f]]
+        load_frame(bodies, own, f, x)
+        load_modal_rows(own, f, z, at)
+        leave_modes(own, f, x, z, at)
+        forward(own.root[f], x, 6)
+        at += modal_rows(own, f)
+
+
+@leaf
+def modal_rows(own, f):
+    """Rows of six that the modes of flexible body f take."""
+    return (modes_of(own, f)[1] + 5) // 6
+
+
+@stage
+def accelerate_modes(own, f, z, at, x):
+    """p̈ of flexible body f from rows of z from `at` on and (Aᵀ R̈, ᾱ) of its frame, x (6,); also their changes in a correction."""
+    B, (first, n) = own.coupling[f], modes_of(own, f)
+    for j in range(n):
+        total = z[at + j // 6, j % 6]
+        for i in range(6):
+            total -= B[i, j] * x[i]
+        own.pddot[first + j] = total
 
 
 @stage
 def unwhiten_flexible(machine):
     """(R̈, ᾱ) of the frames of flexible bodies and p̈ from z; also changes of (R, rotation, p) or (Ṙ, ω̄, ṗ) in a correction."""
     record = record_at(machine)
-    bodies, own, saddle = record.bodies, record.flexible, record.saddle
+    bodies, own, z = record.bodies, record.flexible, record.saddle.z
     at = np.int64(bodies.mass.shape[0])
     for f in range(own.body.shape[0]):
         b = own.body[f]
-        first, n = modes_of(own, f)
-        L, B, x = own.root[f], own.coupling[f], saddle.z[b]
-        for i in range(5, -1, -1):
-            total = x[i]
-            for k in range(i + 1, 6):
-                total -= L[k, i] * x[k]
-            x[i] = total / L[i, i]
+        x = z[b]
+        backward(own.root[f], x, 6)
         multiply(bodies.A[b], x[:3], bodies.Rddot[b])
         for i in range(3):
             bodies.alpha_b[b, i] = x[3 + i]
-        for j in range(n):
-            total = saddle.z[at + j // 6, j % 6]
-            for i in range(6):
-                total -= B[i, j] * x[i]
-            own.pddot[first + j] = total
-        at += (n + 5) // 6
+        accelerate_modes(own, f, z, at, x)
+        at += modal_rows(own, f)
 
 
 @stage

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from nivel.kernels.arrays import A1, C1, C2, F1, F2, U1, U2, W1, W2
+from nivel.kernels.arrays import A1, C1, C2, F1, F2, F3, U1, U2, W1, W2
 from nivel.kernels.sparse_lu import SparseLU
 
 
@@ -15,8 +15,14 @@ class Interval(NamedTuple):
     """What residuals over a whole step know of it; see `nivel.motion.energy_momentum_residual`. Without numbers for other methods."""
 
     numbers: F1  # (4,) step [s], elastic energy at its start [J], least motion in it [J], 1 where the machine touches no ground
-    start: F2  # (B, 9) centre of mass [m], its velocity, angular momentum about it at the start, global axes
-    solid: F1  # (B,) 1, or 0 for a point mass, whose inertia stands for none
+    # (B, 12) centre of mass [m], its velocity, angular momentum about it at the start, global axes; of flexible bodies also in their axes
+    start: F2
+    inertia: F3  # (B, 3, 3) about the centre of mass, axes of the body; zero for a point mass; of flexible bodies at their mean place
+    # (B, 6) velocity of the centre of mass by the modes alone, their angular momentum about it, at the mean place, global axes
+    internal: F2
+    modal: F1  # (m,) modal momenta at the start, the frame moving so that the body has no linear momentum
+    frame: F2  # (N, 12) place and axes of the frames at interfaces at the start
+    defect: F1  # (F,) power that the inertia forces on the modes miss
     # work
     state: W1  # (S + 2,) mean states of forces
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from nivel.kernels.analytic import real
 from nivel.kernels.compile import leaf
+from nivel.kernels.flexible_partition import fill_flexible_rows, moves_with_modes, weigh_flexible_row
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK, SINGULAR
 
@@ -26,7 +27,7 @@ CLEARLY = 1.0001
 
 @leaf
 def fill_rows(machine):
-    """E: C_q (K, n) of the state last read with respect to (Ṙ, ω̄), scaled, in the order of the partition."""
+    """E: C_q (K, n) of the state last read with respect to (Ṙ, ω̄) of all bodies and ṗ, scaled, in the order of the partition."""
     record = record_at(machine)
     bodies, markers, saddle, partition = record.bodies, record.markers, record.saddle, record.partition
     J, E, unit, place = record.constraints.J, partition.E, partition.unit, partition.column_place
@@ -36,8 +37,11 @@ def fill_rows(machine):
     for k in range(rows):
         partition.row_place[partition.row[k]] = k
     E[:, :] = 0.0
+    fill_flexible_rows(machine)
     for k in range(saddle.blocks[0]):
         part, marker, b = saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
+        if moves_with_modes(record, b):
+            continue
         entries, A, u = E[partition.row_place[saddle.block[k, 0]]], bodies.A[b], markers.u[marker]
         f0, f1, f2 = J[part, 0], J[part, 1], J[part, 2]
         n0 = J[part, 3] + u[1] * f2 - u[2] * f1
@@ -63,8 +67,10 @@ def weigh_rows(machine):
     bodies, partition = record.bodies, record.partition
     E, place, unit = partition.E, partition.column_place, partition.unit
     for k in range(E.shape[0]):
-        square = 0.0
+        square = weigh_flexible_row(machine, E[k])
         for b in range(bodies.mass.shape[0]):
+            if moves_with_modes(record, b):
+                continue
             f0, f1, f2 = E[k, place[6 * b]], E[k, place[6 * b + 1]], E[k, place[6 * b + 2]]
             n0, n1, n2 = E[k, place[6 * b + 3]], E[k, place[6 * b + 4]], E[k, place[6 * b + 5]]
             f0, f1, f2 = f0 / unit[6 * b], f1 / unit[6 * b], f2 / unit[6 * b]

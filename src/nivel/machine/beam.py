@@ -43,7 +43,8 @@ Time = Annotated[float, Quantity("time")]
 
 
 class Beam(Checked):
-    """A slender body that may move and bend by any amount: geometrically exact, with shear (Reissner 1981, Simo 1985).
+    """A slender body that may move and bend by any amount: geometrically exact, with shear (Reissner 1981, Simo 1985), or, for comparison,
+    a row of rigid segments joined by springs.
 
     Joints, forces and markers take hold of it at stations, which are bodies for them: `BEAM.start`, `BEAM.end`, and those named.
     The axes of a station are those of the section there: x along the beam.
@@ -73,11 +74,17 @@ class Beam(Checked):
     )
     elements: Annotated[int, Field(strict=True, ge=1, le=100_000)] = 10
     order: Annotated[int, Field(strict=True, ge=1, le=3)] = Field(default=1, description="of an element: 1, 2 or 3")
-    model: Literal["exact", "ancf-cable", "ancf-beam"] = Field(
-        default="exact",
-        description="geometrically exact; or in absolute nodal coordinates: places of nodes and slopes there, or all gradients",
+    model: Literal["geometrically-exact", "segments", "ancf-cable", "ancf-beam"] = Field(
+        default="geometrically-exact",
+        description=(
+            "finite elements; rigid segments joined by springs of six directions; or elements in absolute nodal coordinates, with slopes "
+            "or all gradients"
+        ),
     )
-    mass: Literal["consistent", "lumped"] = "consistent"
+    mass: Literal["consistent", "lumped"] | None = Field(
+        default=None,
+        description="of elements: consistent, if not given, or lumped at the nodes; segments have their own",
+    )
     interpolation: Literal["relative", "total"] = Field(
         default="relative",
         description="of rotations in an element: relative to a node of it, or total, which is not objective",
@@ -122,6 +129,16 @@ class Beam(Checked):
         return place[0], axes[0]
 
     @property
+    def shares_mass(self) -> bool:
+        """Whether its nodes have mass in common."""
+        return self.model != "segments" and self.mass != "lumped"
+
+    @property
+    def has_gradients(self) -> bool:
+        """Whether its nodes have gradients, which deform: beams in absolute nodal coordinates."""
+        return self.model in ("ancf-cable", "ancf-beam")
+
+    @property
     def properties(self) -> BeamSection:
         """The section in numbers."""
         return beam_section(self.section, self.material, self.centroid, self.shear_centre)
@@ -136,8 +153,14 @@ class Beam(Checked):
         elif not zero:
             yield from self._problems_of_line()
         yield from self._problems_of_section()
-        if self.model != "exact":
-            yield from self._problems_of_model()
+        if self.model == "segments" and self.mass == "consistent":
+            yield superfluous(
+                "mass", "consistent does not go with `model: segments`: a rigid segment has a mass of its own"
+            )
+        if self.model == "segments" and self.interpolation == "total":
+            yield superfluous("interpolation", "does not go with `model: segments`: nothing is interpolated")
+        if self.has_gradients:
+            yield from self._problems_of_gradients()
         if self.damping < 0.0:
             yield Problem(("damping",), f"zero or more was expected, got {self.damping:g} s")
 
@@ -206,7 +229,7 @@ class Beam(Checked):
             )
             yield Problem(("section",), message)
 
-    def _problems_of_model(self) -> Iterator[Problem]:
+    def _problems_of_gradients(self) -> Iterator[Problem]:
         """What beams in absolute nodal coordinates do not have."""
         if self.order != 1:
             yield Problem(("order",), f"elements of `model: {self.model}` have two nodes: remove it")
@@ -224,7 +247,7 @@ class Beam(Checked):
         if abs(J[0, 0] - J[1, 1] - J[2, 2]) > REPRESENTED * J[0, 0]:
             message = (
                 f"gradients have the inertia of matter: about x it is the sum of those about y and z, {J[1, 1] + J[2, 2]:.6g}, "
-                f"not {J[0, 0]:.6g} kg m; give that, or take `model: exact`"
+                f"not {J[0, 0]:.6g} kg m; give that, or take `model: geometrically-exact`"
             )
             yield Problem(("section", "inertia"), message)
 
@@ -233,7 +256,8 @@ class Beam(Checked):
         if self.via is not None or self.through or self.twist:
             name = "via" if self.via is not None else "through" if self.through else "twist"
             yield Problem(
-                (name,), "an `ancf-cable` is straight and not twisted while unstressed: take `ancf-beam`, or `exact`"
+                (name,),
+                "an `ancf-cable` is straight and not twisted while unstressed: take `ancf-beam`, or `geometrically-exact`",
             )
         own = self.properties
         C = own.stiffness
@@ -243,7 +267,7 @@ class Beam(Checked):
         if not alike or not apart.all() or np.any(own.mass_centre):
             message = (
                 f"an `ancf-cable` bends alike in all directions and about its line (EI_y = {C[4, 4]:.6g}, EI_z = {C[5, 5]:.6g} N m^2, "
-                "nothing off the diagonal, centres on the line): take `ancf-beam`, or `exact`"
+                "nothing off the diagonal, centres on the line): take `ancf-beam`, or `geometrically-exact`"
             )
             yield Problem(("section",), message)
 

@@ -105,14 +105,12 @@ class MachineRecord(Checked):
     @property
     def is_flexible(self) -> bool:
         """Whether a body of it bends, or a beam of it has nodes that deform."""
-        return any(body.flexible is not None for body in self.bodies) or any(
-            beam.model != "exact" for beam in self.beams
-        )
+        return any(body.flexible is not None for body in self.bodies) or any(beam.has_gradients for beam in self.beams)
 
     @property
     def shares_mass(self) -> bool:
         """Whether a beam of it has a consistent mass, which its nodes have in common."""
-        return any(beam.mass == "consistent" for beam in self.beams)
+        return any(beam.shares_mass for beam in self.beams)
 
     def problems(self) -> Iterator[Problem]:
         yield from problems_of_points(self)

@@ -16,7 +16,8 @@ class IntegratorFacts:
     residual : needs the equations of motion as a residual, with exact tangents, and iterates by Newton's method alone; it solves them for
     accelerations and multipliers, or with `rates` for the rates of the state;
     shifted : it also solves systems with complex shares of a step. whole : module of its residual, one over a whole step in absolute
-    coordinates; empty: that at a time. jumps : it ends its steps where speeds of drivers jump, and lets them.
+    coordinates; empty: that at a time; whole_flexible : the same for machines with flexible bodies. jumps : it ends its steps where speeds
+    of drivers jump, and lets them.
     """
 
     module: str
@@ -31,7 +32,12 @@ class IntegratorFacts:
     rates: bool = False
     shifted: bool = False
     whole: str = ""
+    whole_flexible: str = ""
     jumps: bool = False
+
+    def over_step(self, flexible: bool) -> str:
+        """Module of its residual over a whole step for machines with or without flexible bodies; empty: none."""
+        return self.whole_flexible if flexible else self.whole
 
     @property
     def along(self) -> bool:
@@ -69,6 +75,7 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
         implicit=True,
         residual=True,
         whole="nivel.motion.energy_momentum_residual",
+        whole_flexible="nivel.motion.floating_energy_momentum_residual",
     ),
     "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 32, 5, 66, chooses_steps=True, implicit=True),
     "bdf": IntegratorFacts(

@@ -44,22 +44,35 @@ _ANGLES, _VECTOR = (
     for kind in ("euler_angles", "rotation_vector")
 )
 
-# of machines with flexible bodies, in absolute coordinates
+# of machines with flexible bodies
 FLOATING = PathFacts(
     "nivel.motion.floating_frame",
     "nivel.motion.floating_frame_correction",
     "nivel.system.states.floating",
     "nivel.motion.floating_frame_residual",
 )
-
-# and in relative ones
 FLEXIBLE_TREE = PathFacts(
     "nivel.motion.flexible_tree",
     "nivel.motion.flexible_tree_correction",
     "nivel.system.states.flexible_tree",
     "nivel.motion.flexible_tree_residual",
 )
-FLEXIBLE = {"absolute": FLOATING, "relative": FLEXIBLE_TREE}
+_FLOATING_PARAMETERS = PathFacts(
+    "nivel.motion.floating_lagrange",
+    "nivel.motion.floating_lagrange_correction",
+    "nivel.system.states.floating_parameters",
+)
+_FLOATING_ANGLES, _FLOATING_VECTOR = (
+    PathFacts(
+        "nivel.motion.floating_lagrange_three",
+        "nivel.motion.floating_lagrange_three_correction",
+        f"nivel.system.states.floating_{kind}",
+    )
+    for kind in ("euler_angles", "rotation_vector")
+)
+_FLOATING_INDEPENDENT = PathFacts(
+    "nivel.motion.floating_independent", "nivel.motion.floating_independent", "nivel.system.states.floating_independent"
+)
 
 # coordinates, velocities and rotations → equations; penalty methods share those of newton-euler
 PATHS: dict[tuple[str, str, str], PathFacts] = {
@@ -74,6 +87,16 @@ PATHS: dict[tuple[str, str, str], PathFacts] = {
         "nivel.motion.relative_residual",
     ),
     ("independent", "newton-euler", "euler-parameters"): _INDEPENDENT,
+}
+
+# the same for machines with flexible bodies
+FLEXIBLE: dict[tuple[str, str, str], PathFacts] = {
+    ("absolute", "newton-euler", "euler-parameters"): FLOATING,
+    ("absolute", "lagrange", "euler-parameters"): _FLOATING_PARAMETERS,
+    ("absolute", "lagrange", "euler-angles"): _FLOATING_ANGLES,
+    ("absolute", "lagrange", "rotation-vector"): _FLOATING_VECTOR,
+    ("relative", "newton-euler", "euler-parameters"): FLEXIBLE_TREE,
+    ("independent", "newton-euler", "euler-parameters"): _FLOATING_INDEPENDENT,
 }
 
 FORMULATIONS: dict[str, FormulationFacts] = {
@@ -95,11 +118,8 @@ def path_of(
 
     flexible : for machines with flexible bodies. shared : for those with mass that bodies have in common.
     """
-    if flexible:
-        path = FLEXIBLE.get(coordinates) if formulation != "lagrange" else None
-    else:
-        velocities = "lagrange" if formulation == "lagrange" else "newton-euler"
-        path = PATHS.get((coordinates, velocities, rotations))
+    velocities = "lagrange" if formulation == "lagrange" else "newton-euler"
+    path = (FLEXIBLE if flexible else PATHS).get((coordinates, velocities, rotations))
     if not shared or path is None:
         return path
     return replace(path, module=BALANCED) if path.residual and formulation == "newton-euler" else None

@@ -18,7 +18,9 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import leaf, stage
+from nivel.kernels.flexible_interval import begin_flexible_interval, push_modes
+from nivel.kernels.floating_frame import modes_of
 from nivel.kernels.hook import apply_forces, family
 from nivel.kernels.locked_motion import internal_motion, locked_motion
 from nivel.kernels.record import record_at
@@ -30,6 +32,12 @@ from nivel.motion.newton_euler import read_markers, read_state
 
 # entries of Interval.numbers
 STEP, STORED, LEAST, FREE = 0, 1, 2, 3
+
+
+@leaf
+def first_rate(record):
+    """Where velocities stand in y: behind (R, θ) of the bodies and the modal coordinates of flexible ones."""
+    return 7 * record.bodies.mass.shape[0] + record.flexible.p.shape[0]
 
 
 @stage
@@ -49,9 +57,43 @@ def begin_interval(machine, h, length):
         for i in range(3):
             start[6 + i] = dot(A[i], momentum)
         total += bodies.mass[b]
+    begin_flexible_interval(machine)
     interval.numbers[STEP], interval.numbers[STORED] = h, record.control.stored[0]
     # motions of less than this share of the machine in a step do no work that could be missed
     interval.numbers[LEAST] = total * (1e-7 * length / h) ** 2
+
+
+@leaf
+def half_turn(e, f):
+    """k = Θ/2 of A₀ᵀ A₁ = cay Θ for the Euler parameters e of A₀ and f of A₁, axes of the body."""
+    p0 = e[0] * f[0] + e[1] * f[1] + e[2] * f[2] + e[3] * f[3]
+    return (
+        (e[0] * f[1] - f[0] * e[1] - e[2] * f[3] + e[3] * f[2]) / p0,
+        (e[0] * f[2] - f[0] * e[2] - e[3] * f[1] + e[1] * f[3]) / p0,
+        (e[0] * f[3] - f[0] * e[3] - e[1] * f[2] + e[2] * f[1]) / p0,
+    )
+
+
+@stage
+def move_to_mean(machine, b, k, h):
+    """Bring the frame of body b, which has turned by k = Θ/2, from the end of the step to its mean place and mean velocities."""
+    record = record_at(machine)
+    bodies, y, base = record.bodies, record.residual.y, record.newton.base
+    A, q = bodies.A[b], 7 * b
+    share = 1.0 / (1.0 + dot(k, k))
+    for i in range(3):
+        # Ā = A₁ (1 + k̃)⁻¹
+        row = A[i, 0], A[i, 1], A[i, 2]
+        across, along = cross(k, row), dot(k, row)
+        for j in range(3):
+            A[i, j] = share * (row[j] + across[j] + along * k[j])
+        bodies.Rdot[b, i] = (y[q + i] - base[q + i]) / h
+        bodies.R[b, i] = 0.5 * (y[q + i] + base[q + i])
+        bodies.omega_b[b, i] = 2.0 * k[i] / h
+    for i in range(4):
+        # the signs of the Euler parameters at both ends are those of one turn
+        bodies.theta[b, i] = 0.5 * (base[q + 3 + i] + y[q + 3 + i])
+    multiply(A, bodies.omega_b[b], bodies.omega[b])
 
 
 @stage
@@ -68,16 +110,8 @@ def change_momentum(machine, b, h):
         own.y,
         record.newton.base,
     )
-    q, count = 7 * b, bodies.mass.shape[0]
-    v = 7 * count + 6 * b
-    e, f = base[q + 3 : q + 7], y[q + 3 : q + 7]
-    # k = Θ/2 of A₀ᵀ A₁
-    p0 = e[0] * f[0] + e[1] * f[1] + e[2] * f[2] + e[3] * f[3]
-    k = (
-        (e[0] * f[1] - f[0] * e[1] - e[2] * f[3] + e[3] * f[2]) / p0,
-        (e[0] * f[2] - f[0] * e[2] - e[3] * f[1] + e[1] * f[3]) / p0,
-        (e[0] * f[3] - f[0] * e[3] - e[1] * f[2] + e[2] * f[1]) / p0,
-    )
+    q, v = 7 * b, first_rate(record) + 6 * b
+    k = half_turn(base[q + 3 : q + 7], y[q + 3 : q + 7])
     w_b = 4.0 * k[0] / h - base[v + 3], 4.0 * k[1] / h - base[v + 4], 4.0 * k[2] / h - base[v + 5]
     w = dot(A[0], w_b), dot(A[1], w_b), dot(A[2], w_b)
     momentum, turning, x = (dot(J[0], w_b), dot(J[1], w_b), dot(J[2], w_b)), cross(w, c), own.acceleration[b]
@@ -86,21 +120,8 @@ def change_momentum(machine, b, h):
         y[v + i], y[v + 3 + i] = 2.0 * u - start[3 + i] - turning[i], w_b[i]
         x[i] = (dot(A[i], momentum) - start[6 + i]) / h
         x[3 + i] = bodies.mass[b] * 2.0 * (u - start[3 + i]) / h
-    share = 1.0 / (1.0 + dot(k, k))
-    for i in range(3):
-        # Ā = A₁ (1 + k̃)⁻¹
-        row = A[i, 0], A[i, 1], A[i, 2]
-        across, along = cross(k, row), dot(k, row)
-        for j in range(3):
-            A[i, j] = share * (row[j] + across[j] + along * k[j])
-        bodies.Rdot[b, i] = (y[q + i] - base[q + i]) / h
-        bodies.R[b, i] = 0.5 * (y[q + i] + base[q + i])
-        bodies.omega_b[b, i] = 2.0 * k[i] / h
-    for i in range(4):
-        # the signs of the Euler parameters at both ends are those of one turn
-        bodies.theta[b, i] = 0.5 * (e[i] + f[i])
+    move_to_mean(machine, b, k, h)
     multiply(A, bodies.centre_b[b], c)
-    multiply(A, bodies.omega_b[b], bodies.omega[b])
 
 
 @stage
@@ -119,6 +140,12 @@ def missing_power(machine, stored):
         for i in range(3):
             power -= real(F[i]) * real(V[i]) + real(F[3 + i]) * real(w[i])
             power += bodies.mass[b] * g[i] * (real(V[i]) + real(turning[i]))
+    own, defect = record.flexible, record.residual.interval.defect
+    for f in range(own.body.shape[0]):
+        power -= defect[f]
+        first, n = modes_of(own, f)
+        for j in range(n):
+            power -= real(own.Q[first + j]) * real(own.pdot[first + j])
     return power
 
 
@@ -126,22 +153,29 @@ def missing_power(machine, stored):
 def push(machine, stored):
     """Add the force along the mean motion that does the work which is missing. stored : see `missing_power`."""
     record = record_at(machine)
-    bodies, numbers, solid = record.bodies, record.residual.interval.numbers, record.residual.interval.solid
-    locked = locked_motion(bodies, solid) if numbers[FREE] == 1.0 else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    bodies, own, interval = record.bodies, record.flexible, record.residual.interval
+    numbers = interval.numbers
+    locked = locked_motion(bodies, interval) if numbers[FREE] == 1.0 else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     twice_kinetic = 0.0
     for b in range(bodies.mass.shape[0]):
-        u, w, p, n = internal_motion(bodies, solid, b, locked)
+        u, w, p, n = internal_motion(bodies, interval, b, locked)
         twice_kinetic += dot(u, p) + dot(w, n)
+    for f in range(own.body.shape[0]):
+        _, w, p, _ = internal_motion(bodies, interval, own.body[f], locked)
+        twice_kinetic += push_modes(machine, f, w, 0.0, p, numbers[STEP])
     if not twice_kinetic > numbers[LEAST]:
         return
     factor = missing_power(machine, stored) / twice_kinetic
     for b in range(bodies.mass.shape[0]):
-        _, _, p, n = internal_motion(bodies, solid, b, locked)
+        _, _, p, n = internal_motion(bodies, interval, b, locked)
         F, c = bodies.wrench[b], bodies.c[b]
         moment = cross((real(c[0]), real(c[1]), real(c[2])), p)
         for i in range(3):
             F[i] += factor * p[i]
             F[3 + i] += factor * (n[i] + moment[i])
+    for f in range(own.body.shape[0]):
+        _, w, p, _ = internal_motion(bodies, interval, own.body[f], locked)
+        push_modes(machine, f, w, factor, p, numbers[STEP])
 
 
 @stage
@@ -161,6 +195,34 @@ def mean_forces(machine, t):
     return status
 
 
+@stage
+def balance_bodies(machine):
+    """Rows of all bodies: the change of their momenta per second less all wrenches, moments about their origins; and rates of the states of
+    forces, behind all velocities."""
+    record = record_at(machine)
+    bodies, own, count = record.bodies, record.residual, record.bodies.mass.shape[0]
+    for b in range(count):
+        A, F, c, x = bodies.A[b], bodies.wrench[b], bodies.c[b], own.acceleration[b]
+        lever = cross(c, x[3:6])
+        moment = x[0] + lever[0] - F[3], x[1] + lever[1] - F[4], x[2] + lever[2] - F[5]
+        for i in range(3):
+            own.value[6 * b + i] = x[3 + i] - F[i]
+            own.value[6 * b + 3 + i] = A[0, i] * moment[0] + A[1, i] * moment[1] + A[2, i] * moment[2]
+    first = own.vdot.shape[0]
+    for i in range(record.elements.state_rate.shape[0]):
+        own.value[first + i] = record.elements.state_rate[i]
+
+
+@stage
+def close_end(machine):
+    """Rows of the constraints: C of the state last read."""
+    record = record_at(machine)
+    own = record.residual
+    first = own.vdot.shape[0] + record.elements.state_rate.shape[0]
+    for k in range(own.row.shape[0]):
+        own.value[first + k] = record.constraints.C[own.row[k]]
+
+
 @family
 def residual(machine, job, t):
     """Fill `residual.value` for the state `residual.y` at the end t of a step, whose start is `newton.base` and `residual.interval`, and
@@ -169,29 +231,19 @@ def residual(machine, job, t):
     Of the constraints only C, at the end, has a meaning.
     """
     record = record_at(machine)
-    bodies, own, constraints = record.bodies, record.residual, record.constraints
-    h, count, rows = own.interval.numbers[STEP], bodies.mass.shape[0], own.row.shape[0]
+    own, h = record.residual, record.residual.interval.numbers[STEP]
     status = read_state(machine, t, own.y)
     if status == OK:
         status = apply_forces(machine, t, own.y)
     if status != OK:
         return status
-    stored, first = real(record.control.stored[0]), 6 * count + record.elements.state_rate.shape[0]
-    for k in range(rows):
-        own.value[first + k] = constraints.C[own.row[k]]
-    for b in range(count):
+    stored = real(record.control.stored[0])
+    close_end(machine)
+    for b in range(record.bodies.mass.shape[0]):
         change_momentum(machine, b, h)
     status = mean_forces(machine, t - 0.5 * h)
     if status != OK:
         return status
     push(machine, stored)
-    for b in range(count):
-        A, F, c, x = bodies.A[b], bodies.wrench[b], bodies.c[b], own.acceleration[b]
-        lever = cross(c, x[3:6])
-        moment = x[0] + lever[0] - F[3], x[1] + lever[1] - F[4], x[2] + lever[2] - F[5]
-        for i in range(3):
-            own.value[6 * b + i] = x[3 + i] - F[i]
-            own.value[6 * b + 3 + i] = A[0, i] * moment[0] + A[1, i] * moment[1] + A[2, i] * moment[2]
-    for i in range(record.elements.state_rate.shape[0]):
-        own.value[6 * count + i] = record.elements.state_rate[i]
+    balance_bodies(machine)
     return OK

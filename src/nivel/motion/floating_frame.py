@@ -57,15 +57,11 @@ def unwhiten_all(machine):
     unwhiten_flexible(machine)
 
 
-@entry(evaluate_signature)
-def evaluate(machine, t, y, ydot):
-    """ẏ. Leaves everything else in the record."""
-    record = record_at(machine)
-    bodies, own = record.bodies, record.flexible
-    status = read_flexible_state(machine, t, y)
-    if status != OK:
-        return status
-    load_weight(bodies)
+@stage
+def accelerate(machine, t, y, ydot):
+    """Multipliers, accelerations of all bodies, modes and frames, and the rates of the states of forces and energies, from the state read
+    before. Returns a status."""
+    load_weight(record_at(machine).bodies)
     status = apply_forces(machine, t, y)
     if status != OK:
         return status
@@ -84,6 +80,14 @@ def evaluate(machine, t, y, ydot):
         return status
     unwhiten_all(machine)
     accelerate_frames(machine)
+    return OK
+
+
+@stage
+def write_rates(machine, ydot):
+    """(Ṙ, θ̇, ṗ, R̈, ᾱ, p̈) of ẏ."""
+    record = record_at(machine)
+    bodies, own = record.bodies, record.flexible
     nb, modes = bodies.mass.shape[0], own.p.shape[0]
     first = 7 * nb + modes
     for b in range(nb):
@@ -95,7 +99,17 @@ def evaluate(machine, t, y, ydot):
             ydot[v + 3 + i] = bodies.alpha_b[b, i]
     for j in range(modes):
         ydot[7 * nb + j], ydot[first + 6 * nb + j] = own.pdot[j], own.pddot[j]
-    return OK
+
+
+@entry(evaluate_signature)
+def evaluate(machine, t, y, ydot):
+    """ẏ. Leaves everything else in the record."""
+    status = read_flexible_state(machine, t, y)
+    if status == OK:
+        status = accelerate(machine, t, y, ydot)
+    if status == OK:
+        write_rates(machine, ydot)
+    return status
 
 
 @entry(correct_signature)

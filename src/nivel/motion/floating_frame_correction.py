@@ -7,20 +7,40 @@ from nivel.kernels.record import correct_signature, record_at
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.saddle import correction, exceeds, factorise_rows
 from nivel.kernels.status import OK
-from nivel.motion.direct import MAX_CORRECTIONS, NEAR
+from nivel.motion.direct import MAX_CORRECTIONS, NEAR, NOTHING, POSITIONS, VELOCITIES
 from nivel.motion.floating_frame import read_flexible_state, unwhiten_all, whiten_all_rows
 from nivel.motion.newton_euler import WIDTH, normalise
 
 
 @stage
-def change(machine, y, positions):
+def find_flexible_change(machine, attempt, factorised):
+    """As `nivel.motion.direct.find_change`, with the modes, whose change is left in `pddot`."""
+    record = record_at(machine)
+    saddle, constraints, tolerance = record.saddle, record.constraints, record.control.stabilise
+    at_positions = attempt < MAX_CORRECTIONS and exceeds(saddle, constraints.C, constraints.scale, tolerance[2])
+    if not at_positions and not exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]):
+        return OK, NOTHING, factorised
+    if not factorised:
+        status = whiten_all_rows(machine)
+        if status == OK:
+            status = factorise_rows(machine, WIDTH)
+        if status != OK:
+            return status, NOTHING, False
+    correction(machine, constraints.C if at_positions else constraints.Cdot, WIDTH)
+    unwhiten_all(machine)
+    near = not exceeds(saddle, constraints.C, constraints.scale, NEAR * tolerance[2])
+    return OK, POSITIONS if at_positions else VELOCITIES, near
+
+
+@stage
+def change(machine, y, what):
     """Apply the change found to (R, θ, p) or to (Ṙ, ω̄, ṗ)."""
     record = record_at(machine)
     bodies, own = record.bodies, record.flexible
     nb, modes = bodies.mass.shape[0], own.p.shape[0]
     first = 7 * nb + modes
     for b in range(nb):
-        if positions:
+        if what == POSITIONS:
             turn = record.saddle.z[b]
             rates_of_parameters(bodies.theta[b], bodies.alpha_b[b], turn)
             for i in range(3):
@@ -31,7 +51,7 @@ def change(machine, y, positions):
             for i in range(3):
                 y[first + 6 * b + i] += bodies.Rddot[b, i]
                 y[first + 6 * b + 3 + i] += bodies.alpha_b[b, i]
-    at = 7 * nb if positions else first + 6 * nb
+    at = 7 * nb if what == POSITIONS else first + 6 * nb
     for j in range(modes):
         y[at + j] += own.pddot[j]
 
@@ -39,27 +59,16 @@ def change(machine, y, positions):
 @entry(correct_signature)
 def correct(machine, t, y):
     """Direct correction of the state onto the constraints, least in the mass metric; see `nivel.motion.newton_euler_correction`."""
-    record = record_at(machine)
-    saddle, constraints, tolerance = record.saddle, record.constraints, record.control.stabilise
     factorised = False
     for attempt in range(MAX_CORRECTIONS + 1):
         normalise(machine, y)
         status = read_flexible_state(machine, t, y)
         if status != OK:
             return status
-        positions = attempt < MAX_CORRECTIONS and exceeds(saddle, constraints.C, constraints.scale, tolerance[2])
-        if not positions and not exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]):
-            return OK
-        if not factorised:
-            status = whiten_all_rows(machine)
-            if status == OK:
-                status = factorise_rows(machine, WIDTH)
-            if status != OK:
-                return status
-        factorised = not exceeds(saddle, constraints.C, constraints.scale, NEAR * tolerance[2])
-        correction(machine, constraints.C if positions else constraints.Cdot, WIDTH)
-        unwhiten_all(machine)
-        change(machine, y, positions)
-        if not positions:
+        status, what, factorised = find_flexible_change(machine, attempt, factorised)
+        if status != OK or what == NOTHING:
+            return status
+        change(machine, y, what)
+        if what == VELOCITIES:
             return OK
     return OK

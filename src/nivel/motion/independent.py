@@ -94,12 +94,47 @@ def move_dependent(machine, y):
     """Positions: subtract D from the dependent ones, as tangent increments."""
     record = record_at(machine)
     D, theta, change = record.partition.D, record.bodies.theta, record.partition.p
-    for b in range(record.bodies.mass.shape[0]):
+    count = record.bodies.mass.shape[0]
+    for b in range(count):
         rates_of_parameters(theta[b], D[6 * b + 3 : 6 * b + 6], change)
         for i in range(3):
             y[7 * b + i] -= D[6 * b + i]
         for i in range(4):
             y[7 * b + 3 + i] -= change[i]
+    for j in range(record.flexible.p.shape[0]):
+        y[7 * count + j] -= D[6 * count + j]
+
+
+@leaf
+def close(machine, y, attempt, factorised, before):
+    """One pass of `keep` from the state last read: dependent positions nearer to C = 0, or where these are closed, dependent velocities
+    from Ċ = 0.
+
+    factorised : whether C_d of the last pass serves; before : the violation then. Returns (status, whether all is done, whether C_d serves
+    for the next pass, the violation as a share of its scale).
+    """
+    record = record_at(machine)
+    constraints, partition, rank = record.constraints, record.partition, np.int64(record.control.rank[0])
+    first = 7 * record.bodies.mass.shape[0] + record.flexible.p.shape[0]
+    share, worst = widest(machine)
+    if np.isnan(share):
+        return OK, True, False, share  # the next evaluation finds out
+    # below LOST a pass that does not halve the violation is stopped by round-off
+    closed = not share > CLOSED or (share <= LOST and share > 0.5 * before)
+    if not closed and attempt == MOST_PASSES:
+        record.control.failure[0] = worst
+        return SINGULAR, True, False, share
+    if closed or not factorised:
+        status = divide(machine)
+        if status != OK:
+            return status, True, False, share
+    solve_dependent(partition, rank, constraints.Cdot if closed else constraints.C)
+    if closed:
+        for i in range(partition.D.shape[0]):
+            y[first + i] -= partition.D[i]
+    else:
+        move_dependent(machine, y)
+    return OK, closed, share <= NEAR, share
 
 
 @entry(correct_signature)
@@ -108,35 +143,15 @@ def keep(machine, t, y):
 
     SINGULAR where the positions cannot be found: control.failure is the row that is farthest open.
     """
-    record = record_at(machine)
-    constraints, partition, rank = record.constraints, record.partition, np.int64(record.control.rank[0])
-    first = 7 * record.bodies.mass.shape[0]
-    factorised, before, worst = False, np.inf, 0
+    status, done, factorised, before = OK, False, False, np.inf
     for attempt in range(MOST_PASSES + 1):
         normalise(machine, y)
         status = read_state(machine, t, y)
-        if status != OK:
-            return status
-        share, worst = widest(machine)
-        if np.isnan(share):
-            return OK  # the next evaluation finds out
-        # below LOST a pass that does not halve the violation is stopped by round-off
-        closed = not share > CLOSED or (share <= LOST and share > 0.5 * before)
-        if not closed and attempt == MOST_PASSES:
+        if status == OK:
+            status, done, factorised, before = close(machine, y, attempt, factorised, before)
+        if status != OK or done:
             break
-        if closed or not factorised:
-            status = divide(machine)
-            if status != OK:
-                return status
-        solve_dependent(partition, rank, constraints.Cdot if closed else constraints.C)
-        if closed:
-            for i in range(partition.D.shape[0]):
-                y[first + i] -= partition.D[i]
-            return OK
-        move_dependent(machine, y)
-        factorised, before = share <= NEAR, share
-    record.control.failure[0] = worst
-    return SINGULAR
+    return status
 
 
 # the dependent coordinates are solved for with every stabilisation, so there is nothing left to correct directly

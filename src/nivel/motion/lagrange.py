@@ -8,18 +8,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, stage
-from nivel.kernels.constraint import constraint_rows
-from nivel.kernels.hook import apply_forces, finish_forces, measure_active
-from nivel.kernels.marker import move_markers, place_markers
+from nivel.kernels.compile import entry, leaf, stage
+from nivel.kernels.hook import apply_forces, finish_forces
 from nivel.kernels.record import NONE, correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight, place_body
 from nivel.kernels.rotation import angular_velocity, transformation
 from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.kernels.spatial import dot, multiply
 from nivel.kernels.status import OK
+from nivel.motion.newton_euler import read_markers
 
 WIDTH = 7
+
+
+@leaf
+def first_rate(record):
+    """Where q̇ stands in y: behind (R, θ) of the bodies and the modal coordinates of flexible ones."""
+    return 7 * record.bodies.mass.shape[0] + record.flexible.p.shape[0]
 
 
 @stage
@@ -27,13 +32,13 @@ def normalisation_rows(machine, y):
     """C, Ċ = 2 θᵀθ̇ and γ = -2 θ̇ᵀθ̇ of θᵀθ - 1 = 0."""
     record = record_at(machine)
     constraints = record.constraints
-    nb = record.bodies.mass.shape[0]
+    nb, v = record.bodies.mass.shape[0], first_rate(record)
     first = constraints.C.shape[0] - nb
     for b in range(nb):
         length, rate, square = 0.0 * y[0], 0.0 * y[0], 0.0 * y[0]
         for i in range(4):
             length += y[7 * b + 3 + i] * y[7 * b + 3 + i]
-            thetadot = y[7 * nb + 7 * b + 3 + i]
+            thetadot = y[v + 7 * b + 3 + i]
             rate += y[7 * b + 3 + i] * thetadot
             square += thetadot * thetadot
         constraints.C[first + b] = length - 1.0
@@ -42,34 +47,35 @@ def normalisation_rows(machine, y):
 
 
 @stage
-def read_state(machine, t, y):
-    """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
+def read_bodies(machine, y):
+    """Poses and velocities of bodies."""
     record = record_at(machine)
     bodies = record.bodies
-    nb = bodies.mass.shape[0]
-    for b in range(nb):
+    for b in range(bodies.mass.shape[0]):
+        v = first_rate(record) + 7 * b
         place_body(bodies, b, y[7 * b : 7 * b + 7])
-    place_markers(bodies, record.markers)
-    for b in range(nb):
-        v = 7 * nb + 7 * b
         for i in range(3):
             bodies.Rdot[b, i] = y[v + i]
         angular_velocity(bodies.theta[b], y[v + 3 : v + 7], bodies.omega_b[b])
         multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
-    move_markers(bodies, record.markers)
-    constraint_rows(bodies, record.markers, record.constraints)
+
+
+@stage
+def read_state(machine, t, y):
+    """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
+    read_bodies(machine, y)
     normalisation_rows(machine, y)
-    return measure_active(machine, t)
+    return read_markers(machine, t)
 
 
 @stage
 def radial_rate(machine, y, b):
     """κ = -2 θᵀθ̇/|θ|²: ᾱ = Ḡ θ̈ + κ ω̄, zero on the unit sphere."""
     record = record_at(machine)
-    nb = record.bodies.mass.shape[0]
+    v = first_rate(record) + 7 * b
     rate, square = 0.0 * y[0], 0.0 * y[0]
     for i in range(4):
-        rate += y[7 * b + 3 + i] * y[7 * nb + 7 * b + 3 + i]
+        rate += y[7 * b + 3 + i] * y[v + 3 + i]
         square += y[7 * b + 3 + i] * y[7 * b + 3 + i]
     return -2.0 * rate / square
 
@@ -82,45 +88,50 @@ def augmentation(bodies, b):
 
 
 @stage
-def factorise_mass(machine, y):
-    """Cholesky factor of M + μ θ θᵀ of each body, in the lower triangle of G; A Ḡ (3, 4) in its free upper right corner.
+def factorise_body(bodies, G, b):
+    """Cholesky factor of M + μ θ θᵀ of body b, in the lower triangle of G (7, 7); A Ḡ (3, 4) in its free upper right corner.
 
     m_RR = m 1, m_Rθ = -m c̃ A Ḡ, m_θθ = Ḡᵀ J̄_O Ḡ (eqs. 58–60).
     """
+    A, c, m, J = bodies.A[b], bodies.c[b], bodies.mass[b], bodies.inertia_origin_b[b]
+    theta = bodies.theta[b]
+    Gbar = G[0:3, 3:7]
+    transformation(theta, Gbar)
+    mu = augmentation(bodies, b)
+    for k in range(4):
+        g0, g1, g2 = Gbar[0, k], Gbar[1, k], Gbar[2, k]
+        j0 = J[0, 0] * g0 + J[0, 1] * g1 + J[0, 2] * g2
+        j1 = J[1, 0] * g0 + J[1, 1] * g1 + J[1, 2] * g2
+        j2 = J[2, 0] * g0 + J[2, 1] * g1 + J[2, 2] * g2
+        for i in range(k, 4):
+            G[3 + i, 3 + k] = Gbar[0, i] * j0 + Gbar[1, i] * j1 + Gbar[2, i] * j2 + mu * theta[i] * theta[k]
+    root = np.sqrt(m)
+    for k in range(4):
+        g0, g1, g2 = Gbar[0, k], Gbar[1, k], Gbar[2, k]
+        h0 = A[0, 0] * g0 + A[0, 1] * g1 + A[0, 2] * g2
+        h1 = A[1, 0] * g0 + A[1, 1] * g1 + A[1, 2] * g2
+        h2 = A[2, 0] * g0 + A[2, 1] * g1 + A[2, 2] * g2
+        Gbar[0, k], Gbar[1, k], Gbar[2, k] = h0, h1, h2
+        # column k of m_Rθ over √m: -√m c × h
+        G[3 + k, 0] = -root * (c[1] * h2 - c[2] * h1)
+        G[3 + k, 1] = -root * (c[2] * h0 - c[0] * h2)
+        G[3 + k, 2] = -root * (c[0] * h1 - c[1] * h0)
+    for i in range(3):
+        G[i, i] = root
+    for i in range(4):
+        for k in range(i + 1):
+            value = G[3 + i, 3 + k]
+            for j in range(3 + k):
+                value -= G[3 + i, j] * G[3 + k, j]
+            G[3 + i, 3 + k] = np.sqrt(value) if i == k else value / G[3 + k, 3 + k]
+
+
+@stage
+def factorise_mass(machine):
+    """The factors of all bodies."""
     record = record_at(machine)
-    bodies, saddle = record.bodies, record.saddle
-    for b in range(bodies.mass.shape[0]):
-        G, A, c, m, J = saddle.G[b], bodies.A[b], bodies.c[b], bodies.mass[b], bodies.inertia_origin_b[b]
-        theta = bodies.theta[b]
-        Gbar = G[0:3, 3:7]
-        transformation(theta, Gbar)
-        mu = augmentation(bodies, b)
-        for k in range(4):
-            g0, g1, g2 = Gbar[0, k], Gbar[1, k], Gbar[2, k]
-            j0 = J[0, 0] * g0 + J[0, 1] * g1 + J[0, 2] * g2
-            j1 = J[1, 0] * g0 + J[1, 1] * g1 + J[1, 2] * g2
-            j2 = J[2, 0] * g0 + J[2, 1] * g1 + J[2, 2] * g2
-            for i in range(k, 4):
-                G[3 + i, 3 + k] = Gbar[0, i] * j0 + Gbar[1, i] * j1 + Gbar[2, i] * j2 + mu * theta[i] * theta[k]
-        root = np.sqrt(m)
-        for k in range(4):
-            g0, g1, g2 = Gbar[0, k], Gbar[1, k], Gbar[2, k]
-            h0 = A[0, 0] * g0 + A[0, 1] * g1 + A[0, 2] * g2
-            h1 = A[1, 0] * g0 + A[1, 1] * g1 + A[1, 2] * g2
-            h2 = A[2, 0] * g0 + A[2, 1] * g1 + A[2, 2] * g2
-            Gbar[0, k], Gbar[1, k], Gbar[2, k] = h0, h1, h2
-            # column k of m_Rθ over √m: -√m c × h
-            G[3 + k, 0] = -root * (c[1] * h2 - c[2] * h1)
-            G[3 + k, 1] = -root * (c[2] * h0 - c[0] * h2)
-            G[3 + k, 2] = -root * (c[0] * h1 - c[1] * h0)
-        for i in range(3):
-            G[i, i] = root
-        for i in range(4):
-            for k in range(i + 1):
-                value = G[3 + i, 3 + k]
-                for j in range(3 + k):
-                    value -= G[3 + i, j] * G[3 + k, j]
-                G[3 + i, 3 + k] = np.sqrt(value) if i == k else value / G[3 + k, 3 + k]
+    for b in range(record.bodies.mass.shape[0]):
+        factorise_body(record.bodies, record.saddle.G[b], b)
 
 
 @stage
@@ -136,63 +147,78 @@ def forward(G, z):
 
 
 @stage
-def whiten_rows(machine, y):
-    """W = C_q L⁻ᵀ with C_θ = (n + u × f)ᵀ A Ḡ (eq. 27); off the unit sphere γ changes by -κ (n + u × f)ᵀ ω."""
+def whiten_row(machine, y, k):
+    """W of block k: C_q L⁻ᵀ with C_θ = (n + u × f)ᵀ A Ḡ (eq. 27); off the unit sphere γ changes by -κ (n + u × f)ᵀ ω."""
     record = record_at(machine)
-    bodies, markers, saddle, constraints = record.bodies, record.markers, record.saddle, record.constraints
-    J = constraints.J
-    for k in range(saddle.block.shape[0]):
-        row, part, marker, b = saddle.block[k, 0], saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
-        W, G = saddle.W[k], saddle.G[b]
-        if part == NONE:
-            for i in range(3):
-                W[i] = 0.0
-            for i in range(4):
-                W[3 + i] = 2.0 * bodies.theta[b, i]
-        else:
-            f0, f1, f2 = J[part, 0], J[part, 1], J[part, 2]
-            u = markers.u[marker]
-            n0 = J[part, 3] + u[1] * f2 - u[2] * f1
-            n1 = J[part, 4] + u[2] * f0 - u[0] * f2
-            n2 = J[part, 5] + u[0] * f1 - u[1] * f0
-            W[0], W[1], W[2] = f0, f1, f2
-            for i in range(4):
-                W[3 + i] = n0 * G[0, 3 + i] + n1 * G[1, 3 + i] + n2 * G[2, 3 + i]
-            w = bodies.omega[b]
-            kappa = radial_rate(machine, y, b)
-            constraints.gamma[row] -= kappa * (n0 * w[0] + n1 * w[1] + n2 * w[2])
-        forward(G, W)
+    bodies, saddle, constraints = record.bodies, record.saddle, record.constraints
+    row, part, marker, b = saddle.block[k, 0], saddle.block[k, 1], saddle.block[k, 2], saddle.block[k, 3]
+    W, G = saddle.W[k], saddle.G[b]
+    if part == NONE:
+        for i in range(3):
+            W[i] = 0.0
+        for i in range(4):
+            W[3 + i] = 2.0 * bodies.theta[b, i]
+    else:
+        J, u, w = constraints.J[part], record.markers.u[marker], bodies.omega[b]
+        f0, f1, f2 = J[0], J[1], J[2]
+        n0 = J[3] + u[1] * f2 - u[2] * f1
+        n1 = J[4] + u[2] * f0 - u[0] * f2
+        n2 = J[5] + u[0] * f1 - u[1] * f0
+        W[0], W[1], W[2] = f0, f1, f2
+        for i in range(4):
+            W[3 + i] = n0 * G[0, 3 + i] + n1 * G[1, 3 + i] + n2 * G[2, 3 + i]
+        constraints.gamma[row] -= radial_rate(machine, y, b) * (n0 * w[0] + n1 * w[1] + n2 * w[2])
+    forward(G, W)
+
+
+@stage
+def whiten_rows(machine, y):
+    """W of all blocks."""
+    for k in range(record_at(machine).saddle.block.shape[0]):
+        whiten_row(machine, y, k)
+
+
+@stage
+def radial_force(record, mu, b):
+    """μ θᵀθ̈ = -μ θ̇ᵀθ̇ of body b, from γ of its normalisation."""
+    gamma = record.constraints.gamma
+    return 0.5 * mu * gamma[record.constraints.C.shape[0] - record.bodies.mass.shape[0] + b]
+
+
+@stage
+def whiten_force(machine, y, b):
+    """z = L⁻¹ (Q_e + Q_v) of body b with Q_v from eq. 63, and the parts of κ and of the augmentation."""
+    record = record_at(machine)
+    bodies, saddle = record.bodies, record.saddle
+    F, c, w, w_b = bodies.wrench[b], bodies.c[b], bodies.omega[b], bodies.omega_b[b]
+    A, J, G, z = bodies.A[b], bodies.inertia_origin_b[b], saddle.G[b], saddle.z[b]
+    m = bodies.mass[b]
+    kappa = radial_rate(machine, y, b)
+    wc, ww = dot(w, c), dot(w, w)
+    z[0] = F[0] - m * (w[0] * wc - c[0] * ww + kappa * (w[1] * c[2] - w[2] * c[1]))
+    z[1] = F[1] - m * (w[1] * wc - c[1] * ww + kappa * (w[2] * c[0] - w[0] * c[2]))
+    z[2] = F[2] - m * (w[2] * wc - c[2] * ww + kappa * (w[0] * c[1] - w[1] * c[0]))
+    h0 = J[0, 0] * w_b[0] + J[0, 1] * w_b[1] + J[0, 2] * w_b[2]
+    h1 = J[1, 0] * w_b[0] + J[1, 1] * w_b[1] + J[1, 2] * w_b[2]
+    h2 = J[2, 0] * w_b[0] + J[2, 1] * w_b[1] + J[2, 2] * w_b[2]
+    # velocity moments in body axes, then all moments in global axes: C_θ and Q_θ share A Ḡ
+    v0 = w_b[1] * h2 - w_b[2] * h1 + kappa * h0
+    v1 = w_b[2] * h0 - w_b[0] * h2 + kappa * h1
+    v2 = w_b[0] * h1 - w_b[1] * h0 + kappa * h2
+    t0 = F[3] - (A[0, 0] * v0 + A[0, 1] * v1 + A[0, 2] * v2)
+    t1 = F[4] - (A[1, 0] * v0 + A[1, 1] * v1 + A[1, 2] * v2)
+    t2 = F[5] - (A[2, 0] * v0 + A[2, 1] * v1 + A[2, 2] * v2)
+    radial = radial_force(record, augmentation(bodies, b), b)
+    for i in range(4):
+        z[3 + i] = t0 * G[0, 3 + i] + t1 * G[1, 3 + i] + t2 * G[2, 3 + i] + radial * bodies.theta[b, i]
+    forward(G, z)
 
 
 @stage
 def whiten_forces(machine, y):
-    """z = L⁻¹ (Q_e + Q_v) with Q_v from eq. 63, and the parts of κ and of the augmentation."""
-    record = record_at(machine)
-    bodies, saddle = record.bodies, record.saddle
-    nb = bodies.mass.shape[0]
-    for b in range(nb):
-        F, c, w, w_b = bodies.wrench[b], bodies.c[b], bodies.omega[b], bodies.omega_b[b]
-        A, J, G, z = bodies.A[b], bodies.inertia_origin_b[b], saddle.G[b], saddle.z[b]
-        m = bodies.mass[b]
-        kappa = radial_rate(machine, y, b)
-        wc, ww = dot(w, c), dot(w, w)
-        z[0] = F[0] - m * (w[0] * wc - c[0] * ww + kappa * (w[1] * c[2] - w[2] * c[1]))
-        z[1] = F[1] - m * (w[1] * wc - c[1] * ww + kappa * (w[2] * c[0] - w[0] * c[2]))
-        z[2] = F[2] - m * (w[2] * wc - c[2] * ww + kappa * (w[0] * c[1] - w[1] * c[0]))
-        h0 = J[0, 0] * w_b[0] + J[0, 1] * w_b[1] + J[0, 2] * w_b[2]
-        h1 = J[1, 0] * w_b[0] + J[1, 1] * w_b[1] + J[1, 2] * w_b[2]
-        h2 = J[2, 0] * w_b[0] + J[2, 1] * w_b[1] + J[2, 2] * w_b[2]
-        # velocity moments in body axes, then all moments in global axes: C_θ and Q_θ share A Ḡ
-        v0 = w_b[1] * h2 - w_b[2] * h1 + kappa * h0
-        v1 = w_b[2] * h0 - w_b[0] * h2 + kappa * h1
-        v2 = w_b[0] * h1 - w_b[1] * h0 + kappa * h2
-        t0 = F[3] - (A[0, 0] * v0 + A[0, 1] * v1 + A[0, 2] * v2)
-        t1 = F[4] - (A[1, 0] * v0 + A[1, 1] * v1 + A[1, 2] * v2)
-        t2 = F[5] - (A[2, 0] * v0 + A[2, 1] * v1 + A[2, 2] * v2)
-        radial = 0.5 * augmentation(bodies, b) * record.constraints.gamma[record.constraints.C.shape[0] - nb + b]
-        for i in range(4):
-            z[3 + i] = t0 * G[0, 3 + i] + t1 * G[1, 3 + i] + t2 * G[2, 3 + i] + radial * bodies.theta[b, i]
-        forward(G, z)
+    """z of all bodies."""
+    for b in range(record_at(machine).bodies.mass.shape[0]):
+        whiten_force(machine, y, b)
 
 
 @stage
@@ -209,22 +235,27 @@ def unwhiten(machine, b):
 
 
 @stage
+def write_rate(machine, y, ydot, b):
+    """(q̇, q̈) of body b in ẏ, and its accelerations, from q̈ in z."""
+    record = record_at(machine)
+    bodies, z = record.bodies, record.saddle.z[b]
+    q, v = 7 * b, first_rate(record) + 7 * b
+    for i in range(7):
+        ydot[q + i] = y[v + i]
+        ydot[v + i] = z[i]
+    kappa = radial_rate(machine, y, b)
+    angular_velocity(bodies.theta[b], z[3:7], bodies.alpha_b[b])
+    for i in range(3):
+        bodies.Rddot[b, i] = z[i]
+        bodies.alpha_b[b, i] += kappa * bodies.omega_b[b, i]
+
+
+@stage
 def write_rates(machine, y, ydot):
     """(q̇, q̈) of ẏ, and the accelerations of the bodies."""
-    record = record_at(machine)
-    bodies, saddle = record.bodies, record.saddle
-    nb = bodies.mass.shape[0]
-    for b in range(nb):
+    for b in range(record_at(machine).bodies.mass.shape[0]):
         unwhiten(machine, b)
-        q, v = 7 * b, 7 * nb + 7 * b
-        for i in range(7):
-            ydot[q + i] = y[v + i]
-            ydot[v + i] = saddle.z[b, i]
-        kappa = radial_rate(machine, y, b)
-        angular_velocity(bodies.theta[b], saddle.z[b, 3:7], bodies.alpha_b[b])
-        for i in range(3):
-            bodies.Rddot[b, i] = saddle.z[b, i]
-            bodies.alpha_b[b, i] += kappa * bodies.omega_b[b, i]
+        write_rate(machine, y, ydot, b)
 
 
 @entry(evaluate_signature)
@@ -241,7 +272,7 @@ def evaluate(machine, t, y, ydot):
     status = apply_forces(machine, t, y)
     if status != OK:
         return status
-    factorise_mass(machine, y)
+    factorise_mass(machine)
     whiten_rows(machine, y)
     status = factorise_rows(machine, WIDTH)
     if status != OK:

@@ -33,7 +33,7 @@ def correct(machine, t, y):
         if not at_positions and not exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]):
             return OK
         if not factorised:
-            factorise_mass(machine, y)
+            factorise_mass(machine)
             whiten_rows(machine, y)
             status = factorise_rows(machine, WIDTH)
             if status != OK:

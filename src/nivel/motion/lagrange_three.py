@@ -9,7 +9,7 @@ the Newton–Euler equations, and so are the multipliers. Ḡ appears where the 
 from __future__ import annotations
 
 from nivel.kernels import euler_angles, rotation_vector
-from nivel.kernels.compile import entry, stage
+from nivel.kernels.compile import entry, leaf, stage
 from nivel.kernels.record import EULER_ANGLES, correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import set_axes
 from nivel.kernels.rotation import product
@@ -39,14 +39,19 @@ def turn_body(rotations, b, phi, phidot):
         bias[i] = N[i, 0] * x + N[i, 1] * y + N[i, 2] * z
 
 
+@leaf
+def first_rate(record):
+    """Where q̇ stands in y: behind (R, φ) of the bodies and the modal coordinates of flexible ones."""
+    return 6 * record.bodies.mass.shape[0] + record.flexible.p.shape[0]
+
+
 @stage
-def read_state(machine, t, y):
-    """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
+def read_bodies(machine, y):
+    """Poses and velocities of bodies."""
     record = record_at(machine)
     bodies, rotations = record.bodies, record.rotations
-    nb = bodies.mass.shape[0]
-    for b in range(nb):
-        q, v = 6 * b, 6 * nb + 6 * b
+    for b in range(bodies.mass.shape[0]):
+        q, v = 6 * b, first_rate(record) + 6 * b
         phidot = y[v + 3 : v + 6]
         turn_body(rotations, b, y[q + 3 : q + 6], phidot)
         product(rotations.space[b], rotations.theta[b], bodies.theta[b])
@@ -56,29 +61,49 @@ def read_state(machine, t, y):
             bodies.R[b, i], bodies.Rdot[b, i] = y[q + i], y[v + i]
         multiply(rotations.G[b], phidot, bodies.omega_b[b])
         multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
-    status = read_markers(machine, t)
-    for b in range(nb):
-        if rotations.regularity[b] < SINGULAR:
+
+
+@stage
+def find_singular(machine):
+    """ROTATION_SINGULAR where the coordinates of a body are near a singular position."""
+    record = record_at(machine)
+    for b in range(record.bodies.mass.shape[0]):
+        if record.rotations.regularity[b] < SINGULAR:
             record.control.failure[0] = b
             return ROTATION_SINGULAR
-    return status
+    return OK
+
+
+@stage
+def read_state(machine, t, y):
+    """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
+    read_bodies(machine, y)
+    status = read_markers(machine, t)
+    singular = find_singular(machine)
+    return status if singular == OK else singular
+
+
+@stage
+def write_rate(machine, y, ydot, b):
+    """(q̇, q̈) of body b in ẏ, from its accelerations."""
+    record = record_at(machine)
+    bodies, rotations = record.bodies, record.rotations
+    q, v = 6 * b, first_rate(record) + 6 * b
+    for i in range(6):
+        ydot[q + i] = y[v + i]
+    for i in range(3):
+        ydot[v + i] = bodies.Rddot[b, i]
+        ydot[v + 3 + i] = bodies.alpha_b[b, i] - rotations.bias[b, i]
+    solve(rotations.G[b], ydot[v + 3 : v + 6], ydot[v + 3 : v + 6])
 
 
 @stage
 def write_rates(machine, y, ydot):
     """(q̇, q̈) of ẏ, and the accelerations of the bodies."""
     record = record_at(machine)
-    bodies, rotations = record.bodies, record.rotations
-    nb = bodies.mass.shape[0]
-    for b in range(nb):
-        unwhiten(bodies, record.saddle, b)
-        q, v = 6 * b, 6 * nb + 6 * b
-        for i in range(6):
-            ydot[q + i] = y[v + i]
-        for i in range(3):
-            ydot[v + i] = bodies.Rddot[b, i]
-            ydot[v + 3 + i] = bodies.alpha_b[b, i] - rotations.bias[b, i]
-        solve(rotations.G[b], ydot[v + 3 : v + 6], ydot[v + 3 : v + 6])
+    for b in range(record.bodies.mass.shape[0]):
+        unwhiten(record.bodies, record.saddle, b)
+        write_rate(machine, y, ydot, b)
 
 
 @entry(evaluate_signature)

@@ -27,7 +27,9 @@ def felt(beam: Beam, place: Array, theta: Array, modal: Array) -> Felt:
 
     from nivel.system.beam_elements import elements_of, strains
 
-    if beam.model != "exact":
+    if beam.model == "segments":
+        return _felt_by_springs(beam, place, theta)
+    if beam.has_gradients:
         from nivel.results.gradient_sections import felt_by_gradients
 
         turned = Rotation.from_quat(theta[:, :, [1, 2, 3, 0]].reshape(-1, 4)).as_matrix()
@@ -52,7 +54,12 @@ def felt(beam: Beam, place: Array, theta: Array, modal: Array) -> Felt:
         parts.append((now.reshape(many, count, points, 6) - elements.strain).reshape(many, -1, 6))
     strain = np.concatenate(parts)
     share = np.einsum("nga,na->ng", elements.N, beam.shares[elements.nodes]).ravel()
-    stress, weight = strain @ beam.properties.stiffness, elements.weight.ravel()
+    return _felt_elastically(beam, share, elements.weight.ravel(), strain)
+
+
+def _felt_elastically(beam: Beam, share: Array, weight: Array, strain: Array) -> Felt:
+    """With the forces and the energy that go with strains (t, p, 6)."""
+    stress = strain @ beam.properties.stiffness
     return Felt(share, weight, strain, stress, 0.5 * np.einsum("tpi,tpi,p->t", strain, stress, weight))
 
 
@@ -65,8 +72,20 @@ def modes_of_nodes(result: Result, beam: Beam) -> Array:
     return result.array("modal_coordinate")[:, places] if places.size else np.zeros((len(result.time), len(places), 0))
 
 
+def _felt_by_springs(beam: Beam, place: Array, theta: Array) -> Felt:
+    """The same where segments meet: the deflection of the spring over the length of its piece of beam."""
+    from scipy.spatial.transform import Rotation
+
+    from nivel.system.beam_segments import boundaries, deflections
+
+    axes = Rotation.from_quat(theta.reshape(-1, 4), scalar_first=True).as_matrix().reshape(*theta.shape[:2], 3, 3)
+    weight = beam.line.length * np.diff(beam.shares)
+    strain = deflections(beam, place, axes) / weight[:, None]
+    return _felt_elastically(beam, boundaries(beam), weight, strain)
+
+
 def beam_sections(result: Result, name: str) -> xr.Dataset:
-    """What the sections of the beam `name` feel at all times, at the Gauss points of its elements.
+    """What the sections of the beam `name` feel at all times, at the Gauss points of its elements or where its segments meet.
 
     Dimensions `time`, `point`, `component` (x along the beam, y and z across it: axes of the section). Variables: `share` (point) of the
     length; `strain` (stretch and two shears) [1] and `curvature` (twist and two curvatures) [1/m], beyond those of the unstressed beam;

@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Felt:
-    """What a beam feels at times t and points p, the Gauss points of its elements.
+    """What a beam feels at times t and points p: the Gauss points of its elements, or where its segments meet.
 
     share : (p,) of the length. weight : (p,) [m]. strain : (t, p, 6) Γ [1] and Κ [1/m], axes of the section, beyond those of the unstressed
     beam. stress : (t, p, 6) force [N] and moment [N m] that go with it. energy : (t,) [J] stored.

@@ -12,6 +12,7 @@ from nivel.machine.inertia import Inertia
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.orientation import Orientation, euler_parameters_from_matrix
 from nivel.system.beam_elements import masses_of
+from nivel.system.beam_segments import Segments, segments_of
 from nivel.system.gradient_nodes import gradient_nodes
 from nivel.system.rails import on_beams
 
@@ -32,6 +33,14 @@ def with_nodes(machine: MachineRecord) -> MachineRecord:
     given["bodies"] = (*machine.bodies, *(node for beam in missing for node in _nodes(beam)))
     given["joints"] = on_beams(machine.joints, missing)
     return type(machine).model_construct(machine.model_fields_set | {"bodies"}, **given)
+
+
+def lumps_of(beam: Beam) -> Segments:
+    """What its nodes weigh by themselves: rigid segments, or the shares of the elements."""
+    if beam.model == "segments":
+        return segments_of(beam)
+    masses = masses_of(beam)
+    return Segments(masses.mass, np.tile(beam.properties.mass_centre, (len(masses.mass), 1)), masses.inertia)
 
 
 def _nodes(beam: Beam) -> list[Body]:
@@ -56,16 +65,12 @@ def _nodes(beam: Beam) -> list[Body]:
 
 def _masses(beam: Beam) -> list[dict[str, Any]]:
     """What of `Body` says how heavy each node is: its lumped mass, or for gradients what makes it deform."""
-    if beam.model != "exact":
+    if beam.has_gradients:
         return [{"flexible": each} for each in gradient_nodes(beam)]
-    masses, section = masses_of(beam), beam.properties
+    lumps = lumps_of(beam)
     return [
-        {
-            "mass": float(mass),
-            "centre_of_mass": tuple(section.mass_centre.tolist()),
-            "inertia": _inertia(inertia),
-        }
-        for mass, inertia in zip(masses.mass, masses.inertia, strict=True)
+        {"mass": float(mass), "centre_of_mass": tuple(centre.tolist()), "inertia": _inertia(inertia)}
+        for mass, centre, inertia in zip(lumps.mass, lumps.centre, lumps.inertia, strict=True)
     ]
 
 

@@ -12,29 +12,38 @@ from nivel.machine.beam import Beam
 from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.machine.placement import placement
 from nivel.system.beam_elements import elements_of, masses_of
+from nivel.system.beam_segments import add_segments
 from nivel.system.draft import GROUND, Draft
 from nivel.system.gradient_beams import FAMILIES as OF_GRADIENTS
 from nivel.system.gradient_beams import add_gradient_beam, family_of_gradients
 from nivel.system.tables import index_array
 
 MOST_NODES = 4
-# kernels of elements: those without damping, whose derivatives are found by hand, and all others
-ELASTIC, OTHER = "elastic_beam", "beam"
-FAMILIES = (ELASTIC, OTHER, *OF_GRADIENTS)
+# kernels of elements: those without damping, whose derivatives are found by hand, and all others; of springs between segments
+ELASTIC, OTHER, SPRINGS = "elastic_beam", "beam", "bushing"
+FAMILIES = (ELASTIC, OTHER, SPRINGS, *OF_GRADIENTS)
 
 
 def family_of(beam: Beam) -> str:
-    """The kernel of its elements."""
-    if beam.model != "exact":
+    """The kernel of its elements, or of the springs between its segments."""
+    if beam.has_gradients:
         return family_of_gradients(beam)
+    if beam.model == "segments":
+        return SPRINGS
     return OTHER if beam.damping > 0.0 or beam.interpolation == "total" else ELASTIC
 
 
 def add_beam(draft: Draft, beam: Beam) -> None:
-    """The elements of a beam, whose nodes are bodies; each couples its own nodes."""
-    if beam.model != "exact":
+    """What joins the nodes of a beam, which are bodies: its elements, or springs between segments; each couples its own nodes."""
+    if beam.has_gradients:
         add_gradient_beam(draft, beam)
-        return
+    elif beam.model == "segments":
+        add_segments(draft, beam)
+    else:
+        _add_elements(draft, beam)
+
+
+def _add_elements(draft: Draft, beam: Beam) -> None:
     elements, section = elements_of(beam), beam.properties
     marker = np.array([draft.frame(name) for name in beam.node_names])
     names = dict(zip(marker.tolist(), beam.node_names, strict=True))
@@ -89,7 +98,7 @@ def shared_mass(draft: Draft, beams: Sequence[Beam]) -> SharedMass:
     """What the nodes of beams with consistent mass have in common."""
     pairs, mass, moment, turn = [], [np.zeros(0)], [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))]
     for beam in beams:
-        if beam.mass == "consistent" and beam.model == "exact":
+        if beam.model == "geometrically-exact" and beam.shares_mass:
             own = masses_of(beam)
             ends = np.array([(draft.body(name), draft.frame(name)) for name in beam.node_names])
             pairs += ends[own.pairs].transpose(0, 2, 1).reshape(-1, 4).tolist()

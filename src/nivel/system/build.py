@@ -187,7 +187,7 @@ def _hooks(draft: Draft, sensors: bool) -> Hooks:
         address[MEASURE] = import_module("nivel.kernels.measure").measure.address
     if draft.coordinates.rails:
         address[RAIL] = import_module("nivel.kernels.rail").slide.address
-    if any(beam.model != "exact" for beam in draft.machine.beams):
+    if any(beam.has_gradients for beam in draft.machine.beams):
         address[POINTS] = import_module("nivel.kernels.point_inertia").resist.address
     if draft.frictions:
         address[FRICTION] = import_module("nivel.kernels.friction").rub.address

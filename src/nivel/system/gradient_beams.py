@@ -96,7 +96,7 @@ def point_inertia(draft: Draft, beams: Sequence[Beam]) -> PointInertia:
     """The mass that the points of beams in absolute nodal coordinates have in common."""
     markers, matrices = [], [np.zeros((0, MOST_VECTORS, MOST_VECTORS))]
     for beam in beams:
-        if beam.model == "exact":
+        if not beam.has_gradients:
             continue
         width = vectors_of_node(beam)
         T = np.kron(np.eye(2), as_points(width, reach_of(beam)))

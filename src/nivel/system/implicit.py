@@ -31,11 +31,20 @@ def no_newton() -> Newton:
 
 
 def residual_tables(
-    bodies: int, state: int, velocities: int, states: int, row: Index, part: Index, *, free: bool | None = None
+    bodies: int,
+    state: int,
+    velocities: int,
+    states: int,
+    row: Index,
+    part: Index,
+    *,
+    free: bool | None = None,
+    flexible: tuple[int, int, int] = (0, 0, 0),
 ) -> Residual:
     """For so many bodies, entries of y, velocities and states of forces. row, part : as in `Residual`.
 
-    free : whether nothing joins the machine to the ground, for residuals over a whole step; None for all others.
+    free : whether nothing joins the machine to the ground, for residuals over a whole step; None for all others. flexible : numbers of
+    modes, frames at interfaces and flexible bodies that such a residual knows.
     """
     rows = len(row)
     whole = free is not None
@@ -50,8 +59,12 @@ def residual_tables(
         wrench=np.zeros((bodies + 1, 6)),
         interval=Interval(
             numbers=np.array([0.0, 0.0, 0.0, float(bool(free))]),
-            start=np.zeros((bodies if whole else 0, 9)),
-            solid=np.ones(bodies if whole else 0),
+            start=np.zeros((bodies if whole else 0, 12)),
+            inertia=np.zeros((bodies if whole else 0, 3, 3)),
+            internal=np.zeros((bodies if whole else 0, 6)),
+            modal=np.zeros(flexible[0]),
+            frame=np.zeros((flexible[1], 12)),
+            defect=np.zeros(flexible[2]),
             state=np.zeros(states + 2 if whole else 0),
         ),
     )

@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.record import Partition
+from nivel.system.tables import Array
+
+NO_MODES = np.zeros(0)
 
 
 def no_partition() -> Partition:
@@ -12,12 +15,15 @@ def no_partition() -> Partition:
     return partition(0, 0, 0, 1.0)
 
 
-def partition(bodies: int, rows: int, rank: int, size: float) -> Partition:
-    """For six velocities (Ṙ, ω̄) a body, `rank` independent ones of `rows` rows and a machine of the length `size` [m]; none chosen yet."""
-    n = 6 * bodies
+def partition(bodies: int, rows: int, rank: int, size: float, modal: Array = NO_MODES) -> Partition:
+    """For six velocities (Ṙ, ω̄) a body, `rank` independent ones of `rows` rows and a machine of the length `size` [m]; none chosen yet.
+
+    modal : (m,) what modal velocities behind them are measured in [kg^½ m].
+    """
+    n = 6 * bodies + len(modal)
     free = n - rank
     return Partition(
-        unit=np.tile([size, size, size, 1.0, 1.0, 1.0], bodies),
+        unit=np.concatenate([np.tile([size, size, size, 1.0, 1.0, 1.0], bodies), modal]),
         column=np.arange(n, dtype=np.uint32),
         row=np.arange(rows, dtype=np.uint32),
         choices=np.zeros(1, dtype=np.uint32),

@@ -11,11 +11,12 @@ import numpy as np
 
 from nivel.kernels.forces.push import push_marker, twist_body
 from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
+from nivel.kernels.record import NONE, record_at
 from nivel.kernels.relative_rotation import rotation_vector, tangent_product
 from nivel.kernels.status import OK
 
-# columns of `columns`; outputs: magnitude of the force, power, force (3) and torque (3) on the second body, axes of the first
+# columns of `columns`; outputs, which springs between segments of beams do not have (NONE): magnitude of the force, power, force (3) and
+# torque (3) on the second body, axes of the first
 OUTPUT, FIRST, SECOND = 0, 1, 2
 # columns of `number`: stiffness (36), damping (36), then 18 of work
 STIFFNESS, DAMPING, X, RATE, EFFORT = 0, 36, 72, 78, 84
@@ -68,9 +69,10 @@ def apply(machine, number, t):
         power += push_marker(bodies, markers, i, -f0, -f1, -f2)
         t0, t1, t2 = m0 + d1 * f2 - d2 * f1, m1 + d2 * f0 - d0 * f2, m2 + d0 * f1 - d1 * f0
         power += twist_body(bodies, markers.body[i], -t0, -t1, -t2)
-        for a in range(3):
-            record.outputs.value[out + 2 + a] = effort[a]
-            record.outputs.value[out + 5 + a] = rate[a]
-        record.outputs.value[out] = np.sqrt(f0 * f0 + f1 * f1 + f2 * f2)
-        record.outputs.value[out + 1] = power
+        if out != NONE:
+            for a in range(3):
+                record.outputs.value[out + 2 + a] = effort[a]
+                record.outputs.value[out + 5 + a] = rate[a]
+            record.outputs.value[out] = np.sqrt(f0 * f0 + f1 * f1 + f2 * f2)
+            record.outputs.value[out + 1] = power
     return OK

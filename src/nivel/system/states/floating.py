@@ -39,8 +39,17 @@ def arrange(
     Raises ModelError naming every marker of a flexible body that is at no interface of it.
     """
     del settings
+    return bent(machine, absolute.known_rank(rank), y)
+
+
+def bent(machine: MachineRecord, rigid: System, y: Array) -> tuple[System, Array]:
+    """A machine arranged in any coordinates of single bodies, with the rank of its rows known, and its modes, undeformed at the start.
+
+    Raises ModelError naming every marker of a flexible body that is at no interface of it.
+    """
     bending = bending_bodies(machine)
-    return with_modes(absolute, y, rank, bending, carried_markers(absolute, machine, bending))
+    rank = int(rigid.record.control.rank[0])
+    return with_modes(rigid, y, rank, bending, carried_markers(rigid, machine, bending))
 
 
 def carried_markers(absolute: System, machine: MachineRecord, bending: Sequence[Bending]) -> dict[int, tuple[int, int]]:
@@ -106,7 +115,7 @@ def _away(owner: str, body: str, point: Array, bending: Bending) -> Fault:
 def with_modes(
     absolute: System, y: Array, rank: int, bending: Sequence[Bending], carried: dict[int, tuple[int, int]]
 ) -> tuple[System, Array]:
-    """The system with the bodies that are `bending`, and its state for y of the rigid one.
+    """The system, in coordinates of single bodies, with those that are `bending`, and its state for y of the rigid one.
 
     carried : markers at interfaces: (number of the flexible body, number of the interface).
     """
@@ -146,9 +155,8 @@ def with_modes(
         modes=names,
         gradient_sizes=_gradient_sizes(bending),
     )
-    start = np.concatenate(
-        [y[: 7 * count], np.zeros(modes), y[7 * count : 13 * count], np.zeros(modes), y[13 * count :]]
-    )
+    positions, end = absolute.positions, _end_of_velocities(absolute)
+    start = np.concatenate([y[:positions], np.zeros(modes), y[positions:end], np.zeros(modes), y[end:]])
     return system.known_rank(rank), start
 
 
@@ -194,7 +202,7 @@ def _saddle(old: Record, count: int, bending: Sequence[Bending], at: dict[int, i
     for group in (old.saddle.block[:own].tolist(), old.saddle.block[own:].tolist()):
         for row, part, marker, body in group:
             rows.append((row, part, marker, body))
-            if body not in flexible_of:
+            if body not in flexible_of or part == NONE:
                 continue
             f = flexible_of[body]
             table.append((len(rows) - 1, at.get(marker, NONE), f, len(rows)))
@@ -212,25 +220,29 @@ def _saddle(old: Record, count: int, bending: Sequence[Bending], at: dict[int, i
         block=block,
         blocks=np.array([kept], dtype=np.uint32),
         **vars(elimination),
-        W=np.zeros((len(block), 6)),
-        z=np.zeros((int(first[-1]), 6)),
+        W=np.zeros((len(block), old.saddle.W.shape[1])),
+        z=np.zeros((int(first[-1]), old.saddle.z.shape[1])),
         S=np.zeros(len(elimination.S_row)),
         L=np.zeros(len(elimination.L_row)),
     )
     return saddle, table
 
 
-def _map(absolute: System, modes: int) -> StateMap:
-    """What the entries of y are."""
-    old, count = absolute.map, absolute.body_count
-    first = 7 * count + modes
+def _end_of_velocities(rigid: System) -> int:
+    """One past the last velocity in its state."""
+    return len(rigid.map.units) - len(rigid.record.elements.state) - 2
+
+
+def _map(rigid: System, modes: int) -> StateMap:
+    """What the entries of y are: modal coordinates stand behind all other positions, their rates behind all other velocities."""
+    old, positions, end = rigid.map, rigid.positions, _end_of_velocities(rigid)
 
     def place(index: int) -> int:
-        return index if index < 7 * count else index + modes if index < 13 * count else index + 2 * modes
+        return index if index < positions else index + modes if index < end else index + 2 * modes
 
     plain = [(place(q), place(v)) for q, v in old.plain.tolist()]
-    plain += [(7 * count + j, first + 6 * count + j) for j in range(modes)]
+    plain += [(positions + j, end + modes + j) for j in range(modes)]
     turns = [(place(q), place(v)) for q, v in old.turns.tolist()]
-    units = [*old.units[: 7 * count], *["kg^0.5 m"] * modes, *old.units[7 * count : 13 * count]]
-    units += [*["kg^0.5 m/s"] * modes, *old.units[13 * count :]]
+    units = [*old.units[:positions], *["kg^0.5 m"] * modes, *old.units[positions:end]]
+    units += [*["kg^0.5 m/s"] * modes, *old.units[end:]]
     return StateMap(index_array(plain, 2), index_array(turns, 2), tuple(units))

@@ -1,0 +1,289 @@
+"""Flexible bodies in the Lagrange equations and in independent coordinates: at equal states all is as in the Newton–Euler equations, and so
+are motions."""
+
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+from nivel.analysis.dynamics import prepare
+from nivel.errors import ModelError
+from nivel.flexible import reference
+from nivel.kernels.status import OK
+from nivel.machine import Friction, SimulationSettings
+from nivel.system.flexible import bending_bodies
+from observing import assert_same_frame, observed, of_absolute
+from running import run
+from tree_machines import MACHINES, beam, hinge, machine, write_beams
+
+TIME = 0.1
+METHODS = {
+    "euler-parameters": {"formulation": "lagrange", "rotations": "euler-parameters", "coordinates": "absolute"},
+    "euler-angles": {"formulation": "lagrange", "rotations": "euler-angles", "coordinates": "absolute"},
+    "rotation-vector": {"formulation": "lagrange", "rotations": "rotation-vector", "coordinates": "absolute"},
+    "independent": {"formulation": "newton-euler", "coordinates": "independent"},
+}
+EACH = pytest.mark.parametrize("name", MACHINES)
+EACH_METHOD = pytest.mark.parametrize("method", METHODS)
+LAGRANGE = pytest.mark.parametrize("method", [name for name in METHODS if name != "independent"])
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    return write_beams(tmp_path_factory.mktemp("formulations"))
+
+
+def prepared_by(record, method):
+    settings = record.simulation.replace(**METHODS[method]) if method else record.simulation
+    return prepare(record.replace(simulation=settings), settings.formulation, METHODS[method]["coordinates"])
+
+
+def absolute_of(record):
+    settings = SimulationSettings(formulation="newton-euler", coordinates="absolute")
+    return prepare(record.replace(simulation=settings), "newton-euler", "absolute")
+
+
+def moving(prepared, rng):
+    """A state in motion, bent, on its constraints."""
+    motion = prepared.motion
+    system, y = motion.system, prepared.start.copy()
+    positions, states = system.positions, len(system.record.elements.state)
+    n = len(y) - positions - states - 2
+    units = np.array(system.map.units)
+    y[:positions] += np.where(units[:positions] == "kg^0.5 m", 0.01, 0.01) * rng.uniform(-1, 1, positions)
+    y[positions : positions + n] += np.where(units[positions : positions + n] == "kg^0.5 m/s", 0.3, 1.0) * rng.uniform(
+        -1, 1, n
+    )
+    system.record.control.stabilise[2:] = 1e-14
+    correct = import_module(prepared.path.correction).correct
+    for _ in range(6):
+        assert correct(motion.handle.address, TIME, y) == OK
+    assert motion.evaluate(TIME, y)[0] == OK
+    constraints = system.record.constraints
+    assert np.abs(constraints.C / constraints.scale).max(initial=0.0) < 1e-12
+    assert np.abs(constraints.Cdot / constraints.scale).max(initial=0.0) < 1e-11
+    return y
+
+
+@EACH
+@EACH_METHOD
+def test_accelerations_and_reactions_at_equal_states(folder, rng, name, method):
+    """Of bodies and modes, reactions, energies and sensors: the frame as a whole."""
+    record = MACHINES[name](folder)
+    prepared, absolute = prepared_by(record, method), absolute_of(record)
+    states = len(prepared.motion.system.record.elements.state)
+    for _ in range(3):
+        y = moving(prepared, rng)
+        seen = observed(prepared.motion, TIME, y)
+        expected = observed(absolute.motion, TIME, of_absolute(seen, states))
+        assert expected.status == OK
+        assert np.abs(expected.pddot).max() > 1.0
+        np.testing.assert_allclose(seen.pddot, expected.pddot, rtol=0, atol=1e-9 * np.abs(expected.pddot).max())
+        layouts = prepared.motion.system.layout, absolute.motion.system.layout
+        assert_same_frame(layouts[0], seen.frame, expected.frame, other=layouts[1])
+
+
+@EACH
+def test_euler_parameters_off_the_unit_sphere_are_the_same_motion(folder, rng, name):
+    """A is taken of θ/|θ|, so a longer θ that gets longer still is the same body in the same motion: no acceleration may see it."""
+    prepared = prepared_by(MACHINES[name](folder), "euler-parameters")
+    system, motion = prepared.motion.system, prepared.motion
+    y = moving(prepared, rng)
+    expected = observed(motion, TIME, y)
+    longer, v = y.copy(), system.positions
+    for b in range(system.body_count):
+        theta, rate = longer[7 * b + 3 : 7 * b + 7], longer[v + 7 * b + 3 : v + 7 * b + 7]
+        scale, growth = rng.uniform(0.7, 1.4), rng.uniform(-1, 1)
+        rate[:] = scale * rate + growth * theta
+        theta *= scale
+    found = observed(motion, TIME, longer)
+    assert np.abs(system.record.constraints.C[-system.body_count :]).min() > 1e-3
+    np.testing.assert_allclose(found.pddot, expected.pddot, rtol=0, atol=1e-9 * np.abs(expected.pddot).max())
+    for part in ("Rddot", "alpha_b"):
+        wanted = getattr(expected, part)
+        np.testing.assert_allclose(getattr(found, part), wanted, rtol=0, atol=1e-9 * np.abs(wanted).max())
+
+
+def test_mass_matrix_in_euler_parameters_is_that_of_the_reference(folder, rng):
+    """Tᵀ M T + μ θ θᵀ of a free body, written with the invariants of the thesis; its modes eliminated, it is G Gᵀ of the kernel."""
+    record = machine("free", [beam(folder, "a", (0, 0, 0), file="soft", angular_velocity=(0.0, 1.0, 2.0))], [])
+    prepared = prepared_by(record, "euler-parameters")
+    y = moving(prepared, rng)
+    seen = observed(prepared.motion, TIME, y)
+    body, theta = bending_bodies(record)[0], seen.theta[0]
+    M = reference.mass_matrix(body.invariants, seen.A[0], seen.p)
+    T = np.zeros((6, 7))
+    T[:3, :3] = np.eye(3)
+    T[3:, 3:] = (
+        2.0
+        / (theta @ theta)
+        * np.array(
+            [
+                [-theta[1], theta[0], theta[3], -theta[2]],
+                [-theta[2], -theta[3], theta[0], theta[1]],
+                [-theta[3], theta[2], -theta[1], theta[0]],
+            ]
+        )
+    )
+    left = M[:6, :6] - M[:6, 6:] @ np.linalg.solve(M[6:, 6:], M[6:, :6])
+    trace = np.trace(prepared.motion.system.record.flexible.inertia[0])
+    expected = T.T @ left @ T
+    expected[3:, 3:] += 4.0 / 3.0 * trace * np.outer(theta, theta)
+    G = np.tril(prepared.motion.system.record.saddle.G[0])
+    np.testing.assert_allclose(G @ G.T, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("name", ["pendulum", "chain", "flying", "loop"])
+@EACH_METHOD
+def test_motion_is_that_of_newton_euler(folder, name, method):
+    """What is left between them falls with the fourth power of the step."""
+    record = MACHINES[name](folder)
+    common = {"integrator": "rk4", "duration": 0.02, "output_interval": 0.01}
+    differences = []
+    for step in (4e-5, 2e-5):
+        a, r = (run(record, step=step, **common, **each) for each in ({"coordinates": "absolute"}, METHODS[method]))
+        assert r.finished.outcome == "done"
+        differences.append(np.abs(a.modal_rate - r.modal_rate).max() / np.abs(a.modal_rate).max())
+        assert np.abs(a.position - r.position).max() < 1e-8
+    # until round-off of stiff modes
+    assert differences[0] < 1e-5
+    assert differences[-1] < max(differences[0] / 10.0, 1e-9)
+
+
+@EACH
+@EACH_METHOD
+def test_energy_is_kept(folder, name, method):
+    record = MACHINES[name](folder)
+    errors = []
+    for step in (4e-5, 2e-5):
+        r = run(record, integrator="rk4", step=step, duration=0.05, output_interval=0.01, **METHODS[method])
+        assert r.finished.outcome == "done"
+        errors.append(np.abs(r.energy_error).max() / max(r.kinetic_energy.max(), 1e-3))
+        assert np.abs(r.constraint_violation).max(initial=0.0) < 1e-9
+    assert errors[1] < max(errors[0] / 10.0, 1e-11)
+    assert errors[0] < 1e-5
+
+
+@pytest.mark.parametrize("stabilisation", ["none", "baumgarte", "direct", "geometric"])
+@LAGRANGE
+def test_stabilisations_of_lagrange(folder, method, stabilisation):
+    """The motion of direct correction, the constraints as closed as each keeps them."""
+    record = MACHINES["loop"](folder)
+    common = {"step": 2e-5, "duration": 0.02, "output_interval": 0.01, "integrator": "rk4"}
+    expected = run(record, coordinates="absolute", **common)
+    r = run(record, stabilisation=stabilisation, **common, **METHODS[method])
+    assert r.finished.outcome == "done"
+    np.testing.assert_allclose(r.position, expected.position, rtol=0, atol=1e-7)
+    assert np.abs(r.constraint_violation).max() < 1e-7
+
+
+@EACH_METHOD
+def test_implicit_multistep_method(folder, method):
+    """Gear's method with Newton's iteration on these states, whose matrix is made by differences."""
+    record = MACHINES["pendulum"](folder)
+    common = {"duration": 0.02, "output_interval": 0.01, "step": 1e-5}
+    expected = run(record, coordinates="absolute", integrator="rk4", **common)
+    r = run(record, integrator="gear4", corrector={"iteration": "newton"}, **common, **METHODS[method])
+    assert r.finished.outcome == "done"
+    assert np.abs(r.position - expected.position).max() < 1e-7
+
+
+@EACH_METHOD
+def test_chosen_steps(folder, method):
+    record = MACHINES["chain"](folder)
+    common = {"duration": 0.1, "output_interval": 0.02}
+    expected = run(record, integrator="dop853", tolerance=1e-10, coordinates="absolute", **common)
+    r = run(record, integrator="dop853", tolerance=1e-9, **common, **METHODS[method])
+    assert r.finished.outcome == "done"
+    assert np.abs(r.position - expected.position).max() < 1e-6
+
+
+def rubbing(folder):
+    """A loop with friction in its shaft, loaded by the shaft's reaction."""
+    record = MACHINES["loop"](folder)
+    rub = Friction(
+        name="rub", model="coulomb", coordinate="shaft.angle", coefficient=0.3, radius=0.05, transition_speed=0.01
+    )
+    return record.replace(forces=(rub,))
+
+
+@EACH_METHOD
+def test_friction_at_equal_states(folder, rng, method):
+    record = rubbing(folder)
+    prepared, absolute = prepared_by(record, method), absolute_of(record)
+    seen = observed(prepared.motion, TIME, moving(prepared, rng))
+    expected = observed(absolute.motion, TIME, of_absolute(seen, 0))
+    assert abs(expected.frame[-2 * len(expected.p) - 3 :]).max() > 0.0
+    layouts = prepared.motion.system.layout, absolute.motion.system.layout
+    assert_same_frame(layouts[0], seen.frame, expected.frame, tolerance=1e-7, other=layouts[1])
+
+
+@EACH_METHOD
+def test_start_from_equilibrium(folder, method):
+    """A bent beam at rest stays where it is."""
+    record = machine(
+        "clamped",
+        [beam(folder, "a", (0, 0, 0)), beam(folder, "b", (1, 0, 0))],
+        [hinge("w", "ground", "a", 0.0, kind="fixed", axis=None), hinge("e", "a", "b", 1.0, kind="fixed", axis=None)],
+    )
+    r = run(record, start="equilibrium", integrator="rk4", step=1e-5, duration=0.01, **METHODS[method])
+    assert np.abs(r.modal_coordinate[0]).max() > 1e-4
+    assert np.abs(r.modal_coordinate - r.modal_coordinate[0]).max() < 1e-8 * np.abs(r.modal_coordinate[0]).max()
+    assert np.abs(r.position - r.position[0]).max() < 1e-10
+
+
+@EACH
+def test_modes_are_independent(folder, rng, name):
+    """All of them where the rigid machine determines its dependent velocities; B spans what the constraints allow."""
+    prepared = prepared_by(MACHINES[name](folder), "independent")
+    system = prepared.motion.system
+    partition, rank = system.record.partition, int(system.record.control.rank[0])
+    moving(prepared, rng)
+    assert np.all(partition.column[:rank] < 6 * system.body_count)
+    B, constraints = partition.B, system.record.constraints
+    n = B.shape[1]
+    assert B.shape[0] == n - rank
+    # H keeps the Cholesky factor of Bᵀ M B; M B is kept too
+    L = np.tril(partition.H)
+    np.testing.assert_allclose(L @ L.T, partition.MB @ B.T, rtol=0, atol=1e-10 * np.abs(partition.MB @ B.T).max())
+    # the motion of every independent velocity alone leaves Ċ as it is
+    y = moving(prepared, rng)
+    at = system.positions
+    still = y.copy()
+    still[at : at + n] = 0.0
+    prepared.motion.evaluate(TIME, still)
+    before = constraints.Cdot.copy()
+    for row in B.copy():
+        still[at : at + n] = row
+        prepared.motion.evaluate(TIME, still)
+        np.testing.assert_allclose(constraints.Cdot, before, rtol=0, atol=1e-10 * max(np.abs(row).max(), 1.0))
+
+
+def test_independent_coordinates_close_positions_and_velocities_to_round_off(folder):
+    record = MACHINES["loop"](folder)
+    r = run(record, integrator="rk4", step=2e-5, duration=0.1, output_interval=0.01, **METHODS["independent"])
+    assert r.finished.outcome == "done"
+    assert np.abs(r.constraint_violation).max() < 1e-12
+    assert np.abs(r.constraint_rate_violation).max() < 1e-11 * max(np.abs(r.velocity).max(), 1.0)
+
+
+def test_partition_changes_on_the_way(folder):
+    """A double pendulum of flexible bars that swings round: the first choice of independent velocities does not last."""
+    bars = [beam(folder, name, (k, 0, 0), file="beam", modes=2) for k, name in enumerate("ab")]
+    record = machine(
+        "double", bars, [hinge("r", "ground", "a", 0.0, axis=(0, 0, 1)), hinge("e", "a", "b", 1.0, axis=(0, 0, 1))]
+    )
+    common = {"integrator": "rk4", "step": 1e-4, "duration": 1.5, "output_interval": 0.05}
+    expected = run(record, coordinates="absolute", **common)
+    r = run(record, **common, **METHODS["independent"])
+    assert r.finished.timing["partitions"] > 0
+    assert np.abs(r.position - expected.position).max() < 1e-4
+    assert np.abs(r.energy_error).max() < 1e-5 * r.kinetic_energy.max()
+
+
+def test_unknown_interfaces_are_told_in_every_method(folder):
+    record = MACHINES["pendulum"](folder)
+    away = record.replace(joints=(hinge("root", "ground", "a", 0.3),))
+    for method in METHODS.values():
+        with pytest.raises(ModelError, match="no interface"):
+            run(away, **method)

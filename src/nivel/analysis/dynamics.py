@@ -188,7 +188,13 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
         free = not touches_ground(machine, prepared.system) if integrator.whole else None
         wanted = Wanted(
-            integrator.whole, corners(machine), integrator.shifted, machine.shares_mass, integrator.along, free
+            whole=integrator.whole,
+            corners=corners(machine),
+            shifted=integrator.shifted,
+            balance=machine.shares_mass,
+            along=integrator.along,
+            free=free,
+            filtered=integrator.either and machine.simulation.step_control == "error",
         )
         prepared = equip(prepared, y, coordinates, wanted)
     return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator)

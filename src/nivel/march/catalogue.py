@@ -57,7 +57,7 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 32, 12, 66, chooses_steps=True, implicit=True),
     **{
         name: IntegratorFacts(
-            "nivel.march.alpha", "alpha", 7, 2, 9, implicit=True, residual=True, either=True, jumps=True
+            "nivel.march.alpha", "alpha", 11, 2, 13, implicit=True, residual=True, either=True, jumps=True
         )
         for name in ("newmark", "hht", "generalised-alpha")
     },

@@ -57,7 +57,7 @@ WORTH, AFTER_FAILURE = 1.3, 0.5
 FREE, HELPS, MOST_PATIENCE = (SAFETY / WORTH) ** 2, 0.5, 1024.0
 # A step held for so long is tried with LEAP, its square and its cube times its length, each time after twice as long.
 LEAST_HELD, LEAP, MOST_LEAPS = 16.0, 10.0, 30.0
-# entries of run.numbers: steps since errors were filtered, those without after which they are; steps since it changed its length, leaps tried
+# entries of run.numbers: steps since errors were filtered, after how many they are again; steps of the same length, leaps tried
 UNFILTERED, PATIENCE, HELD, LEAPS = 9, 10, 11, 12
 # What the iteration leaves, as a share of what a step may be wrong by: it must not look like an error of the step.
 CLOSE = 0.01

@@ -6,8 +6,8 @@ lets no amplitude grow can be wrong by twice the amplitude, after any number of 
 what it is as a speed, or as an acceleration, says nothing: of stiff springs both are large and change their sign.
 
 The two are told apart by `nivel.march.error_filter` for steps REACH times as long, so that also a step of the length of a vibration, in
-which its differences are largest, leaves it out. Filtering costs a matrix: it is asked for where the plain error would shorten a step, and as
-long as it helps.
+which its differences are largest, leaves it out. Filtering costs a matrix: it is asked for where the plain error would shorten a step,
+and as long as it helps.
 """
 
 from __future__ import annotations
@@ -150,6 +150,9 @@ def filtered_error(machine, history, t, h):
         status = split(machine, history, t, CHANGE, FAST_CHANGE)
     if status != OK:
         return np.inf, np.inf
-    change, bend = size_of_displacement(run, newton, FAST_CHANGE, cq, cx), size_of_displacement(run, newton, FAST_BEND, cq, cx)
+    change, bend = (
+        size_of_displacement(run, newton, FAST_CHANGE, cq, cx),
+        size_of_displacement(run, newton, FAST_BEND, cq, cx),
+    )
     amplitude = max(change * change / bend, bend) if bend > 0.0 else 0.0
     return size_of_error(run, newton, h) / part_of(run, h), 2.0 * amplitude / max(SHARE * run.clock[TOLERANCE], EXACT)

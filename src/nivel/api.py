@@ -375,8 +375,13 @@ class Machine:
         asked = {
             name: getattr(self.record.simulation, name) for name in self.asked if name in ("rotations", "baumgarte")
         }
-        record = self.record.replace(simulation=changed(self.record.simulation, {**asked, **settings}))
-        return Machine.from_record(record, self.source, self.file, self.asked)
+        try:
+            simulation = changed(self.record.simulation, {**asked, **settings})
+        except ModelError as error:
+            # what of the file does not go with the new settings stands among those of its simulation
+            faults = [fault if fault.path else replace(fault, path="simulation") for fault in error.faults]
+            raise ModelError(self._placed(faults)) from None
+        return Machine.from_record(self.record.replace(simulation=simulation), self.source, self.file, self.asked)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the machine as a YAML file."""

@@ -156,6 +156,16 @@ def test_forces_beyond_all_bounds_give_no_warnings(folder):
         (["--cut", "hinge", "--coordinates", "absolute"], ["`cut` has no effect", "coordinates: relative"]),
         (["--set", "simulation.penalty.omega=10"], ["`penalty` has no effect", "augmented-lagrangian"]),
         (["--set", "simulation.corrector.iteration=newton"], ["`corrector` has no effect", "rk4"]),
+        (["--set", "simulation.hht.alpha=0.1"], ["`hht` has no effect", "integrator: hht", "integrator: rk4"]),
+        (
+            ["--integrator", "hht", "--set", "simulation.newmark.gamma=0.6"],
+            ["`newmark` has no effect", "integrator: newmark", "integrator: hht"],
+        ),
+        (
+            ["--set", "simulation.generalised_alpha.spectral_radius=0.5"],
+            ["`generalised_alpha` has no effect", "integrator: generalised-alpha"],
+        ),
+        (["--output-interval", "1e-5"], ["pendulum.yaml:", "`output_interval` 1e-05 s is shorter than `step`"]),
         (["--output-interval", "1.5 ms"], ["output_interval", "multiple of the step"]),
         (["--set", "bodies.bra.mass=2"], ["bra", "bar"]),
         (["--set", "nonsense"], ["PATH=VALUE"]),

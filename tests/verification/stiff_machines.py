@@ -2,7 +2,15 @@
 
 import numpy as np
 
-from nivel.machine import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
+from nivel.machine import (
+    Body,
+    Joint,
+    JointSpringDamper,
+    MachineRecord,
+    PointForce,
+    SimulationSettings,
+    SpringDamper,
+)
 from nivel.machine.driver import Driver
 
 GRAVITY = 9.81
@@ -55,3 +63,105 @@ def driven(stiffness, **settings):
         drivers=(Driver(name="motor", coordinate="hinge", value="0.5*sin(4*time)"),),
         **settings,
     )
+
+
+def swinging_out(times, stiffness):
+    """(angle, elongation) of the elastic pendulum, from its Lagrangian: I = 0.36 kg m² + (1 + e)² of the bob, ½ k e²."""
+    from scipy.integrate import solve_ivp
+
+    def rates(t, y):
+        angle, e, turning, rate = y
+        inertia = 0.1 + 0.25 + 0.01 + (1.0 + e) ** 2
+        moment = -(0.5 + 1.0 + e) * GRAVITY * np.cos(angle) - 2.0 * (1.0 + e) * rate * turning
+        return turning, rate, moment / inertia, (1.0 + e) * turning**2 - GRAVITY * np.sin(angle) - stiffness * e
+
+    solution = solve_ivp(rates, (0, times[-1]), [0, 0, 0, 0], method="DOP853", t_eval=times, rtol=1e-11, atol=1e-13)
+    return solution.y[:2]
+
+
+def elastic_crank(stiffness, **settings):
+    """A crank of 0.2 m at 10 rad/s, a slider of 1 kg, and for a connecting rod a spring of 0.5 m, drawn so that the slider begins with
+    the acceleration that a rigid rod would give it, -(0.2 m)(10/s)²(1 + 0.2/0.5)."""
+    return MachineRecord(
+        name="elastic crank",
+        gravity=(0, -GRAVITY, 0),
+        bodies=(
+            Body(
+                name="crank",
+                mass=1,
+                inertia=(0.01, 0.02, 0.02),
+                position=(0.1, 0, 0),
+                velocity=(0, 1, 0),
+                angular_velocity=(0, 0, 10),
+            ),
+            Body(name="slider", mass=1, inertia=(0.01, 0.01, 0.01), position=(0.7, 0, 0)),
+        ),
+        joints=(
+            Joint(name="main", type="revolute", bodies=("ground", "crank"), point=(0, 0, 0), axis=(0, 0, 1)),
+            Joint(name="rail", type="translational", bodies=("ground", "slider"), point=(0, 0, 0), axis=(1, 0, 0)),
+        ),
+        forces=(
+            SpringDamper(
+                name="rod",
+                bodies=("crank", "slider"),
+                points=((0.2, 0, 0), (0.7, 0, 0)),
+                stiffness=stiffness,
+                free_length=0.5 - 28.0 / stiffness,
+            ),
+        ),
+        simulation=SimulationSettings(**({"duration": 1.0, "output_interval": 0.05} | settings)),
+    )
+
+
+def rigid_crank(times):
+    """Angle of the same with a rigid rod, by its energy: φ̇ = √(2 (E - V)/I), I = 0.03 kg m² + (ds/dφ)² of the slider."""
+    from scipy.integrate import solve_ivp
+
+    def rate(t, y):
+        sine, cosine = np.sin(y[0]), np.cos(y[0])
+        slope = -0.2 * sine - 0.04 * sine * cosine / np.sqrt(0.25 - 0.04 * sine**2)
+        return [np.sqrt(2.0 * (0.5 * 0.03 * 100.0 - GRAVITY * 0.1 * sine) / (0.03 + slope**2))]
+
+    return solve_ivp(rate, (0, times[-1]), [0], method="DOP853", t_eval=times, rtol=1e-12, atol=1e-12).y[0]
+
+
+def double_pendulum(stiffness, damping=0.0, **settings):
+    """Two links that hang and are pushed, straight, with a spring in the joint between them."""
+
+    def link(name, y):
+        return Body(
+            name=name,
+            mass=1,
+            inertia=(0.08, 0.01, 0.08),
+            position=(0, y, 0),
+            velocity=(-4 * y, 0, 0),
+            angular_velocity=(0, 0, 4),
+        )
+
+    def hinge(name, first, second, y):
+        return Joint(name=name, type="revolute", bodies=(first, second), point=(0, y, 0), axis=(0, 0, 1))
+
+    return MachineRecord(
+        name="double-pendulum",
+        gravity=(0, -GRAVITY, 0),
+        bodies=(link("upper", -0.5), link("lower", -1.5)),
+        joints=(hinge("pivot", "ground", "upper", 0), hinge("elbow", "upper", "lower", -1)),
+        forces=(JointSpringDamper(name="coil", coordinate="elbow", stiffness=stiffness, damping=damping),),
+        simulation=SimulationSettings(**({"duration": 5.0, "output_interval": 0.05} | settings)),
+    )
+
+
+def rigid_double_pendulum(times):
+    """Angle of the same with a stiff elbow: 2.66 kg m² about the pivot, 2 kg at 1 m."""
+    from scipy.integrate import solve_ivp
+
+    inertia = 2 * 0.08 + 0.25 + 2.25
+    return solve_ivp(
+        lambda t, y: [y[1], -2 * GRAVITY * np.sin(y[0]) / inertia],
+        (0, times[-1]),
+        [0, 4],
+        method="DOP853",
+        t_eval=times,
+        rtol=1e-12,
+        atol=1e-12,
+    ).y[0]

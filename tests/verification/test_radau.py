@@ -14,7 +14,6 @@ from nivel.machine import (
     Body,
     Event,
     Joint,
-    JointSpringDamper,
     MachineRecord,
     Motor,
     PointForce,
@@ -24,6 +23,7 @@ from nivel.machine import (
 from nivel.march.radau_constants import BEND, GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
 from references import andrews, four_bar, heavy_top, pendulum, slider_crank
 from running import run
+from stiff_machines import double_pendulum
 from test_mechanisms import EXAMPLES
 from test_stiff import closed_form, overdamped
 
@@ -178,32 +178,6 @@ def test_overdamped_block_follows_its_closed_form(tolerance, coordinates):
     assert np.abs(result.position[:, 0, 0] - closed_form(result.time)).max() < 10 * tolerance
     assert steps(result) < 400
     assert result.finished.timing["rejected"] < 20
-
-
-def double_pendulum(stiffness, damping):
-    """Two links that hang and are pushed, straight, with a spring in the joint between them."""
-
-    def link(name, y):
-        return Body(
-            name=name,
-            mass=1,
-            inertia=(0.08, 0.01, 0.08),
-            position=(0, y, 0),
-            velocity=(-4 * y, 0, 0),
-            angular_velocity=(0, 0, 4),
-        )
-
-    def hinge(name, first, second, y):
-        return Joint(name=name, type="revolute", bodies=(first, second), point=(0, y, 0), axis=(0, 0, 1))
-
-    return MachineRecord(
-        name="double-pendulum",
-        gravity=(0, -9.81, 0),
-        bodies=(link("upper", -0.5), link("lower", -1.5)),
-        joints=(hinge("pivot", "ground", "upper", 0), hinge("elbow", "upper", "lower", -1)),
-        forces=(JointSpringDamper(name="coil", coordinate="elbow", stiffness=stiffness, damping=damping),),
-        simulation=SimulationSettings(duration=5.0, output_interval=0.05),
-    )
 
 
 @COORDINATES

@@ -44,7 +44,7 @@ from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
 from nivel.kernels.record import COMPLETE, WATCH
 from nivel.kernels.saddle import MOST_UNSETTLED
-from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE
+from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import IntegratorFacts
 from nivel.march.run import (
@@ -189,12 +189,13 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
         free = not touches_ground(machine, prepared.system) if integrator.whole else None
         wanted = Wanted(
-            integrator.over_step(machine.is_flexible),
-            corners(machine),
-            integrator.shifted,
-            machine.shares_mass,
-            integrator.along,
-            free,
+            whole=integrator.over_step(machine.is_flexible),
+            corners=corners(machine),
+            shifted=integrator.shifted,
+            balance=machine.shares_mass,
+            along=integrator.along,
+            free=free,
+            filtered=integrator.either and machine.simulation.step_control == "error",
         )
         prepared = equip(prepared, y, coordinates, wanted)
     return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator)
@@ -282,6 +283,8 @@ def march(
             prepared.motion, status, float(run.clock[TIME]), step_size, run.previous, chosen=settings.steps == 0
         )
         finished.failure = (message, advice, float(run.clock[TIME]))
+        if status != CONTRADICTION:
+            _keep_last(prepared.motion, run, sinks)
     finished.timing = {
         "steps": int(run.counter[DONE_STEPS]),
         "evaluations": int(run.counter[EVALUATIONS]),
@@ -294,6 +297,25 @@ def march(
         "wall_seconds": clock_of_python.perf_counter() - wall,
     }
     return finished
+
+
+def _keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
+    """Give the last accepted state before a failure, where it lies after the last frame and its accelerations are numbers."""
+    t, feedback = float(run.clock[TIME]), motion.system.record.control.stabilise[:2]
+    if not t > run.clock[SHOWN] or not np.isfinite(run.previous).all():
+        return
+    kept = feedback.copy()
+    # as in all frames, accelerations are those without Baumgarte's feedback
+    feedback[:] = 0.0
+    if motion.holds(t, run.previous):
+        frame = np.zeros((1, motion.system.layout.width))
+        frame[0, 0] = t
+        observe: Any = import_module("nivel.kernels.observe").observe
+        observe(motion.handle.address, t, run.previous, frame[0])
+        if np.isfinite(frame).all():
+            for sink in sinks:
+                sink.take(frame)
+    feedback[:] = kept
 
 
 def _partitions_changed(system: System) -> int:

@@ -12,6 +12,9 @@ from nivel.machine.settings import SimulationSettings
 from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.motion.catalogue import FORMULATIONS
 
+# settings that hold constants of one integrator each
+CONSTANTS = {"newmark": "newmark", "hht": "hht", "generalised_alpha": "generalised-alpha"}
+
 
 def idle_settings(given: Collection[str], settings: SimulationSettings, coordinates: str) -> list[Fault]:
     """Faults for those of the settings `given` that the methods of `settings` have no use for.
@@ -35,6 +38,8 @@ def _idle(name: str, settings: SimulationSettings, coordinates: str) -> str:
     if name == "corrector" and integrator and not integrator.implicit:
         fitting = [each for each, facts in INTEGRATORS.items() if facts.implicit]
         return f"`integrator: {settings.integrator}` solves no equations; {_choice('it', fitting)}"
+    if name in CONSTANTS and settings.integrator != CONSTANTS[name]:
+        return f"it is for `integrator: {CONSTANTS[name]}`, and this run has `integrator: {settings.integrator}`"
     if name == "penalty" and formulation and formulation.factor == 0.0:
         fitting = [each for each, facts in FORMULATIONS.items() if facts.factor > 0.0]
         return f"`formulation: {settings.formulation}` has multipliers of its own; {_choice('it', fitting)}"

@@ -36,7 +36,7 @@ class Wanted:
     whole : module of one over a whole step; empty: that at a time. corners : times [s] at which functions of time have corners.
     shifted : with room for systems of shifted matrices, see `nivel.kernels.shifted_parts`. balance : with room to find accelerations, see
     `nivel.kernels.balance`. along : it asks for derivatives along directions, so that none may be found by hand. free : whether nothing
-    joins the machine to the ground, for a residual over a whole step.
+    joins the machine to the ground, for a residual over a whole step. filtered : with room for `nivel.march.error_filter`.
     """
 
     whole: str = ""
@@ -45,6 +45,7 @@ class Wanted:
     balance: bool = False
     along: bool = False
     free: bool | None = None
+    filtered: bool = False
 
 
 INSTANT = Wanted()
@@ -108,8 +109,8 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     plain = plain_nodes(system, part) if by_hand else {}
     plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values())
     place = places(system.map, velocities, positions)
-    room = {"shifted": wanted.shifted, "balance": wanted.balance, "length": system.size}
-    newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, **room)
+    room = {"shifted": wanted.shifted, "balance": wanted.balance, "filtered": wanted.filtered}
+    newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, length=system.size, **room)
     newton.settings[3] = ROUNDINGS * _longest_chain(record)
     flexible = len(record.flexible.body) > 0
     path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=flexible)

@@ -10,11 +10,9 @@ import numpy as np
 
 from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_hook
-from nivel.kernels.lu import solve_lu
 from nivel.kernels.record import NONE, RESIDUAL, record_at
 from nivel.kernels.rotation import rates_of_parameters
-from nivel.kernels.shifted_parts import factorise_entries
-from nivel.kernels.sparse_lu import solve_sparse_lu
+from nivel.kernels.shifted_parts import factorise_entries, solve_entries
 from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.tangent_parts import ACCELERATION, differentiate_part, own_rates
 
@@ -49,10 +47,7 @@ def change_accelerations(machine):
         b[n + i] = 0.0
     for k in range(rows):
         b[first + k] = -value[first + 2 * rows + k]
-    if f.matrix.shape[0] == 0:
-        solve_sparse_lu(newton.lu, f.L, f.U, f.Dinv, b, f.work)
-    else:
-        solve_lu(f.matrix, f.pivot, b)
+    solve_entries(machine, f)
     largest, of_largest = 0.0, 1e-300
     for k in range(n):
         own.vdot[k] += b[k]

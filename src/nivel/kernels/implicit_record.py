@@ -126,6 +126,7 @@ class Newton(NamedTuple):
     # ground and a constraint, in units in the last place
     settings: F1
     balance: RealFactors  # of the accelerations, see `nivel.kernels.balance`; without numbers for most machines
+    filter: RealFactors  # of errors of chosen steps, see `nivel.march.error_filter`; without numbers where none are
     balanced: F1  # (2,) 1 where it has factors; length of the machine [m], which turns are measured by
     asked: F1  # (3,) cq and cv of derivatives by hand, 1 where they are of `balance`; see `nivel.kernels.beam_tangent`
     level: U1  # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction

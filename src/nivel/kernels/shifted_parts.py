@@ -117,6 +117,15 @@ def factorise_entries(machine, factors):
 
 
 @stage
+def solve_entries(machine, factors):
+    """Overwrite factors.b with the solution."""
+    if factors.matrix.shape[0] == 0:
+        solve_sparse_lu(record_at(machine).newton.lu, factors.L, factors.U, factors.Dinv, factors.b, factors.work)
+    else:
+        solve_lu(factors.matrix, factors.pivot, factors.b)
+
+
+@stage
 def move_by_right_side(newton, y, factors, s):
     """factors.moved := X (r_q + s r_v); of rotations, r is overwritten by it as Euler parameters."""
     r, moved = factors.r, factors.moved
@@ -157,10 +166,7 @@ def solve_shifted_parts(machine, factors, s):
     positions = np.int64(y.shape[0]) - n - states - 2
     move_by_right_side(newton, y, factors, s)
     load_right_side(newton, factors, positions)
-    if factors.matrix.shape[0] == 0:
-        solve_sparse_lu(newton.lu, factors.L, factors.U, factors.Dinv, b, factors.work)
-    else:
-        solve_lu(factors.matrix, factors.pivot, b)
+    solve_entries(machine, factors)
     for k in range(n + states):
         b[k] *= s
     for k in range(n):

@@ -10,19 +10,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf, stage
+from nivel.kernels.compile import entry, leaf
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
+from nivel.march.alpha_error import SHARE, filtered_error, part_of, plain_error
 from nivel.march.alpha_step import (
-    ALPHA_F,
-    ALPHA_M,
-    BEFORE,
-    BETA,
-    GAMMA,
     LAST_STEP,
     RATE,
-    VDOT,
-    XDOT,
     attempt,
     keep_step,
     refresh,
@@ -33,12 +27,10 @@ from nivel.march.dense import cubic, wanted
 from nivel.march.residual_newton import TOLERANCE as NEWTON_TOLERANCE
 from nivel.march.run import (
     ALL_STEPS,
-    END,
     EVALUATIONS,
     LENGTH,
     REACHED,
     RESTART,
-    START,
     STEP,
     TIME,
     TOLERANCE,
@@ -49,7 +41,8 @@ from nivel.march.step_control import (
     EXACT,
     MOST_CHANGE,
     SAFETY,
-    enter,
+    bound_step,
+    enter_boldly,
     factor_after_rejection,
     is_fresh,
     reach,
@@ -58,11 +51,14 @@ from nivel.march.step_control import (
     turned_too_far,
 )
 
-# Of the tolerance; a step grows only by so much at least; after an iteration that found nothing it is halved.
-SHARE, WORTH, AFTER_FAILURE = 0.3, 1.3, 0.5
-# A step over a jump of the accelerations errs in proportion to its length, as its part of the tolerance gets smaller. The part is no
-# smaller than that of a step of this share of the time of the run: with less than a million such steps that is no more than SHARE.
-LEAST_PART = 1e-6
+# A step grows only by so much at least; after an iteration that found nothing it is halved.
+WORTH, AFTER_FAILURE = 1.3, 0.5
+# Below the first share of the allowed error a step may grow as it is; a filtered error helps below the second share of the plain one.
+FREE, HELPS, MOST_PATIENCE = (SAFETY / WORTH) ** 2, 0.5, 1024.0
+# A step held for so long is tried with LEAP, its square and its cube times its length, each time after twice as long.
+LEAST_HELD, LEAP, MOST_LEAPS = 16.0, 10.0, 30.0
+# entries of run.numbers: steps since errors were filtered, after how many they are again; steps of the same length, leaps tried
+UNFILTERED, PATIENCE, HELD, LEAPS = 9, 10, 11, 12
 # What the iteration leaves, as a share of what a step may be wrong by: it must not look like an error of the step.
 CLOSE = 0.01
 
@@ -119,45 +115,41 @@ def fixed_step(evaluate, machine, history):
     return status
 
 
-@stage
-def error_of_step(run, residual, newton, h):
-    """Largest error of the step just attempted, as a share of the scales.
-
-    With v̈ and v⃛ from differences of v̇, the step errs by (⅙ - β - ½ Δ) h³ v̈ in q and by -(1/12 + ½ Δ²) h³ v⃛ in v, Δ = α_m - α_f.
-    """
-    c, stages, scale = run.numbers, run.stages, run.scale
-    n, states, last = residual.vdot.shape[0], newton.state.shape[0], c[LAST_STEP]
-    positions = np.int64(scale.shape[0]) - n - states - 2
-    shift = c[ALPHA_M] - c[ALPHA_F]
-    of_position = np.abs(1.0 / 6.0 - c[BETA] - 0.5 * shift)
-    of_velocity = 1.0 / 12.0 + 0.5 * shift * shift + np.abs(0.5 - c[GAMMA] - shift)
-    largest = 0.0
-    for k in range(n + states):
-        now = residual.vdot[k] if k < n else newton.rate[k - n]
-        start = stages[VDOT, k] if k < n else stages[XDOT, k - n]
-        change = now - start
-        # h² times the second derivative; without a past all of the change counts
-        bend = 2.0 * (change - h / last * (start - stages[BEFORE, k])) / (1.0 + last / h) if last > 0.0 else change
-        share = of_velocity * np.abs(h * bend) / scale[positions + k]
-        if k < n:
-            place = newton.place[k, 0]
-            share = max(share, of_position * np.abs(h * h * change) / scale[place])
-        if not share <= largest:
-            largest = share
-    return largest
+@leaf
+def choose_error(machine, history, end, h):
+    """The error of the step just attempted, to time `end`, as a share of the allowed one: filtered where that is worth its matrix."""
+    run = run_at(history)
+    c, plain = run.numbers, plain_error(machine, history, h)
+    c[UNFILTERED] += 1.0
+    if plain <= FREE or (plain <= 1.0 and c[UNFILTERED] < c[PATIENCE]):
+        return plain
+    slow, vibrating = filtered_error(machine, history, end, h)
+    error = min(plain, max(slow, vibrating))
+    c[UNFILTERED] = 0.0
+    c[PATIENCE] = 1.0 if error < HELPS * plain else min(2.0 * c[PATIENCE], MOST_PATIENCE)
+    return error
 
 
 @leaf
 def controlled_step(evaluate, machine, history):
-    """One accepted step whose error is its part, of the time of the run, of SHARE of the tolerance. Returns a status.
+    """One accepted step of which the error is allowed, see `nivel.march.alpha_error`. Returns a status.
 
     The step stays as it is until it may grow by WORTH: the matrix serves as long as it does.
     """
     run, record = run_at(history), record_at(machine)
-    newton, residual, clock = record.newton, record.residual, run.clock
-    span = clock[END] - clock[START]
+    newton, c, clock = record.newton, run.numbers, run.clock
     fresh = is_fresh(run)
-    enter(evaluate, machine, history, 2.0, SHARE * clock[TOLERANCE])
+    enter_boldly(machine, history, 2.0, SHARE * clock[TOLERANCE])
+    if fresh:
+        c[UNFILTERED], c[PATIENCE], c[HELD], c[LEAPS] = 0.0, 1.0, 0.0, 0.0
+    # a step that has been held for long is tried with a multiple of it
+    leap = c[HELD] >= LEAST_HELD * 2.0 ** (c[LEAPS])
+    usual = clock[STEP]
+    if leap:
+        clock[STEP] *= LEAP ** (1.0 + c[LEAPS] % 3.0)
+        bound_step(machine, run)
+        c[HELD] = 0.0
+        c[LEAPS] = min(c[LEAPS] + 1.0, MOST_LEAPS)
     status, error = OK, 0.0
     while True:
         h = reach(run)
@@ -173,25 +165,32 @@ def controlled_step(evaluate, machine, history):
             start(evaluate, machine, history, t, h)
         elif newton.level[0] == 2:
             refresh(machine, run)
-        allowed = max(SHARE * clock[TOLERANCE] * max(h / span, LEAST_PART), EXACT)
         end = before(clock[REACHED]) if corner < np.inf else clock[REACHED]
-        status = attempt(machine, history, h, end, min(newton.settings[NEWTON_TOLERANCE], max(CLOSE * allowed, EXACT)))
+        close = max(CLOSE * part_of(run, h), EXACT)
+        status = attempt(machine, history, h, end, min(newton.settings[NEWTON_TOLERANCE], close))
+        factor = AFTER_FAILURE
         if status == OK:
-            error = error_of_step(run, residual, newton, h) / allowed
-            shorter = turned_too_far(machine, h)
-            if error <= 1.0 and shorter == 1.0:
+            error = choose_error(machine, history, end, h)
+            factor = turned_too_far(machine, h)
+            if error <= 1.0 and factor == 1.0:
                 break
-            reject(run, h, factor_after_rejection(OK, error, 2.0) if error > 1.0 else shorter)
-        else:
-            reject(run, h, AFTER_FAILURE)
+            if error > 1.0:
+                factor = factor_after_rejection(OK, error, 2.0)
+        reject(run, h, factor)
+        if leap:
+            clock[STEP], leap = usual, False
         newton.kept[0] = 0.0
+    if leap and h > usual:
+        c[LEAPS] = 0.0
     keep_step(machine, run, h)
     growth = SAFETY * max(error, 1e-4) ** -0.5
+    c[HELD] += 1.0
     if corner < np.inf:
         status = end_at_corner(evaluate, machine, history, clock[REACHED])
         run.counter[RESTART] = 1
     elif growth >= WORTH:
         clock[STEP] = h * min(growth, MOST_CHANGE)
+        c[HELD] = 0.0
     return status
 
 

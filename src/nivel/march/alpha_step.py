@@ -10,7 +10,7 @@ from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.residual_newton import iterate
 from nivel.march.run import EVALUATIONS, RESTART, run_at
 
-# entries of run.numbers: the constants; the step before, 0 after a start
+# entries of run.numbers: the constants; the step before, 0 after a start (then BEFORE is what it would have been a step earlier)
 ALPHA_M, ALPHA_F, BETA, GAMMA, DELTA_M, DELTA_F, THETA = 0, 1, 2, 3, 4, 5, 6
 LAST_STEP = 7
 # 1 where accelerations went on to change in the last step as in the one before
@@ -42,6 +42,7 @@ def start(evaluate, machine, history, t, h):
     for k in range(n + states):
         rate = run.rate[positions + k]
         slope = (stages[AHEAD, positions + k] - rate) * h / ahead if status == OK else 0.0
+        stages[BEFORE, k] = rate - slope
         if k < n:
             stages[VDOT, k], stages[A, k] = rate, rate + (c[ALPHA_M] - c[ALPHA_F]) * slope
         else:

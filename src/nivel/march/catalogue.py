@@ -63,7 +63,7 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 32, 12, 66, chooses_steps=True, implicit=True),
     **{
         name: IntegratorFacts(
-            "nivel.march.alpha", "alpha", 7, 2, 9, implicit=True, residual=True, either=True, jumps=True
+            "nivel.march.alpha", "alpha", 11, 2, 13, implicit=True, residual=True, either=True, jumps=True
         )
         for name in ("newmark", "hht", "generalised-alpha")
     },
@@ -83,7 +83,7 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     ),
     "ros2": IntegratorFacts("nivel.march.rosenbrock", "ros2", 2, 2, residual=True, rates=True),
     "radau": IntegratorFacts(
-        "nivel.march.radau", "radau", 14, 5, 9, chooses_steps=True, residual=True, rates=True, shifted=True
+        "nivel.march.radau", "radau", 68, 5, 9, chooses_steps=True, residual=True, rates=True, shifted=True
     ),
 }
 

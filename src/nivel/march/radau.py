@@ -54,7 +54,7 @@ from nivel.march.step_control import (
     AFTER_FAILURE,
     EXACT,
     SAFETY,
-    enter,
+    enter_boldly,
     factor_after_rejection,
     is_fresh,
     reach,
@@ -171,7 +171,7 @@ def radau(evaluate, machine, history):
     run = run_at(history)
     numbers, tolerance = run.numbers, max(SHARE * run.clock[TOLERANCE] ** 0.8, EXACT)
     keep_multipliers(machine)
-    enter(evaluate, machine, history, ORDER - 1.0, tolerance)
+    enter_boldly(machine, history, ORDER - 1.0, tolerance)
     if is_fresh(run):
         forget(run)
     numbers[REPEATED] = 0.0

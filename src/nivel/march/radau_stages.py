@@ -17,18 +17,21 @@ from nivel.march.radau_constants import GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGH
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, TIME, run_at
 
 # Rows of run.stages: Z_i; ω₁, Re ω₂, Im ω₂; rates at the stages; d_1 … d_4 of the last accepted step; estimated error; d_1 … d_3 of this
-# step are made in the rows of the rates.
-Z, OMEGA, RATES, LAST, ERROR = 0, 3, 6, 9, 13
+# step are made in the rows of the rates. From PAST on, of each change of ω made in this step: three rows of it, three of what it did.
+Z, OMEGA, RATES, LAST, ERROR, PAST = 0, 3, 6, 9, 13, 14
 # Entries of run.numbers: the step that the factors are for (0: none), whether there are derivatives, steps since they were found,
 # the share of a change that is left after it (an estimate), the largest contraction of the last step; the last step (0: none), its error,
 # whether this step was rejected, the longest step for which the iteration may converge.
 MADE, FOUND, AGE, LEFT_OVER, CONTRACTION, LAST_STEP, LAST_ERROR, REPEATED, LONGEST = 0, 1, 2, 3, 4, 5, 6, 7, 8
 NUMBERS = 9
 
-MOST = 10
-# The iteration has failed where a change is this share of the one before. The first one may be larger: where a stiff spring turns, the
-# matrix is far from normal, and what is predicted too long comes out sideways before it contracts.
-SLOWEST, SIDEWAYS = 0.9, 100.0
+MOST = 12
+# Changes made that an iteration makes use of.
+DEPTH = 8
+# The iteration has failed where after so many changes one is this share of the one before, or where at its pace it would not end in time.
+# The first ones may be larger: where a stiff spring turns, the matrix is far from normal, and what is predicted too long comes out
+# sideways before it contracts.
+SLOWEST, SIDEWAYS, TRIED = 0.9, 1e4, 6
 # what is left is taken for no less than this share of a change
 SANGUINE = 1e-3
 FORGET = 0.8
@@ -114,20 +117,15 @@ def find_changes(machine, history, h):
 
 
 @leaf
-def take_changes(machine, history):
-    """Add the changes to ω and Z. Returns the largest one as a share of the scales, of the motion and of the energies, and its place."""
+def size_of_changes(machine, history):
+    """The largest change of Z as a share of the scales, of the motion and of the energies, and its place."""
     run, shifted = run_at(history), record_at(machine).newton.shifted
-    stages, real, pair = run.stages, shifted.real.r, shifted.pair.r
+    real, pair = shifted.real.r, shifted.pair.r
     largest, energies, worst = 0.0, 0.0, 0
     for i in range(run.y.shape[0]):
-        stages[OMEGA, i] += real[i]
-        stages[OMEGA + 1, i] += pair[i].real
-        stages[OMEGA + 2, i] += pair[i].imag
         change = 0.0
         for m in range(3):
-            moved = RIGHT[m] * real[i] + 2.0 * (RIGHT_PAIR[m] * pair[i]).real
-            stages[Z + m, i] += moved
-            change = max(change, np.abs(moved))
+            change = max(change, np.abs(RIGHT[m] * real[i] + 2.0 * (RIGHT_PAIR[m] * pair[i]).real))
         share = change / run.scale[i] + (real[i] - real[i])
         if i >= run.y.shape[0] - 2:
             energies = max(energies, share)
@@ -136,6 +134,78 @@ def take_changes(machine, history):
             if np.isnan(share):
                 break
     return largest, energies, worst
+
+
+@leaf
+def product(run, a, b):
+    """Of three rows of the stages from a with three from b, by the scales; without the energies."""
+    total = 0.0
+    for i in range(run.y.shape[0] - 2):
+        share = run.scale[i] * run.scale[i]
+        for m in range(3):
+            total += run.stages[a + m, i] * run.stages[b + m, i] / share
+    return total
+
+
+@leaf
+def add_rows(run, a, b, factor):
+    """Add `factor` times three rows of the stages from b to those from a."""
+    for m in range(3):
+        for i in range(run.y.shape[0]):
+            run.stages[a + m, i] += factor * run.stages[b + m, i]
+
+
+@leaf
+def accelerate(machine, history, k):
+    """Replace the change that iteration k asks for by one that also makes use of what the changes before did to it, so that what is left
+    is least. Returns how many times more a change did to it than one with the right matrix does, 1 at least.
+
+    dx is a change made and df what it did to the change asked for; those before are made orthogonal in df (Eirola, Nevanlinna 1989; for
+    linear equations the result is that of GMRES).
+    """
+    run, shifted = run_at(history), record_at(machine).newton.shifted
+    stages, real, pair = run.stages, shifted.real.r, shifted.pair.r
+    slot, spread = min(k, DEPTH), 1.0
+    now = PAST + 6 * slot
+    for i in range(run.y.shape[0]):
+        stages[now + 3, i], stages[now + 4, i], stages[now + 5, i] = real[i], pair[i].real, pair[i].imag
+    if 0 < k <= DEPTH:
+        dx, df = now - 6, now - 3
+        for m in range(3):
+            for i in range(run.y.shape[0]):
+                stages[df + m, i] = stages[now + 3 + m, i] - stages[df + m, i]
+        of_change, of_effect = product(run, dx, dx), product(run, df, df)
+        spread = np.sqrt(of_effect / of_change) if of_change > 0.0 else 1.0
+        for j in range(slot - 1):
+            before = PAST + 6 * j
+            length = product(run, before + 3, before + 3)
+            share = product(run, df, before + 3) / length if length > 0.0 else 0.0
+            add_rows(run, df, before + 3, -share)
+            add_rows(run, dx, before, -share)
+    # the change asked for stays in slot `now` for the next iteration
+    for m in range(3):
+        for i in range(run.y.shape[0]):
+            stages[now + m, i] = stages[now + 3 + m, i]
+    for j in range(slot):
+        before = PAST + 6 * j
+        length = product(run, before + 3, before + 3)
+        share = product(run, now + 3, before + 3) / length if length > 0.0 else 0.0
+        add_rows(run, now, before + 3, -share)
+        add_rows(run, now, before, -share)
+    return max(spread, 1.0)
+
+
+@leaf
+def take_changes(run, k):
+    """Add the change made of iteration k to ω and Z."""
+    stages, now = run.stages, PAST + 6 * min(k, DEPTH)
+    for i in range(run.y.shape[0]):
+        one, two = stages[now, i], complex(stages[now + 1, i], stages[now + 2, i])
+        stages[OMEGA, i] += one
+        stages[OMEGA + 1, i] += two.real
+        stages[OMEGA + 2, i] += two.imag
+        for m in range(3):
+            stages[Z + m, i] += RIGHT[m] * one + 2.0 * (RIGHT_PAIR[m] * two).real
 
 
 @leaf
@@ -154,9 +224,9 @@ def unknown_at(newton, place, positions):
 @leaf
 def fails(k, contraction, change):
     """Whether iteration k, with this contraction and a change so many times what may be left, will not come to an end."""
-    if not contraction < SLOWEST:
-        return k > 1 or not contraction < SIDEWAYS
-    return contraction ** (MOST - 1 - k) / (1.0 - contraction) * change > 1.0
+    if k < TRIED:
+        return not contraction < SIDEWAYS
+    return not contraction < SLOWEST or contraction ** (MOST - 1 - k) / (1.0 - contraction) * change > 1.0
 
 
 @leaf
@@ -166,22 +236,26 @@ def iterate(evaluate, machine, history, h, end, close):
     run, record = run_at(history), record_at(machine)
     numbers, last, contraction, worst = run.numbers, np.inf, 0.0, 0
     # what was seen steps ago counts less and less: towards 1, which asks for a second iteration
-    left = numbers[LEFT_OVER] ** FORGET
+    left, spread = numbers[LEFT_OVER] ** FORGET, 1.0
     for k in range(MOST):
         status = evaluate_rates(evaluate, machine, history, h, end)
         run.counter[ITERATIONS] += 1
         if status != OK:
             return status
         find_changes(machine, history, h)
-        change, energies, worst = take_changes(machine, history)
+        change, energies, worst = size_of_changes(machine, history)
+        if not change < np.inf:
+            break
+        spread = max(spread, accelerate(machine, history, k))
+        take_changes(run, k)
         if k > 0:
             now = change / last if last > 0.0 else 0.0
             contraction = np.sqrt(now * contraction) if k > 1 and contraction < 1.0 else now
             numbers[CONTRACTION] = contraction
             left = contraction / (1.0 - contraction) if contraction < 1.0 else np.inf
-        if not change < np.inf or (k > 0 and change > close and fails(k, contraction, change / close)):
+        if k > 0 and change * spread > close and fails(k, contraction, change / close):
             break
-        if max(change, energies) * min(left, 1.0) <= close:
+        if max(change * spread, energies) * min(left, 1.0) <= close:
             numbers[LEFT_OVER] = max(left, SANGUINE)
             return OK
         last = change

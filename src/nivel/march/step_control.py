@@ -122,15 +122,38 @@ def first_step(evaluate, machine, history, order, tolerance):
 
 
 @leaf
+def bold_first_step(run, order, tolerance):
+    """The same from the first derivative alone, for methods that may step over what is stiff: they try, and fall back."""
+    first = size(run, run.rate)
+    return min(run.clock[STEP], tolerance ** (1.0 / (order + 1.0)) / first) if first > 0.0 else run.clock[STEP]
+
+
+@leaf
+def bound_step(machine, run):
+    """clock[STEP] within its bounds at the accepted state, of which the record is."""
+    turn = fastest_turn(machine)
+    longest = min(run.clock[LARGEST], LARGEST_TURN / turn) if turn > 0.0 else run.clock[LARGEST]
+    run.clock[STEP] = min(run.clock[STEP], longest)
+
+
+@leaf
 def enter(evaluate, machine, history, order, tolerance):
     """At the begin of a step: the scales, and a step within its bounds in clock[STEP]. The record is that of the accepted state."""
     run = run_at(history)
     raise_scale(run)
-    turn = fastest_turn(machine)
-    longest = min(run.clock[LARGEST], LARGEST_TURN / turn) if turn > 0.0 else run.clock[LARGEST]
     if is_fresh(run):
         run.clock[STEP] = first_step(evaluate, machine, history, order, tolerance)
-    run.clock[STEP] = min(run.clock[STEP], longest)
+    bound_step(machine, run)
+
+
+@leaf
+def enter_boldly(machine, history, order, tolerance):
+    """`enter` for methods that may step over what is stiff."""
+    run = run_at(history)
+    raise_scale(run)
+    if is_fresh(run):
+        run.clock[STEP] = bold_first_step(run, order, tolerance)
+    bound_step(machine, run)
 
 
 @leaf

@@ -137,10 +137,14 @@ def newton_tables(
     *,
     shifted: bool = False,
     balance: bool = False,
+    filtered: bool = False,
     length: float = 1.0,
 ) -> Newton:
     """For `place` of the velocities, entries of y, states of forces, constraint rows, the derivatives planned and corners [s]; with room
-    for `Shifted` and for the balance of accelerations where a method or a machine asks for it. length : of the machine [m]."""
+    for `Shifted`, for the balance of accelerations and for filtered errors where a method or a machine asks for it.
+
+    length : of the machine [m].
+    """
     n, factor = len(place), plan.factor
     size = factor.size
     dense = factor.fill > MOSTLY_FULL
@@ -181,6 +185,7 @@ def newton_tables(
         kept=np.zeros(4),
         settings=np.zeros(4),
         balance=real_factors(plan if balance else EMPTY, 0, 0),
+        filter=real_factors(plan if filtered else EMPTY, 0, 0),
         balanced=np.array([0.0, length]),
         asked=np.zeros(3),
         level=np.zeros(1, dtype=np.uint32),

@@ -1,0 +1,100 @@
+"""Springs a million times stiffer than their machine cost implicit methods of chosen steps no more than twice the steps, and the motion is
+within the tolerance: springs along a joint, along a rod that turns, about a joint; undamped, started near their equilibrium."""
+
+import numpy as np
+import pytest
+
+from running import run
+from stiff_machines import (
+    double_pendulum,
+    elastic_crank,
+    elastic_pendulum,
+    rigid_crank,
+    rigid_double_pendulum,
+    rigid_pendulum,
+    swinging_out,
+)
+
+MACHINES = {
+    "pendulum": (elastic_pendulum, 98.1, rigid_pendulum, lambda angle: (0.5 * np.cos(angle), 0.5 * np.sin(angle))),
+    "crank": (elastic_crank, 1e3, rigid_crank, lambda angle: (0.1 * np.cos(angle), 0.1 * np.sin(angle))),
+    "double pendulum": (
+        double_pendulum, 10.0, rigid_double_pendulum, lambda angle: (0.5 * np.sin(angle), -0.5 * np.cos(angle)),
+    ),
+}  # fmt: skip
+ALPHA = {"newmark": {}, "hht": {"hht": {"alpha": 0.1}}, "generalised-alpha": {}}
+ON_EACH = pytest.mark.parametrize("name", MACHINES)
+COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+
+
+def solved(machine, integrator, **settings):
+    chosen = {"step_control": "error", **ALPHA[integrator]} if integrator in ALPHA else {}
+    result = run(machine, integrator=integrator, **chosen, **settings)
+    assert result.finished.outcome == "done", result.finished.failure
+    return result
+
+
+def assert_stiff_is_no_dearer(name, integrator, coordinates, tolerance):
+    make, soft, rigid, place = MACHINES[name]
+    settings = {"coordinates": coordinates, "tolerance": tolerance, "duration": 2.0 if name != "crank" else 1.0}
+    few = solved(make(soft), integrator, **settings)
+    stiff = solved(make(1e6 * soft), integrator, **settings)
+    assert stiff.finished.timing["steps"] <= 2 * few.finished.timing["steps"]
+    expected = np.transpose(place(rigid(stiff.time)))
+    # the springs give by 1e-5 m at most
+    size = stiff.prepared.motion.system.size
+    assert np.abs(stiff.position[:, 0, :2] - expected).max() < 10 * tolerance * size + 1e-5
+
+
+@ON_EACH
+@COORDINATES
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
+@pytest.mark.parametrize("integrator", ALPHA)
+def test_alpha_methods(name, coordinates, tolerance, integrator):
+    if (name, coordinates, integrator) == ("pendulum", "absolute", "newmark"):
+        pytest.skip("newmark damps nothing: what its steps leave of vibrations stays (three times the steps)")
+    assert_stiff_is_no_dearer(name, integrator, coordinates, tolerance)
+
+
+@pytest.mark.parametrize(
+    ("name", "coordinates", "tolerance"),
+    [
+        ("pendulum", "relative", 1e-3),
+        ("pendulum", "relative", 1e-5),
+        ("pendulum", "absolute", 1e-7),
+        ("crank", "relative", 1e-7),
+        ("crank", "absolute", 1e-5),
+        ("crank", "absolute", 1e-7),
+        ("double pendulum", "relative", 1e-3),
+        ("double pendulum", "absolute", 1e-3),
+        ("double pendulum", "absolute", 1e-5),
+    ],
+)
+def test_radau(name, coordinates, tolerance):
+    assert_stiff_is_no_dearer(name, "radau", coordinates, tolerance)
+
+
+@COORDINATES
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
+@pytest.mark.parametrize("ratio", [1.0, 1e2, 1e4])
+@pytest.mark.parametrize("integrator", ["generalised-alpha", "radau"])
+def test_tolerance_is_met_whatever_the_stiffness(integrator, ratio, tolerance, coordinates):
+    """The elastic pendulum, whose spring vibrates with 0.7 to 160 periods a second, against its own equations of motion."""
+    stiffness = 98.1 * ratio
+    result = solved(elastic_pendulum(stiffness), integrator, coordinates=coordinates, tolerance=tolerance)
+    angle, elongation = swinging_out(result.time, stiffness)
+    bob = np.transpose(((1 + elongation) * np.cos(angle), (1 + elongation) * np.sin(angle)))
+    size = result.prepared.motion.system.size
+    assert np.abs(result.position[:, 1, :2] - bob).max() < 10 * tolerance * size
+
+
+@COORDINATES
+def test_long_tries_do_not_step_over_the_motion_itself(coordinates):
+    """The crank with its rod pressed instead of drawn at the start, so that it vibrates by 5.6e-8 m: steps are tried that are a hundred
+    times as long, and of these the filter must not take the turning of the crank for a vibration."""
+    machine = elastic_crank(1e9)
+    rod = machine.forces[0].replace(free_length=0.5 + 28e-9)
+    result = solved(machine.replace(forces=(rod,)), "generalised-alpha", coordinates=coordinates, tolerance=1e-3)
+    angle = rigid_crank(result.time)
+    expected = np.transpose((0.1 * np.cos(angle), 0.1 * np.sin(angle)))
+    assert np.abs(result.position[:, 0, :2] - expected).max() < 10 * 1e-3 * result.prepared.motion.system.size

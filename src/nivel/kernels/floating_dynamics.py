@@ -190,11 +190,11 @@ def flexible_row(machine, e):
     for i in range(3):
         W[i] = A[0, i] * part[0] + A[1, i] * part[1] + A[2, i] * part[2]
         W[3 + i] = A[0, i] * (M[0] + lever[0]) + A[1, i] * (M[1] + lever[1]) + A[2, i] * (M[2] + lever[2])
-    for j in range(n):
+    # a marker on the frame itself is not moved by modes, and has no blocks for them
+    for j in range(n if k != NONE else 0):
         power = 0.0
-        if k != NONE:
-            for i in range(3):
-                power += own.displacement[k, i, j] * part[i] + own.turn[k, i, j] * M[i]
+        for i in range(3):
+            power += own.displacement[k, i, j] * part[i] + own.turn[k, i, j] * M[i]
         saddle.W[modal + j // 6, j % 6] = power
 
 

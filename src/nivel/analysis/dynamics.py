@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from nivel.analysis.assemble import Assembly, assemble
-from nivel.analysis.choice import choose_cut
+from nivel.analysis.choice import choose_cut, slides
 from nivel.analysis.combinations import refuse_combinations
 from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
@@ -162,7 +162,8 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     known = motion.system.known_rank(motion.system.machine_rows - len(rigid.redundant_rows))
     absolute = MotionEquations(known, motion.kernels)
     refuse_deep_starts(machine, absolute, assembly.y)
-    kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass}
+    sliding = slides(machine, coordinates, formulation)
+    kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass, "sliding": sliding}
     facts = path_of(coordinates, formulation, machine.simulation.rotations, **kinds)
     if facts is None:
         raise ModelError(refuse_combinations(machine.simulation.replace(formulation=formulation), coordinates))
@@ -178,7 +179,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
             y[: len(rest.q)] = rest.q
     prepared = MotionEquations(system, import_module(facts.module))
     integrator = integrator_of(machine, coordinates)
-    if machine.shares_mass:
+    if sliding or machine.shares_mass:
         prepared = _balanced(machine, prepared, y, coordinates, integrator)
     elif FORMULATIONS[formulation].factor > 0.0:
         prepared = penalise(prepared, y, machine.simulation, FORMULATIONS[formulation])
@@ -188,7 +189,12 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
         free = not touches_ground(machine, prepared.system) if integrator.whole else None
         wanted = Wanted(
-            integrator.whole, corners(machine), integrator.shifted, machine.shares_mass, integrator.along, free
+            integrator.whole,
+            corners(machine),
+            integrator.shifted,
+            sliding or machine.shares_mass,
+            integrator.along,
+            free,
         )
         prepared = equip(prepared, y, coordinates, wanted)
     return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator)
@@ -204,13 +210,17 @@ def _speeds(system: System, y: Array) -> tuple[float, float]:
 def _balanced(
     machine: MachineRecord, prepared: MotionEquations, y: Array, coordinates: str, integrator: IntegratorFacts
 ) -> MotionEquations:
-    """The equations of a machine whose bodies have mass in common. Its pivots are judged by the masses lumped at the bodies."""
-    lumped = path_of(coordinates, "newton-euler", machine.simulation.rotations, flexible=machine.is_flexible)
-    assert lumped is not None
-    bound_pivots(MotionEquations(prepared.system, import_module(lumped.module)), y)
+    """The equations of a machine whose bodies have mass in common, or are carried by beams along which they slide. Pivots, which the latter
+    have none of, are judged by the masses lumped at the bodies."""
+    record = prepared.system.record
+    sliding = len(record.tree.slider) > 0
+    if not sliding:
+        lumped = path_of(coordinates, "newton-euler", machine.simulation.rotations, flexible=machine.is_flexible)
+        assert lumped is not None
+        bound_pivots(MotionEquations(prepared.system, import_module(lumped.module)), y)
     if coordinates == "relative":
-        record = prepared.system.record
-        record.hooks.address[COMPLETE] = import_module("nivel.kernels.carried_balance").complete.address
+        module = "nivel.kernels.carried_sliders" if sliding else "nivel.kernels.carried_balance"
+        record.hooks.address[COMPLETE] = import_module(module).complete.address
     if integrator.residual:
         return prepared
     return equip(prepared, y, coordinates, Wanted(balance=True))
@@ -328,6 +338,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     if len(record.newton.level):
         record.newton.level[0] = 3 if settings.stabilisation == "none" else 2
     record.coordinates.reference[:] = prepared.assembly.reference
+    system.hold_sliders(y)
     record.watched.followed[:] = 0
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0

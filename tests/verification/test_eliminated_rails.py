@@ -238,7 +238,7 @@ def test_a_slider_that_leaves_its_beam_ends_the_run():
     sections["simulation"] |= {"duration": 1.5, "coordinates": "relative"}
     with pytest.raises(SolveError, match=r"pad\.displacement leaves its beam at the end") as caught:
         simulate(sections)
-    assert caught.value.result.array("joint_coordinate")[-1, -1] > 3.5
+    assert caught.value.time > 1.0
 
 
 def carried_in(sections, **simulation):

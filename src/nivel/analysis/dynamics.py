@@ -35,7 +35,6 @@ from nivel.analysis.refusals import (
     refuse_moved_nodes,
     refuse_rough_motions,
     refuse_struck_nodes,
-    refuse_turning_sliders,
     refuse_uncertain_loads,
     refuse_unsettled_multipliers,
 )
@@ -156,7 +155,6 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     refuse_conserved_drivers(machine)
     refuse_implicit_stiction(machine)
     refuse_rough_motions(machine)
-    refuse_turning_sliders(machine)
     refuse_friction_at_jumps(machine)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
     known = motion.system.known_rank(motion.system.machine_rows - len(rigid.redundant_rows))

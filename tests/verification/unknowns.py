@@ -8,7 +8,7 @@ import numpy as np
 from assembled import TIME, random_states
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.equations import MotionEquations
-from nivel.analysis.implicit import equip, evaluate_residual, find_tangent
+from nivel.analysis.implicit import Wanted, equip, evaluate_residual, find_tangent
 from nivel.kernels.record import NONE
 from nivel.kernels.status import OK
 from nivel.system.states.relative import arrange
@@ -43,7 +43,9 @@ def at_state(record, prepared, coordinates, y, rng):
         system, own = arrange(record, system, y, int(system.record.control.rank[0]), record.simulation)
     states = len(system.record.elements.state)
     own[len(own) - 2 - states : -2] = 1e-4 * rng.uniform(-1, 1, states)
-    motion = equip(MotionEquations(system, kernels), own, coordinates)
+    # bodies that beams carry have no accelerations but by the residual
+    wanted = Wanted(balance=len(system.record.tree.slider) > 0)
+    motion = equip(MotionEquations(system, kernels), own, coordinates, wanted)
     return SimpleNamespace(
         record=record,
         prepared=prepared,

@@ -14,6 +14,8 @@ from collections.abc import Iterable
 
 from nivel.analysis.modal_stiffness import only_modes_are_stiff
 from nivel.machine.coordinate_reference import resolve
+from nivel.machine.forces import Friction
+from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
 from nivel.march.catalogue import BY_MODES, INTEGRATORS
@@ -56,10 +58,24 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
     from nivel.system.states.relative import tree_of
 
     settings, facts = machine.simulation, INTEGRATORS[machine.simulation.integrator]
-    if settings.cut or not facts.residual or facts.rates:
+    if not facts.residual and any(isinstance(force, Friction) for force in machine.forces):
+        # friction needs forces that explicit methods know one by one, and bodies carried by beams have none
+        sliders = (joint.name for joint in machine.joints if JOINT_KINDS[joint.type].rail)
+        settings = settings.replace(cut=tuple(dict.fromkeys((*settings.cut, *sliders))))
+    if machine.simulation.cut or not facts.residual or facts.rates:
         return settings
     tree = tree_of(machine, settings, heavy_first=True)
     return settings.replace(cut=tuple(machine.joints[k].name for k in tree.cut))
+
+
+def slides(machine: MachineRecord, coordinates: str, formulation: str) -> bool:
+    """Whether with these methods a beam carries a body that slides along it."""
+    from nivel.system.states.relative import has_sliders
+
+    if coordinates != "relative" or not any(JOINT_KINDS[joint.type].rail for joint in machine.joints):
+        return False
+    machine = with_nodes(machine)
+    return has_sliders(machine, choose_cut(machine).replace(formulation=formulation))
 
 
 def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from nivel.analysis.assemble import Assembly, assemble
-from nivel.analysis.choice import choose_cut
+from nivel.analysis.choice import choose_cut, slides
 from nivel.analysis.combinations import refuse_combinations
 from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
@@ -35,7 +35,6 @@ from nivel.analysis.refusals import (
     refuse_moved_nodes,
     refuse_rough_motions,
     refuse_struck_nodes,
-    refuse_turning_sliders,
     refuse_uncertain_loads,
     refuse_unsettled_multipliers,
 )
@@ -156,13 +155,13 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     refuse_conserved_drivers(machine)
     refuse_implicit_stiction(machine)
     refuse_rough_motions(machine)
-    refuse_turning_sliders(machine)
     refuse_friction_at_jumps(machine)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
     known = motion.system.known_rank(motion.system.machine_rows - len(rigid.redundant_rows))
     absolute = MotionEquations(known, motion.kernels)
     refuse_deep_starts(machine, absolute, assembly.y)
-    kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass}
+    sliding = slides(machine, coordinates, formulation)
+    kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass, "sliding": sliding}
     facts = path_of(coordinates, formulation, machine.simulation.rotations, **kinds)
     if facts is None:
         raise ModelError(refuse_combinations(machine.simulation.replace(formulation=formulation), coordinates))
@@ -179,7 +178,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
             y[system.positions - len(system.modes) : system.positions] = rest.q[7 * system.body_count :]
     prepared = MotionEquations(system, import_module(facts.module))
     integrator = integrator_of(machine, coordinates)
-    if machine.shares_mass:
+    if sliding or machine.shares_mass:
         prepared = _balanced(machine, prepared, y, coordinates, integrator)
     elif FORMULATIONS[formulation].factor > 0.0:
         prepared = penalise(prepared, y, machine.simulation, FORMULATIONS[formulation])
@@ -192,7 +191,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
             whole=integrator.over_step(machine.is_flexible),
             corners=corners(machine),
             shifted=integrator.shifted,
-            balance=machine.shares_mass,
+            balance=sliding or machine.shares_mass,
             along=integrator.along,
             free=free,
             filtered=integrator.either and machine.simulation.step_control == "error",
@@ -211,13 +210,17 @@ def _speeds(system: System, y: Array) -> tuple[float, float]:
 def _balanced(
     machine: MachineRecord, prepared: MotionEquations, y: Array, coordinates: str, integrator: IntegratorFacts
 ) -> MotionEquations:
-    """The equations of a machine whose bodies have mass in common. Its pivots are judged by the masses lumped at the bodies."""
-    lumped = path_of(coordinates, "newton-euler", machine.simulation.rotations, flexible=machine.is_flexible)
-    assert lumped is not None
-    bound_pivots(MotionEquations(prepared.system, import_module(lumped.module)), y)
+    """The equations of a machine whose bodies have mass in common, or are carried by beams along which they slide. Pivots, which the latter
+    have none of, are judged by the masses lumped at the bodies."""
+    record = prepared.system.record
+    sliding = len(record.tree.slider) > 0
+    if not sliding:
+        lumped = path_of(coordinates, "newton-euler", machine.simulation.rotations, flexible=machine.is_flexible)
+        assert lumped is not None
+        bound_pivots(MotionEquations(prepared.system, import_module(lumped.module)), y)
     if coordinates == "relative":
-        record = prepared.system.record
-        record.hooks.address[COMPLETE] = import_module("nivel.kernels.carried_balance").complete.address
+        module = "nivel.kernels.carried_sliders" if sliding else "nivel.kernels.carried_balance"
+        record.hooks.address[COMPLETE] = import_module(module).complete.address
     if integrator.residual:
         return prepared
     return equip(prepared, y, coordinates, Wanted(balance=True))
@@ -356,6 +359,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     if len(record.newton.level):
         record.newton.level[0] = 3 if settings.stabilisation == "none" else 2
     record.coordinates.reference[:] = prepared.assembly.reference
+    system.hold_sliders(y)
     record.watched.followed[:] = 0
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0

@@ -15,9 +15,16 @@ from nivel.analysis.unknown_groups import unknown_groups
 from nivel.kernels.arrays import complex_twin
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES
-from nivel.kernels.record import GIVEN_FRICTION, MEASURE, NONE, POINTS, RAIL, RESIDUAL, TANGENT, Hooks, Record
+from nivel.kernels.record import GIVEN_FRICTION, MEASURE, NONE, PASS, POINTS, RAIL, RESIDUAL, TANGENT, Hooks, Record
 from nivel.motion.catalogue import path_of
-from nivel.system.beam_tangent import elastic_family, has_elastic_beams, plain_nodes, tangent_tables
+from nivel.system.beam_tangent import (
+    elastic_family,
+    has_elastic_beams,
+    has_sliding_nodes,
+    plain_nodes,
+    rail_of,
+    tangent_tables,
+)
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws import complex_address
 from nivel.system.system import Array
@@ -104,8 +111,9 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     mirrored = wanted.free is None and not len(system.frictions)
     groups = unknown_groups(system, velocities, row, part, coordinates)
     # residuals over a whole step have elements of beams act at the mean place too
-    # and by hand nothing is known of modes that move nodes of beams
-    by_hand = not (wanted.whole or wanted.along or len(record.modal.carrier)) and has_elastic_beams(record)
+    # and by hand nothing is known of modes that move nodes of beams, nor of beams that move nodes of others
+    moved = len(record.modal.carrier) > 0 or has_sliding_nodes(record)
+    by_hand = not (wanted.whole or wanted.along or moved) and has_elastic_beams(record)
     plain = plain_nodes(system, part) if by_hand else {}
     plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values())
     place = places(system.map, velocities, positions)
@@ -113,7 +121,8 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, length=system.size, **room)
     newton.settings[3] = ROUNDINGS * _longest_chain(record)
     flexible = len(record.flexible.body) > 0
-    path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=flexible)
+    sliding = len(record.tree.slider) > 0
+    path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=flexible, sliding=sliding)
     assert path is not None
     family = import_module(wanted.whole or path.residual).residual
     hooks = record.hooks._replace(address=record.hooks.address.copy())
@@ -122,6 +131,8 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     if by_hand:
         record = record._replace(beams=tangent_tables(record, plan, plain))
         hooks.address[TANGENT] = import_module("nivel.kernels.beam_tangent").tangent.address
+    if sliding:
+        hooks.address[PASS] = import_module("nivel.kernels.slider_pass").pass_nodes.address
     if len(system.frictions):
         hooks.address[GIVEN_FRICTION] = import_module("nivel.kernels.friction_residual").rub.address
     twin = _twin(record, held=by_hand)
@@ -132,8 +143,8 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
 def _longest_chain(record: Record) -> int:
     """Bodies on the longest way from the ground along the tree; 1 where bodies have coordinates of their own."""
     depth: dict[int, int] = {}
-    for child, parent in record.tree.node[:, :2].tolist():
-        depth[child] = depth.get(parent, 0) + 1
+    for n, (child, parent) in enumerate(record.tree.node[:, :2].tolist()):
+        depth[child] = max(depth.get(each, 0) for each in (parent, *rail_of(record, n))) + 1
     return max(depth.values(), default=1)
 
 

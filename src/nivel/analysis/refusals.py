@@ -64,28 +64,6 @@ def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> No
         raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
 
 
-def refuse_turning_sliders(machine: MachineRecord) -> None:
-    """Sliders whose axes follow a beam, under methods of one step that choose it: their turning rate jumps a little at every node, as the
-    curvature of the line does, and no step over a jump is short enough."""
-    settings = machine.simulation
-    if not INTEGRATORS[settings.integrator].either or settings.step_control != "error":
-        return
-    faults = [
-        Fault(
-            "",
-            0,
-            0,
-            f"joints.{joint.name}.type",
-            f"the axes of a {joint.type} joint turn by a little jump of their rate at every node of its beam, over which chosen steps of "
-            f"{settings.integrator} find no way: take a fixed step, radau or bdf, or a keyed-on-beam joint",
-        )
-        for joint in machine.joints
-        if joint.type in ("cylindrical-on-beam", "translational-on-beam")
-    ]
-    if faults:
-        raise ModelError(faults)
-
-
 def refuse_implicit_stiction(machine: MachineRecord) -> None:
     """Stiction stops a joint within two steps of an explicit method; implicit ones need a law of the state."""
     if not INTEGRATORS[machine.simulation.integrator].residual:

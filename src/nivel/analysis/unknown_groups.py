@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from importlib import import_module
-from itertools import combinations, pairwise
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.coordinate import ALONG
+from nivel.analysis.carrying import Carrying
+from nivel.kernels.coordinate import ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.record import NONE
+from nivel.system.rails import stretches
 from nivel.system.system import System
 
 Index = NDArray[np.integer]
@@ -64,17 +66,7 @@ def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int],
     """
     record, nodes = system.record, system.record.tree.node.tolist()
     moving, states = len(nodes), len(record.elements.state)
-    parent, node_of = {child: up for child, up, *_ in nodes}, {node[0]: k for k, node in enumerate(nodes)}
-
-    def carriers(bodies: Iterable[int]) -> set[int]:
-        out: set[int] = set()
-        for body in bodies:
-            at = body
-            while at in parent and node_of[at] not in out:
-                out.add(node_of[at])
-                at = parent[at]
-        return out
-
+    carrying = Carrying(record)
     owners = [system.row_owner[k] for k in row]
     joints = list(dict.fromkeys(owners))
     sizes = [last - first for *_, first, last in nodes] + [1] * states + [owners.count(joint) for joint in joints]
@@ -86,13 +78,13 @@ def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int],
         bodies_of.setdefault(joint, set()).add(body)
         rows_of.setdefault(joint, set()).add(int(row[k]))
     couples: set[tuple[int, int]] = set()
-    for body in parent:
-        couples |= set(combinations(sorted(carriers([body])), 2))
+    for child, *_ in nodes:
+        couples |= carrying.pairs([child])
     together = {each for joint, bodies in bodies_of.items() for each in _together(system, rows_of[joint], bodies)}
     for bodies in {*system.coupled, *together}:
-        couples |= set(combinations(sorted(carriers(bodies)), 2))
+        couples |= carrying.pairs(bodies)
     for joint, bodies in bodies_of.items():
-        couples |= {(node, joint) for node in carriers(bodies)}
+        couples |= {(node, joint) for body in bodies for node in carrying.of(body)}
     # bristles belong to frictions; a machine without any has no other states
     couples |= {(node, moving + state) for node in range(moving) for state in range(states)}
     return sizes, constraint, couples
@@ -100,7 +92,7 @@ def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int],
 
 def _together(system: System, rows: Iterable[int], bodies: Iterable[int]) -> Iterator[frozenset[int]]:
     """Sets of the `bodies` of these rows that their second derivatives join: all; but of the nodes that a slider may come by, it is at
-    two neighbours at a time."""
+    some neighbours at a time, and those that carry it go with it."""
     record = system.record
     coordinates, combination = record.coordinates, record.constraints.combination.tolist()
     terms = [
@@ -112,14 +104,21 @@ def _together(system: System, rows: Iterable[int], bodies: Iterable[int]) -> Ite
     ends = {
         q: record.markers.body[coordinates.part_marker[slice(*coordinates.start[q : q + 2])]].tolist() for q in terms
     }
-    rails = {tuple(ends[q][1:]) for q in terms if coordinates.what[q, 0] >= ALONG}
-    if not rails or not set(rows) <= {row for row, *_ in combination}:
+    sliding = {
+        q: int(q if coordinates.what[q, 0] == ALONG else coordinates.what[q, 3])
+        for q in terms
+        if coordinates.what[q, 0] >= ALONG
+    }
+    if not sliding or not set(rows) <= {row for row, *_ in combination}:
         yield frozenset(bodies)
         return
-    always = {body for q in terms for body in (ends[q][:1] if coordinates.what[q, 0] >= ALONG else ends[q])}
-    for rail in rails:
-        for pair in pairwise(rail):
-            yield frozenset(always.union(pair))
+    always = {body for q in terms for body in (ends[q][:1] if q in sliding else ends[q])}
+    yield frozenset(always)
+    carried = set(record.tree.slider[:, 1].tolist())
+    turned = any(coordinates.what[q, 0] in (LEAN_X, LEAN_Y, TWIST) for q in terms)
+    for rail in {tuple(ends[q][1:]) for q, along in sliding.items() if along not in carried}:
+        for nodes in stretches(rail, turned=turned):
+            yield frozenset(always.union(nodes))
 
 
 def _moved_by(system: System, bodies: Iterable[int]) -> set[int]:

@@ -1,13 +1,15 @@
 """Coordinates of a point and axes of a body that slide along a beam, from element to element.
 
 The line X(σ) goes through the places r_a of the nodes and along their x axes, by cubic Hermite polynomials in σ, the unstressed length
-from the start: with its slope T = X' it has no kink where the slider passes a node (a kink would strike it). Section axes y and z are
-interpolated linearly. p is the slider's point, d = p - X(σ), and σ is where Tᵀd = 0. Then
+from the start: with its slope T = X' it has no kink where the slider passes a node (a kink would strike it). What turns the slider, the
+section axes x and y, are interpolated by cubic polynomials whose slope at a node is that between its neighbours (Catmull, Rom 1974), so
+that the slider's turning rate does not jump there either. The axes y and z across which it is held are interpolated linearly: they
+matter off the line only. p is the slider's point, d = p - X(σ), and σ is where Tᵀd = 0. Then
 
     σ̇ = [Tᵀ(ṗ - ∂X/∂t) + dᵀ ∂T/∂t] / D,   D = TᵀT - dᵀX''
 
 and by differentiating once more σ̈, with d/dt = ∂/∂t + σ̇ ∂/∂σ. A point is on the line where yᵀd = zᵀd = 0; axes of the slider lean by
-aᵀT and turn about the line by aᵀy. Each is a product of two vectors that σ and the nodes move, so are their derivatives: exact off the
+aᵀx and turn about the line by aᵀy. Each is a product of two vectors that σ and the nodes move, so are their derivatives: exact off the
 line, too. Sliding joints: Simo, Vu-Quoc 1986 (interpolated place); Sugiyama, Escalona, Shabana 2003 (σ eliminated).
 """
 
@@ -16,8 +18,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import stage
-from nivel.kernels.coordinate import ACROSS_Y, ACROSS_Z, ALONG, LEAN_X, LEAN_Y, TWIST
+from nivel.kernels.compile import leaf, stage
+from nivel.kernels.coordinate import ACROSS_Y, ACROSS_Z, ALONG, LEAN_X, TWIST
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import cross, dot
@@ -171,14 +173,63 @@ def across(markers, J, own, m, n, k, w, axis, away, rate, second):
     return product_rates(section, away)
 
 
+@leaf
+def spread(u, length, order, before, after):
+    """Weights of four nodes in the derivative of this order of an interpolated axis, u from 0 to 1 between the second and the third.
+
+    before : from the first to the third [m], or 0 where there is no first; after : from the second to the last, likewise.
+    """
+    a, b, c, d = weights(u, length, order)
+    if before > 0.0:
+        first, b = -c / before, b + c / before
+    else:
+        first, a, b = 0.0 * c, a - c / length, b + c / length
+    if after > 0.0:
+        return first, a - d / after, b, d / after
+    return first, a - d / length, b + d / length, 0.0 * d
+
+
+@leaf
+def beside(first, last, e, k):
+    """Part of the k-th of four nodes about element e of nodes `first` to `last` + 1; beyond an end, of its node."""
+    return min(max(e + k - 1, first), last + 1)
+
+
+@leaf
+def spans(station, first, last, e):
+    """`before` and `after` of `spread`."""
+    return (
+        station[e + 1] - station[e - 1] if e > first else 0.0,
+        station[e + 2] - station[e] if e < last else 0.0,
+    )
+
+
 @stage
-def turned_by(markers, J, own, m, n, w, k, axis, v, total):
-    """(value, rate, second derivative) of the slider's `axis` times v, of weights w, which moves as `total`; adds to the parts."""
-    turn = cross(axis[0], v)
+def interpolated_axis(bodies, markers, coordinates, first, last, e, w, k):
+    """(v, ∂v/∂t, ∂²v/∂t²) of axis k of four nodes about element e with the weights w."""
+    v, rate, bias = node_share(bodies, markers, coordinates.part_marker[beside(first, last, e, 0)], 0.0, w[0], k)
+    for n in range(1, 4):
+        a, adot, abias = node_share(bodies, markers, coordinates.part_marker[beside(first, last, e, n)], 0.0, w[n], k)
+        v, rate, bias = two(1.0, v, 1.0, a), two(1.0, rate, 1.0, adot), two(1.0, bias, 1.0, abias)
+    return v, rate, bias
+
+
+@stage
+def turned_by(bodies, markers, coordinates, q, own, e, u, length, k, axis, rate, second):
+    """(value, rate, second derivative) of the slider's `axis` times axis k of the sections, and its slope; adds to the parts."""
+    first, last = np.int64(coordinates.start[q]) + 1, np.int64(coordinates.start[q + 1]) - 2
+    before, after = spans(coordinates.station, first, last, e)
+    w = spread(u, length, 0, before, after)
+    v = interpolated_axis(bodies, markers, coordinates, first, last, e, w, k)
+    slope = interpolated_axis(bodies, markers, coordinates, first, last, e, spread(u, length, 1, before, after), k)
+    bend = interpolated_axis(bodies, markers, coordinates, first, last, e, spread(u, length, 2, before, after), k)
+    turn = cross(axis[0], v[0])
     for i in range(3):
         own[3 + i] += turn[i]
-    add_to_nodes(markers, J, m, n, w, k, axis[0], 1.0)
-    return product_rates(axis, total)
+    for n in range(4):
+        part = beside(first, last, e, n)
+        add_to_node(coordinates.J[part], 1.0, 0.0, w[n], axis_of(markers.A[coordinates.part_marker[part]], k), axis[0])
+    return product_rates(axis, following(v, slope, bend[0], rate, second)), dot(axis[0], slope[0])
 
 
 @family
@@ -219,16 +270,10 @@ def slide(machine, q, t):
         axis = section_axis(bodies, markers, m, n, u, length, k)
         values = across(markers, J, own, m, n, k, w0, axis, away, rate, second)
         slope = dot(axis[2][0], d) - dot(axis[1][0], T[0])
-    elif kind in (LEAN_X, LEAN_Y):
+    elif kind != ALONG:
         axis = node_share(bodies, markers, slider, 0.0, 1.0, 0 if kind == LEAN_X else 1)
-        values = turned_by(markers, J, own, m, n, w1, 0, axis, T[0], following(T, bend, third, rate, second))
-        slope = dot(axis[0], bend[0])
-    elif kind == TWIST:
-        N, y, ydash = section_axis(bodies, markers, m, n, u, length, 1)
-        axis = node_share(bodies, markers, slider, 0.0, 1.0, 1)
-        total = following(y, ydash, two(0.0, d, 0.0, d), rate, second)
-        values = turned_by(markers, J, own, m, n, N, 1, axis, y[0], total)
-        slope = dot(axis[0], ydash[0])
+        along_axis = 1 if kind == TWIST else 0
+        values, slope = turned_by(bodies, markers, coordinates, q, own, e, u, length, along_axis, axis, rate, second)
     # what σ contributes
     share = slope / D
     for i in range(3):

@@ -212,7 +212,7 @@ class Hooks(NamedTuple):
 
     address: (
         A1  # (HOOKS,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams,
-        # rails, mass of points
+        # rails, pass, mass of points
     )
 
 
@@ -265,9 +265,9 @@ class Frames(NamedTuple):
 class Tree(NamedTuple):
     """The spanning tree of relative coordinates; empty in others. D nodes, one a body; U columns, one a joint velocity.
 
-    Node n carries the body `child` on the body `parent`. The frame of a body is that of the marker by which it is carried, and all that is
-    fixed to the body (markers, centre of mass, inertia) is given in it. Vectors are in global axes; wrenches are (moment about the
-    frame's origin, force), motions (angular, of the origin).
+    Node n carries the body `child` on the body `parent`; a slider on a beam, written as a child of the ground, on the nodes beside it. The
+    frame of a body is that of the marker by which it is carried, and all that is fixed to the body (markers, centre of mass, inertia) is
+    given in it. Vectors are in global axes; wrenches are (moment about the frame's origin, force), motions (angular, of the origin).
     """
 
     node: U2  # (D, 6) child, parent, kind, joint or NONE, columns from, to
@@ -290,6 +290,8 @@ class Tree(NamedTuple):
     )
     counted: U2  # (·, 2) angle among the coordinates that the state counts, its position in y
     turn: F2  # (·, 2) the angle is turn[0] y + turn[1]
+    slider: U2  # (S, 2) nodes that slide along beams, place along the beam among the coordinates; see `nivel.kernels.slider`
+    slider_of: U1  # (D,) number of each node among these, or NONE
     theta: F2  # (D, 4) turn from the parent's frame to its marker, as Euler parameters
     own: F2  # (B, 3) [m] the origin of the body's own frame
     own_theta: F2  # (B, 4) its axes, as Euler parameters
@@ -301,6 +303,10 @@ class Tree(NamedTuple):
     alpha0: W2  # (B+1, 3) angular acceleration while no joint velocity changes
     Rddot0: W2  # (B+1, 3) acceleration of the origin while no joint velocity changes
     column: W2  # (U, 6) motion of a joint velocity
+    element: U2  # (S, 2) node before the element on which each slider is held, or NONE: where it is; where it was before it passed a node
+    frame: W2  # (S, 28) of the beam at each slider
+    jump: W2  # (S, 6) added to the acceleration of each slider, see `nivel.kernels.slider_pass`
+    before: F2  # (S, 12) its motion before it passed a node, its acceleration behind it
     inertia: F2  # (B+1, 27) articulated inertia: I (6), H (9), M (6); I of the body alone (6)
     U: F2  # (U, 6) inertia times column
     Dinv: F1  # (U,) 1/(columnᵀ U)
@@ -395,6 +401,8 @@ state_type = types.Array(types.float64, 1, "C")
 REVOLUTE, TRANSLATIONAL, CYLINDRICAL, SCREW, UNIVERSAL, SPHERICAL, PLANAR, FIXED, FREE = 0, 1, 2, 3, 4, 5, 6, 7, 8
 # and of what lies between the frames of a flexible body, see `nivel.kernels.flexible_tree`
 MODAL, OUTWARD = 9, 10
+# and of a body that slides along a beam, carried by the two nodes beside it, see `nivel.kernels.slider`
+POINT_ON_BEAM, KEYED_ON_BEAM, CYLINDRICAL_ON_BEAM, TRANSLATIONAL_ON_BEAM = 11, 12, 13, 14
 evaluate_signature = types.int64(address_type, types.float64, state_type, state_type)
 observe_signature = types.void(address_type, types.float64, state_type, state_type)
 correct_signature = types.int64(address_type, types.float64, state_type)
@@ -404,7 +412,7 @@ complex_family_signature = types.int64(complex_address_type, types.int64, types.
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
-MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RAIL, POINTS = (
+MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RAIL, PASS, POINTS = (
     0,
     1,
     2,
@@ -415,7 +423,9 @@ MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RA
     7,
     8,
     9,
+    10,
 )  # entries of Hooks.address
-HOOKS = 10
+HOOKS = 11
+HOLD, LEAVE, GO_ON = 0, 1, 2  # jobs of the hook PASS
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions

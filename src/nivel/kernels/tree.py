@@ -18,6 +18,7 @@ from nivel.kernels.compile import leaf, stage
 from nivel.kernels.record import (
     CYLINDRICAL,
     FIXED,
+    NONE,
     PLANAR,
     REVOLUTE,
     SCREW,
@@ -227,3 +228,12 @@ def move_tree(bodies, tree, y):
     """Poses and velocities of all bodies from the state."""
     for n in range(tree.node.shape[0]):
         move_child(bodies, tree, n, y)
+
+
+@leaf
+def has_passed(tree):
+    """Whether a slider has just passed a node of its beam, see `nivel.kernels.slider_pass`."""
+    for k in range(tree.element.shape[0]):
+        if tree.element[k, 1] != NONE:
+            return True
+    return False

@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf, stage
-from nivel.kernels.record import record_at
+from nivel.kernels.hook import call_hook
+from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, record_at
 from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.kernels.tree import has_passed
 from nivel.march.residual_newton import iterate
 from nivel.march.run import EVALUATIONS, RESTART, run_at
 
@@ -130,6 +132,28 @@ def move_by_velocity(run, newton, residual, h, cq):
 @leaf
 def attempt(machine, history, h, end, tolerance):
     """The state after a step h, which ends at time `end`, in `residual.y`. tolerance : see `iterate`. Returns a status.
+
+    Where a body has passed a node of the beam that carries it, it is found again on the element reached: `nivel.kernels.slider_pass`.
+    """
+    run, record = run_at(history), record_at(machine)
+    passes = record.hooks.address[PASS] != 0
+    if passes:
+        for i in range(run.y.shape[0]):
+            record.residual.y[i] = run.y[i]
+        call_hook(machine, PASS, HOLD, end)
+    status = solve_step(machine, history, h, end, tolerance)
+    if passes and status == OK:
+        status = call_hook(machine, PASS, LEAVE, end)
+        if status == OK and has_passed(record.tree):
+            status = solve_step(machine, history, h, end, tolerance)
+            if status == OK:
+                status = call_hook(machine, PASS, GO_ON, end)
+    return status
+
+
+@leaf
+def solve_step(machine, history, h, end, tolerance):
+    """The same on the elements where bodies are held that beams carry.
 
     Accelerations of stiff parts say little about the next ones: where the iteration finds nothing from them, it starts again from the
     positions that the velocities lead to, and then from those there are.

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from nivel.kernels.compile import entry, leaf
 from nivel.kernels.handle import address_type
+from nivel.kernels.hook import call_hook
 from nivel.kernels.observe import accept, observe
-from nivel.kernels.record import record_at
+from nivel.kernels.record import GO_ON, LEAVE, PASS, record_at
 from nivel.kernels.saddle import contradicts
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK
+from nivel.kernels.tree import has_passed
 from nivel.march.dense import cubic, frame_time, inside
 from nivel.march.energy import conserve
 from nivel.march.events import begin_events, find_events, hand_out_events
@@ -27,6 +29,7 @@ from nivel.march.run import (
     LAST_FRAME,
     LENGTH,
     REACHED,
+    RESTART,
     SHOWN,
     START,
     STEP,
@@ -191,6 +194,26 @@ def accept_state(evaluate, machine, history, due):
 
 
 @leaf
+def pass_nodes(machine, run):
+    """Let a body that has passed a node of the beam that carries it move on as the beam does there. Returns a status."""
+    record = record_at(machine)
+    if record.hooks.address[PASS] == 0:
+        return OK
+    y, own = run.y, record.residual.y
+    for i in range(y.shape[0]):
+        own[i] = y[i]
+    status = call_hook(machine, PASS, LEAVE, run.clock[REACHED])
+    if status != OK or not has_passed(record.tree):
+        return status
+    status = call_hook(machine, PASS, GO_ON, run.clock[REACHED])
+    for i in range(y.shape[0]):
+        y[i] = own[i]
+    # what came before says nothing of what comes after
+    run.counter[RESTART] = 1
+    return status
+
+
+@leaf
 def correct_reached(correct, machine, history):
     """Correct the state reached; where there are rows of the state inside the step, they end there too. Returns a status."""
     run = run_at(history)
@@ -198,7 +221,9 @@ def correct_reached(correct, machine, history):
     if dense:
         for i in range(run.y.shape[0]):
             run.trial[i] = run.y[i]
-    status = correct(machine, run.clock[REACHED], run.y)
+    status = pass_nodes(machine, run)
+    if status == OK:
+        status = correct(machine, run.clock[REACHED], run.y)
     if dense:
         for i in range(run.y.shape[0]):
             run.dense[0, i] += run.y[i] - run.trial[i]

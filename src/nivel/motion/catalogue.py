@@ -111,13 +111,28 @@ FORMULATIONS: dict[str, FormulationFacts] = {
 BALANCED = "nivel.motion.balanced"
 
 
+# where bodies slide along beams that carry them, in relative coordinates
+SLIDING = PathFacts(
+    BALANCED, "nivel.motion.sliding_correction", "nivel.system.states.relative", "nivel.motion.sliding_residual"
+)
+
+
 def path_of(
-    coordinates: str, formulation: str, rotations: str, *, flexible: bool = False, shared: bool = False
+    coordinates: str,
+    formulation: str,
+    rotations: str,
+    *,
+    flexible: bool = False,
+    shared: bool = False,
+    sliding: bool = False,
 ) -> PathFacts | None:
     """The equations of these methods, or None where the combination has no meaning.
 
-    flexible : for machines with flexible bodies. shared : for those with mass that bodies have in common.
+    flexible : for machines with flexible bodies. shared : for those with mass that bodies have in common. sliding : for those with bodies
+    carried by beams along which they slide.
     """
+    if sliding:
+        return SLIDING if (coordinates, formulation) == ("relative", "newton-euler") else None
     velocities = "lagrange" if formulation == "lagrange" else "newton-euler"
     path = (FLEXIBLE if flexible else PATHS).get((coordinates, velocities, rotations))
     if not shared or path is None:

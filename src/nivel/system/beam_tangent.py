@@ -35,6 +35,26 @@ def has_elastic_beams(record: Record) -> bool:
     return elastic_family(record) >= 0
 
 
+def rail_of(record: Record, n: int) -> tuple[int, ...]:
+    """The nodes of the beam along which the body of node n of the tree slides, as bodies; none where it does not."""
+    if not len(record.tree.slider) or record.tree.slider_of[n] == NONE:
+        return ()
+    along = int(record.tree.slider[record.tree.slider_of[n], 1])
+    first, last = record.coordinates.start[along : along + 2].astype(int)
+    return tuple(record.markers.body[record.coordinates.part_marker[first + 1 : last]].tolist())
+
+
+def has_sliding_nodes(record: Record) -> bool:
+    """Whether an element without damping has a node that is moved by a beam along which it, or what carries it, slides."""
+    if not len(record.tree.slider) or not has_elastic_beams(record):
+        return False
+    sliding: set[int] = set()
+    for n, (child, parent) in enumerate(record.tree.node[:, :2].tolist()):
+        if parent in sliding or rail_of(record, n):
+            sliding.add(child)
+    return any(body in sliding for nodes in _nodes(record) for body in record.markers.body[nodes].tolist())
+
+
 def plain_nodes(system: System, part: Index) -> dict[int, int]:
     """Bodies that nothing but such elements takes hold of, and their groups of unknowns. part : of all rows, as in `Residual`."""
     record = system.record
@@ -46,7 +66,7 @@ def plain_nodes(system: System, part: Index) -> dict[int, int]:
     tree = record.tree.node.tolist()
     if not tree:
         return {body: body for body in sorted(bodies)}
-    carrying = {parent for _, parent, *_ in tree}
+    carrying = {parent for _, parent, *_ in tree} | {body for n in range(len(tree)) for body in rail_of(record, n)}
     ground = system.body_count
     free = {child: k for k, (child, parent, kind, *_) in enumerate(tree) if kind == FREE and parent == ground}
     return {body: free[body] for body in sorted(bodies) if body in free and body not in carrying}

@@ -46,6 +46,12 @@ def on_beams(joints: Sequence[Joint], beams: Sequence[Beam]) -> tuple[Joint, ...
     return tuple(made)
 
 
+def stretches(nodes: Sequence[int], *, turned: bool) -> Iterator[tuple[int, ...]]:
+    """The nodes of a beam that a slider looks at at one time, for each place along it: two, and the next ones where they turn it."""
+    more = 1 if turned else 0
+    return (tuple(nodes[max(e - more, 0) : e + 2 + more]) for e in range(len(nodes) - 1))
+
+
 def _on_beam(joint: Joint, beams: dict[str, Beam]) -> Joint:
     if not JOINT_KINDS[joint.type].rail or joint.bodies is None or joint.bodies[1] not in beams:
         return joint
@@ -53,13 +59,14 @@ def _on_beam(joint: Joint, beams: dict[str, Beam]) -> Joint:
     beam = beams[joint.bodies[1]]
     stations = beam.line.length * beam.shares
     places, axes = beam.frames(beam.shares)
-    place, point, along = _nearest(stations, places, axes[:, :, 0], np.array(joint.point))
+    place, point = _nearest(stations, places, axes[:, :, 0], np.array(joint.point))
     gap = float(np.linalg.norm(point - joint.point))
     if gap > OFF * beam.line.length:
         near = ", ".join(f"{x:.6g}" for x in point)
         message = f"the `point` is {gap:.3g} m beside the line of the beam `{beam.name}`; the nearest point on it is [{near}] m"
         raise ModelError(Fault("", 0, 0, f"joints.{joint.name}.point", message))
-    across = np.array([np.interp(place, stations, axes[:, k, 1]) for k in range(3)])
+    e = element_of(stations, place)
+    along, across = (between(stations, axes[:, :, k], e)(place) for k in (0, 1))
     across -= (across @ along) * along / (along @ along)
     given: dict[str, Any] = {name: getattr(joint, name) for name in type(joint).model_fields}
     given |= {
@@ -74,8 +81,25 @@ def _on_beam(joint: Joint, beams: dict[str, Beam]) -> Joint:
     return OnBeam.model_construct(joint.model_fields_set | {"axis", "x_axis"}, **given)
 
 
-def _nearest(stations: Array, places: Array, tangents: Array, point: Array) -> tuple[float, Array, Array]:
-    """Where the line through the nodes is nearest to a global point (3,): place along the beam [m], the point, the slope there."""
+def element_of(stations: Array, place: float) -> int:
+    """Number of the node before a place, of those that are not the last; at a node the one before it."""
+    return min(max(int(np.searchsorted(stations, place, side="left")) - 1, 0), len(stations) - 2)
+
+
+def between(stations: Array, values: Array, e: int) -> Any:
+    """An axis of the sections, or its rate, between the nodes e and e + 1, from its values (N, 3) at all nodes: slopes at nodes are those
+    between their neighbours. A spline of scipy."""
+    from scipy.interpolate import CubicHermiteSpline
+
+    slopes = []
+    for n in (e, e + 1):
+        before, after = max(n - 1, 0), min(n + 1, len(values) - 1)
+        slopes.append((values[after] - values[before]) / (stations[after] - stations[before]))
+    return CubicHermiteSpline(stations[e : e + 2], values[e : e + 2], np.array(slopes))
+
+
+def _nearest(stations: Array, places: Array, tangents: Array, point: Array) -> tuple[float, Array]:
+    """Where the line through the nodes is nearest to a global point (3,): place along the beam [m], and the point there."""
     from scipy.interpolate import CubicHermiteSpline
     from scipy.optimize import minimize_scalar
 
@@ -91,4 +115,4 @@ def _nearest(stations: Array, places: Array, tangents: Array, point: Array) -> t
         square, bounds=(low, high), method="bounded", options={"xatol": 1e-12 * float(stations[-1])}
     )
     place = min((float(found.x), low, high), key=square)
-    return place, line(place), line(place, 1)
+    return place, line(place)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.record import Control, Record
 from nivel.system.layout import FrameLayout
+from nivel.system.rails import element_of
 from nivel.system.tables import Array, index_array
 
 
@@ -127,6 +128,14 @@ class System:
         own = self.gradient_sizes[: len(out)]
         out[np.flatnonzero(own)] = own[own > 0.0]
         return out
+
+    def hold_sliders(self, y: Array) -> None:
+        """Hold each slider that a beam carries on the element where it is in the state y, until it is told to go on."""
+        tree, coordinates = self.record.tree, self.record.coordinates
+        for k, (n, along) in enumerate(tree.slider.astype(int).tolist()):
+            first, last = coordinates.start[along : along + 2].astype(int)
+            stations = coordinates.station[first + 1 : last]
+            tree.element[k, 0] = first + 1 + element_of(stations, float(y[int(tree.place[n, 0])]))
 
     def known_rank(self, rank: int) -> System:
         """The same system prepared for `rank` independent rows: with redundant ones, for the rank-revealing path.

@@ -3,6 +3,9 @@
 Only joints whose relative motion can be written with joint coordinates carry a body in the tree; all others, and those that close a loop,
 stay constraints. The tree keeps as many constraint rows as it can, so the fewest are left (a maximum spanning tree, Prim 1957). Of joints
 with equally many rows it takes the one nearest to the ground first: the rows that are left act through short paths.
+
+A joint that slides along a beam carries its body on all nodes of the beam. It may be the root of what no other joint carries from the
+ground, in place of one that is free in space, as long as no node of the beam hangs on its body itself.
 """
 
 from __future__ import annotations
@@ -23,22 +26,33 @@ CARRIERS: Final[dict[str, int]] = {
     "planar": 3,
     "fixed": 6,
 }
+# of those that carry their first body along a beam
+SLIDERS: Final[dict[str, int]] = {
+    "point-on-beam": 2,
+    "keyed-on-beam": 3,
+    "cylindrical-on-beam": 4,
+    "translational-on-beam": 5,
+}
+ROWS: Final = CARRIERS | SLIDERS
 FREE: Final = -1
 
 
 @dataclass(frozen=True)
 class Edge:
-    """A joint between two bodies, by their numbers; the ground is the body after the last."""
+    """A joint between two bodies, by their numbers; the ground is the body after the last. rail : the nodes of a beam along which the first
+    body may slide, where it may be carried by them."""
 
     name: str
     type: str
     first: int
     second: int
+    rail: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
 class Branch:
-    """How a body hangs in the tree: on `parent` by joint number `joint`, or FREE of it. turned : its joint's first body is the child."""
+    """How a body hangs in the tree: on `parent` by joint number `joint`, or FREE of it. turned : its joint's first body is the child. A
+    slider hangs on nodes of its beam, and has the ground for its parent."""
 
     child: int
     parent: int
@@ -75,14 +89,55 @@ def spanning_tree(
     lighter = (
         [min((weight[b] for b in (e.first, e.second) if b < bodies), default=0.0) for e in edges] if heavy_first else []
     )
-    rank = [(-lighter[k] if heavy_first else 0.0, -CARRIERS.get(edge.type, 0)) for k, edge in enumerate(edges)]
+    rank = [(-lighter[k] if heavy_first else 0.0, -ROWS.get(edge.type, 0)) for k, edge in enumerate(edges)]
     _grow(bodies, 0, edges, around, reached, branches, rank)
+    island = _islands(bodies, edges, around)
+    roots = _sliding_roots(edges, kept, island, rank)
+    sliding = {island[edges[k].first] for k in roots}
     for body in sorted(range(bodies), key=lambda b: -weight[b] if len(weight) else b):
-        if not reached[body]:
+        if not reached[body] and island[body] not in sliding:
             branches.append(Branch(body, bodies, FREE, turned=False))
             _grow(body, 1, edges, around, reached, branches, rank)
+    while roots:
+        k = next(k for k in roots if all(reached[node] for node in edges[k].rail))
+        roots.remove(k)
+        branches.append(Branch(edges[k].first, bodies, k, turned=True))
+        _grow(edges[k].first, 1, edges, around, reached, branches, rank)
     carriers = {branch.joint for branch in branches}
     return SpanningTree(tuple(branches), tuple(k for k in range(len(edges)) if k not in carriers))
+
+
+def _islands(bodies: int, edges: Sequence[Edge], around: Sequence[Sequence[int]]) -> list[int]:
+    """For each body (then the ground) the number of the island of bodies that carry each other, the ground's being 0."""
+    island = [-1] * (bodies + 1)
+    for number, root in enumerate([bodies, *range(bodies)]):
+        left = [root] if island[root] < 0 else []
+        while left:
+            body = left.pop()
+            if island[body] < 0:
+                island[body] = number
+                left += [other for k in around[body] for other in (edges[k].first, edges[k].second)]
+    return island
+
+
+def _sliding_roots(
+    edges: Sequence[Edge], kept: Collection[str], island: Sequence[int], rank: Sequence[tuple[float, int]]
+) -> list[int]:
+    """Joints whose first body is the root of its island and slides on nodes of others, none of which hangs on it: those of lowest rank."""
+    chosen: list[int] = []
+    hangs_on: dict[int, set[int]] = {}
+
+    def depends(a: int, b: int) -> bool:
+        return a == b or any(depends(c, b) for c in hangs_on.get(a, ()))
+
+    for k in sorted(
+        (k for k, edge in enumerate(edges) if edge.rail and edge.name not in kept), key=lambda k: (rank[k], k)
+    ):
+        own, rails = island[edges[k].first], {island[node] for node in edges[k].rail}
+        if own != 0 and own not in hangs_on and not any(depends(rail, own) for rail in rails):
+            hangs_on[own] = rails
+            chosen.append(k)
+    return chosen
 
 
 def _grow(

@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.record import Constraints, Tree
+from nivel.kernels.record import NONE, Constraints, Tree
 
 
 def empty_tree(
-    constraints: Constraints, nodes: int = 0, columns: int = 0, positions: int = 0, bundle: int = 0, bodies: int = 0
+    constraints: Constraints,
+    nodes: int = 0,
+    columns: int = 0,
+    positions: int = 0,
+    bundle: int = 0,
+    bodies: int = 0,
+    sliders: int = 0,
 ) -> Tree:
     """Work arrays for a tree of so many nodes, columns, positions, rows in its largest bundle, bodies (with the ground and frames at
-    interfaces); tables are empty."""
+    interfaces), sliders on beams; tables are empty."""
     empty = np.zeros(0, dtype=np.uint32)
     return Tree(
         node=empty.reshape(0, 6),
@@ -31,6 +37,8 @@ def empty_tree(
         bundle=np.zeros(1, dtype=np.uint32),
         counted=empty.reshape(0, 2),
         turn=np.zeros((0, 2)),
+        slider=empty.reshape(0, 2),
+        slider_of=empty,
         theta=np.zeros((nodes, 4)),
         own=np.zeros((nodes, 3)),
         own_theta=np.zeros((nodes, 4)),
@@ -41,6 +49,10 @@ def empty_tree(
         alpha0=np.zeros((bodies, 3)),
         Rddot0=np.zeros((bodies, 3)),
         column=np.zeros((columns, 6)),
+        element=np.full((sliders, 2), NONE, dtype=np.uint32),
+        frame=np.zeros((sliders, 28)),
+        jump=np.zeros((sliders, 6)),
+        before=np.zeros((sliders, 12)),
         inertia=np.zeros((bodies, 27)),
         U=np.zeros((columns, 6)),
         Dinv=np.zeros(columns),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.kernels.record import NONE, Markers
+from nivel.kernels.record import NONE, Coordinates, Markers
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.orientation import (
     conjugate,
@@ -15,13 +15,14 @@ from nivel.machine.orientation import (
     matrix_from_euler_parameters,
     product,
 )
+from nivel.system.states.slider_start import Rail, slider_start
 from nivel.system.system import Array, System
 
 
 @dataclass(frozen=True)
 class Node:
     """One node of the tree: bodies, joint (or FREE), the markers of the joint on them (NONE: their frames), and where its positions and
-    velocities stand in the state. modes : of a node of a flexible body."""
+    velocities stand in the state. modes : of a node of a flexible body. along : of a slider on a beam, its place among the coordinates."""
 
     child: int
     parent: int
@@ -32,6 +33,7 @@ class Node:
     position: int
     velocity: int
     modes: int = 0
+    along: int = -1
 
 
 @dataclass(frozen=True)
@@ -105,6 +107,7 @@ def joint_start(
     frames: Frames,
     nodes: list[Node],
     machine: MachineRecord,
+    coordinates: Coordinates,
     bent: Mapping[int, Bent] | None = None,
 ) -> JointStart:
     """Joint coordinates of all nodes for poses of the bodies' own frames. bent : the nodes that are no joints."""
@@ -121,6 +124,14 @@ def joint_start(
             q += bent[n].modal.tolist()
             v += [0.0] * len(bent[n].modal)
             joint = bent[n].turn
+        elif node.along >= 0:
+            pose = bodies.R[node.child], bodies.A[node.child], bodies.Rdot[node.child], bodies.omega[node.child]
+            positions, velocities = slider_start(
+                node.kind, pose, _rail(bodies, markers, frames, coordinates, node.along)
+            )
+            q += positions
+            v += velocities
+            joint = euler_parameters_from_matrix(bodies.A[node.child])
         else:
             seen = _seen(bodies, node, first[n], number[n, 4:])
             pitch = machine.joints[node.joint].pitch or 0.0 if node.kind == "screw" else 0.0
@@ -131,6 +142,21 @@ def joint_start(
         turned[node.child] = product(product(turned[node.parent], theta[n]), joint)
     own_theta = np.array([product(conjugate(e), f) for e, f in zip(turned, bodies.theta, strict=False)])
     return JointStart(np.array(q), np.array(v), number, first, theta, own_theta.reshape(-1, 4))
+
+
+def _rail(bodies: Poses, markers: Markers, frames: Frames, coordinates: Coordinates, along: int) -> Rail:
+    """The beam of a slider, as its nodes are."""
+    parts = slice(int(coordinates.start[along]) + 1, int(coordinates.start[along + 1]))
+    r, axes, rdot, omega = [], [], [], []
+    for k in coordinates.part_marker[parts].tolist():
+        b = int(markers.body[k])
+        frame, point = frames.marker(markers, k, b)
+        u = bodies.A[b] @ point
+        r.append(bodies.R[b] + u)
+        axes.append(bodies.A[b] @ frame)
+        rdot.append(bodies.Rdot[b] + np.cross(bodies.omega[b], u))
+        omega.append(bodies.omega[b])
+    return Rail(coordinates.station[parts], float(coordinates.reference[along]), *map(np.array, (r, axes, rdot, omega)))
 
 
 def poses(absolute: System, y: Array) -> Poses:

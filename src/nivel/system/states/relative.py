@@ -10,17 +10,21 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.kernels.coordinate import ALONG
 from nivel.kernels.record import COMPLETE, NONE, Bodies, Constraints, Frames, Markers, Record, Saddle
 from nivel.kernels.record import Friction as FrictionTables
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.orientation import conjugate, product
 from nivel.machine.settings import SimulationSettings
 from nivel.system.elimination import plan
+from nivel.system.rails import OnBeam
 from nivel.system.states.joint_start import Bent, Node, Poses, carried_frames, joint_start, poses
 from nivel.system.states.joint_start import Frames as OwnFrames
 from nivel.system.states.tree_nodes import (
+    TURNING,
     joint_node,
     number_of,
     placed,
@@ -41,13 +45,15 @@ Index = NDArray[np.uint32]
 
 
 def tree_of(machine: MachineRecord, settings: SimulationSettings, *, heavy_first: bool = False) -> SpanningTree:
-    """Spanning tree of `machine`. Joints that the settings name stay constraints, and those whose reaction loads a friction.
+    """Spanning tree of `machine`. Joints that the settings name stay constraints, and those whose reaction loads a friction; those that
+    slide along beams also beside flexible bodies, and with formulations other than newton-euler.
 
     heavy_first : see `nivel.system.topology.spanning_tree`.
     """
     number = {body.name: k for k, body in enumerate(machine.bodies)} | {"ground": len(machine.bodies)}
+    slides = not machine.is_flexible and settings.formulation == "newton-euler"
     edges = [
-        Edge(joint.name, joint.type, number[first], number[second])
+        Edge(joint.name, joint.type, number[first], number[second], _rail(joint, number) if slides else ())
         for joint, (first, second) in ((joint, bodies_of(machine, joint)) for joint in machine.joints)
     ]
     loading = {
@@ -86,7 +92,7 @@ def in_tree(
     """
     old, positions, columns = absolute.record, positions_in(nodes), velocities_in(nodes)
     frames = carried_frames(old.markers, nodes, len(own.R))
-    start = joint_start(own, old.markers, frames, nodes, machine, bent)
+    start = joint_start(own, old.markers, frames, nodes, machine, old.coordinates, bent)
     carried = {machine.joints[node.joint].name for node in nodes if node.joint != FREE}
     left = np.array([owner not in carried for owner in absolute.row_owner], dtype=bool)
     rows = np.flatnonzero(left).astype(np.uint32)
@@ -95,17 +101,19 @@ def in_tree(
     paths = _paths(nodes, parts, len(rows) + len(old.friction.columns))
     blocks, path_tables = _blocks(nodes, paths, positions)
     angles = turns(old.coordinates, nodes, start.q)
-    in_use = _markers_in_use(old, nodes, angles.followed)
+    active = _active(old, nodes)
+    in_use = _markers_in_use(old, nodes, np.union1d(active, angles.followed))
+    sliders = [n for n, node in enumerate(nodes) if node.along >= 0]
     bundle = int(np.diff(path_tables["bundle"]).max(initial=0))
     record = old._replace(
-        coordinates=old.coordinates._replace(followed=angles.followed),
+        coordinates=old.coordinates._replace(active=active, followed=angles.followed),
         bodies=_bodies_in(frames, old),
         markers=_markers_in(frames, old.markers),
         constraints=constraints,
         saddle=_saddle(rows, blocks, [absolute.row_owner[row] for row in rows], columns),
         outputs=old.outputs._replace(combination=reports),
         friction=_friction(old, blocks, len(rows), columns),
-        tree=empty_tree(old.constraints, len(nodes), columns, positions, bundle, len(own.R))._replace(
+        tree=empty_tree(old.constraints, len(nodes), columns, positions, bundle, len(own.R), len(sliders))._replace(
             node=_node_table(nodes, positions),
             place=index_array([(node.position, node.velocity) for node in nodes], 2),
             number=start.number,
@@ -116,7 +124,11 @@ def in_tree(
             size=np.array([absolute.size]),
             rows=_chosen(old, ~left)[0],
             marker=in_use,
-            turning=np.isin(in_use, _with_axes(old, constraints, angles.followed)).astype(np.uint32),
+            turning=np.isin(in_use, _with_axes(old, constraints, np.union1d(active, angles.followed))).astype(
+                np.uint32
+            ),
+            slider=index_array([(n, nodes[n].along) for n in sliders], 2),
+            slider_of=index_array([sliders.index(n) if n in sliders else NONE for n in range(len(nodes))], 1),
             counted=angles.counted,
             turn=angles.number,
             part=index_array(parts, 4),
@@ -128,9 +140,24 @@ def in_tree(
         hooks=old.hooks._replace(address=old.hooks.address.copy()),
     )
     record.hooks.address[COMPLETE] = complete
+    for n in sliders:
+        child = nodes[n].child
+        record.bodies.theta[child] = product(own.theta[child], conjugate(start.own_theta[child]))
     x = np.zeros(len(old.elements.state) + 2)
     system = replace(absolute, record=record, state_map=_map(nodes, positions, len(x)))
     return system.known_rank(rank), np.concatenate([start.q, start.v, x])
+
+
+def has_sliders(machine: MachineRecord, settings: SimulationSettings) -> bool:
+    """Whether a joint that slides along a beam carries a body in relative coordinates. The nodes of beams are bodies of `machine`."""
+    if not any(isinstance(joint, OnBeam) for joint in machine.joints):
+        return False
+    carrying = (machine.joints[branch.joint] for branch in tree_of(machine, settings).branches if branch.joint != FREE)
+    return any(isinstance(joint, OnBeam) for joint in carrying)
+
+
+def _rail(joint: Joint, number: Mapping[str, int]) -> tuple[int, ...]:
+    return tuple(number[node] for node in joint.nodes) if isinstance(joint, OnBeam) else ()
 
 
 def bodies_of(machine: MachineRecord, joint: Joint) -> tuple[str, str]:
@@ -290,17 +317,22 @@ def _starts(rows: list[int], count: int) -> Index:
     return np.searchsorted(rows, np.arange(count + 1)).astype(np.uint32)
 
 
-def _markers_in_use(old: Record, nodes: list[Node], followed: Index) -> Index:
+def _active(old: Record, nodes: list[Node]) -> Index:
+    """Coordinates that every evaluation needs: not those that only rows of sliders are made of which carry bodies."""
+    what = old.coordinates.what[old.coordinates.active]
+    sliders = [node.far for node in nodes if node.along >= 0]
+    return old.coordinates.active[~((what[:, 0] > ALONG) & np.isin(what[:, 1], sliders))]
+
+
+def _markers_in_use(old: Record, nodes: list[Node], measured_there: Index) -> Index:
     """Markers that every evaluation needs: not those of joints that carry bodies, unless a coordinate in use is measured between them."""
     carrying = {marker for node in nodes for marker in (node.near, node.far)}
-    in_use = np.union1d(old.coordinates.active, followed)
-    measured = _ends(old, in_use)
+    measured = _ends(old, measured_there)
     return index_array([k for k in range(len(old.markers.body)) if k not in carrying or k in measured], 1)
 
 
-def _with_axes(old: Record, left: Constraints, followed: Index) -> Index:
+def _with_axes(old: Record, left: Constraints, measured: Index) -> Index:
     """Markers whose axes an evaluation may need, or more: those of rows with axes, of coordinates, and all that forces name by number."""
-    measured = np.union1d(old.coordinates.active, followed)
     of_rows = [left.d1[:, [0, 2]], left.d2[:, [0, 2]], np.array(sorted(_ends(old, measured)), dtype=np.uint32)]
     return np.concatenate([table.ravel() for table in (*of_rows, old.elements.columns, old.friction.columns)])
 
@@ -341,7 +373,7 @@ def _map(nodes: list[Node], positions: int, rest: int) -> StateMap:
     for node in nodes:
         of_positions, count = units_of(node), width_of(node)
         units += of_positions
-        turning = 3 if node.kind in ("spherical", "free") else 0
+        turning = 3 if node.kind in TURNING else 0
         moving = count - turning
         plain += [(node.position + i, node.velocity + i) for i in range(moving)]
         rates += [f"{unit}/s" for unit in of_positions[:moving]] + ["1/s"] * turning

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from nivel.kernels import record as kernels
+from nivel.kernels.coordinate import ALONG
 from nivel.kernels.record import NONE, Record
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.states.joint_start import Node
-from nivel.system.topology import FREE, Branch
+from nivel.system.topology import FREE, SLIDERS, Branch
 
 # numbers of the kernels' kinds of nodes, positions and velocities of each, and units of the positions
 KINDS = {
@@ -21,9 +24,17 @@ KINDS = {
     "planar": (kernels.PLANAR, ("m", "m", "1"), 3),
     "fixed": (kernels.FIXED, (), 0),
     "free": (kernels.FREE, ("m",) * 3 + ("1",) * 4, 6),
+    "point-on-beam": (kernels.POINT_ON_BEAM, ("m",) + ("1",) * 4, 4),
+    "keyed-on-beam": (kernels.KEYED_ON_BEAM, ("m", "1", "1"), 3),
+    "cylindrical-on-beam": (kernels.CYLINDRICAL_ON_BEAM, ("m", "1"), 2),
+    "translational-on-beam": (kernels.TRANSLATIONAL_ON_BEAM, ("m",), 1),
     # between frames of a flexible body; nodes of kind "modal" have its modes
     "outward": (kernels.OUTWARD, (), 0),
 }
+
+
+# those that end with Euler parameters, and three velocities of these
+TURNING = ("spherical", "free", "point-on-beam")
 
 
 def units_of(node: Node) -> tuple[str, ...]:
@@ -67,4 +78,12 @@ def joint_node(machine: MachineRecord, old: Record, branch: Branch) -> Node:
     if branch.joint != FREE:
         kind, near = machine.joints[branch.joint].type, int(old.joints.first_marker[branch.joint])
         near, far = (near + 1, near) if branch.turned else (near, near + 1)
+    if kind in SLIDERS:
+        return Node(branch.child, branch.parent, branch.joint, kind, NONE, far, 0, 0, along=_along(old, far))
     return Node(branch.child, branch.parent, branch.joint, kind, near, far, 0, 0)
+
+
+def _along(old: Record, slider: int) -> int:
+    """The coordinate that is the place of a marker along its beam."""
+    what = old.coordinates.what
+    return int(np.flatnonzero((what[:, 0] == ALONG) & (what[:, 1] == slider))[0])

@@ -1,0 +1,99 @@
+"""Direct correction of states in relative coordinates where bodies slide along beams that carry them (report 44, §5.5): only joints that
+are cut can be open. Changes are least in the mass metric, by the matrix [M, C_qᵀ; C_q, 0] of the accelerations (`nivel.kernels.balance`).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.balance import find_matrix
+from nivel.kernels.compile import entry, stage
+from nivel.kernels.hook import call_hook
+from nivel.kernels.lu import solve_lu
+from nivel.kernels.record import NONE, RESIDUAL, correct_signature, record_at
+from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.saddle import exceeds
+from nivel.kernels.sparse_lu import solve_sparse_lu
+from nivel.kernels.status import OK
+
+MAX_CORRECTIONS = 3
+
+
+@stage
+def normalise(machine, y):
+    """θ := θ/|θ| for all Euler parameters."""
+    newton = record_at(machine).newton
+    for k in range(newton.place.shape[0]):
+        if newton.place[k, 1] == 0:
+            p = np.int64(newton.place[k, 0])
+            square = y[p] * y[p] + y[p + 1] * y[p + 1] + y[p + 2] * y[p + 2] + y[p + 3] * y[p + 3]
+            for i in range(4):
+                y[p + i] /= np.sqrt(square)
+
+
+@stage
+def find_change(machine, violation):
+    """The change of velocities, or of positions, that removes a violation (K,) of the linearised rows, in `newton.balance.b`."""
+    record = record_at(machine)
+    newton, own = record.newton, record.residual
+    f = newton.balance
+    first = own.vdot.shape[0] + newton.state.shape[0]
+    for i in range(first):
+        f.b[i] = 0.0
+    for k in range(own.row.shape[0]):
+        f.b[first + k] = -violation[own.row[k]]
+    if f.matrix.shape[0] == 0:
+        solve_sparse_lu(newton.lu, f.L, f.U, f.Dinv, f.b, f.work)
+    else:
+        solve_lu(f.matrix, f.pivot, f.b)
+
+
+@stage
+def move_positions(newton, y, change, theta):
+    """Positions after a small change; theta (4,) is work."""
+    for k in range(newton.place.shape[0]):
+        p, axis = np.int64(newton.place[k, 0]), newton.place[k, 1]
+        if axis == NONE:
+            y[p] += change[k]
+        elif axis == 0:
+            rates_of_parameters(y[p : p + 4], change[k : k + 3], theta)
+            for i in range(4):
+                y[p + i] += theta[i]
+
+
+@entry(correct_signature)
+def correct(machine, t, y):
+    """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137).
+
+    A level within its tolerance (control.stabilise[2:4], as a share of the row's scale) is left alone.
+    """
+    record = record_at(machine)
+    newton, own, saddle, constraints = record.newton, record.residual, record.saddle, record.constraints
+    tolerance, n = record.control.stabilise, own.vdot.shape[0]
+    positions = np.int64(y.shape[0]) - n - newton.state.shape[0] - 2
+    normalise(machine, y)
+    if saddle.row.shape[0] == 0:
+        return OK
+    factorised = False
+    for attempt in range(MAX_CORRECTIONS + 1):
+        for i in range(y.shape[0]):
+            own.y[i] = y[i]
+        status = call_hook(machine, RESIDUAL, 0, t)
+        if status != OK:
+            return status
+        at_positions = attempt < MAX_CORRECTIONS and exceeds(saddle, constraints.C, constraints.scale, tolerance[2])
+        if not at_positions and not exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]):
+            return OK
+        if not factorised:
+            status = find_matrix(machine, t)
+            if status != OK:
+                return status
+            newton.balanced[0], factorised = 1.0, True
+        find_change(machine, constraints.C if at_positions else constraints.Cdot)
+        if not at_positions:
+            for k in range(n):
+                y[positions + k] += newton.balance.b[k]
+            return OK
+        move_positions(newton, y, newton.balance.b, newton.last)
+        normalise(machine, y)
+    return OK

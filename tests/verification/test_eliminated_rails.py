@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 import beams
 from assembled import TIME, random_states
+from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.implicit import Wanted, equip
@@ -266,6 +267,13 @@ def test_what_does_not_go_stays_kept():
     loose["forces"]["rub"]["normal_load"] = 100
     assert carried_in(loose) == []
     assert carried_in(loose, integrator="generalised-alpha") == ["trolley"]
+
+
+def test_explicit_methods_are_left_the_accelerations_of_single_bodies():
+    """Lumped masses have them, unless a beam carries a body."""
+    plain = with_nodes(machine(bead("translational-on-beam")).record)
+    explicit = plain.replace(simulation=plain.simulation.replace(integrator="rk4"))
+    assert (choose_coordinates(plain), choose_coordinates(explicit)) == ("relative", "absolute")
 
 
 def test_the_ends_of_the_tree_are_no_circle():

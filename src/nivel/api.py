@@ -109,7 +109,7 @@ class Machine:
 
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
-        settings, coordinates = self.record.simulation, choose_coordinates(self.record)
+        settings, coordinates = self.record.simulation, self._coordinates()
         self._refuse_settings(self.asked)
         path = (coordinates, settings.formulation, settings.rotations)
         compile_path(self.record, path, listener or Listener())
@@ -206,7 +206,7 @@ class Machine:
         chosen._refuse_settings({*given, *self.asked})
         compile_seconds = compile_path(
             chosen.record,
-            (choose_coordinates(chosen.record), settings.formulation, settings.rotations),
+            (chosen._coordinates(), settings.formulation, settings.rotations),
             listener or Listener(),
             integrator=settings.integrator,
             stabilisation=settings.stabilisation,
@@ -344,11 +344,16 @@ class Machine:
         """Raise ModelError where the settings do not go together, or those `given` would have no effect."""
         from nivel.analysis.agreement import disagreements  # imports what builds machines
 
-        coordinates = choose_coordinates(self.record)
+        coordinates = self._coordinates()
         faults = idle_settings(given, self.record.simulation, coordinates)
         faults += self._placed(disagreements(self.record))
         if faults:
             raise ModelError(faults)
+
+    def _coordinates(self) -> str:
+        """The coordinates of a run. Raises ModelError where joints do not meet the beams that they slide along."""
+        with self._faults_in_file():
+            return choose_coordinates(self.record)
 
     @contextmanager
     def _faults_in_file(self) -> Iterator[None]:

@@ -435,7 +435,7 @@ def test_a_moment_of_inertia_of_matter_is_asked_for():
         ({"via": [5, 1, 0]}, "straight and not twisted"),
         ({"twist": 0.1}, "straight and not twisted"),
         ({"centroid": [0.1, 0]}, "superfluous|belongs to a section of a material"),
-        ({"shear_centre": [0.1, 0]}, "nothing off the diagonal"),
+        ({"shear_centre": [0.1, 0]}, "shear_centre: an `ancf-cable` is the same in all directions"),
     ],
 )
 def test_what_a_cable_does_not_have_is_refused(words, message):
@@ -453,8 +453,32 @@ def test_unknown_models_are_named():
 def test_a_cable_that_bends_unalike_is_refused():
     sections = cantilever("ancf-cable", None)
     sections["beams"]["rod"]["section"]["stiffness"][5] = 3.0
-    with pytest.raises(ModelError, match="bends alike in all directions"):
+    with pytest.raises(ModelError, match=r"bends alike in all directions.*here EI_y = 100, EI_z = 3 N m\^2"):
         machine(sections)
+    section_, coupled = sections["beams"]["rod"]["section"], np.diag([1e5, 1e5, 1e5, 80.0, 100.0, 100.0])
+    coupled[0, 3] = coupled[3, 0] = 20.0
+    section_["stiffness"] = coupled.tolist()
+    with pytest.raises(ModelError, match="numbers off the diagonal"):
+        machine(sections)
+    section_ |= {"stiffness": [1e5, 1e5, 1e5, 80.0, 100.0, 100.0], "mass_centre": [0.1, 0]}
+    with pytest.raises(ModelError, match="`mass_centre` is off the line"):
+        machine(sections)
+
+
+def test_a_cable_needs_no_shear_areas():
+    """It does not shear: the same motion with any."""
+    values = {"type": "values", "area": 1e-4, "iy": 1e-9, "iz": 1e-9, "torsion": 2e-9}
+    steel = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850}
+    sections = cantilever("ancf-cable", {"type": "force", "vector": [0, -0.1, 0]}, 4, section=values, material=steel)
+    tip = machine(sections).statics().array("position")[-1, -1]
+    assert tip[1] == pytest.approx(-0.1 * LENGTH**3 / (3 * 210), rel=1e-2)
+    sections["beams"]["rod"]["section"] = {**values, "shear_area_y": 5e-5, "shear_area_z": 5e-5}
+    assert_allclose(machine(sections).statics().array("position")[-1, -1], tip, rtol=1e-12)
+
+
+def test_the_check_names_the_model():
+    for model in MODELS:
+        assert f"8 {model} elements, 9 nodes" in str(machine(cantilever(model, None)).check())
 
 
 def test_methods_that_do_not_know_gradients_name_the_beam():

@@ -29,7 +29,7 @@ def test_angles_turn_for_ever_where_the_axis_of_the_turn_stays():
 
 def test_a_rotation_vector_stops_the_crank_before_a_full_turn():
     """sin(ψ/2)/(ψ/2) = 0.05 at ψ = 5.982 rad; the frames up to there are those of Euler parameters."""
-    settings = {"step": 1e-3, "output_interval": 0.01, "formulation": "lagrange"}
+    settings = {"step": 1e-3, "output_interval": 1e-3, "formulation": "lagrange"}
     result = run(machines.slider_crank(), rotations="rotation-vector", **settings)
     assert result.finished.outcome == "failed"
     message, advice, time = result.finished.failure

@@ -15,7 +15,14 @@ from test_flexible_examples import MACHINES, folder, machine  # noqa: F401
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 # seconds of the motion: enough to see that it moves
-BEAMS = {"cable": 0.2, "hinged-beams": 0.6, "slider-crank": 0.12, "spin-up": 4.0, "telescopic-boom": 0.5}
+BEAMS = {
+    "cable": 0.2,
+    "hinged-beams": 0.6,
+    "slider-crank": 0.12,
+    "spin-up": 4.0,
+    "telescopic-boom": 0.5,
+    "three-models": 0.4,
+}
 FLEXIBLE = {"crane": 1.0, "lever-spring": 0.2, "pendulum": 0.5, "slider-crank": 0.1, "spinning-blade": 0.5}
 BESIDE = """
 format: 1

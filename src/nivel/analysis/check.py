@@ -138,14 +138,12 @@ def _lines(facts: Check) -> Iterator[str]:
 def _beam_lines(beam: BeamFacts) -> Iterator[str]:
     orders = {1: "", 2: "quadratic ", 3: "cubic "}
     place = f"{beam.length:.6g} m long, from {_vector(beam.start)} to {_vector(beam.end)} m"
-    exact = beam.model == "geometrically-exact"
-    parts = (
-        f"{beam.elements} {orders[beam.order]}elements, {beam.nodes} nodes" if exact else f"{beam.nodes} rigid segments"
-    )
+    segments, kind = beam.model == "segments", f"{beam.model} " if beam.model.startswith("ancf") else orders[beam.order]
+    parts = f"{beam.nodes} rigid segments" if segments else f"{beam.elements} {kind}elements, {beam.nodes} nodes"
     yield f"  {beam.name}: {beam.mass:.6g} kg, {place}, {parts}"
     yield f"    stations {', '.join(beam.stations)}"
     slow, fast = _frequency(beam.first_bending), _frequency(beam.fastest)
-    yield f"    vibrates from about {slow} (bending, both ends free) to {fast} (a single {'element' if exact else 'spring'}), unstressed"
+    yield f"    vibrates from about {slow} (bending, both ends free) to {fast} (a single {'spring' if segments else 'element'}), unstressed"
 
 
 def _frequency(value: float) -> str:

@@ -186,8 +186,9 @@ def refuse_for_flexible(machine: MachineRecord, coordinates: str) -> None:
 
 def _lumped(machine: MachineRecord) -> str:
     """How the beams of a machine would have masses of single bodies, in words."""
-    gradients = any(beam.has_gradients for beam in machine.beams)
-    return f"`mass: lumped` for the beams{', which geometrically-exact ones can have' * gradients}"
+    if any(beam.has_gradients for beam in machine.beams):
+        return "beams of `model: segments`, or geometrically-exact ones of `mass: lumped`"
+    return "`mass: lumped` for the beams"
 
 
 def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates: str) -> None:
@@ -198,14 +199,25 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
     why = f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}"
     faults = []
     if coordinates not in ("absolute", "relative"):
-        faults.append(("coordinates", f"'{coordinates}' {why.format('absolute or relative')}"))
+        faults.append(
+            (
+                "coordinates",
+                f"'{coordinates}' {why.format('absolute' if machine.is_flexible else 'absolute or relative')}",
+            )
+        )
     if formulation != "newton-euler":
         faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
     if INTEGRATORS[machine.simulation.integrator].whole:
         faults.append(("integrator", f"'{machine.simulation.integrator}' {why.format('generalised-alpha')}"))
     out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
     out += [
-        Fault("", 0, 0, f"forces.{force.name}", f"friction {why.format('no friction')}")
+        Fault(
+            "",
+            0,
+            0,
+            f"forces.{force.name}",
+            f"friction under explicit integrators {why.format('generalised-alpha')}",
+        )
         for force in machine.forces
         if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual
     ]

@@ -35,6 +35,7 @@ MOST_TURN: Final = (
     0.5 * np.pi + 1e-6
 )  # of an element, unstressed: rotations within it are interpolated as vectors [rad]
 REPRESENTED: Final = 1e-6  # share by which sections may miss what a model can represent
+OTHERS: Final = "or take `model: ancf-beam` or `geometrically-exact`"
 FARTHEST: Final = 1e9  # m; farther points are slips, and their squares may overflow
 
 Points = Annotated[tuple[Position, ...], BeforeValidator(listed)]
@@ -139,6 +140,11 @@ class Beam(Checked):
         return self.model in ("ancf-cable", "ancf-beam")
 
     @property
+    def _missing_shear_areas(self) -> tuple[str, ...]:
+        """Those that the section lacks; a cable does not shear."""
+        return () if self.model == "ancf-cable" else missing_shear_areas(self.section)
+
+    @property
     def properties(self) -> BeamSection:
         """The section in numbers."""
         return beam_section(self.section, self.material, self.centroid, self.shear_centre)
@@ -186,7 +192,7 @@ class Beam(Checked):
 
     def _problems_of_height(self) -> Iterator[Problem]:
         """A section of a material that is higher than the beam is long, as a rectangle of its stiffness."""
-        if self.material is None or isinstance(self.section, GeneralSection) or missing_shear_areas(self.section):
+        if self.material is None or isinstance(self.section, GeneralSection) or self._missing_shear_areas:
             return
         stiffness, mass = np.diag(self.properties.stiffness), self.properties.mass
         height = float(
@@ -221,7 +227,7 @@ class Beam(Checked):
                 yield superfluous("centroid", "belongs to a section of a material; a general one has its `mass_centre`")
         elif self.material is None:
             yield Problem((), "`material` is missing: {youngs_modulus: …, poisson_ratio: …, density: …}")
-        missing = missing_shear_areas(self.section)
+        missing = self._missing_shear_areas
         if missing:
             words = " and ".join(f"`{name}`" for name in missing)
             message = (
@@ -238,7 +244,7 @@ class Beam(Checked):
         if self.interpolation == "total":
             yield Problem(("interpolation",), f"`model: {self.model}` has no rotations to interpolate: remove it")
         general = isinstance(self.section, GeneralSection)
-        if missing_shear_areas(self.section) or (self.material is None) != general:
+        if self._missing_shear_areas or (self.material is None) != general:
             return
         if self.model == "ancf-cable":
             yield from self._problems_of_cable()
@@ -257,19 +263,29 @@ class Beam(Checked):
             name = "via" if self.via is not None else "through" if self.through else "twist"
             yield Problem(
                 (name,),
-                "an `ancf-cable` is straight and not twisted while unstressed: take `ancf-beam`, or `geometrically-exact`",
+                f"an `ancf-cable` is straight and not twisted while unstressed: {OTHERS}",
             )
+        for name in ("centroid", "shear_centre"):
+            if any(getattr(self, name)):
+                yield Problem(
+                    (name,), f"an `ancf-cable` is the same in all directions about its line: remove it, {OTHERS}"
+                )
+                return
         own = self.properties
         C = own.stiffness
-        largest = float(np.abs(C[4:, 4:]).max())
-        alike = abs(C[4, 4] - C[5, 5]) <= REPRESENTED * largest
-        apart = np.abs(C - np.diag(np.diag(C))) <= REPRESENTED * np.sqrt(np.outer(np.diag(C), np.diag(C)))
-        if not alike or not apart.all() or np.any(own.mass_centre):
-            message = (
-                f"an `ancf-cable` bends alike in all directions and about its line (EI_y = {C[4, 4]:.6g}, EI_z = {C[5, 5]:.6g} N m^2, "
-                "nothing off the diagonal, centres on the line): take `ancf-beam`, or `geometrically-exact`"
-            )
-            yield Problem(("section",), message)
+        bending = C[4, 4], C[5, 5]
+        if np.any(own.mass_centre):
+            why = "its `mass_centre` is off the line"
+        elif abs(bending[0] - bending[1]) > REPRESENTED * max(bending):
+            why = f"EI_y = {bending[0]:.6g}, EI_z = {bending[1]:.6g} N m^2"
+        elif np.any(np.abs(C - np.diag(np.diag(C))) > REPRESENTED * np.sqrt(np.outer(np.diag(C), np.diag(C)))):
+            why = "its `stiffness` has numbers off the diagonal"
+        else:
+            return
+        message = (
+            f"an `ancf-cable` bends alike in all directions, and nothing couples its strains; here {why}: {OTHERS}"
+        )
+        yield Problem(("section",), message)
 
     def _problems_of_stations(self) -> Iterator[Problem]:
         near: dict[float, str] = {0.0: START, 1.0: END}

@@ -89,7 +89,9 @@ def beam_section(
     assert material is not None  # the record was checked
     E, G, rho = material.youngs_modulus, material.shear_modulus, material.density
     s = section_of(section, material.poisson_ratio)
-    stiffness = np.diag([E * s.area, G * s.shear_y, G * s.shear_z, G * s.torsion, E * s.iy, E * s.iz])
+    # where there is no shear, in cables, no force asks for this stiffness
+    shear_y, shear_z = (each if np.isfinite(each) else s.area for each in (s.shear_y, s.shear_z))
+    stiffness = np.diag([E * s.area, G * shear_y, G * shear_z, G * s.torsion, E * s.iy, E * s.iz])
     return BeamSection(
         _moved(stiffness, centroid, shear_centre),
         rho * s.area,

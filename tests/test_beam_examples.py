@@ -148,3 +148,13 @@ def test_three_models_of_one_bar_swing_together(run):
     np.testing.assert_allclose(result.array("sensor.cable.distance"), beside, rtol=1e-9)
     moments = [np.abs(result.sections(name)["moment"].values[:, :, 2]).max() for name in tips]
     np.testing.assert_allclose(moments, moments[0], rtol=1e-2)
+
+
+def test_an_eighth_of_a_circle_bends_into_space(run):
+    """Statics against Simo and Vu-Quoc 1986; the run, whose load grows slowly, ends within a hundredth of the way of the tip."""
+    statics = nivel.load(EXAMPLES / "bend-45.yaml").statics(duration=60, step=15)
+    tip = statics["arc.end.position"].values
+    half = int(np.flatnonzero(np.isclose(statics.abscissa, 30.0))[0])  # 300 N
+    np.testing.assert_allclose(tip[half], [22.33, 58.84, 40.08], rtol=5e-3)
+    np.testing.assert_allclose(tip[-1], [15.79, 47.23, 53.37], rtol=5e-3)
+    assert np.linalg.norm(run("bend-45")["arc.end.position"].values[-1] - tip[-1]) < 0.6

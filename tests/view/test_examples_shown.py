@@ -16,6 +16,7 @@ from test_flexible_examples import MACHINES, folder, machine  # noqa: F401
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 # seconds of the motion: enough to see that it moves
 BEAMS = {
+    "bend-45": 20.0,
     "cable": 0.2,
     "hinged-beams": 0.6,
     "slider-crank": 0.12,

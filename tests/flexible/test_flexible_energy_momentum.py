@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from nivel.machine import Body, Bushing, Friction, Joint, MachineRecord, Marker, PointForce
+from nivel.machine import Beam, Body, Bushing, Friction, Joint, MachineRecord, Marker, PointForce
 from running import run
 from tree_machines import MACHINES, beam, hinge, machine, write_beams
 
@@ -216,3 +216,30 @@ def test_a_stiff_body_moves_like_a_rigid_one(steel):
     common = {"step": 2e-3, "duration": 0.3, "output_interval": 0.02}
     found, expected = (run(each, **METHOD, **common) for each in (record, rigid))
     np.testing.assert_allclose(found.position, expected.position, atol=1e-3)
+
+
+def test_beams_of_consistent_mass_beside_a_flexible_body_keep_their_energy(folder):
+    """A geometrically exact beam between two flexible bars, all flying."""
+    section = {
+        "type": "general",
+        "stiffness": (2e4, 1e4, 1.2e4, 20, 30, 40),
+        "mass": 1.0,
+        "inertia": (2e-3, 1e-3, 1.2e-3),
+    }
+    rod = Beam(
+        name="rod",
+        **{"from": (1, 0, 0), "to": (2, 0, 0)},
+        section=section,
+        elements=3,
+        angular_velocity=(0.3, 2.0, 3.0),
+    )
+    bars = (
+        beam(folder, "a", (0, 0, 0), angular_velocity=(0.3, 2.0, 3.0), velocity=(0, -3.0, 2.0)),
+        beam(folder, "b", (2, 0, 0), angular_velocity=(0.3, 2.0, 3.0), velocity=(0, 3.0, -2.0)),
+    )
+    bars = tuple(bar.replace(flexible=bar.flexible.replace(damping_ratio=0.0)) for bar in bars)
+    joints = (hinge("left", "a", "rod.start", 1), hinge("right", "rod.end", "b", 2, axis=(0, 0.8, -0.6)))
+    flying = MachineRecord(name="flying", gravity=(0, 0, 0), bodies=bars, beams=(rod,), joints=joints)
+    r = run(flying, **METHOD, step=1e-3, duration=0.5, output_interval=0.01)
+    assert energy_error(r) < 1e-9
+    assert float(r.potential_energy.max()) > 1e-3

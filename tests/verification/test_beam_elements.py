@@ -230,18 +230,42 @@ def test_momenta_of_free_flight_are_kept(order):
     assert float(result.dataset["potential_energy"].max()) > 1e-3
 
 
-def test_energy_momentum_keeps_the_energy_of_a_flying_beam():
-    simulation = {
-        "duration": 10.0,
-        "step": 1e-3,
-        "integrator": "energy-momentum",
-        "coordinates": "absolute",
-        "stabilisation": "none",
-        "output_interval": 0.1,
-    }
-    result = simulate({**flying(1, "lumped"), "simulation": simulation})
+CONSERVING = {"integrator": "energy-momentum", "coordinates": "absolute", "stabilisation": "none"}
+
+
+@pytest.mark.parametrize("mass", ["consistent", "lumped"])
+def test_energy_momentum_keeps_the_energy_of_a_flying_beam(mass):
+    simulation = {"duration": 10.0, "step": 1e-3, "output_interval": 0.1, **CONSERVING}
+    result = simulate({**flying(1, mass), "simulation": simulation})
     assert result.dataset.attrs["outcome"] == "done"
-    assert trust(result)["energy_error_max"] < 1e-6 * float(result.dataset["kinetic_energy"][0])
+    assert trust(result)["energy_error_max"] < 1e-8 * float(result.dataset["kinetic_energy"][0])
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_energy_momentum_keeps_the_momenta_of_consistent_masses(order):
+    sections = {**flying(order), "simulation": {"duration": 0.3, "step": 1e-3, "output_interval": 0.02, **CONSERVING}}
+    result = simulate(sections)
+    beam = Beam(name="rod", **sections["beams"]["rod"])
+    p, L = momenta(result, masses_of(beam), beam.properties)
+    assert_allclose(p, np.broadcast_to(p[0], p.shape), atol=1e-11 * np.abs(p).max())
+    assert_allclose(L, np.broadcast_to(L[0], L.shape), atol=1e-8 * np.abs(L).max())
+    assert trust(result)["energy_error_max"] < 1e-8 * float(result.dataset["kinetic_energy"][0])
+    assert float(result.dataset["potential_energy"].max()) > 1e-3
+
+
+def test_energy_momentum_with_consistent_masses_has_order_two():
+    """Against generalised-alpha, which solves other equations, extrapolated from two steps."""
+
+    def end(step, **method):
+        base = {"duration": 0.05, "coordinates": "absolute", "output_interval": 0.05, "step": step}
+        return simulate({**flying(2), "simulation": {**base, **method}}).dataset["position"].values[-1]
+
+    other = {"integrator": "generalised-alpha"}
+    fine = end(1.25e-5, **other)
+    exact = fine + (fine - end(2.5e-5, **other)) / 3.0
+    errors = [np.abs(end(step, **CONSERVING) - exact).max() for step in (1e-4, 5e-5, 2.5e-5)]
+    assert errors[-1] < 1e-6
+    assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), 2.0, atol=0.2)
 
 
 def test_total_interpolation_of_rotations_loses_objectivity_with_the_square_of_the_element():

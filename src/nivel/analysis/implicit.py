@@ -15,7 +15,19 @@ from nivel.analysis.unknown_groups import unknown_groups
 from nivel.kernels.arrays import complex_twin
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES
-from nivel.kernels.record import GIVEN_FRICTION, MEASURE, NONE, PASS, POINTS, RAIL, RESIDUAL, TANGENT, Hooks, Record
+from nivel.kernels.record import (
+    GIVEN_FRICTION,
+    MEASURE,
+    MOMENTARY,
+    NONE,
+    PASS,
+    POINTS,
+    RAIL,
+    RESIDUAL,
+    TANGENT,
+    Hooks,
+    Record,
+)
 from nivel.motion.catalogue import path_of
 from nivel.system.beam_tangent import (
     elastic_family,
@@ -25,6 +37,7 @@ from nivel.system.beam_tangent import (
     rail_of,
     tangent_tables,
 )
+from nivel.system.beams import nodes_of_elements
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws import complex_address
 from nivel.system.system import Array
@@ -101,8 +114,17 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     row = np.ascontiguousarray(record.saddle.row[kept])
     own = record.flexible
     counts = (len(own.p), len(own.frame), len(own.body)) if wanted.free is not None else (0, 0, 0)
+    nodes = nodes_of_elements(record) if wanted.free is not None else []
     residual = residual_tables(
-        len(record.bodies.wrench) - 1, len(y), velocities, states, row, part, free=wanted.free, flexible=counts
+        len(record.bodies.wrench) - 1,
+        len(y),
+        velocities,
+        states,
+        row,
+        part,
+        free=wanted.free,
+        flexible=counts,
+        nodes=nodes,
     )
     if wanted.free is not None:
         solid = np.flatnonzero(~system.point_masses)
@@ -125,9 +147,10 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=flexible, sliding=sliding)
     assert path is not None
     family = import_module(wanted.whole or path.residual).residual
+    instant = import_module(path.residual).residual if wanted.balance else family
     hooks = record.hooks._replace(address=record.hooks.address.copy())
     record = record._replace(residual=residual, newton=newton, hooks=hooks)
-    hooks.address[RESIDUAL] = family.address
+    hooks.address[RESIDUAL], hooks.address[MOMENTARY] = family.address, instant.address
     if by_hand:
         record = record._replace(beams=tangent_tables(record, plan, plain))
         hooks.address[TANGENT] = import_module("nivel.kernels.beam_tangent").tangent.address
@@ -136,7 +159,7 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     if len(system.frictions):
         hooks.address[GIVEN_FRICTION] = import_module("nivel.kernels.friction_residual").rub.address
     twin = _twin(record, held=by_hand)
-    newton.address[:] = twin.address, family.complex_address
+    newton.address[:] = twin.address, family.complex_address, instant.complex_address
     return MotionEquations(replace(system, record=record), motion.kernels, twin)
 
 

@@ -207,7 +207,7 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
         )
     if formulation != "newton-euler":
         faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
-    if INTEGRATORS[machine.simulation.integrator].whole:
+    if INTEGRATORS[machine.simulation.integrator].whole and any(beam.has_gradients for beam in machine.beams):
         faults.append(("integrator", f"'{machine.simulation.integrator}' {why.format('generalised-alpha')}"))
     out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
     out += [

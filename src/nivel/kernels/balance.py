@@ -10,7 +10,7 @@ import numpy as np
 
 from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_hook
-from nivel.kernels.record import NONE, RESIDUAL, record_at
+from nivel.kernels.record import MOMENTARY, NONE, record_at
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.shifted_parts import factorise_entries, solve_entries
 from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
@@ -76,7 +76,7 @@ def balance(machine, t, y):
             own.lam[k] = 0.0
     last, noise, fresh = np.inf, 0.0, False
     for _ in range(MOST):
-        status = call_hook(machine, RESIDUAL, 0, t)
+        status = call_hook(machine, MOMENTARY, 0, t)
         if status != OK:
             return status
         for i in range(own.value.shape[0]):

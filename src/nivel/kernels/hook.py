@@ -29,9 +29,10 @@ class Family:
         self.address = int(self._code.address)
         FAMILIES[self.address] = self
 
-    def is_of(self, module: Any) -> bool:
-        """Whether the function is written in this module."""
-        return self._function.__module__ == module.__name__
+    @property
+    def module(self) -> str:
+        """Name of the module in which the function is written."""
+        return self._function.__module__
 
     @cached_property
     def complex_address(self) -> int:
@@ -46,7 +47,7 @@ FAMILIES: dict[int, Family] = {}
 def compile_on_complex_numbers(module: Any) -> None:
     """Compile the families of a module for exact derivatives, or load them from the cache."""
     for part in vars(module).values():
-        if isinstance(part, Family) and part.is_of(module):
+        if isinstance(part, Family) and part.module == module.__name__:
             assert part.complex_address
 
 

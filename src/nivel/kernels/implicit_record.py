@@ -23,6 +23,7 @@ class Interval(NamedTuple):
     modal: F1  # (m,) modal momenta at the start, the frame moving so that the body has no linear momentum
     frame: F2  # (N, 12) place and axes of the frames at interfaces at the start
     defect: F1  # (F,) power that the inertia forces on the modes miss
+    node: U1  # markers that are nodes of geometrically exact beams
     # work
     state: W1  # (S + 2,) mean states of forces
 
@@ -86,7 +87,7 @@ class Shifted(NamedTuple):
 class Newton(NamedTuple):
     """Newton's iteration for the residual, in a state that is an affine function of the unknowns; see `nivel.kernels.newton`."""
 
-    address: A1  # (2,) of the record with complex work, of its residual
+    address: A1  # (3,) of the record with complex work, of its residual, and of that at an instant where the residual is over a step
     place: (
         U2  # (n, 2) place in y of the position that a velocity moves, NONE; or of four Euler parameters, axis 0, 1 or 2
     )

@@ -88,7 +88,7 @@ def differentiate_part(machine, t, part, out):
                 count += 1
         if count == 0:
             continue
-        status = call_family(newton.address[1], twin, 0, complex(t))  # type: ignore[call-arg]
+        status = call_family(newton.address[2], twin, 0, complex(t))  # type: ignore[call-arg]
         if status != OK:
             return status
         for m in range(first, last):

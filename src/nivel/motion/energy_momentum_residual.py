@@ -26,6 +26,8 @@ from nivel.kernels.locked_motion import internal_motion, locked_motion
 from nivel.kernels.record import record_at
 from nivel.kernels.residual import load_multipliers
 from nivel.kernels.rigid import load_weight
+from nivel.kernels.shared_interval import begin_shared_interval, change_shared_momenta
+from nivel.kernels.shared_mass import transposed_product
 from nivel.kernels.spatial import cross, dot, multiply
 from nivel.kernels.status import OK
 from nivel.motion.newton_euler import read_markers, read_state
@@ -57,6 +59,7 @@ def begin_interval(machine, h, length):
         for i in range(3):
             start[6 + i] = dot(A[i], momentum)
         total += bodies.mass[b]
+    begin_shared_interval(machine)
     begin_flexible_interval(machine)
     interval.numbers[STEP], interval.numbers[STORED] = h, record.control.stored[0]
     # motions of less than this share of the machine in a step do no work that could be missed
@@ -179,6 +182,24 @@ def push(machine, stored):
 
 
 @stage
+def straighten_nodes(machine):
+    """Bring the axes of the nodes of beams, ½ (A₀ + A₁) at the mean place, to those of half the turn, Ā (σ - k kᵀ/(1 + σ)) with
+    σ² = 1 + k·k: forces of an element are in balance only on axes at right angles."""
+    record = record_at(machine)
+    markers, bodies, interval = record.markers, record.bodies, record.residual.interval
+    half = 0.5 * interval.numbers[STEP]
+    for n in range(interval.node.shape[0]):
+        m = interval.node[n]
+        A, w = markers.A[m], transposed_product(markers.frame_b[m], bodies.omega_b[markers.body[m]])
+        k = half * w[0], half * w[1], half * w[2]
+        sigma = np.sqrt(1.0 + dot(k, k))
+        for i in range(3):
+            along = (A[i, 0] * k[0] + A[i, 1] * k[1] + A[i, 2] * k[2]) / (1.0 + sigma)
+            for j in range(3):
+                A[i, j] = sigma * A[i, j] - along * k[j]
+
+
+@stage
 def mean_forces(machine, t):
     """Wrenches of all applied forces and of the joints at the mean place, where the bodies are. Returns a status."""
     record = record_at(machine)
@@ -188,6 +209,7 @@ def mean_forces(machine, t):
         own.interval.state[i] = 0.5 * (newton.base[first + i] + own.y[first + i])
     status = read_markers(machine, t)
     if status == OK:
+        straighten_nodes(machine)
         load_weight(record.bodies)
         status = apply_forces(machine, t, own.interval.state)
     if status == OK:
@@ -241,6 +263,7 @@ def residual(machine, job, t):
     close_end(machine)
     for b in range(record.bodies.mass.shape[0]):
         change_momentum(machine, b, h)
+    change_shared_momenta(machine, first_rate(record), h)
     status = mean_forces(machine, t - 0.5 * h)
     if status != OK:
         return status

@@ -29,6 +29,7 @@ from nivel.kernels.floating_dynamics import gather_frames
 from nivel.kernels.floating_frame import bend_body, modes_of
 from nivel.kernels.hook import apply_forces, family
 from nivel.kernels.record import record_at
+from nivel.kernels.shared_interval import change_shared_momenta
 from nivel.kernels.spatial import dot
 from nivel.kernels.status import OK
 from nivel.motion.energy_momentum_residual import (
@@ -104,6 +105,7 @@ def residual(machine, job, t):
     for b in range(count):
         if flexible.rigid[b] == 1:
             change_momentum(machine, b, h)
+    change_shared_momenta(machine, first_rate(record), h)
     for f in range(flexible.body.shape[0]):
         change_flexible_momentum(machine, f, h)
     for k in range(flexible.frame.shape[0]):

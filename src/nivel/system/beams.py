@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from nivel.kernels.beam_record import BeamTangent, SharedMass
-from nivel.kernels.record import NONE
+from nivel.kernels.hook import FAMILIES as COMPILED
+from nivel.kernels.record import NONE, Record
 from nivel.machine.beam import Beam
 from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.machine.placement import placement
@@ -64,6 +65,16 @@ def _add_elements(draft: Draft, beam: Beam) -> None:
         number = [beam.damping, *section.stiffness.ravel().tolist(), *points.ravel().tolist(), *[0.0] * 60]
         draft.elements.add(family_of(beam), index, number)
         draft.noted.append(frozenset(draft.markers.body[node] for node in nodes))
+
+
+def nodes_of_elements(record: Record) -> list[int]:
+    """Markers that are nodes of geometrically exact beams."""
+    names, out = {f"nivel.kernels.forces.{name}" for name in (ELASTIC, OTHER)}, set[int]()
+    for address, (first, last) in zip(record.elements.address, record.elements.span.tolist(), strict=True):
+        if COMPILED[int(address)].module in names:
+            for row in record.elements.columns[first:last].tolist():
+                out.update(row[: row[MOST_NODES]])
+    return sorted(out)
 
 
 def no_tangent() -> BeamTangent:

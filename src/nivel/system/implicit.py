@@ -40,11 +40,12 @@ def residual_tables(
     *,
     free: bool | None = None,
     flexible: tuple[int, int, int] = (0, 0, 0),
+    nodes: Sequence[int] = (),
 ) -> Residual:
     """For so many bodies, entries of y, velocities and states of forces. row, part : as in `Residual`.
 
     free : whether nothing joins the machine to the ground, for residuals over a whole step; None for all others. flexible : numbers of
-    modes, frames at interfaces and flexible bodies that such a residual knows.
+    modes, frames at interfaces and flexible bodies that such a residual knows. nodes : markers that are nodes of geometrically exact beams.
     """
     rows = len(row)
     whole = free is not None
@@ -65,6 +66,7 @@ def residual_tables(
             modal=np.zeros(flexible[0]),
             frame=np.zeros((flexible[1], 12)),
             defect=np.zeros(flexible[2]),
+            node=index_array(nodes, 1),
             state=np.zeros(states + 2 if whole else 0),
         ),
     )
@@ -151,7 +153,7 @@ def newton_tables(
     L, U, Dinv, work = factor.workspace() if not dense else (np.zeros(0),) * 4
     full = size if dense else 0
     return Newton(
-        address=np.zeros(2, dtype=np.uint64),
+        address=np.zeros(3, dtype=np.uint64),
         place=place,
         group=plan.group,
         group_start=plan.group_start,

@@ -110,6 +110,22 @@ def test_free_steel_beam_vibrates(elements, order, close):
     assert np.all(result.array("unstable_directions") == 0)
 
 
+@pytest.mark.parametrize("elements", [40, 120])
+@pytest.mark.parametrize(("held", "x"), [(True, (1.875104, 4.694091)), (False, (4.730041, 7.853205))])
+def test_a_wire_vibrates_though_its_sections_have_hardly_any_inertia(elements, held, x):
+    """1 m of wire whose sections turn at 1e9 rad/s against shear: no round-off of these hides the low ones. Both ways to eigenvalues."""
+    section = {"type": "general", "stiffness": [1e8, 1e8, 1e8, 1e3, 1e3, 1e3], "mass": 1.0, "inertia": [1e-11] * 3}
+    sections = {"beams": {"wire": {"from": [0, 0, 0], "to": [1, 0, 0], "section": section, "elements": elements}}}
+    if held:
+        sections["joints"] = {"root": {"type": "fixed", "bodies": ["ground", "wire.start"], "point": [0, 0, 0]}}
+    rigid = 0 if held else 6
+    result = machine(sections).statics(duration=0, modes=rigid + 4)
+    expected = np.repeat(np.array(x) ** 2 * np.sqrt(1e3) / (2 * np.pi), 2)
+    found = result.array("natural_frequency")[0]
+    np.testing.assert_array_equal(found[:rigid], 0.0)
+    np.testing.assert_allclose(found[rigid:], expected, rtol=4e-3)
+
+
 def test_curved_cantilever_bends_out_of_its_plane():
     """45° of a circle of 100, loaded across at its tip by 600: Bathe, Bolourchi 1979; tip (15.79, 47.23, 53.37) of Simo, Vu-Quoc 1986 with
     eight linear elements."""

@@ -176,11 +176,30 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
         if not Z.shape[1]:
             return np.zeros(0), np.zeros((size, 0))
         inner = Z.T @ (tangent.K @ Z), symmetric(Z.T @ (M @ Z))
-        values, vectors = eigh(symmetric(inner[0]), inner[1]) if has_potential(tangent) else _general(*inner)
+        values, vectors = _symmetric(symmetric(inner[0]), inner[1]) if has_potential(tangent) else _general(*inner)
         order = np.argsort(np.abs(values), kind="stable") if nearest else np.arange(len(values))
         chosen = np.sort(order[:count])
         return values[chosen], Z @ vectors[:, chosen]
     return _lanczos(tangent, count, M)
+
+
+def _symmetric(K: Array, M: Array) -> tuple[Array, Array]:
+    """Eigenvalues and directions of K φ = ω² M φ, ascending. Every ω² is known to ε times the largest, which is nothing of the low ones
+    where rotations of hardly any inertia are stiff. Those below the geometric mean of both are taken from M φ = θ (K + s M) φ."""
+    values, vectors = eigh(K, M)
+    for share in SHIFTS:
+        shift = share * float(np.max(np.abs(values), initial=0.0))
+        try:
+            theta, low = eigh(M, K + shift * M)
+        except np.linalg.LinAlgError:
+            continue  # not positive definite
+        theta, low = theta[::-1], low[:, ::-1]
+        if not theta[-1] > 0.0:
+            continue
+        own = theta > np.sqrt(theta[0] * theta[-1])
+        values[own], vectors[:, own] = 1.0 / theta[own] - shift, low[:, own] / np.sqrt(theta[own])
+        break
+    return values, vectors
 
 
 def _general(K: Array, M: Array) -> tuple[Array, Array]:

@@ -12,8 +12,9 @@ from nivel.analysis.statics.equations import Tangent
 from nivel.analysis.statics.linear import PivotError, factors, fastest, free_directions, is_small, lowest, symmetric
 from nivel.system.system import Array
 
-# Squares of frequencies below this share of those found, or below this share of the largest that a machine has, are rigid motions.
-RIGID, ROUND_OFF = 1e-11, 1e-13
+# Squares of frequencies ω² = φᵀ K φ below this share of |φ|ᵀ |K| |φ| are round-off: rigid motions. About unstable equilibria all are known
+# to such a share of the largest only.
+ROUND_OFF = 1e-13
 # Machines of up to so many unknowns get their damping: the eigenvalues of a full matrix of twice the size.
 DAMPED = 400
 
@@ -36,7 +37,10 @@ class Vibrations:
 def vibrations(tangent: Tangent, count: int) -> Vibrations:
     """The `count` lowest vibrations about the equilibrium of a tangent."""
     squares, shapes = lowest(tangent, count, tangent.M)
-    still = np.abs(squares) <= max(RIGID * float(np.max(np.abs(squares), initial=0.0)), ROUND_OFF * _largest(tangent))
+    known = np.einsum("ik,ik->k", np.abs(shapes), np.abs(tangent.K) @ np.abs(shapes))
+    still = np.abs(squares) <= ROUND_OFF * known
+    if np.any((squares < 0.0) & ~still):
+        still |= np.abs(squares) <= ROUND_OFF * _largest(tangent)
     squares = np.where(still, 0.0, squares)
     rates = np.full(count, np.nan, dtype=complex)
     if tangent.K.shape[0] <= DAMPED and tangent.D.count_nonzero():

@@ -7,7 +7,7 @@ import numpy as np
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, record_at
-from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.kernels.status import NOT_CONVERGED, OK, SINGULAR
 from nivel.kernels.tree import has_passed
 from nivel.march.residual_newton import iterate
 from nivel.march.run import EVALUATIONS, RESTART, run_at
@@ -55,7 +55,7 @@ def start(evaluate, machine, history, t, h):
 
 @stage
 def refresh(machine, run):
-    """As stabilised index 2, take accelerations, rates and multipliers of the accepted state from its evaluation by the loop.
+    """But for index 3, take accelerations, rates and multipliers of the accepted state from its evaluation by the loop.
 
     In a step only the mean of the accelerations at both ends counts for an undamped method: what it got wrong once along the constraints
     would alternate for ever. a becomes what `keep_step` would have made of these accelerations.
@@ -163,7 +163,7 @@ def solve_step(machine, history, h, end, tolerance):
     cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)
     status = iterate(machine, history, end, cq, cv, cx, tolerance)
     for share in (1.0, 0.0):
-        if status != NOT_CONVERGED:
+        if status not in (NOT_CONVERGED, SINGULAR):
             break
         predict(run, record.newton, record.residual, h)
         cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)

@@ -55,20 +55,12 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
     name = f"`integrator: {settings.integrator}`"
     if settings.formulation == "lagrange":
         message = (
-            f"'lagrange' does not go with {name}, whose tangents are those of angular velocities and of small turns, not of rotation "
+            f"'lagrange' does not go with {name}, which has the exact tangents of angular velocities and small turns, not of rotation "
             f"parameters and their rates: take newton-euler, whose motion is the same"
         )
         faults.append(_fault("formulation", message))
     if facts.whole:
         return faults + _refuse_beside_whole_steps(settings, coordinates)
-    if settings.stabilisation == "baumgarte":
-        message = f"'baumgarte' does not go with {name}, " + (
-            "whose tangents are those of the equations without its feedback: take direct, geometric (and the energy kept), or none"
-            if facts.rates
-            else "which solves the constraints themselves and not their second derivative: take direct (stabilised index 2), "
-            "geometric (and the energy kept), or none (index 3)"
-        )
-        faults.append(_fault("stabilisation", message))
     if facts.implicit and settings.corrector.iteration == "functional":
         message = f"'functional' does not go with {name}, which takes Newton's method with exact tangents: leave `iteration` out"
         faults.append(_fault("corrector.iteration", message))

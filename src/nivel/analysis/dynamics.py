@@ -351,7 +351,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     numbers[: len(settings.constants)] = settings.constants
     record = system.record
     record.control.iterations[1:] = 0, MOST_UNSETTLED
-    forget(record.partition)
+    forget(record.partition, formulas=facts.accelerations)
     record.newton.kept[:] = 0.0
     record.newton.balanced[0] = 0.0
     record.residual.vdot[:] = 0.0

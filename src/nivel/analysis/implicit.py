@@ -77,9 +77,9 @@ def constraint_index(formulation: str, stabilisation: str, path: PathFacts) -> i
     """What methods that solve for accelerations have the multipliers close, see `Newton.level`."""
     if path.dependent:
         return 0
-    if FORMULATIONS[formulation].factor > 0.0:
-        return 1
-    return 3 if stabilisation == "none" else 2
+    if stabilisation in ("direct", "geometric"):
+        return 2
+    return 1 if FORMULATIONS[formulation].factor > 0.0 or stabilisation == "baumgarte" else 3
 
 
 def equip(motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted = INSTANT) -> MotionEquations:

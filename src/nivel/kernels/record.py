@@ -330,7 +330,7 @@ class Partition(NamedTuple):
     column: U1  # (n,) the dependent velocities, then the independent ones
     row: U1  # (K,) rows that determine the dependent velocities, then those that follow from them
     choices: U1  # (1,) partitions chosen so far
-    quality: F1  # (2,) least growth of B since the last choice; smallest pivot of C_d
+    quality: F1  # (3,) least growth of B since the last choice; smallest pivot of C_d; growth at which another choice is made
     # work
     column_place: U1  # (n,) where each velocity stands in `column`
     row_place: U1  # (K,)

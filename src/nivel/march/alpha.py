@@ -91,7 +91,7 @@ def fixed_step(evaluate, machine, history):
         end = corner if at_corner and not is_near(corner, target) else target
         if is_fresh(run) or run.numbers[LAST_STEP] == 0.0:
             start(evaluate, machine, history, t, end - t)
-        elif record_at(machine).newton.level[0] < 3:
+        elif record_at(machine).newton.level[0] in (1, 2):
             refresh(machine, run)
         h = run.clock[STEP] if not at_corner and t == run.clock[TIME] else end - t
         end_side = before(end) if at_corner else end
@@ -163,7 +163,7 @@ def controlled_step(evaluate, machine, history):
             h = clock[REACHED] - t
         if fresh:
             start(evaluate, machine, history, t, h)
-        elif newton.level[0] < 3:
+        elif newton.level[0] in (1, 2):
             refresh(machine, run)
         end = before(clock[REACHED]) if corner < np.inf else clock[REACHED]
         close = max(CLOSE * part_of(run, h), EXACT)

@@ -4,8 +4,9 @@ Every method gives the state as an affine function of the unknown accelerations 
 
 With index 3 the multipliers close the positions. With index 2 they close the velocities, and `correction` the positions: along
 (M + cv D + cq K)⁻¹ C_qᵀ, so that stiff springs are not stretched by it (the stabilised form of Gear, Gupta, Leimkuhler 1985). With
-index 1 they close the accelerations, with the feedback of velocities and positions; penalties leave them open by λ/α, and with them the
-matrix has -1/α at the multipliers: where these are iterated, C̈ = 0, so each iteration is one of the augmented Lagrangian.
+index 1 they close the accelerations, with the feedback of velocities and positions. Penalties leave what is closed open by λ/α, in units
+of accelerations, and with them the matrix has -1/α at the multipliers: where these are iterated nothing is left open, so that each iteration
+is one of the augmented Lagrangian.
 
 In independent coordinates (index 0) all constraints are closed whenever the residual is evaluated, and a change is one along them:
 C_q δv̇ = 0 in the same matrix. What it makes of the dependent velocities and accelerations is left out, C_q δv̇ = -cv ∂C̈/∂v δv̇ for one: a
@@ -70,7 +71,7 @@ def write_defect(machine, cq, cv):
             b[first + k] = -value[first + rows + k] / cv
         else:
             b[first + k] = -value[first + 2 * rows + k] if level == 1 else 0.0
-    if level == 1 and record.control.iterations[0] <= 1:
+    if level != 0 and record.control.iterations[0] <= 1:
         for k in range(newton.compliance.shape[0]):
             b[first + k] += newton.compliance[k] * residual.lam[k]
 

@@ -1,4 +1,4 @@
-"""Penalty methods and Baumgarte's feedback with implicit integrators: orders, tolerances, redundant joints, impulses at corners of drivers."""
+"""Penalty methods and Baumgarte's feedback with implicit integrators: orders, tolerances, redundant joints, impulses at corners."""
 
 import numpy as np
 import pytest

@@ -4,14 +4,14 @@ Every method gives the state as an affine function of the unknown accelerations 
 
 With index 3 the multipliers close the positions. With index 2 they close the velocities, and `correction` the positions: along
 (M + cv D + cq K)⁻¹ C_qᵀ, so that stiff springs are not stretched by it (the stabilised form of Gear, Gupta, Leimkuhler 1985). With
-index 1 they close the accelerations, with the feedback of velocities and positions. Penalties leave what is closed open by λ/α, in units
-of accelerations, and with them the matrix has -1/α at the multipliers: where these are iterated nothing is left open, so that each iteration
-is one of the augmented Lagrangian.
+index 1 they close the accelerations, with the feedback of velocities and positions. Penalties leave what is closed open by λ/α, in
+units of accelerations, and with them the matrix has -1/α at the multipliers: where these are iterated nothing is left open, so that
+each iteration is one of the augmented Lagrangian.
 
 In independent coordinates (index 0) all constraints are closed whenever the residual is evaluated, and a change is one along them:
-C_q δv̇ = 0 in the same matrix. What it makes of the dependent velocities and accelerations is left out, C_q δv̇ = -cv ∂C̈/∂v δv̇ for one: a
-share of the order of the step of M, and none of K. So the iteration contracts by the order of the step and not better, also with a new
-matrix, and does so whatever the stiffness.
+δC̈ = 0 in the same matrix. It has positions and velocities move with the accelerations, also those that are dependent, which differ
+from the formulas by the curvature of the constraints over a step. So the iteration contracts by the square of the step with a new
+matrix, by the step where a stiff spring acts on what is dependent, and not better.
 
 Policy: a matrix is kept, also from step to step, as long as the step is the same and the iterations that it still asks for are cheaper than
 a new one, which takes about two of them for every evaluation on complex numbers; then it is made anew at the iterate. On request it is
@@ -240,7 +240,7 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
         if status == OK and not is_finite(record.residual.value):
             status = NOT_FINITE
         if status == OK and (stale or not is_kept(newton, cq, cv, cx)):
-            status = differentiate(machine, t, cq, cv, cx, ACCELERATIONS if newton.level[0] == 1 else POSITIONS)
+            status = differentiate(machine, t, cq, cv, cx, ACCELERATIONS if newton.level[0] < 2 else POSITIONS)
             if status == OK:
                 status = factorise(machine)
             counter[FACTORISATIONS] += 1

@@ -299,9 +299,7 @@ def test_implicit_methods_have_order_two_in_independent_coordinates(folder, inte
         assert r.finished.outcome == "done"
         assert np.abs(r.constraint_violation).max() < 1e-10
         assert np.abs(r.constraint_rate_violation).max() < 1e-10
-        names = (
-            ("position", "velocity", "modal_coordinate") if hasattr(r, "modal_coordinate") else ("position", "velocity")
-        )
+        names = ("position", "velocity", "modal_coordinate")
         errors.append([np.abs(getattr(r, name) - getattr(fine, name)).max() for name in names])
     assert np.all(np.abs(np.log2(np.array(errors)[:-1] / errors[1:]) - 2.0) < 0.3)
 

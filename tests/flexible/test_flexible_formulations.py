@@ -281,6 +281,53 @@ def test_partition_changes_on_the_way(folder):
     assert np.abs(r.energy_error).max() < 1e-5 * r.kinetic_energy.max()
 
 
+def double_pendulum(folder, modes):
+    bars = [beam(folder, name, (k, 0, 0), file="beam", modes=modes) for k, name in enumerate("ab")]
+    hinges = [hinge("r", "ground", "a", 0.0, axis=(0, 0, 1)), hinge("e", "a", "b", 1.0, axis=(0, 0, 1))]
+    return machine("double", bars, hinges)
+
+
+@pytest.mark.parametrize("integrator", ["newmark", "generalised-alpha", "ros2"])
+def test_implicit_methods_have_order_two_in_independent_coordinates(folder, integrator):
+    """Positions and velocities, modes included in what moves them; the first mode of a bar has some 100 periods a second."""
+    record = double_pendulum(folder, 1)
+    common = {"duration": 0.1, "output_interval": 0.01}
+    fine = run(record, integrator="rk4", step=2e-5, coordinates="absolute", **common)
+    errors = []
+    for step in (2e-4, 1e-4, 5e-5):
+        r = run(record, integrator=integrator, step=step, **common, **METHODS["independent"])
+        assert r.finished.outcome == "done"
+        assert np.abs(r.constraint_violation).max() < 1e-10
+        assert np.abs(r.constraint_rate_violation).max() < 1e-10
+        names = ("position", "velocity", "modal_coordinate")
+        errors.append([np.abs(getattr(r, name) - getattr(fine, name)).max() for name in names])
+    assert np.all(np.abs(np.log2(np.array(errors)[:-1] / errors[1:]) - 2.0) < 0.3)
+
+
+@pytest.mark.parametrize("integrator", ["radau", "bdf"])
+def test_implicit_methods_meet_their_tolerance_in_independent_coordinates(folder, integrator):
+    record = MACHINES["loop"](folder)
+    common = {"duration": 0.05, "output_interval": 0.005}
+    fine = run(record, integrator="rk4", step=1e-5, coordinates="absolute", **common)
+    r = run(record, integrator=integrator, tolerance=1e-6, **common, **METHODS["independent"])
+    assert r.finished.outcome == "done"
+    assert np.abs(r.position - fine.position).max() < 10 * 1e-6 * r.prepared.motion.system.size
+    assert np.abs(r.constraint_violation).max() < 1e-10
+
+
+@pytest.mark.parametrize(
+    "settings", [{"integrator": "generalised-alpha", "step": 2e-4}, {"integrator": "radau", "tolerance": 1e-6}]
+)
+def test_implicit_methods_pass_changes_of_the_partition(folder, settings):
+    record = double_pendulum(folder, 2)
+    common = {"duration": 1.5, "output_interval": 0.05}
+    expected = run(record, integrator="rk4", step=1e-4, coordinates="absolute", **common)
+    r = run(record, **settings, **common, **METHODS["independent"])
+    assert r.finished.timing["partitions"] > 0
+    assert np.abs(r.constraint_violation).max() < 1e-10
+    assert np.abs(r.position - expected.position).max() < 2e-3
+
+
 def test_unknown_interfaces_are_told_in_every_method(folder):
     record = MACHINES["pendulum"](folder)
     away = record.replace(joints=(hinge("root", "ground", "a", 0.3),))

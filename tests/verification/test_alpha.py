@@ -34,7 +34,7 @@ def errors_against_fine(machine, integrator, steps, **settings):
     return np.array(found)
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
 @pytest.mark.parametrize("integrator", SECOND_ORDER)
 def test_order_two_in_positions_velocities_and_multipliers(integrator, coordinates):
     steps = [4e-3, 2e-3, 1e-3]
@@ -54,7 +54,7 @@ def test_order_two_as_index_three(integrator):
     assert np.all(np.abs(slopes - 2.0) < 0.25)
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
 @pytest.mark.parametrize("name", ["slider_crank", "four_bar"])
 def test_positions_and_velocities_both_hold(name, coordinates):
     machine = getattr(machines, name)()
@@ -80,7 +80,7 @@ def test_four_bar_follows_its_reference():
     assert np.abs(r.position - expected.position).max() < 1e-3
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
 def test_heavy_top_on_the_group_converges_with_order_two(coordinates):
     """150 rad/s: Euler parameters are multiplied, so their length stays one without a correction."""
     found = []
@@ -95,7 +95,7 @@ def test_heavy_top_on_the_group_converges_with_order_two(coordinates):
     assert abs(np.log2(found[0] / found[1]) - 2.0) < 0.2
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
 def test_rotations_do_not_depend_on_the_frame_of_the_body(coordinates):
     """Left invariance of the Lie group method: the same top, turned as a whole with its gravity, moves the same.
 

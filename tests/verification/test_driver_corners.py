@@ -15,7 +15,7 @@ ABOUT_PIVOT = INERTIA + MASS * LENGTH**2
 # corners at no multiple of any step below, and one at a multiple of all that is none in round-off; the last one is the end of the table
 RAMPS = Table((0.0, 0.3, 0.5037, 0.8013), (0.0, 0.3, -0.1, 0.1))
 INTEGRATORS = pytest.mark.parametrize("integrator", ["newmark", "hht", "generalised-alpha"])
-COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
 
 
 def cart_and_arm(table=RAMPS, **settings):
@@ -160,7 +160,10 @@ def test_a_closed_loop_without_freedom_jumps_as_its_geometry_says(coordinates):
     np.testing.assert_allclose(r.array("velocity"), crank_rates(angle)[0] * rate[:, None, None], atol=1e-8)
     reduced, _, _ = scalar_equation(CRANK, angle)
     np.testing.assert_allclose(r.array("kinetic_energy"), 0.5 * reduced * rate**2, atol=1e-8)
-    assert np.abs(r.array("energy_error")).max() < 1e-4 * r.array("kinetic_energy").max()
+    # the work of the driver's effort by the trapezoidal rule, an error of h²/12 times the change of the slope of its power: the effort of
+    # independent coordinates is that of the state, those of index 2 are means over steps
+    share = 3e-4 if coordinates == "independent" else 1e-4
+    assert np.abs(r.array("energy_error")).max() < share * r.array("kinetic_energy").max()
 
 
 @pytest.mark.parametrize("integrator", ["rk4", "dopri5", "bdf", "radau", "ros2", "gear"])

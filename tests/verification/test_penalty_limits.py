@@ -85,3 +85,13 @@ def test_energy_constraint_is_refused_where_fixed_steps_miss_contacts():
 def test_a_run_shorter_than_any_is_refused():
     with pytest.raises(ModelError, match="shorter than 1e-12 s"):
         simulate(DOOR, duration=1e-300, step=1e-301)
+
+
+def test_implicit_methods_say_that_multipliers_do_not_settle():
+    given = {"duration": 0.2, "step": 1e-3, "coordinates": "absolute", "integrator": "newmark"}
+    with pytest.raises(SolveError, match="finds no solution") as caught:
+        simulate(HEAVY, **given, formulation="augmented-lagrangian")
+    assert "a greater `penalty: {factor: 1e8}`" in caught.value.advice
+    expected = simulate(HEAVY, **given)
+    found = simulate(HEAVY, **given, formulation="augmented-lagrangian", penalty={"factor": 1e8})
+    np.testing.assert_allclose(found.array("position"), expected.array("position"), atol=1e-5)

@@ -27,7 +27,7 @@ from stiff_machines import double_pendulum
 from test_mechanisms import EXAMPLES
 from test_stiff import closed_form, overdamped
 
-COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
 TOLERANCES = [1e-4, 1e-6, 1e-8, 1e-10]
 ASKED = pytest.mark.parametrize("tolerance", TOLERANCES)
 
@@ -334,8 +334,8 @@ def test_stabilisations(stabilisation):
     ("settings", "reason"),
     [
         ({"formulation": "lagrange"}, "take newton-euler"),
-        ({"coordinates": "independent"}, "take absolute or relative"),
-        ({"stabilisation": "baumgarte", "baumgarte": {"alpha": 20, "beta": 20}}, "without its feedback"),
+        ({"coordinates": "independent", "formulation": "penalty"}, "no violation is left to feed back"),
+        ({"stabilisation": "baumgarte"}, "take direct, or own coefficients"),
     ],
 )
 def test_what_has_no_exact_derivatives_is_refused(settings, reason):

@@ -93,3 +93,30 @@ def test_solutions_satisfy_the_equations(make, coordinates, rng):
         expected = np.linalg.solve(np.eye(len(J)) - shift * J, b[:-2])
         np.testing.assert_allclose(x[:-2], expected, rtol=0, atol=1e-6 * np.abs(expected).max())
         assert np.array_equal(x[-2:], b[-2:])
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("formulation", ["newton-euler", "penalty"])
+@pytest.mark.parametrize("make", [machines.slider_crank, machines.four_bar, loaded_tree])
+def test_feedback_and_penalties_are_part_of_them(make, formulation, coordinates, rng):
+    """2α = 30/s and β² = 200/s², and penalties of twenty times the mass of a row, so soft that 1/α counts."""
+    record = make()
+    penalty = {"penalty": {"factor": 20.0}} if formulation == "penalty" else {}
+    record = record.replace(
+        simulation=record.simulation.replace(integrator="radau", formulation=formulation, **penalty)
+    )
+    prepared = prepare(record, formulation, coordinates)
+    motion, y = prepared.motion, prepared.start.copy()
+    motion.system.record.control.stabilise[:2] = 30.0, 200.0
+    y += 1e-3 * rng.standard_normal(len(y))
+    J = differences(motion, 0.0, y)[:-2, :-2]
+    status, rate = motion.evaluate(0.0, y)
+    assert status == OK
+    r = rng.standard_normal(len(y))
+    shifted, s = motion.system.record.newton.shifted, 0.08
+    shifted.real.r[:], shifted.pair.r[:] = r, r
+    solve = import_module("nivel.kernels.tangent_entries").solve_shifted
+    assert solve(motion.handle.address, 0.0, y, rate, s, complex(s)) == OK
+    expected = np.linalg.solve(np.eye(len(J)) - s * J, r[:-2])
+    for x in (shifted.real.r, shifted.pair.r):
+        np.testing.assert_allclose(x[:-2], expected, rtol=0, atol=1e-6 * np.abs(expected).max())

@@ -49,6 +49,23 @@ def test_flat_position_hit_by_a_step_is_named(coordinates):
     assert caught.value.result.time[-1] == pytest.approx(0.999, abs=5e-3)
 
 
+@pytest.mark.parametrize("formulation", ["penalty", "augmented-lagrangian"])
+@pytest.mark.parametrize("integrator", ["newmark", "generalised-alpha", "ros2"])
+def test_flat_position_hit_by_a_step_of_implicit_penalty_methods_is_passed(integrator, formulation):
+    """S + 1/α has an inverse there, and so has Newton's matrix with -1/α in its corner. START - t/2 for ever, to order two."""
+    given = {"coordinates": "absolute", "formulation": formulation, "integrator": integrator}
+    r = simulate(parallelogram(-0.5), duration=3.0, step=1e-3, **given)
+    np.testing.assert_allclose(r.array("left.angle"), -0.5 * r.time, atol=1e-5)
+    np.testing.assert_allclose(r.array("right.angle"), -0.5 * r.time, atol=1e-5)
+
+
+@pytest.mark.parametrize("integrator", ["radau", "bdf", "ros2"])
+def test_flat_position_is_passed_by_implicit_methods_in_independent_coordinates(integrator):
+    given = {"coordinates": "independent", "integrator": integrator}
+    r = simulate(parallelogram(2.0), duration=3.0, step=7e-4, **given)
+    np.testing.assert_allclose(r.array("right.angle"), 2.0 * r.time, atol=1e-5)
+
+
 def test_start_in_the_flat_position_is_refused_with_the_row_that_is_lost():
     machine = parallelogram(1.0)
     for joint in machine["joints"].values():

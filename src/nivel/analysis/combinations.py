@@ -53,34 +53,14 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
     if facts is None or not facts.residual:
         return faults
     name = f"`integrator: {settings.integrator}`"
-    if settings.formulation != "newton-euler":
-        why = (
-            "has the exact tangents of newton-euler alone"
-            if facts.rates
-            else ("solves for accelerations and multipliers at once and turns bodies as a Lie group")
+    if settings.formulation == "lagrange":
+        message = (
+            f"'lagrange' does not go with {name}, which has the exact tangents of angular velocities and small turns, not of rotation "
+            f"parameters and their rates: take newton-euler, whose motion is the same"
         )
-        message = f"'{settings.formulation}' does not go with {name}, which {why}: take newton-euler, whose motion is the same"
         faults.append(_fault("formulation", message))
     if facts.whole:
         return faults + _refuse_beside_whole_steps(settings, coordinates)
-    if coordinates == "independent":
-        why = (
-            ", which has the exact tangents of absolute and relative ones"
-            if facts.rates
-            else (
-                ": with `stabilisation: direct` it closes positions and velocities in the same solution, which is what a partition is for"
-            )
-        )
-        message = f"'independent' does not go with {name}{why}; take absolute or relative"
-        faults.append(_fault("coordinates", message))
-    if settings.stabilisation == "baumgarte":
-        message = f"'baumgarte' does not go with {name}, " + (
-            "whose tangents are those of the equations without its feedback: take direct, geometric (and the energy kept), or none"
-            if facts.rates
-            else "which solves the constraints themselves and not their second derivative: take direct (stabilised index 2), "
-            "geometric (and the energy kept), or none (index 3)"
-        )
-        faults.append(_fault("stabilisation", message))
     if facts.implicit and settings.corrector.iteration == "functional":
         message = f"'functional' does not go with {name}, which takes Newton's method with exact tangents: leave `iteration` out"
         faults.append(_fault("corrector.iteration", message))
@@ -90,6 +70,12 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
 def _refuse_beside_whole_steps(settings: SimulationSettings, coordinates: str) -> list[Fault]:
     """What does not go with an integrator that balances momenta over a whole step."""
     name, faults = f"`integrator: {settings.integrator}`", []
+    if FORMULATIONS[settings.formulation].factor > 0.0:
+        message = (
+            f"'{settings.formulation}' does not go with {name}, whose multipliers close the positions: take newton-euler, whose motion is "
+            f"the same"
+        )
+        faults.append(_fault("formulation", message))
     if coordinates != "absolute":
         message = f"'{coordinates}' does not go with {name}, which balances the momenta of each body: take absolute"
         faults.append(_fault("coordinates", message))

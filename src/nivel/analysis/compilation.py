@@ -74,6 +74,8 @@ def compile_path(
     if integrator in INTEGRATORS:
         parts.append(("nivel.march.loop", "the time loop"))
         parts.append((_facts(machine, path[0], integrator).module, f"the integrator {integrator}"))
+        if facts is not None and facts.dependent and INTEGRATORS[integrator].accelerations:
+            parts.append((facts.dependent, "dependent coordinates"))
     missing = [part for part in parts if part[0] not in sys.modules and not cache.is_warm(part[0].rsplit(".", 1)[1])]
     for module, what in parts:
         if (module, what) in missing:
@@ -117,7 +119,7 @@ def complex_modules() -> list[str]:
     residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values(), SLIDING) if path.residual]
     residuals += [module for facts in INTEGRATORS.values() for module in (facts.whole, facts.whole_flexible) if module]
     of_forces = [f"nivel.kernels.forces.{family}" for family in families]
-    return [*residuals, MEASURE, RAIL, GIVEN_FRICTION, POINTS, *of_forces]
+    return [*dict.fromkeys(residuals), MEASURE, RAIL, GIVEN_FRICTION, POINTS, *of_forces]
 
 
 def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener, *, held: bool = True) -> None:

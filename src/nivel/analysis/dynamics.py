@@ -16,7 +16,7 @@ from nivel.analysis.combinations import refuse_combinations
 from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.ground import touches_ground
-from nivel.analysis.implicit import Wanted, equip
+from nivel.analysis.implicit import Wanted, constraint_index, equip
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
 from nivel.analysis.mobility import bound_pivots
@@ -185,7 +185,8 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     else:
         bound_pivots(prepared, y)
     if integrator.residual:
-        refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
+        if constraint_index(formulation, machine.simulation.stabilisation, facts) == 3:
+            refuse_unsettled_multipliers(machine, len(prepared.system.record.saddle.row))
         free = not touches_ground(machine, prepared.system) if integrator.whole else None
         wanted = Wanted(
             whole=integrator.over_step(machine.is_flexible),
@@ -195,6 +196,8 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
             along=integrator.along,
             free=free,
             filtered=integrator.either and machine.simulation.step_control == "error",
+            accelerations=integrator.accelerations,
+            compliance=prepared.system.record.saddle.shift if FORMULATIONS[formulation].factor > 0.0 else None,
         )
         prepared = equip(prepared, y, coordinates, wanted)
     return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator)
@@ -348,7 +351,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
     numbers[: len(settings.constants)] = settings.constants
     record = system.record
     record.control.iterations[1:] = 0, MOST_UNSETTLED
-    forget(record.partition)
+    forget(record.partition, formulas=facts.accelerations)
     record.newton.kept[:] = 0.0
     record.newton.balanced[0] = 0.0
     record.residual.vdot[:] = 0.0
@@ -357,7 +360,7 @@ def _start(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) ->
         record.newton.settings[:2] = settings.corrector.tolerance, settings.corrector.most_iterations
         record.newton.settings[2] = settings.corrector.matrix == "full"
     if len(record.newton.level):
-        record.newton.level[0] = 3 if settings.stabilisation == "none" else 2
+        record.newton.level[0] = constraint_index(settings.formulation, settings.stabilisation, prepared.path)
     record.coordinates.reference[:] = prepared.assembly.reference
     system.hold_sliders(y)
     record.watched.followed[:] = 0

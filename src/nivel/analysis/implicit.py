@@ -16,6 +16,7 @@ from nivel.kernels.arrays import complex_twin
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES
 from nivel.kernels.record import (
+    DEPENDENT,
     GIVEN_FRICTION,
     MEASURE,
     MOMENTARY,
@@ -28,7 +29,7 @@ from nivel.kernels.record import (
     Hooks,
     Record,
 )
-from nivel.motion.catalogue import path_of
+from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.system.beam_tangent import (
     elastic_family,
     has_elastic_beams,
@@ -56,7 +57,8 @@ class Wanted:
     whole : module of one over a whole step; empty: that at a time. corners : times [s] at which functions of time have corners.
     shifted : with room for systems of shifted matrices, see `nivel.kernels.shifted_parts`. balance : with room to find accelerations, see
     `nivel.kernels.balance`. along : it asks for derivatives along directions, so that none may be found by hand. free : whether nothing
-    joins the machine to the ground, for a residual over a whole step. filtered : with room for `nivel.march.error_filter`.
+    joins the machine to the ground, for a residual over a whole step. filtered : with room for `nivel.march.error_filter`. accelerations :
+    it solves for them, so that in independent coordinates all that depends on these has to be found. compliance : 1/α of penalty methods.
     """
 
     whole: str = ""
@@ -66,9 +68,20 @@ class Wanted:
     along: bool = False
     free: bool | None = None
     filtered: bool = False
+    accelerations: bool = False
+    compliance: Array | None = None
 
 
 INSTANT = Wanted()
+
+
+def constraint_index(formulation: str, stabilisation: str, path: PathFacts) -> int:
+    """What methods that solve for accelerations have the multipliers close, see `Newton.level`."""
+    if path.dependent:
+        return 0
+    if stabilisation in ("direct", "geometric"):
+        return 2
+    return 1 if FORMULATIONS[formulation].factor > 0.0 or stabilisation == "baumgarte" else 3
 
 
 def equip(motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted = INSTANT) -> MotionEquations:
@@ -139,7 +152,12 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     plain = plain_nodes(system, part) if by_hand else {}
     plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values())
     place = places(system.map, velocities, positions)
-    room = {"shifted": wanted.shifted, "balance": wanted.balance, "filtered": wanted.filtered}
+    room = {
+        "shifted": wanted.shifted,
+        "balance": wanted.balance,
+        "filtered": wanted.filtered,
+        "compliance": wanted.compliance,
+    }
     newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, length=system.size, **room)
     newton.settings[3] = ROUNDINGS * _longest_chain(record)
     flexible = len(record.flexible.body) > 0
@@ -156,6 +174,8 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
         hooks.address[TANGENT] = import_module("nivel.kernels.beam_tangent").tangent.address
     if sliding:
         hooks.address[PASS] = import_module("nivel.kernels.slider_pass").pass_nodes.address
+    if wanted.accelerations and path.dependent:
+        hooks.address[DEPENDENT] = import_module(path.dependent).depend.address
     if len(system.frictions):
         hooks.address[GIVEN_FRICTION] = import_module("nivel.kernels.friction_residual").rub.address
     twin = _twin(record, held=by_hand)

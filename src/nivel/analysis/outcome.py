@@ -263,7 +263,14 @@ def _no_solution(motion: MotionEquations, number: int, time: float, step: float,
     message = (
         f"Newton's iteration finds no solution within a step of {step:.3g} s: it stalls at {stalled}; {_worst(motion)}"
     )
-    return message, (
+    record = motion.system.record
+    iterated = len(record.newton.compliance) > 0 and record.control.iterations[0] > 1
+    settle = (
+        "Multipliers of bodies that differ much in mass settle with a greater `penalty: {factor: 1e8}`. "
+        if iterated
+        else ""
+    )
+    return message, settle + (
         f"Try --step {step / 4:.3g}, or a method that makes steps as short as it takes: radau, or generalised-alpha with --step-control "
         f"error. With `stabilisation: none` round-off may keep it from its tolerance: then `corrector: {{tolerance: 1e-8}}`, or direct. If "
         f"it stops here again, the machine comes to a position that it cannot pass, or a force jumps: look at {stalled}."

@@ -33,6 +33,7 @@ def command(quiet: bool) -> None:
     modules += [
         module for facts in (*PATHS.values(), *FLEXIBLE.values()) for module in (facts.module, facts.correction)
     ]
+    modules += [facts.dependent for facts in (*PATHS.values(), *FLEXIBLE.values()) if facts.dependent]
     modules += [facts.module for facts in INTEGRATORS.values()]
     modules += rare_modules()
     total = time.perf_counter()

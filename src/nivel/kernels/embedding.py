@@ -6,6 +6,7 @@ import numpy as np
 
 from nivel.kernels.compile import leaf
 from nivel.kernels.flexible_partition import flexible_forces, moves_with_modes, times_flexible_mass
+from nivel.kernels.partition import solve_dependent
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import dot
 
@@ -80,6 +81,23 @@ def embed(machine):
     subtract_inertia(machine, v)
     for i in range(n):
         v[i] += partition.D[i]
+
+
+@leaf
+def follow_independent(machine, vdot):
+    """Dependent entries of v̇ := B u̇ + D for the independent ones u̇ there, by the partition and γ of the state last read."""
+    record = record_at(machine)
+    partition, rank = record.partition, np.int64(record.control.rank[0])
+    column, B, u = partition.column, partition.B, partition.u
+    solve_dependent(partition, rank, record.constraints.gamma)
+    for k in range(u.shape[0]):
+        u[k] = vdot[column[rank + k]]
+    for k in range(rank):
+        i = column[k]
+        value = partition.D[i]
+        for m in range(u.shape[0]):
+            value += B[m, i] * u[m]
+        vdot[i] = value
 
 
 @leaf

@@ -38,7 +38,7 @@ class Residual(NamedTuple):
     vdot: W1  # (n,) accelerations
     lam: W1  # (K,) multipliers
     # work
-    value: W1  # (n + S + 3 K,) M v̇ + C_qᵀ λ - Q, rates of the states of forces, then C, Ċ and C̈
+    value: W1  # (n + S + 3 K,) M v̇ + C_qᵀ λ - Q, rates of the states of forces, then C, Ċ and C̈ with its feedback
     acceleration: W2  # (B+1, 6) (α, R̈) of the bodies, global axes
     wrench: W2  # (B+1, 6) (moment about the frame origin, force) that their joints have to transmit
     interval: Interval
@@ -130,5 +130,9 @@ class Newton(NamedTuple):
     filter: RealFactors  # of errors of chosen steps, see `nivel.march.error_filter`; without numbers where none are
     balanced: F1  # (2,) 1 where it has factors; length of the machine [m], which turns are measured by
     asked: F1  # (3,) cq and cv of derivatives by hand, 1 where they are of `balance`; see `nivel.kernels.beam_tangent`
-    level: U1  # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction
+    # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction; 1: accelerations are; 0: of
+    # independent coordinates all that depends on them is found from the constraints
+    level: U1
+    compliance: F1  # (K,) 1/α of penalty methods; empty for multipliers
+    diagonal: U1  # (K,) places of their -1/α in `value`
     shifted: Shifted

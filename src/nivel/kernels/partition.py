@@ -19,8 +19,9 @@ from nivel.kernels.status import OK, SINGULAR
 # A pivot this small is round-off; squared, it is what pivots of S = C_q M⁻¹ C_qᵀ are held against.
 DEPENDENT = 3e-7
 # A partition is given up when the largest entry of B (or of what dependent rows are made of) has grown by this factor over the
-# least since the choice, or over 1: small changes of independent velocities then are large ones of dependent velocities.
-GROWTH = 10.0
+# least since the choice, or over 1: small changes of independent velocities then are large ones of dependent velocities. Methods whose
+# formulas hold for the independent velocities alone err by as much more, and their iteration contracts by as much less.
+GROWTH, GROWTH_OF_FORMULAS = 10.0, 2.0
 # Of entries that are equal but for round-off the first is taken.
 CLEARLY = 1.0001
 
@@ -188,7 +189,7 @@ def divide(machine):
         failed, smallest = eliminate(partition, rank, False)
         if failed < 0:
             growth = spread(partition, rank)
-            if growth <= GROWTH * max(1.0, quality[0]):
+            if growth <= quality[2] * max(1.0, quality[0]):
                 quality[0], quality[1] = min(quality[0], growth), smallest
                 return OK
         fill_rows(machine)

@@ -212,7 +212,7 @@ class Hooks(NamedTuple):
 
     address: (
         A1  # (HOOKS,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams,
-        # rails, pass, mass of points
+        # rails, pass, mass of points, dependent coordinates
     )
 
 
@@ -330,7 +330,7 @@ class Partition(NamedTuple):
     column: U1  # (n,) the dependent velocities, then the independent ones
     row: U1  # (K,) rows that determine the dependent velocities, then those that follow from them
     choices: U1  # (1,) partitions chosen so far
-    quality: F1  # (2,) least growth of B since the last choice; smallest pivot of C_d
+    quality: F1  # (3,) least growth of B since the last choice; smallest pivot of C_d; growth at which another choice is made
     # work
     column_place: U1  # (n,) where each velocity stands in `column`
     row_place: U1  # (K,)
@@ -412,21 +412,22 @@ complex_family_signature = types.int64(complex_address_type, types.int64, types.
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
-MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RAIL, PASS, POINTS, MOMENTARY = (
-    0,
-    1,
-    2,
-    3,
-    4,
-    5,
-    6,
-    7,
-    8,
-    9,
-    10,
-    11,
-)  # entries of Hooks.address
-HOOKS = 12
+(
+    MEASURE,
+    FRICTION,
+    SENSE,
+    COMPLETE,
+    WATCH,
+    RESIDUAL,
+    GIVEN_FRICTION,
+    TANGENT,
+    RAIL,
+    PASS,
+    POINTS,
+    MOMENTARY,
+    DEPENDENT,
+) = range(13)  # entries of Hooks.address
+HOOKS = 13
 HOLD, LEAVE, GO_ON = 0, 1, 2  # jobs of the hook PASS
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions

@@ -1,6 +1,8 @@
 """The equations of motion as a residual for given accelerations and multipliers: what implicit methods bring to zero.
 
-    r = M v̇ + C_qᵀ λ - Q        C        Ċ = C_q v + C_t        C̈ = C_q v̇ - γ
+    r = M v̇ + C_qᵀ λ - Q        C        Ċ = C_q v + C_t        C̈ = C_q v̇ - γ + 2α Ċ + β² C
+
+The feedback of Ċ and C is that of Baumgarte's stabilisation or of penalty methods; there is none with others.
 
 Nothing is factorised here, so it costs little; and every line is analytic, so that the same code on complex numbers gives exact
 derivatives. Coordinates add only how accelerations of bodies come from v̇, and generalised forces from wrenches on bodies.
@@ -93,10 +95,13 @@ def write_rows(machine, first):
     for i in range(states):
         value[first + i] = rate[i]
     at = first + states
+    twice_alpha, beta_squared = record.control.stabilise[0], record.control.stabilise[1]
     for k in range(rows):
         row = residual.row[k]
         value[at + k], value[at + rows + k] = constraints.C[row], constraints.Cdot[row]
-        value[at + 2 * rows + k] = -constraints.gamma[row]
+        value[at + 2 * rows + k] = (
+            twice_alpha * constraints.Cdot[row] + beta_squared * constraints.C[row] - constraints.gamma[row]
+        )
     at += 2 * rows
     for p in range(residual.part.shape[0]):
         J, u, x = (

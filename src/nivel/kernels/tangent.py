@@ -81,6 +81,13 @@ def write_column(newton, value, j, n, cq, level):
 
 
 @stage
+def add_compliance(newton, entries):
+    """-1/α at the multipliers of penalty methods."""
+    for k in range(newton.compliance.shape[0]):
+        entries[newton.diagonal[k]] = -newton.compliance[k]
+
+
+@stage
 def load_twin(newton, here):
     """The complex residual at the same state, accelerations and multipliers. Returns the complex record's address and its residual."""
     twin = (newton.address[0],)
@@ -99,7 +106,8 @@ def differentiate(machine, t, cq, cv, cx, level):
     """Entries of the matrix of Newton's iteration, [M + cv D + cq K, C_qᵀ; C_q, 0], at `residual.y`, `vdot`, `lam`. Returns a status.
 
     Unknown v̇ moves positions by cq and velocities by cv, ẋ the states of forces by cx; columns are with respect to rotations after
-    A exp(change), and scaled like accelerations. level : ACCELERATIONS has the derivatives of C̈ in place of the last rows.
+    A exp(change), and scaled like accelerations. level : ACCELERATIONS has the derivatives of C̈, with its feedback, in place of the last
+    rows. With penalties there is -1/α in the corner.
     """
     record = record_at(machine)
     newton, here = record.newton, record.residual
@@ -117,6 +125,7 @@ def differentiate(machine, t, cq, cv, cx, level):
         # moved back: a complex number less what was added would keep its imaginary part only to round-off
         for m in range(first, last):
             still(newton, moving, here, np.int64(newton.group[m]))
+    add_compliance(newton, newton.value)
     newton.asked[0], newton.asked[1] = cq, cv
     return call_hook(machine, TANGENT, 0, t)
 

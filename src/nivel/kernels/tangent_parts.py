@@ -14,7 +14,7 @@ from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_family, call_hook
 from nivel.kernels.record import NONE, TANGENT, record_at
 from nivel.kernels.status import OK
-from nivel.kernels.tangent import EPSILON, load_twin, still
+from nivel.kernels.tangent import EPSILON, add_compliance, load_twin, still
 
 ACCELERATION, VELOCITY, POSITION = 0, 1, 2
 
@@ -104,6 +104,7 @@ def differentiate_parts(machine, t):
     newton = record_at(machine).newton
     newton.asked[2] = 0.0
     own_rates(newton, np.int64(newton.place.shape[0]), newton.shifted.M)
+    add_compliance(newton, newton.shifted.M)
     for part in range(3):
         out = newton.shifted.M if part == ACCELERATION else (newton.shifted.D if part == VELOCITY else newton.shifted.K)
         status = differentiate_part(machine, t, part, out)

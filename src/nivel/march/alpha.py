@@ -1,5 +1,5 @@
-"""Newmark's method, HHT-α and generalised-α, on rotations as a Lie group (Brüls, Cardona, Arnold 2012), as index 3 or as stabilised
-index 2; constants: `nivel.march.alpha_constants`.
+"""Newmark's method, HHT-α and generalised-α, on rotations as a Lie group (Brüls, Cardona, Arnold 2012), as index 3, as stabilised
+index 2, as index 1 or in independent coordinates; constants: `nivel.march.alpha_constants`.
 
 The positions of a step are base ∘ exp(h v₀ + h² (…)), so Euler parameters stay of unit length and no frame is special. Where a function
 of time has a known corner a step is done in two parts that meet there, each with accelerations of its own side; the steps between frames
@@ -91,7 +91,7 @@ def fixed_step(evaluate, machine, history):
         end = corner if at_corner and not is_near(corner, target) else target
         if is_fresh(run) or run.numbers[LAST_STEP] == 0.0:
             start(evaluate, machine, history, t, end - t)
-        elif record_at(machine).newton.level[0] == 2:
+        elif record_at(machine).newton.level[0] in (1, 2):
             refresh(machine, run)
         h = run.clock[STEP] if not at_corner and t == run.clock[TIME] else end - t
         end_side = before(end) if at_corner else end
@@ -163,7 +163,7 @@ def controlled_step(evaluate, machine, history):
             h = clock[REACHED] - t
         if fresh:
             start(evaluate, machine, history, t, h)
-        elif newton.level[0] == 2:
+        elif newton.level[0] in (1, 2):
             refresh(machine, run)
         end = before(clock[REACHED]) if corner < np.inf else clock[REACHED]
         close = max(CLOSE * part_of(run, h), EXACT)

@@ -7,7 +7,7 @@ import numpy as np
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, record_at
-from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.kernels.status import NOT_CONVERGED, OK, SINGULAR
 from nivel.kernels.tree import has_passed
 from nivel.march.residual_newton import iterate
 from nivel.march.run import EVALUATIONS, RESTART, run_at
@@ -19,6 +19,9 @@ LAST_STEP = 7
 GOES_ON = 8
 # rows of run.stages: a and v̇ of the accepted state, w and ẋ; v̇ and ẋ of the state before; work; rate at the begin of the step
 A, VDOT, W, XDOT, BEFORE, AHEAD, RATE = 0, 1, 2, 3, 4, 5, 6
+# In independent coordinates accelerations are what the iteration leaves them, step for step, so it ends at this share of its tolerance, but
+# not below round-off.
+CLOSER, ROUND = 0.01, 1e-13
 # a difference over this share of a step gives v̈ of the start to half the digits
 DIFFERENCE = 1e-4
 
@@ -55,7 +58,7 @@ def start(evaluate, machine, history, t, h):
 
 @stage
 def refresh(machine, run):
-    """As stabilised index 2, take accelerations, rates and multipliers of the accepted state from its evaluation by the loop.
+    """As index 1 or 2, take accelerations, rates and multipliers of the accepted state from its evaluation by the loop.
 
     In a step only the mean of the accelerations at both ends counts for an undamped method: what it got wrong once along the constraints
     would alternate for ever. a becomes what `keep_step` would have made of these accelerations.
@@ -159,11 +162,13 @@ def solve_step(machine, history, h, end, tolerance):
     positions that the velocities lead to, and then from those there are.
     """
     run, record = run_at(history), record_at(machine)
+    if record.newton.level[0] == 0:
+        tolerance = min(tolerance, max(CLOSER * tolerance, ROUND))
     predict(run, record.newton, record.residual, h)
     cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)
     status = iterate(machine, history, end, cq, cv, cx, tolerance)
     for share in (1.0, 0.0):
-        if status != NOT_CONVERGED:
+        if status not in (NOT_CONVERGED, SINGULAR):
             break
         predict(run, record.newton, record.residual, h)
         cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)

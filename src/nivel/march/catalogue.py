@@ -40,6 +40,11 @@ class IntegratorFacts:
         return self.whole_flexible if flexible else self.whole
 
     @property
+    def accelerations(self) -> bool:
+        """Whether it solves the residual at the end of a step for accelerations and multipliers."""
+        return self.residual and not self.rates and not self.whole
+
+    @property
     def along(self) -> bool:
         """Whether it asks for derivatives along directions, see `nivel.kernels.shifted`: all of them have to be on complex numbers."""
         return self.rates and not self.shifted

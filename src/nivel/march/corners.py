@@ -19,6 +19,8 @@ from nivel.march.run import run_at
 
 # [s] steps for which stiffness and damping are nothing beside the mass
 INSTANT = 1e-12
+# Solutions after the first one with penalties: of 1e4 times the mass behind a row, each leaves 1e-4 of what is open.
+FURTHER = 3
 # Speeds that differ by less, as a share of their scales, have no corner.
 SMOOTH = 1e-9
 
@@ -64,6 +66,35 @@ def work_of_drivers(constraints):
     return work
 
 
+@stage
+def find_jump(machine):
+    """newton.b := the change of the velocities and the impulses that close them. Overwrites `before`.
+
+    With penalties the matrix leaves C_q Δv + Ċ = μ/α of the impulses μ, which the next solutions take away as the augmented Lagrangian.
+    """
+    record = record_at(machine)
+    newton, residual = record.newton, record.residual
+    b, total = newton.b, newton.before
+    first, rows = residual.vdot.shape[0] + newton.state.shape[0], residual.row.shape[0]
+    for k in range(first):
+        b[k] = 0.0
+    for k in range(rows):
+        b[first + k] = -residual.value[first + rows + k]
+    solve(machine)
+    if newton.compliance.shape[0] == 0:
+        return
+    for k in range(b.shape[0]):
+        total[k] = b[k]
+    for _ in range(FURTHER):
+        for k in range(b.shape[0]):
+            b[k] = 0.0 if k < first else -newton.compliance[k - first] * b[k]
+        solve(machine)
+        for k in range(b.shape[0]):
+            total[k] += b[k]
+    for k in range(b.shape[0]):
+        b[k] = total[k]
+
+
 @leaf
 def pass_corner(machine, history, t):
     """Let the speeds of run.y be those beyond the corner at time t. Returns a status."""
@@ -82,11 +113,7 @@ def pass_corner(machine, history, t):
             status = factorise(machine)
         if status != OK:
             return status
-        for k in range(first):
-            newton.b[k] = 0.0
-        for k in range(rows):
-            newton.b[first + k] = -residual.value[first + rows + k]
-        solve(machine)
+        find_jump(machine)
         for k in range(n):
             run.y[positions + k] += newton.b[k]
         for k in range(constraints.lam.shape[0]):

@@ -13,8 +13,9 @@ from nivel.kernels.compile import entry, leaf
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import RESIDUAL, record_at
 from nivel.kernels.status import OK
+from nivel.march.newton_state import set_state
 from nivel.march.residual_newton import TOLERANCE as NEWTON_TOLERANCE
-from nivel.march.residual_newton import find_change, iterate, set_state, take_change
+from nivel.march.residual_newton import find_change, iterate, take_change
 from nivel.march.run import EVALUATIONS, REACHED, STEP, run_at, step_signature
 from nivel.motion.energy_momentum_residual import begin_interval
 

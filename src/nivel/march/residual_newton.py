@@ -1,11 +1,17 @@
 """Newton's iteration of implicit methods: accelerations, rates of states and multipliers for which the residual vanishes.
 
-Every method gives the state as an affine function of the unknown accelerations v̇ and rates ẋ (`nivel.kernels.implicit_record.Newton`):
-
-    q = base ∘ exp(turn + cq v̇ + correction)        v = speed + cv v̇        x = state + cx ẋ
+Every method gives the state as an affine function of the unknown accelerations v̇ and rates ẋ (`nivel.march.newton_state`).
 
 With index 3 the multipliers close the positions. With index 2 they close the velocities, and `correction` the positions: along
-(M + cv D + cq K)⁻¹ C_qᵀ, so that stiff springs are not stretched by it (the stabilised form of Gear, Gupta, Leimkuhler 1985).
+(M + cv D + cq K)⁻¹ C_qᵀ, so that stiff springs are not stretched by it (the stabilised form of Gear, Gupta, Leimkuhler 1985). With
+index 1 they close the accelerations, with the feedback of velocities and positions. Penalties leave what is closed open by λ/α, in
+units of accelerations, and with them the matrix has -1/α at the multipliers: where these are iterated nothing is left open, so that
+each iteration is one of the augmented Lagrangian.
+
+In independent coordinates (index 0) all constraints are closed whenever the residual is evaluated, and a change is one along them:
+δC̈ = 0 in the same matrix. It has positions and velocities move with the accelerations, also those that are dependent, which differ
+from the formulas by the curvature of the constraints over a step. So the iteration contracts by the square of the step with a new
+matrix, by the step where a stiff spring acts on what is dependent, and not better.
 
 Policy: a matrix is kept, also from step to step, as long as the step is the same and the iterations that it still asks for are cheaper than
 a new one, which takes about two of them for every evaluation on complex numbers; then it is made anew at the iterate. On request it is
@@ -25,10 +31,10 @@ import numpy as np
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.newton_matrix import factorise, solve
-from nivel.kernels.record import NONE, RESIDUAL, record_at
-from nivel.kernels.spatial import dot
+from nivel.kernels.record import RESIDUAL, record_at
 from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
-from nivel.kernels.tangent import POSITIONS, differentiate, inverse_tangent
+from nivel.kernels.tangent import ACCELERATIONS, POSITIONS, differentiate, inverse_tangent
+from nivel.march.newton_state import find_state
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
 from nivel.march.step_control import ROUND_OFF
 
@@ -48,47 +54,11 @@ STALLED, GOOD = 0.5, 0.1
 SAMPLES, SAFETY = 8, 4.0
 
 
-@leaf
-def turn_by(theta, psi, out):
-    """θ of A(θ) exp(ψ̃): four Euler parameters after a rotation vector ψ in the turned axes."""
-    square = dot(psi, psi)
-    half = 0.5 * np.sqrt(square)
-    s = 0.5 * np.sin(half) / half if half > 1e-4 else 0.5 - half * half / 12.0
-    c = np.cos(half)
-    x, y, z = s * psi[0], s * psi[1], s * psi[2]
-    e0, e1, e2, e3 = theta[0], theta[1], theta[2], theta[3]
-    out[0] = e0 * c - e1 * x - e2 * y - e3 * z
-    out[1] = e1 * c + e0 * x + e2 * z - e3 * y
-    out[2] = e2 * c + e0 * y + e3 * x - e1 * z
-    out[3] = e3 * c + e0 * z + e1 * y - e2 * x
-
-
-@stage
-def set_state(machine, cq, cv, cx):
-    """`residual.y` of the unknowns."""
-    record = record_at(machine)
-    newton, residual = record.newton, record.residual
-    y, base, vdot = residual.y, newton.base, residual.vdot
-    n, states = vdot.shape[0], newton.state.shape[0]
-    positions = np.int64(y.shape[0]) - n - states - 2
-    for k in range(n):
-        newton.change[k] = newton.turn[k] + cq * vdot[k] + newton.correction[k]
-        y[positions + k] = newton.speed[k] + cv * vdot[k]
-    for k in range(n):
-        p = np.int64(newton.place[k, 0])
-        if newton.place[k, 1] == NONE:
-            y[p] = base[p] + newton.change[k]
-        elif newton.place[k, 1] == 0:
-            turn_by(base[p : p + 4], newton.change[k : k + 3], y[p : p + 4])
-    for k in range(states):
-        y[positions + n + k] = newton.state[k] + cx * newton.rate[k]
-
-
 @stage
 def write_defect(machine, cq, cv):
-    """b := minus the residual; of the constraints, positions or velocities as the index says, in units of accelerations."""
+    """b := minus the residual; of the constraints, positions, velocities or accelerations as the index says, in units of accelerations."""
     record = record_at(machine)
-    newton, residual = record.newton, record.residual
+    newton, residual, level = record.newton, record.residual, record.newton.level[0]
     b, value = newton.b, residual.value
     n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.row.shape[0]
     first = n + states
@@ -97,7 +67,15 @@ def write_defect(machine, cq, cv):
     for i in range(states):
         b[n + i] = value[n + i] - newton.rate[i]
     for k in range(rows):
-        b[first + k] = -value[first + k] / cq if newton.level[0] == 3 else -value[first + rows + k] / cv
+        if level == 3:
+            b[first + k] = -value[first + k] / cq
+        elif level == 2:
+            b[first + k] = -value[first + rows + k] / cv
+        else:
+            b[first + k] = -value[first + 2 * rows + k] if level == 1 else 0.0
+    if level != 0 and record.control.iterations[0] <= 1:
+        for k in range(newton.compliance.shape[0]):
+            b[first + k] += newton.compliance[k] * residual.lam[k]
 
 
 @stage
@@ -273,14 +251,15 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
     full = newton.settings[FULL] == 1.0
     stale, last, share, best = full, np.inf, 1.0, np.inf
     for _ in range(np.int64(newton.settings[MOST])):
-        set_state(machine, cq, cv, cx)
-        status = call_hook(machine, RESIDUAL, 0, t)
+        status = find_state(machine, t, cq, cv, cx)
+        if status == OK:
+            status = call_hook(machine, RESIDUAL, 0, t)
         counter[EVALUATIONS] += 1
         counter[ITERATIONS] += 1
         if status == OK and not is_finite(record.residual.value):
             status = NOT_FINITE
         if status == OK and (stale or not is_kept(newton, cq, cv, cx)):
-            status = differentiate(machine, t, cq, cv, cx, POSITIONS)
+            status = differentiate(machine, t, cq, cv, cx, ACCELERATIONS if newton.level[0] < 2 else POSITIONS)
             if status == OK:
                 status = factorise(machine)
             counter[FACTORISATIONS] += 1
@@ -307,8 +286,7 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
             if by_position and contraction > STALLED and best <= GOOD:
                 done = is_round_off(machine, run.scale, cq, cv, cx, tolerance)
         if done:
-            set_state(machine, cq, cv, cx)
-            return OK
+            return find_state(machine, t, cq, cv, cx)
         stale = full
         if last < np.inf:
             newton.kept[CONTRACTION] = max(contraction, 0.1 * SANGUINE)

@@ -11,13 +11,15 @@ class PathFacts:
 
     module : its `evaluate` and `keep`; correction : its `correct`, the direct correction; arrangement : a module of `nivel.system.states`
     that turns an assembled machine in absolute coordinates into the numbers and the state of this path.
-    residual : module of its residual for implicit methods, empty where there is none.
+    residual : module of its residual for implicit methods, empty where there is none. dependent : module of its `depend`, what follows from
+    independent coordinates, for those that solve for accelerations.
     """
 
     module: str
     correction: str
     arrangement: str
     residual: str = ""
+    dependent: str = ""
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,13 @@ _ABSOLUTE = PathFacts(
     "nivel.motion.newton_euler_residual",
 )
 _PARAMETERS = PathFacts("nivel.motion.lagrange", "nivel.motion.lagrange_correction", "nivel.system.states.parameters")
-_INDEPENDENT = PathFacts("nivel.motion.independent", "nivel.motion.independent", "nivel.system.states.independent")
+_INDEPENDENT = PathFacts(
+    "nivel.motion.independent",
+    "nivel.motion.independent",
+    "nivel.system.states.independent",
+    "nivel.motion.newton_euler_residual",
+    "nivel.motion.dependent",
+)
 _ANGLES, _VECTOR = (
     PathFacts("nivel.motion.lagrange_three", "nivel.motion.lagrange_three_correction", f"nivel.system.states.{kind}")
     for kind in ("euler_angles", "rotation_vector")
@@ -71,7 +79,11 @@ _FLOATING_ANGLES, _FLOATING_VECTOR = (
     for kind in ("euler_angles", "rotation_vector")
 )
 _FLOATING_INDEPENDENT = PathFacts(
-    "nivel.motion.floating_independent", "nivel.motion.floating_independent", "nivel.system.states.floating_independent"
+    "nivel.motion.floating_independent",
+    "nivel.motion.floating_independent",
+    "nivel.system.states.floating_independent",
+    "nivel.motion.floating_frame_residual",
+    "nivel.motion.floating_dependent",
 )
 
 # coordinates, velocities and rotations → equations; penalty methods share those of newton-euler

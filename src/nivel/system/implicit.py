@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.implicit_record import ComplexFactors, Interval, Newton, RealFactors, Residual, Shifted
 from nivel.kernels.record import NONE, Record
-from nivel.system.system import StateMap
+from nivel.system.system import Array, StateMap
 from nivel.system.tables import index_array
 from nivel.system.tangent_plan import TangentPlan, plan_tangent
 
@@ -141,11 +141,12 @@ def newton_tables(
     balance: bool = False,
     filtered: bool = False,
     length: float = 1.0,
+    compliance: Array | None = None,
 ) -> Newton:
     """For `place` of the velocities, entries of y, states of forces, constraint rows, the derivatives planned and corners [s]; with room
     for `Shifted`, for the balance of accelerations and for filtered errors where a method or a machine asks for it.
 
-    length : of the machine [m].
+    length : of the machine [m]. compliance : (rows,) 1/α of penalty methods; None for multipliers.
     """
     n, factor = len(place), plan.factor
     size = factor.size
@@ -191,5 +192,13 @@ def newton_tables(
         balanced=np.array([0.0, length]),
         asked=np.zeros(3),
         level=np.zeros(1, dtype=np.uint32),
+        compliance=np.zeros(0) if compliance is None else compliance,
+        diagonal=_corner(plan, rows if compliance is not None else 0),
         shifted=shifted_tables(plan, n, state) if shifted else shifted_tables(EMPTY, 0, 0),
     )
+
+
+def _corner(plan: TangentPlan, rows: int) -> Index:
+    """Places of the diagonal of the last so many unknowns."""
+    last = np.arange(plan.factor.size - rows, plan.factor.size)
+    return plan.factor.entry(last, last)

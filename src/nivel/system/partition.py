@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.partition import GROWTH, GROWTH_OF_FORMULAS
 from nivel.kernels.record import Partition
 from nivel.system.tables import Array
 
@@ -27,7 +28,7 @@ def partition(bodies: int, rows: int, rank: int, size: float, modal: Array = NO_
         column=np.arange(n, dtype=np.uint32),
         row=np.arange(rows, dtype=np.uint32),
         choices=np.zeros(1, dtype=np.uint32),
-        quality=np.zeros(2),
+        quality=np.array([0.0, 0.0, GROWTH]),
         column_place=np.zeros(n, dtype=np.uint32),
         row_place=np.zeros(rows, dtype=np.uint32),
         scale=np.zeros(rows),
@@ -46,8 +47,9 @@ def partition(bodies: int, rows: int, rank: int, size: float, modal: Array = NO_
     )
 
 
-def forget(chosen: Partition) -> None:
-    """As it was built: the next evaluation chooses."""
+def forget(chosen: Partition, *, formulas: bool = False) -> None:
+    """As it was built: the next evaluation chooses. formulas : for a method whose formulas hold for the independent velocities alone."""
+    chosen.quality[2] = GROWTH_OF_FORMULAS if formulas else GROWTH
     for order in (chosen.column, chosen.row):
         order[:] = np.arange(len(order))
     chosen.choices[:] = 0

@@ -15,9 +15,9 @@ from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 from nivel.march.alpha_error import SHARE, filtered_error, part_of, plain_error
 from nivel.march.alpha_step import (
-    LAST_STEP,
     RATE,
     attempt,
+    go_on_beyond,
     keep_step,
     refresh,
     start,
@@ -64,8 +64,9 @@ CLOSE = 0.01
 
 
 @leaf
-def end_at_corner(evaluate, machine, history, t):
-    """Let what is inside the step end before the corner at time t, where it ends the step, and the state be beyond it. Returns a status."""
+def end_at_corner(evaluate, machine, history, t, fresh):
+    """Let what is inside the step end before the corner at time t, where it ends the step, and the state be beyond it. Where speeds jump
+    there, or the step was the first one (`fresh`), run.counter[RESTART] says that the method begins anew. Returns a status."""
     run, clock = run_at(history), run_at(history).clock
     status = OK
     inside = run.event_values.shape[1] > 0 or (run.counter[ALL_STEPS] == 0 and wanted(run))
@@ -74,7 +75,13 @@ def end_at_corner(evaluate, machine, history, t):
         run.counter[EVALUATIONS] += 1
         clock[LENGTH] = t - clock[TIME]
         cubic(run, run.rate, run.scratch)
-    return pass_corner(machine, history, t) if status == OK else status
+    if status == OK:
+        status, jumps = pass_corner(machine, history, t)
+        if jumps or fresh:
+            run.counter[RESTART] = 1
+        elif status == OK:
+            status = go_on_beyond(evaluate, machine, history, t)
+    return status
 
 
 @leaf
@@ -89,7 +96,8 @@ def fixed_step(evaluate, machine, history):
         at_corner = corner < np.inf
         # a corner within the round-off of the end is the end: what would be left is no step
         end = corner if at_corner and not is_near(corner, target) else target
-        if is_fresh(run) or run.numbers[LAST_STEP] == 0.0:
+        fresh = is_fresh(run)
+        if fresh:
             start(evaluate, machine, history, t, end - t)
         elif record_at(machine).newton.level[0] in (1, 2):
             refresh(machine, run)
@@ -98,11 +106,10 @@ def fixed_step(evaluate, machine, history):
         status = attempt(machine, history, h, end_side, record_at(machine).newton.settings[NEWTON_TOLERANCE])
         if status != OK:
             break
-        keep_step(machine, run, h)
+        keep_step(machine, run, h, at_corner or t > run.clock[TIME])
         t = end
         if at_corner:
-            status = end_at_corner(evaluate, machine, history, t)
-            run.numbers[LAST_STEP] = 0.0
+            status = end_at_corner(evaluate, machine, history, t, fresh)
         if status != OK or t >= target:
             break
         # another part follows
@@ -182,12 +189,11 @@ def controlled_step(evaluate, machine, history):
         newton.kept[0] = 0.0
     if leap and h > usual:
         c[LEAPS] = 0.0
-    keep_step(machine, run, h)
+    keep_step(machine, run, h, corner < np.inf)
     growth = SAFETY * max(error, 1e-4) ** -0.5
     c[HELD] += 1.0
     if corner < np.inf:
-        status = end_at_corner(evaluate, machine, history, clock[REACHED])
-        run.counter[RESTART] = 1
+        status = end_at_corner(evaluate, machine, history, clock[REACHED], fresh)
     elif growth >= WORTH:
         clock[STEP] = h * min(growth, MOST_CHANGE)
         c[HELD] = 0.0

@@ -9,6 +9,7 @@ from nivel.kernels.hook import call_hook
 from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, record_at
 from nivel.kernels.status import NOT_CONVERGED, OK, SINGULAR
 from nivel.kernels.tree import has_passed
+from nivel.march.corners import before
 from nivel.march.residual_newton import iterate
 from nivel.march.run import EVALUATIONS, RESTART, run_at
 
@@ -22,6 +23,8 @@ A, VDOT, W, XDOT, BEFORE, AHEAD, RATE = 0, 1, 2, 3, 4, 5, 6
 # In independent coordinates accelerations are what the iteration leaves them, step for step, so it ends at this share of its tolerance, but
 # not below round-off.
 CLOSER, ROUND = 0.01, 1e-13
+# A part of a step cut at a corner that is shorter than this share of the step before says nothing of the changes of accelerations.
+SHORT = 0.1
 # a difference over this share of a step gives v̈ of the start to half the digits
 DIFFERENCE = 1e-4
 
@@ -192,11 +195,26 @@ def goes_on(run, residual, states, h):
 
 
 @stage
-def keep_step(machine, run, h):
-    """The state reached, and what the next step needs to know of it."""
-    record = record_at(machine)
-    newton, residual, c, stages = record.newton, record.residual, run.numbers, run.stages
-    n, states, last = residual.vdot.shape[0], newton.state.shape[0], run.y.shape[0] - 2
+def keep_slopes(run, residual, newton):
+    """Accelerations and rates of the state reached, changing as they did before: a step this short says nothing of their changes."""
+    stages, n = run.stages, residual.vdot.shape[0]
+    for k in range(n):
+        gained = residual.vdot[k] - stages[VDOT, k]
+        stages[A, k] += gained
+        stages[BEFORE, k] += gained
+        stages[VDOT, k] = residual.vdot[k]
+    for k in range(newton.state.shape[0]):
+        gained = newton.rate[k] - stages[XDOT, k]
+        stages[W, k] += gained
+        stages[BEFORE, n + k] += gained
+        stages[XDOT, k] = newton.rate[k]
+
+
+@stage
+def keep_changes(run, residual, newton, h):
+    """a and w of the state reached, its accelerations and rates, and those before."""
+    c, stages = run.numbers, run.stages
+    n, states = residual.vdot.shape[0], newton.state.shape[0]
     ratio = h / c[LAST_STEP] if c[LAST_STEP] > 0.0 else 1.0
     if c[LAST_STEP] > 0.0:
         c[GOES_ON] = 1.0 if goes_on(run, residual, states, h) else 0.0
@@ -210,6 +228,18 @@ def keep_step(machine, run, h):
         w = old + ratio * (stages[W, k] - old)
         stages[W, k] = ((1.0 - c[DELTA_F]) * new + c[DELTA_F] * old - c[DELTA_M] * w) / (1.0 - c[DELTA_M])
         stages[BEFORE, n + k], stages[XDOT, k] = old, new
+    c[LAST_STEP] = h
+
+
+@stage
+def keep_step(machine, run, h, is_part):
+    """The state reached, and what the next step needs to know of it. is_part : of a step cut at a corner."""
+    record = record_at(machine)
+    newton, residual, last = record.newton, record.residual, run.y.shape[0] - 2
+    if is_part and h < SHORT * run.numbers[LAST_STEP]:
+        keep_slopes(run, residual, newton)
+    else:
+        keep_changes(run, residual, newton, h)
     for k in range(residual.lam.shape[0]):
         newton.lam_before[k], newton.lam[k] = newton.lam[k], residual.lam[k]
     for i in range(last):
@@ -217,4 +247,67 @@ def keep_step(machine, run, h):
     # energies: the trapezoidal rule
     for i in range(2):
         run.y[last + i] += 0.5 * h * (run.rate[last + i] + record.control.power[i])
-    c[LAST_STEP] = h
+
+
+@stage
+def add_jump(machine, run, sign):
+    """Add `sign` times the rate in run.scratch to the accelerations and rates of the accepted state, and the multipliers of the record."""
+    record = record_at(machine)
+    newton, residual, stages = record.newton, record.residual, run.stages
+    n, states = residual.vdot.shape[0], newton.state.shape[0]
+    positions = np.int64(run.y.shape[0]) - n - states - 2
+    for k in range(n + states):
+        jump = sign * run.scratch[positions + k]
+        stages[BEFORE, k] += jump
+        if k < n:
+            stages[VDOT, k] += jump
+            stages[A, k] += jump
+        else:
+            stages[XDOT, k - n] += jump
+            stages[W, k - n] += jump
+    for k in range(residual.row.shape[0]):
+        newton.lam[k] += sign * record.constraints.lam[residual.row[k]]
+        newton.lam_before[k] += sign * record.constraints.lam[residual.row[k]]
+
+
+@stage
+def add_slope(machine, run, share):
+    """Let accelerations and rates change by so much more in a step like the last: `share` of the difference of AHEAD and run.scratch."""
+    record = record_at(machine)
+    c, stages = run.numbers, run.stages
+    n, states = record.residual.vdot.shape[0], record.newton.state.shape[0]
+    positions = np.int64(run.y.shape[0]) - n - states - 2
+    for k in range(n + states):
+        gained = share * (stages[AHEAD, positions + k] - run.scratch[positions + k])
+        stages[BEFORE, k] -= gained
+        if k < n:
+            stages[A, k] += (c[ALPHA_M] - c[ALPHA_F]) * gained
+        else:
+            stages[W, k - n] += (c[DELTA_M] - c[DELTA_F]) * gained
+
+
+@leaf
+def go_on_beyond(evaluate, machine, history, t):
+    """Let accelerations and rates be those beyond a corner at time t, where speeds do not jump. Returns a status.
+
+    To what the method has for them comes the difference of both sides, at one state, of themselves and of their slopes. To begin anew with
+    those of the state would be wrong for stiff springs: the slope of their accelerations is ω² times the speed of vibrations that
+    the steps before have stepped over.
+    """
+    run = run_at(history)
+    last = run.numbers[LAST_STEP]
+    aside, status = DIFFERENCE * last, OK
+    for sign in (-1.0, 1.0):
+        at = before(t) if sign < 0.0 else t
+        if status == OK:
+            status = evaluate(machine, at, run.y, run.scratch)
+        if status == OK:
+            add_jump(machine, run, sign)
+            for i in range(run.y.shape[0]):
+                run.trial[i] = run.y[i] + sign * aside * run.scratch[i]
+            status = evaluate(machine, at + sign * aside, run.trial, run.stages[AHEAD])
+        if status == OK:
+            # backwards the difference is that of the slope with its sign changed, as it is to be taken away
+            add_slope(machine, run, last / aside)
+        run.counter[EVALUATIONS] += 2
+    return status

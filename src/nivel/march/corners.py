@@ -97,22 +97,23 @@ def find_jump(machine):
 
 @leaf
 def pass_corner(machine, history, t):
-    """Let the speeds of run.y be those beyond the corner at time t. Returns a status."""
+    """Let the speeds of run.y be those beyond the corner at time t. Returns a status, and whether they jump."""
     run, record = run_at(history), record_at(machine)
     newton, residual, constraints = record.newton, record.residual, record.constraints
     n, first = residual.vdot.shape[0], residual.vdot.shape[0] + newton.state.shape[0]
     positions, rows = np.int64(run.y.shape[0]) - first - 2, residual.row.shape[0]
     for i in range(run.y.shape[0]):
         residual.y[i] = run.y[i]
-    status = call_hook(machine, RESIDUAL, 0, t)
+    status, jumps = call_hook(machine, RESIDUAL, 0, t), False
     if status == OK and speeds_are_open(residual, constraints.scale, first):
+        jumps = True
         for k in range(n):
             newton.change[k] = 0.0
         status = differentiate(machine, t, INSTANT * INSTANT, INSTANT, INSTANT, POSITIONS)
         if status == OK:
             status = factorise(machine)
         if status != OK:
-            return status
+            return status, jumps
         find_jump(machine)
         for k in range(n):
             run.y[positions + k] += newton.b[k]
@@ -126,4 +127,4 @@ def pass_corner(machine, history, t):
             residual.lam[k] = newton.b[first + k]
         status = call_hook(machine, RESIDUAL, 0, before(t))
         run.y[run.y.shape[0] - 2] += 0.5 * (work + work_of_drivers(constraints))
-    return status
+    return status, jumps

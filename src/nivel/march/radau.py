@@ -209,5 +209,5 @@ def radau(evaluate, machine, history):
     if corner < np.inf:
         # what was before it says nothing about what comes
         run.clock[STEP], run.counter[RESTART] = max(run.clock[STEP], wish), 1
-        return pass_corner(machine, history, run.clock[REACHED])
+        return pass_corner(machine, history, run.clock[REACHED])[0]
     return OK

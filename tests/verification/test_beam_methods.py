@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from beams import flying, hinged
+from beams import flying, hinged, prepared
 from nivel.errors import ModelError
+from nivel.kernels.status import OK
 from simulating import simulate
 
 STEEL = {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3, "density": "7850 kg/m^3"}
@@ -80,3 +81,22 @@ def test_joints_that_do_not_fit_are_refused():
 def test_methods_that_need_masses_of_single_bodies_say_so():
     with pytest.raises(ModelError, match="consistent mass of rod"):
         simulate({**flying(1), "simulation": {"coordinates": "independent", "integrator": "rk4"}})
+
+
+def test_baumgarte_feeds_violations_back_where_masses_are_shared(rng):
+    """C_q v̇ = γ - 2α Ċ - β² C of a state whose velocities are open."""
+    cantilevered = prepared(cantilever(), "absolute")
+    motion, y = cantilevered.motion, cantilevered.start.copy()
+    record, first, count = motion.system.record, motion.system.positions, 6 * motion.system.body_count
+    y[first : first + count] += 1e-3 * rng.standard_normal(count)
+    record.control.stabilise[:2] = 30.0, 200.0
+    status, rate = motion.evaluate(0.0, y)
+    assert status == OK
+    C, Cdot, gamma = (
+        record.constraints.C,
+        record.constraints.Cdot,
+        record.constraints.gamma[: len(record.constraints.C)],
+    )
+    assert np.abs(Cdot).max() > 1e-4
+    found = motion.jacobian() @ rate[first : first + count]
+    assert_allclose(found, gamma - 30.0 * Cdot - 200.0 * C, atol=1e-9 * (1.0 + np.abs(rate).max()))

@@ -21,6 +21,7 @@ from references import slider_crank
 from running import Frames, run
 from simulating import machine as machine_of
 from test_independent import triple_rocker
+from test_shifted_parts import sled
 
 ALPHA = {"newmark": {}, "hht": {"hht": {"alpha": 0.1}}, "generalised-alpha": {}}
 EACH_ALPHA = pytest.mark.parametrize("integrator", ALPHA)
@@ -250,6 +251,18 @@ def test_redundant_joints(machine, integrator):
     r = run(record, integrator=integrator, **common, **settings)
     assert np.abs(r.position - fine.position).max() < 1e-5
     assert np.abs(r.joint_force - fine.joint_force).max() < 1e-4 * (1.0 + np.abs(fine.joint_force).max())
+
+
+@pytest.mark.parametrize("integrator", ["newmark", "radau", "bdf", "ros2"])
+def test_friction_loaded_by_reactions(integrator):
+    """A sled on bristles, against an explicit method in absolute coordinates."""
+    common = {"duration": 0.3, "output_interval": 0.03}
+    fine = run(sled(), integrator="dop853", tolerance=1e-10, coordinates="absolute", **common)
+    settings = {"step": 1e-4} if integrator in ("newmark", "ros2") else {"tolerance": 1e-7}
+    r = run(sled(), integrator=integrator, coordinates="independent", **common, **settings)
+    assert r.dissipated_energy[-1] > 1e-3
+    assert np.abs(r.position - fine.position).max() < 1e-7
+    assert np.abs(r.dissipated_energy - fine.dissipated_energy).max() < 1e-6
 
 
 @pytest.mark.parametrize("stabilisation", ["none", "direct", "geometric"])

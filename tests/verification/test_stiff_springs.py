@@ -56,20 +56,9 @@ def test_alpha_methods(name, coordinates, tolerance, integrator):
     assert_stiff_is_no_dearer(name, integrator, coordinates, tolerance)
 
 
-@pytest.mark.parametrize(
-    ("name", "coordinates", "tolerance"),
-    [
-        ("pendulum", "relative", 1e-3),
-        ("pendulum", "relative", 1e-5),
-        ("pendulum", "absolute", 1e-7),
-        ("crank", "relative", 1e-7),
-        ("crank", "absolute", 1e-5),
-        ("crank", "absolute", 1e-7),
-        ("double pendulum", "relative", 1e-3),
-        ("double pendulum", "absolute", 1e-3),
-        ("double pendulum", "absolute", 1e-5),
-    ],
-)
+@ON_EACH
+@COORDINATES
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-7])
 def test_radau(name, coordinates, tolerance):
     assert_stiff_is_no_dearer(name, "radau", coordinates, tolerance)
 

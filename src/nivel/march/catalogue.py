@@ -83,7 +83,7 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     ),
     "ros2": IntegratorFacts("nivel.march.rosenbrock", "ros2", 2, 2, residual=True, rates=True),
     "radau": IntegratorFacts(
-        "nivel.march.radau", "radau", 68, 5, 9, chooses_steps=True, residual=True, rates=True, shifted=True
+        "nivel.march.radau", "radau", 14, 5, 11, chooses_steps=True, residual=True, rates=True, shifted=True
     ),
 }
 

@@ -63,10 +63,17 @@ def test_radau(name, coordinates, tolerance):
     assert_stiff_is_no_dearer(name, "radau", coordinates, tolerance)
 
 
+@ON_EACH
+@COORDINATES
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-5])
+def test_bdf(name, coordinates, tolerance):
+    assert_stiff_is_no_dearer(name, "bdf", coordinates, tolerance)
+
+
 @COORDINATES
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
 @pytest.mark.parametrize("ratio", [1.0, 1e2, 1e4])
-@pytest.mark.parametrize("integrator", ["generalised-alpha", "radau"])
+@pytest.mark.parametrize("integrator", ["generalised-alpha", "radau", "bdf"])
 def test_tolerance_is_met_whatever_the_stiffness(integrator, ratio, tolerance, coordinates):
     """The elastic pendulum, whose spring vibrates with 0.7 to 160 periods a second, against its own equations of motion."""
     stiffness = 98.1 * ratio

@@ -11,8 +11,8 @@ so block (i, j) of the matrix is δ_ij M_i + h a_ij D_i + K_i X_ij, X = h² A² 
 
 is solved for them first. Nothing depends on the energies at the end of y: they change by what they miss.
 
-Where a stiff spring turns with the machine it has another direction at every stage. The simplified iteration, which has one matrix for all of
-them, then does not contract unless the step is short against that turn, however slow the motion; this one does.
+Where a stiff spring turns with the machine it has another direction at every stage. The simplified iteration, which has one matrix for all
+of them, then does not contract unless the step is short against that turn, however slow the motion; this one does.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from nivel.kernels.rotation import angular_velocity
 from nivel.kernels.shifted_parts import find_parts, keep_multipliers
 from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.kernels.status import NOT_CONVERGED, OK
-from nivel.march.radau_constants import A, AA
+from nivel.march.radau_constants import AA, A
 
 # row of the derivatives put aside
 BEGIN = 3

@@ -15,7 +15,7 @@ from beams import forces, prepared, trust
 from gradient_beams import EI, LENGTH, MODELS, bodies_of_nodes, cantilever, deformed, flying, in_motion, section
 from nivel.analysis import implicit
 from nivel.analysis.beam_facts import beam_facts
-from nivel.errors import ModelError
+from nivel.errors import ModelError, SolveError
 from nivel.kernels.observe import observe
 from references.flexible_pendulum import TIP
 from simulating import machine, simulate
@@ -487,6 +487,18 @@ def test_methods_that_do_not_know_gradients_name_the_beam():
     for words in ({"coordinates": "relative"}, {"formulation": "lagrange"}, conserving):
         with pytest.raises(ModelError, match="rod"):
             simulate(sections, duration=0.1, step=0.01, **words)
+
+
+def test_explicit_steps_that_are_too_long_name_the_beam_and_the_longest_step():
+    """√(EA/μ)-waves in elements of 1.25 m and the turning of gradients: rk4 is stable up to 2.8 over the angular frequency."""
+    sections, settings = cantilever("ancf-cable", {"type": "force", "vector": [0, -1, 0]}), {"integrator": "rk4"}
+    fastest = beam_facts(machine(sections).record.beams[0]).fastest
+    limit = 2.8 / (2 * np.pi * fastest)
+    with pytest.raises(SolveError, match=f"element of the beam rod vibrates with up to {fastest:.3g} Hz") as caught:
+        simulate(sections, duration=1000 * limit, step=2 * limit, **settings)
+    assert "--integrator generalised-alpha" in str(caught.value)
+    steps = simulate(sections, duration=100 * limit, step=0.5 * limit, **settings)
+    assert np.isfinite(steps.array("position")).all()
 
 
 def test_catenary_length_is_what_it_is_compared_with():

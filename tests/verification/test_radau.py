@@ -256,6 +256,57 @@ def test_spring_that_turns_meets_the_tolerance():
     assert np.abs(result.position[:, 0] - expected.position).max() < 10 * 1e-5 + 1e-5
 
 
+def tumbling(stiffness):
+    """A body that turns about all its axes, held beside its centre of mass by a spring, which starts with neither a speed nor an
+    acceleration along itself: L̈ = d · r̈ + v²/L = 0 for its end at r = L d, its tension T in r̈ = g - T d/m + ω̇ × u + ω × (ω × u)."""
+    mass, inertia, gravity = 1.0, np.array([0.01, 0.02, 0.025]), np.array([0, -9.81, 0])
+    end, u, omega = np.array([0.9, 0.05, 0.1]), np.array([-0.1, 0.05, 0.1]), np.array([4.0, -3.0, 5.0])
+    length = np.linalg.norm(end)
+    d = end / length
+    speed = np.cross([1.0, -2.0, 3.0], d)
+
+    def acceleration(tension):
+        turning = (np.cross(u, -tension * d) - np.cross(omega, inertia * omega)) / inertia
+        along = gravity - tension * d / mass + np.cross(turning, u) + np.cross(omega, np.cross(omega, u))
+        return d @ along + speed @ speed / length
+
+    tension = acceleration(0.0) / (acceleration(0.0) - acceleration(1.0))
+    spring = SpringDamper(
+        name="rod",
+        bodies=("ground", "stone"),
+        points=((0, 0, 0), tuple(end)),
+        stiffness=stiffness,
+        free_length=length - tension / stiffness,
+    )
+    stone = Body(
+        name="stone",
+        mass=mass,
+        inertia=tuple(inertia),
+        position=tuple(end - u),
+        velocity=tuple(speed - np.cross(omega, u)),
+        angular_velocity=tuple(omega),
+    )
+    return MachineRecord(
+        name="tumbling",
+        gravity=tuple(gravity),
+        bodies=(stone,),
+        forces=(spring,),
+        simulation=SimulationSettings(duration=1.0, output_interval=0.05),
+    )
+
+
+@COORDINATES
+def test_stages_of_a_body_that_tumbles_on_a_stiff_spring(coordinates):
+    """1e6 N/m against the same motion by an explicit method. Derivatives at the stages bring Newton's iteration to its end in four changes
+    in the mean, of which the last shows that it is."""
+    result = solved(tumbling(1e6), tolerance=1e-3, coordinates=coordinates)
+    expected = run(tumbling(1e6), integrator="dop853", tolerance=1e-9, coordinates=coordinates)
+    assert np.abs(result.position - expected.position).max() < 10 * 1e-3 * result.prepared.motion.system.size
+    timing = result.finished.timing
+    assert steps(result) < 2 * steps(solved(tumbling(1e2), tolerance=1e-3, coordinates=coordinates))
+    assert timing["iterations"] < 4 * (timing["steps"] + timing["rejected"])
+
+
 # -- runs
 
 

@@ -64,28 +64,24 @@ def test_alpha_methods_in_independent_coordinates(name, tolerance, integrator):
     assert_stiff_is_no_dearer(name, integrator, "independent", tolerance, most=2.5)
 
 
-@pytest.mark.parametrize(
-    ("name", "coordinates", "tolerance"),
-    [
-        ("pendulum", "relative", 1e-3),
-        ("pendulum", "relative", 1e-5),
-        ("pendulum", "absolute", 1e-7),
-        ("crank", "relative", 1e-7),
-        ("crank", "absolute", 1e-5),
-        ("crank", "absolute", 1e-7),
-        ("double pendulum", "relative", 1e-3),
-        ("double pendulum", "absolute", 1e-3),
-        ("double pendulum", "absolute", 1e-5),
-    ],
-)
+@ON_EACH
+@COORDINATES
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-7])
 def test_radau(name, coordinates, tolerance):
     assert_stiff_is_no_dearer(name, "radau", coordinates, tolerance)
+
+
+@ON_EACH
+@COORDINATES
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-5])
+def test_bdf(name, coordinates, tolerance):
+    assert_stiff_is_no_dearer(name, "bdf", coordinates, tolerance)
 
 
 @COORDINATES
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
 @pytest.mark.parametrize("ratio", [1.0, 1e2, 1e4])
-@pytest.mark.parametrize("integrator", ["generalised-alpha", "radau"])
+@pytest.mark.parametrize("integrator", ["generalised-alpha", "radau", "bdf"])
 def test_tolerance_is_met_whatever_the_stiffness(integrator, ratio, tolerance, coordinates):
     """The elastic pendulum, whose spring vibrates with 0.7 to 160 periods a second, against its own equations of motion."""
     stiffness = 98.1 * ratio

@@ -44,8 +44,9 @@ from nivel.kernels.handle import Handle
 from nivel.kernels.record import COMPLETE, WATCH
 from nivel.kernels.saddle import MOST_UNSETTLED
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE
+from nivel.machine.beam import Beam
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import IntegratorFacts
+from nivel.march.catalogue import IntegratorFacts, chooses
 from nivel.march.run import (
     ALL_STEPS,
     BUDGET,
@@ -99,7 +100,7 @@ LONG = 1e4
 @dataclass(frozen=True)
 class Prepared:
     """A machine ready to run: where its equations are, these and its state at the start in the coordinates of the run, both again in
-    absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings."""
+    absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings, its beams."""
 
     path: PathFacts
     motion: MotionEquations
@@ -109,6 +110,7 @@ class Prepared:
     redundancy: Redundancy
     drivers: int
     integrator: IntegratorFacts
+    beams: tuple[Beam, ...] = ()
 
 
 @dataclass
@@ -195,12 +197,12 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
             balance=sliding or machine.shares_mass,
             along=integrator.along,
             free=free,
-            filtered=integrator.either and machine.simulation.step_control == "error",
+            filtered=integrator.filters and chooses(machine.simulation.integrator, machine.simulation.step_control),
             accelerations=integrator.accelerations,
             compliance=prepared.system.record.saddle.shift if FORMULATIONS[formulation].factor > 0.0 else None,
         )
         prepared = equip(prepared, y, coordinates, wanted)
-    return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator)
+    return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator, machine.beams)
 
 
 def _speeds(system: System, y: Array) -> tuple[float, float]:
@@ -285,8 +287,15 @@ def march(
     if status not in (BUDGET_SPENT, BUFFER_FULL, DONE):
         finished.outcome = "failed"
         step_size = float(run.clock[STEP])
+        explicit = settings.steps > 0 and not (facts.implicit or facts.residual)
         message, advice = failure(
-            prepared.motion, status, float(run.clock[TIME]), step_size, run.previous, chosen=settings.steps == 0
+            prepared.motion,
+            status,
+            float(run.clock[TIME]),
+            step_size,
+            run.previous,
+            chosen=settings.steps == 0,
+            beams=prepared.beams if explicit else (),
         )
         finished.failure = (message, advice, float(run.clock[TIME]))
         if status != CONTRADICTION:

@@ -150,7 +150,7 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     moved = len(record.modal.carrier) > 0 or has_sliding_nodes(record)
     by_hand = not (wanted.whole or wanted.along or moved) and has_elastic_beams(record)
     plain = plain_nodes(system, part) if by_hand else {}
-    plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values())
+    plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values(), stages=3 if wanted.shifted else 0)
     place = places(system.map, velocities, positions)
     room = {
         "shifted": wanted.shifted,

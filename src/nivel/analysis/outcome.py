@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib import import_module
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.equations import MotionEquations
+from nivel.analysis.fast_beams import too_fast
 from nivel.analysis.unknowns import unknown_name
 from nivel.kernels.status import (
     BRISTLE_TOO_FAST,
@@ -23,6 +25,7 @@ from nivel.kernels.status import (
     ROTATION_SINGULAR,
     SINGULAR,
 )
+from nivel.machine.beam import Beam
 from nivel.system.system import Array
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
@@ -32,11 +35,18 @@ DRIFTED = 1e-2
 
 
 def failure(
-    motion: MotionEquations, status: int, time: float, step: float, y: Array, *, chosen: bool = False
+    motion: MotionEquations,
+    status: int,
+    time: float,
+    step: float,
+    y: Array,
+    *,
+    chosen: bool = False,
+    beams: Sequence[Beam] = (),
 ) -> tuple[str, str]:
     """(message, advice) for a run that failed in the step from `time` [s], whose last accepted state is y.
 
-    chosen : the integrator chose the step, and tried ever smaller ones.
+    chosen : the integrator chose the step, and tried ever smaller ones. beams : that an explicit method had to follow.
     """
     number = int(motion.system.record.control.failure[0])
     if status == CONTRADICTION:
@@ -57,7 +67,7 @@ def failure(
         told = _off_rail(motion, number)
     else:
         # what is not a number spoils pivots as well, so look for it first
-        told = broken_function(motion, time, step, y)
+        told = broken_function(motion, time, step, y) or too_fast(beams, step)
         if told is None and chosen:
             told = _no_step(motion, status, time, step, y)
         elif told is None and status == SINGULAR:

@@ -74,6 +74,30 @@ class ComplexFactors(NamedTuple):
     r: C1
 
 
+class Coupled(NamedTuple):
+    """The stages of a Runge–Kutta method as one system, each with derivatives of its own; see `nivel.march.coupled_stages`.
+
+    Unknown u at stage s is number 3 u + s, and so in the pattern of one system every entry becomes three by three. T bodies that turn.
+    """
+
+    lu: SparseLU
+    column: U1  # pattern of the matrix, as in `Newton`
+    row_start: U1
+    factors: RealFactors
+    M: F2  # (4, ·) derivatives at the three stages, as in `Shifted`; last those of the begin of the step, put aside
+    D: F2
+    K: F2
+    state: F2  # (3, ny) where they were found
+    r: F2  # (3, ny) what is missing in the equations of the stages, then the change of the states
+    moved: F2  # (3, n) change of the positions while accelerations do not change
+    reach: (
+        F3  # (n, 3, 9) change of a position at a stage by accelerations of the body: one of it, or three, at each stage
+    )
+    spin: F3  # (T, 12, 12) factors of the equations of Euler parameters at the stages
+    pivot: U2  # (T, 12)
+    work: F2  # (2, 12)
+
+
 class Shifted(NamedTuple):
     """Derivatives of the residual apart, and systems made of them. Without numbers for methods that have no use for it."""
 
@@ -82,6 +106,7 @@ class Shifted(NamedTuple):
     K: F1  # (·,) with respect to positions
     real: RealFactors
     pair: ComplexFactors
+    coupled: Coupled
 
 
 class Newton(NamedTuple):

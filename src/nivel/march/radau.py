@@ -21,6 +21,7 @@ from nivel.march.radau_constants import BEND, GAMMA
 from nivel.march.radau_stages import (
     AGE,
     CONTRACTION,
+    COUPLED,
     ERROR,
     FOUND,
     LAST,
@@ -29,10 +30,12 @@ from nivel.march.radau_stages import (
     LEFT_OVER,
     LONGEST,
     MADE,
+    PATIENCE,
     RATES,
     REPEATED,
     Z,
     iterate,
+    iterate_coupled,
     make_factors,
     predict,
     write_polynomial,
@@ -73,6 +76,8 @@ GOOD = 0.02
 LEAST_CHANGE, MOST_CHANGE = 0.2, 8.0
 # A step whose iteration fails is halved; the steps after it grow to its length by this factor each.
 HALF, REGAIN = 0.5, 1.1
+# After a step whose iteration contracts only with derivatives at its stages so many steps have these, twice as many each time.
+FEWEST, MOST_PATIENCE = 4.0, 64.0
 # A step is kept, and its factors, where it might be longer by less than this.
 WORTH = 1.2
 
@@ -83,6 +88,7 @@ def forget(run):
     numbers = run.numbers
     numbers[MADE], numbers[FOUND], numbers[AGE], numbers[LEFT_OVER] = 0.0, 0.0, 0.0, 1.0
     numbers[LAST_STEP], numbers[LAST_ERROR], numbers[LONGEST] = 0.0, 1.0, np.inf
+    numbers[COUPLED], numbers[PATIENCE] = 0.0, 0.0
     run.counter[RESTART] = 0
 
 
@@ -142,7 +148,7 @@ def next_step(run, h, error, last):
         factor = min(factor, SAFETY * h / last * (numbers[LAST_ERROR] / (error * error)) ** (1.0 / ORDER))
     factor = max(LEAST_CHANGE, min(1.0 if numbers[REPEATED] == 1.0 else MOST_CHANGE, factor))
     numbers[LAST_ERROR] = max(error, 1e-2)
-    if numbers[CONTRACTION] > GOOD:
+    if numbers[CONTRACTION] > GOOD or numbers[COUPLED] > 0.0:
         numbers[FOUND] = 0.0
     elif 1.0 <= factor < WORTH:
         factor = 1.0
@@ -154,11 +160,15 @@ def attempt(evaluate, machine, history, h, end, tolerance):
     """A status, the error of a step h to the time `end` as a share of the allowed one, and how much shorter the step has to be for no body
     to turn too far. Its stages are in Z."""
     run = run_at(history)
+    close = max(CLOSE * run.clock[TOLERANCE], EXACT)
     status = make_factors(machine, history, h)
     if status != OK:
         return status, 0.0, 1.0
     predict(run, h)
-    status = iterate(evaluate, machine, history, h, end, max(CLOSE * run.clock[TOLERANCE], EXACT))
+    if run.numbers[COUPLED] == 0.0:
+        status = iterate(evaluate, machine, history, h, end, close)
+    else:
+        status = iterate_coupled(evaluate, machine, history, h, end, close)
     if status != OK:
         return status, 0.0, 1.0
     shorter = turned_too_far(machine, h)
@@ -193,6 +203,11 @@ def radau(evaluate, machine, history):
                 # the same step with the derivatives of this state
                 numbers[FOUND] = 0.0
                 continue
+            if status == NOT_CONVERGED and numbers[COUPLED] == 0.0:
+                # and with those at its stages, as the steps after it
+                numbers[PATIENCE] = min(max(FEWEST, 2.0 * numbers[PATIENCE]), MOST_PATIENCE)
+                numbers[COUPLED] = numbers[PATIENCE]
+                continue
             numbers[FOUND] = 0.0
             reject(run, h, HALF if status == NOT_CONVERGED else AFTER_FAILURE)
             numbers[LONGEST] = run.clock[STEP]
@@ -206,6 +221,10 @@ def radau(evaluate, machine, history):
     numbers[AGE] += 1.0
     numbers[LONGEST] *= REGAIN
     run.clock[STEP] = next_step(run, h, error, last)
+    if numbers[COUPLED] > 0.0:
+        numbers[COUPLED] -= 1.0
+    else:
+        numbers[PATIENCE] = max(0.0, numbers[PATIENCE] - 1.0)
     if corner < np.inf:
         # what was before it says nothing about what comes
         run.clock[STEP], run.counter[RESTART] = max(run.clock[STEP], wish), 1

@@ -16,8 +16,9 @@ import numpy as np
 C = np.array([(4.0 - np.sqrt(6.0)) / 10.0, (4.0 + np.sqrt(6.0)) / 10.0, 1.0])
 
 _powers = np.arange(3)
-_A = (C[:, None] ** (_powers + 1) / (_powers + 1)) @ np.linalg.inv(C[:, None] ** _powers)
-_eigenvalues, _right = np.linalg.eig(np.linalg.inv(_A))
+A = np.ascontiguousarray((C[:, None] ** (_powers + 1) / (_powers + 1)) @ np.linalg.inv(C[:, None] ** _powers))
+AA = np.ascontiguousarray(A @ A)
+_eigenvalues, _right = np.linalg.eig(np.linalg.inv(A))
 _mu = _eigenvalues.tolist()
 _real, _pair = min(range(3), key=lambda k: abs(_mu[k].imag)), max(range(3), key=lambda k: _mu[k].imag)
 # eigenvectors of which the last entry, that of the end of the step, is 1

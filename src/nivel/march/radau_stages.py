@@ -13,25 +13,27 @@ from nivel.kernels.compile import leaf
 from nivel.kernels.record import record_at
 from nivel.kernels.shifted_parts import factorise_shifted, find_parts, solve_shifted_parts
 from nivel.kernels.status import NOT_CONVERGED, OK
-from nivel.march.radau_constants import GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
+from nivel.march.coupled_stages import bring_back, factorise_stages, find_stage_parts, put_aside, solve_stages
+from nivel.march.radau_constants import GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, A, C
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, TIME, run_at
+from nivel.march.workspace import larger
 
 # Rows of run.stages: Z_i; ω₁, Re ω₂, Im ω₂; rates at the stages; d_1 … d_4 of the last accepted step; estimated error; d_1 … d_3 of this
-# step are made in the rows of the rates. From PAST on, of each change of ω made in this step: three rows of it, three of what it did.
-Z, OMEGA, RATES, LAST, ERROR, PAST = 0, 3, 6, 9, 13, 14
+# step are made in the rows of the rates.
+Z, OMEGA, RATES, LAST, ERROR = 0, 3, 6, 9, 13
 # Entries of run.numbers: the step that the factors are for (0: none), whether there are derivatives, steps since they were found,
 # the share of a change that is left after it (an estimate), the largest contraction of the last step; the last step (0: none), its error,
-# whether this step was rejected, the longest step for which the iteration may converge.
+# whether this step was rejected, the longest step for which the iteration may converge; steps that are still to be made with derivatives
+# at the stages, and how many were the last time.
 MADE, FOUND, AGE, LEFT_OVER, CONTRACTION, LAST_STEP, LAST_ERROR, REPEATED, LONGEST = 0, 1, 2, 3, 4, 5, 6, 7, 8
-NUMBERS = 9
+COUPLED, PATIENCE = 9, 10
+NUMBERS = 11
 
-MOST = 12
-# Changes made that an iteration makes use of.
-DEPTH = 8
-# The iteration has failed where after so many changes one is this share of the one before, or where at its pace it would not end in time.
-# The first ones may be larger: where a stiff spring turns, the matrix is far from normal, and what is predicted too long comes out
-# sideways before it contracts.
-SLOWEST, SIDEWAYS, TRIED = 0.9, 1e4, 6
+MOST = 10
+# The iteration has failed where a change is this share of the one before, or where at its pace it would not end in time.
+SLOWEST = 0.9
+# derivatives at the stages are found anew where a change is more than this share of the one before
+CONTRACTS = 0.1
 # what is left is taken for no less than this share of a change
 SANGUINE = 1e-3
 FORGET = 0.8
@@ -39,7 +41,8 @@ FORGET = 0.8
 
 @leaf
 def make_factors(machine, history, h):
-    """Derivatives where there are none, and factors for the step h. Returns a status."""
+    """Derivatives where there are none, and factors for the step h: those of the error alone where the stages are to have derivatives of
+    their own. Returns a status."""
     run, shifted = run_at(history), record_at(machine).newton.shifted
     status = OK
     if run.numbers[FOUND] == 0.0:
@@ -50,9 +53,9 @@ def make_factors(machine, history, h):
         run.numbers[FOUND], run.numbers[AGE], run.numbers[MADE] = 1.0, 0.0, 0.0
     if run.numbers[MADE] != h:
         status = factorise_shifted(machine, shifted.real, h / GAMMA)
-        if status == OK:
+        if status == OK and run.numbers[COUPLED] == 0.0:
             status = factorise_shifted(machine, shifted.pair, h / MU)
-        run.numbers[MADE] = h if status == OK else 0.0
+        run.numbers[MADE] = h if status == OK and run.numbers[COUPLED] == 0.0 else 0.0
     return status
 
 
@@ -137,75 +140,16 @@ def size_of_changes(machine, history):
 
 
 @leaf
-def product(run, a, b):
-    """Of three rows of the stages from a with three from b, by the scales; without the energies."""
-    total = 0.0
-    for i in range(run.y.shape[0] - 2):
-        share = run.scale[i] * run.scale[i]
-        for m in range(3):
-            total += run.stages[a + m, i] * run.stages[b + m, i] / share
-    return total
-
-
-@leaf
-def add_rows(run, a, b, factor):
-    """Add `factor` times three rows of the stages from b to those from a."""
-    for m in range(3):
-        for i in range(run.y.shape[0]):
-            run.stages[a + m, i] += factor * run.stages[b + m, i]
-
-
-@leaf
-def accelerate(machine, history, k):
-    """Replace the change that iteration k asks for by one that also makes use of what the changes before did to it, so that what is left
-    is least. Returns how many times more a change did to it than one with the right matrix does, 1 at least.
-
-    dx is a change made and df what it did to the change asked for; those before are made orthogonal in df (Eirola, Nevanlinna 1989; for
-    linear equations the result is that of GMRES).
-    """
+def take_changes(machine, history):
+    """Add the changes asked for to ω and Z."""
     run, shifted = run_at(history), record_at(machine).newton.shifted
     stages, real, pair = run.stages, shifted.real.r, shifted.pair.r
-    slot, spread = min(k, DEPTH), 1.0
-    now = PAST + 6 * slot
     for i in range(run.y.shape[0]):
-        stages[now + 3, i], stages[now + 4, i], stages[now + 5, i] = real[i], pair[i].real, pair[i].imag
-    if 0 < k <= DEPTH:
-        dx, df = now - 6, now - 3
+        stages[OMEGA, i] += real[i]
+        stages[OMEGA + 1, i] += pair[i].real
+        stages[OMEGA + 2, i] += pair[i].imag
         for m in range(3):
-            for i in range(run.y.shape[0]):
-                stages[df + m, i] = stages[now + 3 + m, i] - stages[df + m, i]
-        of_change, of_effect = product(run, dx, dx), product(run, df, df)
-        spread = np.sqrt(of_effect / of_change) if of_change > 0.0 else 1.0
-        for j in range(slot - 1):
-            before = PAST + 6 * j
-            length = product(run, before + 3, before + 3)
-            share = product(run, df, before + 3) / length if length > 0.0 else 0.0
-            add_rows(run, df, before + 3, -share)
-            add_rows(run, dx, before, -share)
-    # the change asked for stays in slot `now` for the next iteration
-    for m in range(3):
-        for i in range(run.y.shape[0]):
-            stages[now + m, i] = stages[now + 3 + m, i]
-    for j in range(slot):
-        before = PAST + 6 * j
-        length = product(run, before + 3, before + 3)
-        share = product(run, now + 3, before + 3) / length if length > 0.0 else 0.0
-        add_rows(run, now, before + 3, -share)
-        add_rows(run, now, before, -share)
-    return max(spread, 1.0)
-
-
-@leaf
-def take_changes(run, k):
-    """Add the change made of iteration k to ω and Z."""
-    stages, now = run.stages, PAST + 6 * min(k, DEPTH)
-    for i in range(run.y.shape[0]):
-        one, two = stages[now, i], complex(stages[now + 1, i], stages[now + 2, i])
-        stages[OMEGA, i] += one
-        stages[OMEGA + 1, i] += two.real
-        stages[OMEGA + 2, i] += two.imag
-        for m in range(3):
-            stages[Z + m, i] += RIGHT[m] * one + 2.0 * (RIGHT_PAIR[m] * two).real
+            stages[Z + m, i] += RIGHT[m] * real[i] + 2.0 * (RIGHT_PAIR[m] * pair[i]).real
 
 
 @leaf
@@ -224,8 +168,6 @@ def unknown_at(newton, place, positions):
 @leaf
 def fails(k, contraction, change):
     """Whether iteration k, with this contraction and a change so many times what may be left, will not come to an end."""
-    if k < TRIED:
-        return not contraction < SIDEWAYS
     return not contraction < SLOWEST or contraction ** (MOST - 1 - k) / (1.0 - contraction) * change > 1.0
 
 
@@ -233,10 +175,10 @@ def fails(k, contraction, change):
 def iterate(evaluate, machine, history, h, end, close):
     """Z of the step h to the time `end`, until what is left to change is `close`. Returns a status; where the iteration fails, the unknown
     that changes most is left in control.failure."""
-    run, record = run_at(history), record_at(machine)
+    run = run_at(history)
     numbers, last, contraction, worst = run.numbers, np.inf, 0.0, 0
     # what was seen steps ago counts less and less: towards 1, which asks for a second iteration
-    left, spread = numbers[LEFT_OVER] ** FORGET, 1.0
+    left = numbers[LEFT_OVER] ** FORGET
     for k in range(MOST):
         status = evaluate_rates(evaluate, machine, history, h, end)
         run.counter[ITERATIONS] += 1
@@ -246,23 +188,101 @@ def iterate(evaluate, machine, history, h, end, close):
         change, energies, worst = size_of_changes(machine, history)
         if not change < np.inf:
             break
-        spread = max(spread, accelerate(machine, history, k))
-        take_changes(run, k)
+        take_changes(machine, history)
         if k > 0:
             now = change / last if last > 0.0 else 0.0
             contraction = np.sqrt(now * contraction) if k > 1 and contraction < 1.0 else now
             numbers[CONTRACTION] = contraction
             left = contraction / (1.0 - contraction) if contraction < 1.0 else np.inf
-        if k > 0 and change * spread > close and fails(k, contraction, change / close):
-            break
-        if max(change * spread, energies) * min(left, 1.0) <= close:
+            if change > close and fails(k, contraction, change / close):
+                break
+        if max(change, energies) * min(left, 1.0) <= close:
             numbers[LEFT_OVER] = max(left, SANGUINE)
             return OK
         last = change
+    numbers[LEFT_OVER] = 1.0
+    return no_convergence(machine, history, worst)
+
+
+@leaf
+def no_convergence(machine, history, worst):
+    """The status of an iteration that found nothing, with the unknown that moves entry `worst` of y in control.failure."""
+    run, record = run_at(history), record_at(machine)
     positions = np.int64(run.y.shape[0]) - record.newton.place.shape[0] - record.newton.state.shape[0] - 2
     record.control.failure[0] = unknown_at(record.newton, worst, positions)
-    numbers[LEFT_OVER] = 1.0
     return NOT_CONVERGED
+
+
+@leaf
+def evaluate_stages(evaluate, machine, history, h, end, renewed):
+    """As `evaluate_rates`, with the derivatives at the stages where they are `renewed`. Returns a status."""
+    run = run_at(history)
+    for m in range(3):
+        for i in range(run.y.shape[0]):
+            run.trial[i] = run.y[i] + run.stages[Z + m, i]
+        t = run.clock[TIME] + C[m] * h if m < 2 else end
+        status = evaluate(machine, t, run.trial, run.stages[RATES + m])
+        run.counter[EVALUATIONS] += 1
+        if status == OK and renewed:
+            status = find_stage_parts(machine, m, t, run.trial, run.stages[RATES + m])
+        if status != OK:
+            return status
+    return OK
+
+
+@leaf
+def take_stage_changes(machine, history, h, positions):
+    """One change of Z by the factors that there are. Returns its size, that of the energies, and the entry of y that changes most."""
+    run, own = run_at(history), record_at(machine).newton.shifted.coupled
+    stages, largest, energies, worst = run.stages, 0.0, 0.0, 0
+    for i in range(run.y.shape[0]):
+        f0, f1, f2 = stages[RATES, i], stages[RATES + 1, i], stages[RATES + 2, i]
+        for m in range(3):
+            own.r[m, i] = h * (A[m, 0] * f0 + A[m, 1] * f1 + A[m, 2] * f2) - stages[Z + m, i]
+    solve_stages(machine, positions, h)
+    for i in range(run.y.shape[0]):
+        change = 0.0
+        for m in range(3):
+            change = larger(change, own.r[m, i], run.scale[i])
+            stages[Z + m, i] += own.r[m, i]
+        if i >= run.y.shape[0] - 2:
+            energies = max(energies, change)
+        elif not change <= largest:
+            largest, worst = change, i
+            if np.isnan(change):
+                break
+    return largest, energies, worst
+
+
+@leaf
+def iterate_coupled(evaluate, machine, history, h, end, close):
+    """The same as `iterate` by Newton's iteration with derivatives at the stages, which serve as long as changes contract by CONTRACTS."""
+    run, record = run_at(history), record_at(machine)
+    positions = np.int64(run.y.shape[0]) - record.newton.place.shape[0] - record.newton.state.shape[0] - 2
+    last, contraction, worst, left, status = np.inf, 0.0, 0, 1.0, OK
+    put_aside(machine)
+    for k in range(MOST):
+        renewed = k == 0 or not contraction < CONTRACTS
+        status = evaluate_stages(evaluate, machine, history, h, end, renewed)
+        run.counter[ITERATIONS] += 1
+        if status == OK and renewed:
+            status = factorise_stages(machine, positions, h)
+            run.counter[FACTORISATIONS] += 1
+        if status != OK:
+            break
+        change, energies, worst = take_stage_changes(machine, history, h, positions)
+        status = NOT_CONVERGED
+        if not change < np.inf:
+            break
+        if k > 0:
+            contraction = change / last if last > 0.0 else 0.0
+            left = contraction / (1.0 - contraction) if contraction < 1.0 else np.inf
+        if max(change, energies) * min(left, 1.0) <= close:
+            status = OK
+            break
+        last = change
+    bring_back(machine, run.y)
+    return no_convergence(machine, history, worst) if status == NOT_CONVERGED else status
 
 
 @leaf

@@ -7,11 +7,12 @@ from nivel.march.exact_matrix import find_matrix, solve_matrix
 from nivel.march.multistep_polynomials import BDF
 from nivel.march.run import run_at, step_signature
 from nivel.march.step_control import allowed
+from nivel.march.stiff_vibration import look
 from nivel.march.variable_corrector import corrector
 from nivel.march.variable_gear import MOST_ORDER, SHARE
 from nivel.march.variable_order import multistep
 
-variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix))
+variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix), look)
 
 
 @entry(step_signature)

@@ -37,6 +37,7 @@ from nivel.march.step_control import (
     too_small,
     turned_too_far,
 )
+from nivel.march.stiff_vibration import BEGINS, GOES_ON, NO, forget, settle
 from nivel.march.variable_corrector import FORGET
 from nivel.march.variable_workspace import (
     CHANGE,
@@ -50,6 +51,7 @@ from nivel.march.variable_workspace import (
     SHARE,
     SLOPE,
     STEPS,
+    VIBRATING,
     WAIT,
     WORK,
     XI,
@@ -62,7 +64,7 @@ LOWER, SAME, HIGHER = 6.0, 4.0, 8.0
 # A step is made longer only if it gets longer by this factor, and by no more than the second (the third at the start).
 WORTH, MOST_GROWTH, FIRST_GROWTH = 1.2, 2.0, 10.0
 # After so many rejections of one step its past says nothing about it, and the polynomial begins anew with order one.
-PATIENCE = 3
+MOST_REJECTIONS = 3
 
 
 @leaf
@@ -153,7 +155,10 @@ def choose(run, family, most, h, tolerance, error, lower, factors):
     q, numbers = run.counter[ORDER], run.numbers
     growth, change = longer(error, q, SAME), 0
     numbers[WAIT] -= 1.0
-    if numbers[WAIT] <= 0.0:
+    if numbers[VIBRATING] == GOES_ON:
+        # what is left of the vibration says nothing about orders; the second is the highest that lets none grow
+        change = 1 if q == 1 and numbers[WAIT] <= 0.0 else 0
+    elif numbers[WAIT] <= 0.0:
         numbers[WAIT] = 2.0
         if q > 1:
             factor = longer(below * lower / tolerance, q - 1, LOWER)
@@ -173,8 +178,16 @@ def choose(run, family, most, h, tolerance, error, lower, factors):
     return growth
 
 
-def multistep(family, most, correct, damp):
-    """The function `variable_step` of a family, for orders up to `most`, with a corrector of `nivel.march.variable_corrector`."""
+@leaf
+def plain(machine, history, h, factor, tolerance):
+    """The error of the step just attempted, `factor` times ESTIMATE, as a share of the allowed one."""
+    run = run_at(history)
+    return factor * size(run, run.stages[ESTIMATE]) / tolerance
+
+
+def multistep(family, most, correct, damp, look):
+    """The function `variable_step` of a family, for orders up to `most`, with a corrector of `nivel.march.variable_corrector` and a look at
+    vibrations of `nivel.march.stiff_vibration`."""
 
     @leaf
     def variable_step(evaluate, machine, history, tolerance):
@@ -183,6 +196,7 @@ def multistep(family, most, correct, damp):
         numbers = run.numbers
         enter(evaluate, machine, history, 1.0, tolerance)
         if is_fresh(run):
+            forget(run)
             start(run)
             run.counter[RESTART] = 0
         elif run.counter[NEWTON] == 0:
@@ -204,13 +218,19 @@ def multistep(family, most, correct, damp):
             if status != OK:
                 reject(run, h, AFTER_FAILURE)
             else:
-                error = factors[2] / factors[0] * size(run, run.stages[ESTIMATE]) / tolerance
+                error = look(machine, history, h, factors[2] / factors[0], tolerance)
+                if numbers[VIBRATING] == BEGINS:
+                    # the same step with order one
+                    numbers[VIBRATING] = GOES_ON
+                    run.clock[STEP] = h
+                    start(run)
+                    continue
                 shorter = turned_too_far(machine, h)
                 if error <= 1.0 and shorter == 1.0:
                     break
                 reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
             rejections += 1
-            if rejections % PATIENCE == 0:
+            if rejections % MOST_REJECTIONS == 0:
                 start(run)
         accept(run, c)
         extrapolated = factors[2] / factors[0] if family == ADAMS and run.counter[NEWTON] == 0 else 0.0
@@ -227,8 +247,10 @@ def multistep(family, most, correct, damp):
         lower = 0.0
         if numbers[WAIT] <= 1.0:
             status = damp(machine, history, run.stages[Z + q], run.stages[CHANGE])
-            lower = size(run, run.stages[CHANGE])
+            # an error without its vibrations is not to be compared with one that has them
+            lower = size(run, run.stages[CHANGE]) if numbers[VIBRATING] == NO else np.inf
         growth = choose(run, family, most, h, tolerance, error, lower, factors)
+        settle(run, h, growth >= WORTH)
         run.clock[STEP] = h * min(growth, 1.0 if rejections > 0 else (FIRST_GROWTH if first else MOST_GROWTH))
         return status
 

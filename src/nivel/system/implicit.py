@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.implicit_record import ComplexFactors, Interval, Newton, RealFactors, Residual, Shifted
+from nivel.kernels.implicit_record import ComplexFactors, Coupled, Interval, Newton, RealFactors, Residual, Shifted
 from nivel.kernels.record import NONE, Record
+from nivel.system.factor_plan import FactorPlan
 from nivel.system.system import Array, StateMap
 from nivel.system.tables import index_array
 from nivel.system.tangent_plan import TangentPlan, plan_tangent
@@ -93,25 +94,48 @@ def places(state_map: StateMap, velocities: int, positions: int) -> Index:
     return out
 
 
-def shifted_tables(plan: TangentPlan, velocities: int, state: int) -> Shifted:
-    """For the derivatives planned, so many velocities and entries of y."""
-    entries = len(plan.factor.column)
+def shifted_tables(plan: TangentPlan, place: Index, state: int) -> Shifted:
+    """For the derivatives planned, `place` of the velocities and entries of y."""
+    entries, velocities = len(plan.factor.column), len(place)
     return Shifted(
         M=np.zeros(entries),
         D=np.zeros(entries),
         K=np.zeros(entries),
-        real=real_factors(plan, velocities, state),
-        pair=_factors(ComplexFactors, np.complex128, plan, velocities, state),
+        real=real_factors(plan.factor, velocities, state),
+        pair=_factors(ComplexFactors, np.complex128, plan.factor, velocities, state),
+        coupled=_coupled(plan, place, state),
     )
 
 
-def real_factors(plan: TangentPlan, velocities: int, state: int) -> RealFactors:
+def _coupled(plan: TangentPlan, place: Index, state: int) -> Coupled:
+    """For the stages of a step; without numbers where they are not planned."""
+    factor, stages, kept = plan.coupled or EMPTY.factor, 3 if plan.coupled else 0, 4 if plan.coupled else 0
+    entries, velocities = len(plan.factor.column), len(place)
+    turns = int(np.sum(place[:, 1] == 0))
+    return Coupled(
+        lu=factor.tables,
+        column=factor.column,
+        row_start=factor.row_start,
+        factors=real_factors(factor, 0, 0),
+        M=np.zeros((kept, entries)),
+        D=np.zeros((kept, entries)),
+        K=np.zeros((kept, entries)),
+        state=np.zeros((stages, state)),
+        r=np.zeros((stages, state)),
+        moved=np.zeros((stages, velocities)),
+        reach=np.zeros((velocities, 3, 9)),
+        spin=np.zeros((turns, 12, 12)),
+        pivot=np.zeros((turns, 12), dtype=np.uint32),
+        work=np.zeros((2, 12)),
+    )
+
+
+def real_factors(factor: FactorPlan, velocities: int, state: int) -> RealFactors:
     """Room for the factors of a matrix with the pattern planned."""
-    return _factors(RealFactors, np.float64, plan, velocities, state)
+    return _factors(RealFactors, np.float64, factor, velocities, state)
 
 
-def _factors(kind: type, dtype: type, plan: TangentPlan, velocities: int, state: int) -> Any:
-    factor = plan.factor
+def _factors(kind: type, dtype: type, factor: FactorPlan, velocities: int, state: int) -> Any:
     dense = factor.fill > MOSTLY_FULL
     full = factor.size if dense else 0
     L, U, Dinv, work = factor.workspace(dtype) if not dense else (np.zeros(0, dtype),) * 4
@@ -187,14 +211,14 @@ def newton_tables(
         corners=np.array(corners, dtype=float),
         kept=np.zeros(4),
         settings=np.zeros(4),
-        balance=real_factors(plan if balance else EMPTY, 0, 0),
-        filter=real_factors(plan if filtered else EMPTY, 0, 0),
+        balance=real_factors((plan if balance else EMPTY).factor, 0, 0),
+        filter=real_factors((plan if filtered else EMPTY).factor, 0, 0),
         balanced=np.array([0.0, length]),
         asked=np.zeros(3),
         level=np.zeros(1, dtype=np.uint32),
         compliance=np.zeros(0) if compliance is None else compliance,
         diagonal=_corner(plan, rows if compliance is not None else 0),
-        shifted=shifted_tables(plan, n, state) if shifted else shifted_tables(EMPTY, 0, 0),
+        shifted=shifted_tables(plan, place, state) if shifted else shifted_tables(EMPTY, place[:0], 0),
     )
 
 

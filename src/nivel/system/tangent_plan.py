@@ -22,9 +22,11 @@ Index = NDArray[np.uint32]
 
 @dataclass(frozen=True)
 class TangentPlan:
-    """The factors of the matrix, and `group`, `group_start`, `entry_start`, `entry` of `nivel.kernels.implicit_record.Newton`."""
+    """The factors of the matrix, those of the stages of a step as one system where they were asked for, and `group`, `group_start`,
+    `entry_start`, `entry` of `nivel.kernels.implicit_record.Newton`."""
 
     factor: FactorPlan
+    coupled: FactorPlan | None
     group: Index
     group_start: Index
     entry_start: Index
@@ -38,11 +40,13 @@ def plan_tangent(
     *,
     mirrored: bool,
     found: Collection[int] = (),
+    stages: int = 0,
 ) -> TangentPlan:
     """For groups of so many unknowns, of constraints or not, that are coupled in pairs.
 
     mirrored : derivatives with respect to multipliers are those of the constraints, so they are not found by evaluations of their own.
     found : groups whose derivatives are found otherwise; their entries are in the plan all the same.
+    stages : of a step, which are planned as one system too; 0: they are not.
     """
     pairs = {(a, b) for a, b in couples if a != b}
     beside = [{g} for g in range(len(sizes))]
@@ -75,6 +79,7 @@ def plan_tangent(
     transposed[mirror] = factor.entry(column[mirror], row[mirror])
     return TangentPlan(
         factor=factor,
+        coupled=plan_factor([stages * size for size in sizes], constraint, pairs) if stages else None,
         group=index_array([unknown for group in groups for unknown in group], 1),
         group_start=np.cumsum([0, *(len(group) for group in groups)]).astype(np.uint32),
         entry_start=np.searchsorted(column, np.arange(factor.size + 1)).astype(np.uint32),

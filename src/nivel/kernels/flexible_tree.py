@@ -24,16 +24,12 @@ from nivel.kernels.tree import move_child, product, swing
 
 
 @stage
-def read_modes(machine, y):
-    """Modal coordinates and their rates from the state."""
-    record = record_at(machine)
-    own, tree = record.flexible, record.tree
-    for n in range(tree.node.shape[0]):
-        if tree.node[n, 2] == MODAL:
-            first, count = modes_of(own, record.modal.link[n])
-            q, v = np.int64(tree.place[n, 0]), np.int64(tree.place[n, 1])
-            for j in range(count):
-                own.p[first + j], own.pdot[first + j] = y[q + j], y[v + j]
+def read_modes(own, tree, modal, n, y):
+    """Modal coordinates and their rates of MODAL node n from the state."""
+    first, count = modes_of(own, modal.link[n])
+    q, v = np.int64(tree.place[n, 0]), np.int64(tree.place[n, 1])
+    for j in range(count):
+        own.p[first + j], own.pdot[first + j] = y[q + j], y[v + j]
 
 
 @stage
@@ -120,10 +116,10 @@ def move_flexible_tree(machine, y):
     """Poses and velocities of all bodies and frames from the state, and the columns of their motion."""
     record = record_at(machine)
     bodies, tree, own, modal = record.bodies, record.tree, record.flexible, record.modal
-    read_modes(machine, y)
     for n in range(tree.node.shape[0]):
         kind = tree.node[n, 2]
         if kind == MODAL:
+            read_modes(own, tree, modal, n, y)
             carry_body(bodies, tree, own, modal, n)
         elif kind == OUTWARD:
             carry_frame(bodies, tree, own, modal.link[n])

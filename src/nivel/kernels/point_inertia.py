@@ -15,11 +15,12 @@ from nivel.kernels.status import OK
 
 @stage
 def acceleration_of(machine, marker):
-    """Acceleration of the point of a marker at the origin of a body or of a frame of a flexible one, from `residual.acceleration`."""
+    """Acceleration of the point of a marker at the origin of a body or of a frame of a flexible one, from `residual.acceleration`: in
+    relative coordinates the whole of it, else that of a frame less its bias."""
     record = record_at(machine)
     body, bodies = record.markers.body[marker], record.bodies
     x, ground = record.residual.acceleration[body], bodies.mass.shape[0]
-    if body > ground:
+    if body > ground and record.tree.node.shape[0] == 0:
         bias = record.flexible.bias[body - ground - 1]
         return x[3] + bias[3], x[4] + bias[4], x[5] + bias[5]
     return x[3], x[4], x[5]

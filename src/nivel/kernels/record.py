@@ -212,7 +212,7 @@ class Hooks(NamedTuple):
 
     address: (
         A1  # (HOOKS,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams,
-        # rails, pass, mass of points
+        # rails, pass, mass of points, nodes of modes, nodes that slide
     )
 
 
@@ -412,7 +412,7 @@ complex_family_signature = types.int64(complex_address_type, types.int64, types.
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
-MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RAIL, PASS, POINTS = (
+MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RAIL, PASS, POINTS, MODES, SLIDERS = (
     0,
     1,
     2,
@@ -424,8 +424,12 @@ MEASURE, FRICTION, SENSE, COMPLETE, WATCH, RESIDUAL, GIVEN_FRICTION, TANGENT, RA
     8,
     9,
     10,
+    11,
+    12,
 )  # entries of Hooks.address
-HOOKS = 11
+HOOKS = 13
 HOLD, LEAVE, GO_ON = 0, 1, 2  # jobs of the hook PASS
+# what the hooks MODES and SLIDERS do for a node, and MODES for all flexible bodies, see `nivel.kernels.tree_nodes`
+MOVE, ACCELERATE, HAND, LOAD, NEED = 0, 1, 2, 3, 4
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions

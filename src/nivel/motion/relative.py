@@ -10,15 +10,14 @@ import numpy as np
 
 from nivel.kernels.articulated import accelerate, factorise_tree, whiten_efforts, whiten_tree_rows
 from nivel.kernels.compile import entry, stage
-from nivel.kernels.constraint import constraint_rows
-from nivel.kernels.hook import apply_forces, finish_forces, measure_active
-from nivel.kernels.marker import move_marker, place_point, turn_axes
+from nivel.kernels.hook import apply_forces, finish_forces
 from nivel.kernels.record import FREE, SPHERICAL, correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.kernels.status import OK
 from nivel.kernels.tree import move_tree
+from nivel.kernels.tree_markers import read_markers
 
 WIDTH = 1
 
@@ -48,16 +47,19 @@ def normalise(machine, y):
 def read_state(machine, t, y):
     """Poses and velocities of bodies and of the markers in use, and the rows that are left. Returns a status."""
     record = record_at(machine)
-    bodies, markers = record.bodies, record.markers
-    move_tree(bodies, record.tree, y)
-    for n in range(record.tree.marker.shape[0]):
-        k = record.tree.marker[n]
-        place_point(bodies, markers, k)
-        if record.tree.turning[n] != 0:
-            turn_axes(bodies, markers, k)
-        move_marker(bodies, markers, k)
-    constraint_rows(bodies, markers, record.constraints)
-    return measure_active(machine, t)
+    move_tree(record.bodies, record.tree, y)
+    return read_markers(machine, t)
+
+
+@stage
+def factorise(machine):
+    """Factors of the mass matrix and of S = W Wᵀ in the state last read. Returns a status."""
+    record = record_at(machine)
+    factorise_tree(record.bodies, record.tree)
+    if record.saddle.block.shape[0] == 0:
+        return OK
+    whiten_tree_rows(machine)
+    return factorise_rows(machine, WIDTH)
 
 
 @stage
@@ -89,14 +91,10 @@ def evaluate(machine, t, y, ydot):
         return status
     load_weight(record.bodies)
     status = apply_forces(machine, t, y)
+    if status == OK:
+        status = factorise(machine)
     if status != OK:
         return status
-    factorise_tree(record.bodies, tree)
-    if record.saddle.block.shape[0] > 0:
-        whiten_tree_rows(machine)
-        status = factorise_rows(machine, WIDTH)
-        if status != OK:
-            return status
     whiten_efforts(machine)
     status = multipliers(machine, WIDTH)
     if status != OK:

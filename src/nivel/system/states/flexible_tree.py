@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from importlib import import_module
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -73,8 +72,7 @@ def _arranged(
     bodies = np.concatenate([y[: 7 * count], y[7 * count + modes : 13 * count + modes]])
     own = _with_frames(record, poses(absolute, bodies), p, expanded.extra)
     independent = velocities_in(expanded.nodes) - (6 * count + modes - rank)
-    complete = import_module("nivel.kernels.carried_flexible").complete.address
-    system, start = in_tree(machine, absolute, own, expanded.nodes, independent, complete, _bent(record, expanded, p))
+    system, start = in_tree(machine, absolute, own, expanded.nodes, independent, _bent(record, expanded, p))
     parents = {node.parent for node in expanded.nodes}
     heavy = [node.kind == "outward" and node.child in parents for node in expanded.nodes]
     most = max(len(each.reduced.eigenvalues) for each in bending)

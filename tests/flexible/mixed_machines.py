@@ -11,10 +11,10 @@ def flexible(folder, file, **more):
     return {"flexible": {"file": str(folder / f"{file}.nc"), "modes": 3, "damping_ratio": 0.01}, **more}
 
 
-def mixed(folder, kind="translational-on-beam", *, mass="consistent", closed=False, **simulation):
-    """A flexible body on a hinge carries a beam by its tip; a flexible body slides along this and carries a rigid one by its own root.
+def mixed(folder, kind="translational-on-beam", *, mass="consistent", root="arm", closed=False, **simulation):
+    """A flexible body on a hinge carries a beam by its tip; a flexible body slides along this and carries a rigid one by its own tip.
 
-    closed : the end of the beam is held on a line, by a joint that closes a loop.
+    root : what the beam is welded to. closed : its end is held on a line, by a joint that closes a loop.
     """
     sections = {
         "name": "mixed",
@@ -27,7 +27,7 @@ def mixed(folder, kind="translational-on-beam", *, mass="consistent", closed=Fal
         "beams": {"rod": {"from": [1, 0, 0], "to": [2, 0, 0], "section": SECTION, "elements": 3, "mass": mass}},
         "joints": {
             "root": {"type": "revolute", "bodies": ["ground", "arm"], "point": [0, 0, 0], "axis": [0, 0.6, 0.8]},
-            "weld": {"type": "fixed", "bodies": ["arm", "rod.start"], "point": [1, 0, 0]},
+            "weld": {"type": "fixed", "bodies": [root, "rod.start"], "point": [1, 0, 0]},
             "pad": {"type": kind, "bodies": ["runner", "rod"], "point": [1.55, 0, 0]},
             "grip": {"type": "cylindrical", "bodies": ["runner", "block"], "point": [2.55, 0, 0], "axis": [1, 0, 0]},
         },

@@ -5,20 +5,18 @@ As `nivel.motion.relative`, whose recursion also passes through the modes: see `
 
 from __future__ import annotations
 
-import numpy as np
-
 from nivel.kernels.compile import entry, stage
 from nivel.kernels.flexible_articulated import factorise_flexible_tree
 from nivel.kernels.flexible_tree import clear_frames, move_flexible_tree
 from nivel.kernels.flexible_whitening import accelerate_flexible, whiten_flexible_efforts, whiten_flexible_tree_rows
 from nivel.kernels.floating_dynamics import load_modes
-from nivel.kernels.hook import apply_forces, finish_forces
+from nivel.kernels.hook import apply_forces
 from nivel.kernels.record import correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight
-from nivel.kernels.saddle import factorise_rows, multipliers
+from nivel.kernels.saddle import factorise_rows
 from nivel.kernels.status import OK
 from nivel.kernels.tree_markers import read_markers
-from nivel.motion.relative import WIDTH, normalise, write_positions
+from nivel.motion.tree_motion import WIDTH, evaluate_tree, normalise
 
 
 @stage
@@ -51,29 +49,18 @@ def factorise_flexible(machine):
 
 @entry(evaluate_signature)
 def evaluate(machine, t, y, ydot):
-    """ẏ of y = (q, v, x). Leaves everything else in the record but what `nivel.kernels.carried_flexible` adds for frames."""
-    record = record_at(machine)
-    tree = record.tree
-    status = read_flexible_tree(machine, t, y)
-    if status != OK:
-        return status
-    status = load_flexible_tree(machine, t, y)
-    if status == OK:
-        status = factorise_flexible(machine)
-    if status != OK:
-        return status
-    whiten_flexible_efforts(machine)
-    status = multipliers(machine, WIDTH)
-    if status != OK:
-        return status
-    status = finish_forces(machine, t, ydot)
-    positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
-    for k in range(positions):
-        tree.state[k] = y[k]
-    accelerate_flexible(machine, ydot[positions : positions + columns])
-    for n in range(tree.node.shape[0]):
-        write_positions(machine, y, y, ydot, n, np.int64(tree.place[n, 1]))
-    return status
+    """ẏ. Leaves everything else in the record but what `nivel.kernels.carried_flexible` adds for frames."""
+    return evaluate_tree(
+        machine,
+        t,
+        y,
+        ydot,
+        read_flexible_tree,
+        load_flexible_tree,
+        factorise_flexible,
+        whiten_flexible_efforts,
+        accelerate_flexible,
+    )
 
 
 @entry(correct_signature)

@@ -18,7 +18,7 @@ from nivel.kernels.floating_frame import modes_of
 from nivel.kernels.record import MODAL, record_at
 from nivel.kernels.saddle import solve_rows, subtract_rows
 from nivel.motion.flexible_tree import factorise_flexible
-from nivel.motion.relative import WIDTH, write_positions
+from nivel.motion.tree_motion import WIDTH, write_positions
 
 
 @stage

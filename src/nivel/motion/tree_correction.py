@@ -8,7 +8,7 @@ from nivel.kernels.compile import stage
 from nivel.kernels.record import record_at
 from nivel.kernels.saddle import correction, exceeds
 from nivel.kernels.status import OK
-from nivel.motion.relative import WIDTH, normalise, write_positions
+from nivel.motion.tree_motion import WIDTH, normalise, write_positions
 
 MAX_CORRECTIONS = 3
 # Violations up to this many times the tolerance leave the factor of S good enough for the next pass.

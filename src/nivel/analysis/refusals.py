@@ -180,12 +180,7 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
     why = f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}"
     faults = []
     if coordinates not in ("absolute", "relative"):
-        faults.append(
-            (
-                "coordinates",
-                f"'{coordinates}' {why.format('absolute or relative')}",
-            )
-        )
+        faults.append(("coordinates", f"'{coordinates}' {why.format('absolute or relative')}"))
     if formulation != "newton-euler":
         faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
     if INTEGRATORS[machine.simulation.integrator].whole:

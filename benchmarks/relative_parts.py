@@ -14,6 +14,7 @@ from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.kernels.tree import move_tree
 from nivel.motion import relative
 from nivel.motion.relative_correction import correct
+from nivel.motion.tree_motion import write_positions
 from part import part
 
 
@@ -96,7 +97,7 @@ def accelerations(machine, y, out, repeats):
     for _ in range(repeats):
         accelerate(machine, tree.change)
         for n in range(tree.node.shape[0]):
-            relative.write_positions(machine, y, y, out, n, np.int64(tree.place[n, 1]))
+            write_positions(machine, y, y, out, n, np.int64(tree.place[n, 1]))
 
 
 @part

@@ -1,7 +1,5 @@
 """Bodies that beams carry along which they slide: the same machine as with the joint kept, and what is kept all the same."""
 
-from importlib import import_module
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -14,7 +12,6 @@ from nivel.analysis.equations import MotionEquations
 from nivel.analysis.implicit import Wanted, equip
 from nivel.errors import SolveError
 from nivel.kernels.observe import observe
-from nivel.kernels.record import COMPLETE
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.states.relative import arrange
 from simulating import machine, simulate, solid
@@ -39,11 +36,9 @@ def frames(sections, rng, count=2, size=0.03):
     record = with_nodes(
         machine({**sections, "simulation": {**sections["simulation"], "coordinates": "relative"}}).record
     )
-    complete = import_module("nivel.kernels.carried_sliders").complete.address
     for y in random_states(kept, rng, count, size=size):
         absolute = eliminated.absolute.system
         system, own = arrange(record, absolute, y, int(absolute.record.control.rank[0]), record.simulation)
-        system.record.hooks.address[COMPLETE] = complete
         motion = MotionEquations(system, eliminated.motion.kernels)
         wanted = Wanted(balance=True)
         yield (

@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
 from beams import general
-from simulating import machine
+from simulating import machine, solid
 
 EI, LENGTH = 100.0, 10.0
 
@@ -277,3 +277,21 @@ def test_eliminated_and_kept_joints_rest_in_the_same_place(joint, more):
     np.testing.assert_allclose(places[0], places[1], rtol=0, atol=5e-10)
     forces = [each.array("joint_force")[0] for each in rest]
     np.testing.assert_allclose(forces[0], forces[1], rtol=0, atol=1e-8 * np.abs(forces[0]).max())
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_reactions_of_joints_that_carry_a_closed_loop(coordinates):
+    """A post on a hinge holds a cantilever by its top: moments about the hinge, P x = F h, and forces in turn from joint to joint."""
+    height, load = 0.2, 10.0
+    sections = cantilever({"type": "force", "vector": [0, 0, -load]})
+    sections["bodies"] = {"post": solid(1.0, 0.1, position=[0, 0, height])}
+    sections["joints"] = {
+        "hinge": {"type": "revolute", "bodies": ["ground", "rod.start"], "point": [0, 0, 0], "axis": [0, 1, 0]},
+        "foot": {"type": "fixed", "bodies": ["rod.start", "post"], "point": [0, 0, 0]},
+        "top": {"type": "point-on-line", "bodies": ["ground", "post"], "point": [0, 0, height], "axis": [0, 0, 1]},
+    }
+    result = machine(sections).statics(coordinates=coordinates)
+    force = dict(zip(result.dataset["joint"].values, result.array("joint_force")[0], strict=True))
+    push = load * result.dataset["position"].sel(body="rod.end").values[0, 0] / height
+    for joint, expected in {"hinge": [-push, 0, -load], "foot": [-push, 0, 0], "top": [push, 0, 0]}.items():
+        np.testing.assert_allclose(force[joint], expected, rtol=0, atol=1e-8 * push, err_msg=joint)

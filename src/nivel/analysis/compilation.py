@@ -15,7 +15,7 @@ from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS, IntegratorFacts, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import BALANCED, FLEXIBLE, PATHS, SLIDING, path_of
+from nivel.motion.catalogue import BALANCED, FLEXIBLE, PATHS, path_of
 from nivel.system.beams import ELASTIC as ELASTIC_FAMILY
 from nivel.system.beams import FAMILIES as BEAMS
 from nivel.system.beams import family_of
@@ -30,7 +30,9 @@ GIVEN_FRICTION, RAIL = "nivel.kernels.friction_residual", "nivel.kernels.rail"
 ELASTIC, HELD = f"nivel.kernels.forces.{ELASTIC_FAMILY}", "nivel.kernels.forces.held_beam"
 OF_BEAMS = (HELD, "nivel.kernels.beam_tangent")
 POINTS = "nivel.kernels.point_inertia"
-OF_SLIDERS = ("nivel.kernels.carried_sliders", "nivel.kernels.slider_pass")
+# nodes of trees that are no joints, for residuals in relative coordinates
+OF_MODES, OF_SLIDERS = "nivel.kernels.modal_nodes", "nivel.kernels.slider_nodes"
+PASSING = "nivel.kernels.slider_pass"
 RARE = {
     MEASURE: "measured coordinates",
     FRICTION: "friction",
@@ -59,6 +61,8 @@ def compile_path(
     parts = [("nivel.kernels.observe", "output"), *_rare_parts(machine, chosen)]
     parts.insert(0, (ASSEMBLY, "the equations of motion, newton-euler"))
     sliding = slides(machine, path[0], path[1])
+    asks = machine.shares_mass or sliding
+    asks = asks or (integrator in INTEGRATORS and bool(_facts(machine, path[0], integrator).residual))
     kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass, "sliding": sliding}
     if (facts := path_of(*path, **kinds)) is not None:
         if facts.module != ASSEMBLY:
@@ -66,8 +70,8 @@ def compile_path(
             bending += ", with beams of consistent mass" if machine.shares_mass else ""
             bending += ", with bodies that slide along beams" if sliding else ""
             parts.insert(1, (facts.module, f"the equations of motion, {path[1]} in {path[0]} coordinates{bending}"))
-        if sliding:
-            parts += [(module, "bodies that slide along beams") for module in OF_SLIDERS]
+        if asks:
+            parts += _node_parts(machine, path[0], sliding=sliding)
         corrects = stabilisation in STABILISATIONS and STABILISATIONS[stabilisation].CORRECTS
         if corrects and facts.correction != facts.module:
             parts.append((facts.correction, "the direct correction"))
@@ -82,10 +86,7 @@ def compile_path(
             place = f"{missing.index((module, what)) + 1}/{len(missing)}"
             listener.say(f"compiling {what} ({place}; only the first run does this)")
         import_module(module)
-    asks = integrator in INTEGRATORS and (
-        _facts(machine, path[0], integrator).residual or machine.shares_mass or sliding
-    )
-    if asks and facts is not None and facts.residual:
+    if asks and integrator in INTEGRATORS and facts is not None and facts.residual:
         residual = INTEGRATORS[integrator].over_step(machine.is_flexible) or facts.residual
         whole = bool(INTEGRATORS[integrator].whole) or INTEGRATORS[integrator].along
         _compile_derivatives(residual, [module for module, _ in parts], listener, held=not whole)
@@ -97,15 +98,27 @@ def compile_statics(machine: MachineRecord, coordinates: str, listener: Listener
     begin = perf_counter()
     path = (coordinates, "newton-euler", "euler-parameters")
     compile_path(machine, path, listener)
-    facts = path_of(*path, flexible=machine.is_flexible, sliding=slides(machine, coordinates, path[1]))
+    sliding = slides(machine, coordinates, path[1])
+    facts = path_of(*path, flexible=machine.is_flexible, sliding=sliding)
     if facts is not None and facts.residual:
-        used = [module for module, _ in _rare_parts(machine, False)]
+        parts = [*_rare_parts(machine, False), *_node_parts(machine, coordinates, sliding=sliding)]
+        used = [module for module, _ in parts]
         if not cache.is_warm("static_entries"):
             listener.say("compiling the equations of rest (only the first run does this)")
         _compile_derivatives(facts.residual, used, listener)
         import_module("nivel.kernels.tangent_entries")
         import_module("nivel.kernels.static_entries")
     return perf_counter() - begin
+
+
+def _node_parts(machine: MachineRecord, coordinates: str, *, sliding: bool) -> list[tuple[str, str]]:
+    """Modules of nodes of the tree that are no joints."""
+    parts = []
+    if machine.is_flexible and coordinates == "relative":
+        parts.append((OF_MODES, "flexible bodies in relative coordinates"))
+    if sliding:
+        parts += [(module, "bodies that slide along beams") for module in (OF_SLIDERS, PASSING)]
+    return parts
 
 
 def _facts(machine: MachineRecord, coordinates: str, integrator: str) -> IntegratorFacts:
@@ -116,10 +129,10 @@ def _facts(machine: MachineRecord, coordinates: str, integrator: str) -> Integra
 def complex_modules() -> list[str]:
     """Modules of families that exact derivatives may need on complex numbers."""
     families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])
-    residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values(), SLIDING) if path.residual]
+    residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values()) if path.residual]
     residuals += [module for facts in INTEGRATORS.values() for module in (facts.whole, facts.whole_flexible) if module]
     of_forces = [f"nivel.kernels.forces.{family}" for family in families]
-    return [*dict.fromkeys(residuals), MEASURE, RAIL, GIVEN_FRICTION, POINTS, *of_forces]
+    return [*dict.fromkeys(residuals), MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS, *of_forces]
 
 
 def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener, *, held: bool = True) -> None:
@@ -142,7 +155,15 @@ def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener,
 def rare_modules() -> list[str]:
     """Modules of all kinds of forces and of everything else that only some machines have."""
     families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])
-    return [*(f"nivel.kernels.forces.{family}" for family in families), *RARE, BALANCED, *OF_BEAMS, *OF_SLIDERS]
+    return [
+        *(f"nivel.kernels.forces.{family}" for family in families),
+        *RARE,
+        BALANCED,
+        *OF_BEAMS,
+        OF_MODES,
+        OF_SLIDERS,
+        PASSING,
+    ]
 
 
 def _rare_parts(machine: MachineRecord, chosen: bool) -> list[tuple[str, str]]:

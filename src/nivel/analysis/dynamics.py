@@ -28,7 +28,6 @@ from nivel.analysis.redundancy import Redundancy, analyse
 from nivel.analysis.refusals import (
     refuse_conserved_drivers,
     refuse_deep_starts,
-    refuse_for_flexible,
     refuse_for_shared_mass,
     refuse_friction_at_jumps,
     refuse_implicit_stiction,
@@ -41,7 +40,7 @@ from nivel.analysis.refusals import (
 from nivel.analysis.settings import RunSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.handle import Handle
-from nivel.kernels.record import COMPLETE, WATCH
+from nivel.kernels.record import WATCH
 from nivel.kernels.saddle import MOST_UNSETTLED
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE
 from nivel.machine.beam import Beam
@@ -135,7 +134,6 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     Raises ModelError where it cannot be closed, starts in a singular position, or has friction of no certain load.
     """
     machine = with_nodes(machine)
-    refuse_for_flexible(machine, coordinates)
     refuse_for_shared_mass(machine, formulation, coordinates)
     motion = equations(machine)
     assembly = assemble(machine, motion)
@@ -217,15 +215,10 @@ def _balanced(
 ) -> MotionEquations:
     """The equations of a machine whose bodies have mass in common, or are carried by beams along which they slide. Pivots, which the latter
     have none of, are judged by the masses lumped at the bodies."""
-    record = prepared.system.record
-    sliding = len(record.tree.slider) > 0
-    if not sliding:
+    if not len(prepared.system.record.tree.slider):
         lumped = path_of(coordinates, "newton-euler", machine.simulation.rotations, flexible=machine.is_flexible)
         assert lumped is not None
         bound_pivots(MotionEquations(prepared.system, import_module(lumped.module)), y)
-    if coordinates == "relative":
-        module = "nivel.kernels.carried_sliders" if sliding else "nivel.kernels.carried_balance"
-        record.hooks.address[COMPLETE] = import_module(module).complete.address
     if integrator.residual:
         return prepared
     return equip(prepared, y, coordinates, Wanted(balance=True))

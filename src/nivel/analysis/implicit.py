@@ -19,12 +19,14 @@ from nivel.kernels.record import (
     DEPENDENT,
     GIVEN_FRICTION,
     MEASURE,
+    MODES,
     MOMENTARY,
     NONE,
     PASS,
     POINTS,
     RAIL,
     RESIDUAL,
+    SLIDERS,
     TANGENT,
     Hooks,
     Record,
@@ -32,8 +34,8 @@ from nivel.kernels.record import (
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.system.beam_tangent import (
     elastic_family,
+    has_carried_nodes,
     has_elastic_beams,
-    has_sliding_nodes,
     plain_nodes,
     rail_of,
     tangent_tables,
@@ -147,8 +149,7 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     groups = unknown_groups(system, velocities, row, part, coordinates)
     # residuals over a whole step have elements of beams act at the mean place too
     # and by hand nothing is known of modes that move nodes of beams, nor of beams that move nodes of others
-    moved = len(record.modal.carrier) > 0 or has_sliding_nodes(record)
-    by_hand = not (wanted.whole or wanted.along or moved) and has_elastic_beams(record)
+    by_hand = not (wanted.whole or wanted.along or has_carried_nodes(record)) and has_elastic_beams(record)
     plain = plain_nodes(system, part) if by_hand else {}
     plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values(), stages=3 if wanted.shifted else 0)
     place = places(system.map, velocities, positions)
@@ -160,9 +161,7 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     }
     newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, length=system.size, **room)
     newton.settings[3] = ROUNDINGS * _longest_chain(record)
-    flexible = len(record.flexible.body) > 0
-    sliding = len(record.tree.slider) > 0
-    path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=flexible, sliding=sliding)
+    path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=len(record.flexible.body) > 0)
     assert path is not None
     family = import_module(wanted.whole or path.residual).residual
     instant = import_module(path.residual).residual if wanted.balance else family
@@ -172,8 +171,11 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     if by_hand:
         record = record._replace(beams=tangent_tables(record, plan, plain))
         hooks.address[TANGENT] = import_module("nivel.kernels.beam_tangent").tangent.address
-    if sliding:
+    if len(record.modal.carrier):
+        hooks.address[MODES] = import_module("nivel.kernels.modal_nodes").pass_modes.address
+    if len(record.tree.slider):
         hooks.address[PASS] = import_module("nivel.kernels.slider_pass").pass_nodes.address
+        hooks.address[SLIDERS] = import_module("nivel.kernels.slider_nodes").pass_sliders.address
     if wanted.accelerations and path.dependent:
         hooks.address[DEPENDENT] = import_module(path.dependent).depend.address
     if len(system.frictions):
@@ -198,7 +200,7 @@ def _twin(record: Record, *, held: bool) -> Handle:
     """
     twin = complex_twin(record)
     address = np.zeros_like(record.hooks.address)
-    for hook in (MEASURE, RAIL, GIVEN_FRICTION, POINTS):
+    for hook in (MEASURE, RAIL, GIVEN_FRICTION, POINTS, MODES, SLIDERS):
         address[hook] = _complex(record.hooks.address[hook])
     families = np.array([_complex(each) for each in record.elements.address], dtype=np.uint64)
     if held:

@@ -165,25 +165,6 @@ def _jump_of(table: Table, settings: SimulationSettings) -> str:
     return ""
 
 
-def refuse_for_flexible(machine: MachineRecord, coordinates: str) -> None:
-    """Methods that do not know flexible bodies."""
-    if not machine.is_flexible:
-        return
-    faults = []
-    nodes = {name for beam in machine.beams for name in beam.node_names}
-    bending = [body.name for body in machine.bodies if body.flexible is not None and body.name not in nodes]
-    names = ", ".join([*bending, *(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)])
-    if coordinates == "relative" and machine.shares_mass:
-        beams = ", ".join(beam.name for beam in machine.beams if beam.shares_mass)
-        message = (
-            f"'relative' does not go with flexible bodies ({names}) and the consistent mass of {beams} at once: take absolute, or "
-            f"{_lumped(machine)}"
-        )
-        faults.append(("coordinates", message))
-    if faults:
-        raise ModelError([Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults])
-
-
 def _lumped(machine: MachineRecord) -> str:
     """How the beams of a machine would have masses of single bodies, in words."""
     if any(beam.has_gradients for beam in machine.beams):
@@ -199,12 +180,7 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
     why = f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}"
     faults = []
     if coordinates not in ("absolute", "relative"):
-        faults.append(
-            (
-                "coordinates",
-                f"'{coordinates}' {why.format('absolute' if machine.is_flexible else 'absolute or relative')}",
-            )
-        )
+        faults.append(("coordinates", f"'{coordinates}' {why.format('absolute or relative')}"))
     if formulation != "newton-euler":
         faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
     if INTEGRATORS[machine.simulation.integrator].whole and any(beam.has_gradients for beam in machine.beams):

@@ -176,6 +176,15 @@ def hand_wrench(wrench, r, parent):
 
 
 @leaf
+def carry_motion(parent, r, out):
+    """Motion (angular, of the origin) of a child that moves with its parent, r = from the parent's origin to the child's."""
+    out[0], out[1], out[2] = parent[0], parent[1], parent[2]
+    out[3] = parent[3] + parent[1] * r[2] - parent[2] * r[1]
+    out[4] = parent[4] + parent[2] * r[0] - parent[0] * r[2]
+    out[5] = parent[5] + parent[0] * r[1] - parent[1] * r[0]
+
+
+@leaf
 def applied(bodies, tree, b, out):
     """Wrench about the frame's origin: applied forces less the inertia forces of the accelerations that others are counted from.
 
@@ -295,11 +304,8 @@ def accelerate(machine, change):
     for n in range(tree.node.shape[0]):
         node = tree.node[n]
         child, parent = node[0], node[1]
-        r, ap, a = tree.arm[child], tree.delta[parent], tree.delta[child]
-        a[0], a[1], a[2] = ap[0], ap[1], ap[2]
-        a[3] = ap[3] + ap[1] * r[2] - ap[2] * r[1]
-        a[4] = ap[4] + ap[2] * r[0] - ap[0] * r[2]
-        a[5] = ap[5] + ap[0] * r[1] - ap[1] * r[0]
+        a = tree.delta[child]
+        carry_motion(tree.delta[parent], tree.arm[child], a)
         for k in range(np.int64(node[4]), np.int64(node[5])):
             s, U = tree.column[k], tree.U[k]
             felt = (U[0] * a[0] + U[1] * a[1] + U[2] * a[2]) + (U[3] * a[3] + U[4] * a[4] + U[5] * a[5])

@@ -11,6 +11,7 @@ import numpy as np
 from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import MOMENTARY, NONE, record_at
+from nivel.kernels.residual import acceleration_of
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.shifted_parts import factorise_entries, solve_entries
 from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
@@ -106,7 +107,7 @@ def balance(machine, t, y):
 
 @stage
 def write_balanced_rates(machine, y, ydot):
-    """ẏ of the state y that is balanced, and the accelerations of the bodies for frames."""
+    """ẏ of the state y that is balanced, and the accelerations of the bodies and of frames at interfaces for what results show."""
     record = record_at(machine)
     bodies, own, newton, rate = record.bodies, record.residual, record.newton, record.elements.state_rate
     n, states = own.vdot.shape[0], rate.shape[0]
@@ -122,8 +123,8 @@ def write_balanced_rates(machine, y, ydot):
         ydot[positions + n + i] = rate[i]
     ydot[positions + n + states] = record.control.power[0]
     ydot[positions + n + states + 1] = record.control.power[1]
-    for b in range(bodies.mass.shape[0]):
-        A, x = bodies.A[b], own.acceleration[b]
+    for b in range(own.acceleration.shape[0]):
+        A, x = bodies.A[b], acceleration_of(machine, np.int64(b))
         for i in range(3):
             bodies.Rddot[b, i] = x[3 + i]
             bodies.alpha_b[b, i] = A[0, i] * x[0] + A[1, i] * x[1] + A[2, i] * x[2]

@@ -7,8 +7,8 @@ What a joint carries, and what a joint hangs on, is the frame at an interface of
     OUTWARD   from the floating frame to the frame at every other interface
 
 so a modal velocity moves, while its carrier is at rest, the floating frame by the column (-turn, turn × u - displacement) of its node, u
-from the floating frame to the node, and all further frames with it and by their own displacement. A flexible body that hangs on nothing
-is carried by a frame that is its floating frame, and its modes move that frame by nothing.
+from the floating frame to the node, and all further frames with it and by their own displacement. A flexible body that hangs on nothing,
+or on a marker that its modes do not move (of a node of a beam with gradients), is carried by a frame fixed to its floating frame.
 """
 
 from __future__ import annotations
@@ -24,16 +24,12 @@ from nivel.kernels.tree import move_child, product, swing
 
 
 @stage
-def read_modes(machine, y):
-    """Modal coordinates and their rates from the state."""
-    record = record_at(machine)
-    own, tree = record.flexible, record.tree
-    for n in range(tree.node.shape[0]):
-        if tree.node[n, 2] == MODAL:
-            first, count = modes_of(own, record.modal.link[n])
-            q, v = np.int64(tree.place[n, 0]), np.int64(tree.place[n, 1])
-            for j in range(count):
-                own.p[first + j], own.pdot[first + j] = y[q + j], y[v + j]
+def read_modes(own, tree, modal, n, y):
+    """Modal coordinates and their rates of MODAL node n from the state."""
+    first, count = modes_of(own, modal.link[n])
+    q, v = np.int64(tree.place[n, 0]), np.int64(tree.place[n, 1])
+    for j in range(count):
+        own.p[first + j], own.pdot[first + j] = y[q + j], y[v + j]
 
 
 @stage
@@ -44,12 +40,20 @@ def carry_body(bodies, tree, own, modal, n):
     R, w, V, alpha, a = bodies.R[b], bodies.omega[b], bodies.Rdot[b], tree.alpha0[b], tree.Rddot0[b]
     Rr, wr, Vr, alphar, ar = bodies.R[r], bodies.omega[r], bodies.Rdot[r], tree.alpha0[r], tree.Rddot0[r]
     product(bodies.A[r], tree.first[n], tree.axes)
+    Ar = bodies.A[r]
+    # from the carrier's origin to the node, or where this is none of the modes to the origin
+    d = (
+        Ar[0, 0] * number[4] + Ar[0, 1] * number[5] + Ar[0, 2] * number[6],
+        Ar[1, 0] * number[4] + Ar[1, 1] * number[5] + Ar[1, 2] * number[6],
+        Ar[2, 0] * number[4] + Ar[2, 1] * number[5] + Ar[2, 2] * number[6],
+    )
+    of_node, push = cross(wr, d), swing(alphar, wr, d)
     if k == NONE:
         for i in range(3):
             for j in range(3):
                 A[i, j] = tree.axes[i, j]
-            arm[i] = 0.0
-            R[i], w[i], V[i], alpha[i], a[i] = Rr[i], wr[i], Vr[i], alphar[i], ar[i]
+            arm[i], R[i], V[i] = d[i], Rr[i] + d[i], Vr[i] + of_node[i]
+            w[i], alpha[i], a[i] = wr[i], alphar[i], ar[i] + push[i]
         turn_to_body_axes(bodies, b)
         bend_body(bodies, own, f)
         return
@@ -67,15 +71,8 @@ def carry_body(bodies, tree, own, modal, n):
     bias, column = own.bias[k], modal.column[f]
     ux, uy, uz = u[0], u[1], u[2]
     vx, vy, vz = rate[0], rate[1], rate[2]
-    Ar = bodies.A[r]
-    # from the carrier's origin to the node
-    d = (
-        Ar[0, 0] * number[4] + Ar[0, 1] * number[5] + Ar[0, 2] * number[6],
-        Ar[1, 0] * number[4] + Ar[1, 1] * number[5] + Ar[1, 2] * number[6],
-        Ar[2, 0] * number[4] + Ar[2, 1] * number[5] + Ar[2, 2] * number[6],
-    )
     lever = (ux, uy, uz)
-    of_node, of_lever, push = cross(wr, d), cross(ww, lever), swing(alphar, wr, d)
+    of_lever = cross(ww, lever)
     for i in range(3):
         w[i] = ww[i]
         alpha[i] = alphar[i] - bias[i]
@@ -120,10 +117,10 @@ def move_flexible_tree(machine, y):
     """Poses and velocities of all bodies and frames from the state, and the columns of their motion."""
     record = record_at(machine)
     bodies, tree, own, modal = record.bodies, record.tree, record.flexible, record.modal
-    read_modes(machine, y)
     for n in range(tree.node.shape[0]):
         kind = tree.node[n, 2]
         if kind == MODAL:
+            read_modes(own, tree, modal, n, y)
             carry_body(bodies, tree, own, modal, n)
         elif kind == OUTWARD:
             carry_frame(bodies, tree, own, modal.link[n])

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.articulated import applied, hand_wrench, load_row, transmit
+from nivel.kernels.articulated import applied, carry_motion, hand_wrench, load_row, transmit
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.floating_dynamics import velocity_forces
 from nivel.kernels.floating_frame import modes_of
@@ -192,11 +192,8 @@ def accelerate_flexible(machine, change):
     for n in range(tree.node.shape[0]):
         node = tree.node[n]
         child, parent, kind, low = node[0], node[1], node[2], np.int64(node[4])
-        r, ap, a = tree.arm[child], tree.delta[parent], tree.delta[child]
-        a[0], a[1], a[2] = ap[0], ap[1], ap[2]
-        a[3] = ap[3] + ap[1] * r[2] - ap[2] * r[1]
-        a[4] = ap[4] + ap[2] * r[0] - ap[0] * r[2]
-        a[5] = ap[5] + ap[0] * r[1] - ap[1] * r[0]
+        a = tree.delta[child]
+        carry_motion(tree.delta[parent], tree.arm[child], a)
         if kind == OUTWARD:
             k = modal.link[n]
             first, size = modes_of(own, own.frame[k, 0])

@@ -9,20 +9,9 @@ from __future__ import annotations
 from nivel.kernels.compile import stage
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
+from nivel.kernels.residual import acceleration_of
 from nivel.kernels.spatial import dot
 from nivel.kernels.status import OK
-
-
-@stage
-def acceleration_of(machine, marker):
-    """Acceleration of the point of a marker at the origin of a body or of a frame of a flexible one, from `residual.acceleration`."""
-    record = record_at(machine)
-    body, bodies = record.markers.body[marker], record.bodies
-    x, ground = record.residual.acceleration[body], bodies.mass.shape[0]
-    if body > ground:
-        bias = record.flexible.bias[body - ground - 1]
-        return x[3] + bias[3], x[4] + bias[4], x[5] + bias[5]
-    return x[3], x[4], x[5]
 
 
 @family
@@ -35,13 +24,13 @@ def resist(machine, job, t):
         for j in range(index.shape[0]):
             if index[j] == NONE:
                 break
-            a = acceleration_of(machine, index[j])
+            a = acceleration_of(machine, markers.body[index[j]])
             for i in range(index.shape[0]):
                 if index[i] == NONE:
                     break
                 F = wrench[markers.body[index[i]]]
                 for k in range(3):
-                    F[k] -= C[i, j] * a[k]
+                    F[k] -= C[i, j] * a[3 + k]
     return OK
 
 

@@ -212,7 +212,7 @@ class Hooks(NamedTuple):
 
     address: (
         A1  # (HOOKS,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams,
-        # rails, pass, mass of points, dependent coordinates
+        # rails, pass, mass of points, residual at an instant, dependent coordinates, nodes of modes, nodes that slide
     )
 
 
@@ -426,8 +426,12 @@ EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
     POINTS,
     MOMENTARY,
     DEPENDENT,
-) = range(13)  # entries of Hooks.address
-HOOKS = 13
+    MODES,
+    SLIDERS,
+) = range(15)  # entries of Hooks.address
+HOOKS = 15
 HOLD, LEAVE, GO_ON = 0, 1, 2  # jobs of the hook PASS
+# what the hooks MODES and SLIDERS do for a node, and MODES for all flexible bodies, see `nivel.kernels.tree_nodes`
+MOVE, ACCELERATE, HAND, LOAD, NEED = 0, 1, 2, 3, 4
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions

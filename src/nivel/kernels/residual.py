@@ -43,6 +43,18 @@ def load_multipliers(machine, t):
 
 
 @stage
+def acceleration_of(machine, b):
+    """(α, R̈) of body or frame b from `residual.acceleration`: in relative coordinates the whole of it, else that of a frame at an interface
+    less its bias."""
+    record = record_at(machine)
+    x, first = record.residual.acceleration[b], record.bodies.mass.shape[0] + 1
+    if b < first or record.tree.node.shape[0] > 0:
+        return x[0], x[1], x[2], x[3], x[4], x[5]
+    bias = record.flexible.bias[b - first]
+    return x[0] + bias[0], x[1] + bias[1], x[2] + bias[2], x[3] + bias[3], x[4] + bias[4], x[5] + bias[5]
+
+
+@stage
 def inertial_wrenches(machine):
     """`residual.wrench` of all bodies: what their acceleration asks for, less all applied forces and those of the constraints.
 

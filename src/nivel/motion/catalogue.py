@@ -63,7 +63,7 @@ FLEXIBLE_TREE = PathFacts(
     "nivel.motion.flexible_tree",
     "nivel.motion.flexible_tree_correction",
     "nivel.system.states.flexible_tree",
-    "nivel.motion.flexible_tree_residual",
+    "nivel.motion.relative_residual",
 )
 _FLOATING_PARAMETERS = PathFacts(
     "nivel.motion.floating_lagrange",
@@ -119,14 +119,9 @@ FORMULATIONS: dict[str, FormulationFacts] = {
 }
 
 
-# accelerations by the residual, where the mass matrix has no blocks of single bodies
-BALANCED = "nivel.motion.balanced"
-
-
-# where bodies slide along beams that carry them, in relative coordinates
-SLIDING = PathFacts(
-    BALANCED, "nivel.motion.sliding_correction", "nivel.system.states.relative", "nivel.motion.sliding_residual"
-)
+# accelerations by the residual, where the mass matrix has no blocks of single bodies; corrections with its matrix, where beams carry bodies
+# that slide along them
+BALANCED, BALANCED_CORRECTION = "nivel.motion.balanced", "nivel.motion.balanced_correction"
 
 
 def path_of(
@@ -143,10 +138,10 @@ def path_of(
     flexible : for machines with flexible bodies. shared : for those with mass that bodies have in common. sliding : for those with bodies
     carried by beams along which they slide.
     """
-    if sliding:
-        return SLIDING if (coordinates, formulation) == ("relative", "newton-euler") else None
     velocities = "lagrange" if formulation == "lagrange" else "newton-euler"
     path = (FLEXIBLE if flexible else PATHS).get((coordinates, velocities, rotations))
-    if not shared or path is None:
+    if path is None or not (shared or sliding):
         return path
-    return replace(path, module=BALANCED) if path.residual and formulation == "newton-euler" else None
+    if not path.residual or formulation != "newton-euler":
+        return None
+    return replace(path, module=BALANCED, correction=BALANCED_CORRECTION if sliding else path.correction)

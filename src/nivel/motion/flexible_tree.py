@@ -5,37 +5,25 @@ As `nivel.motion.relative`, whose recursion also passes through the modes: see `
 
 from __future__ import annotations
 
-import numpy as np
-
 from nivel.kernels.compile import entry, stage
-from nivel.kernels.constraint import constraint_rows
 from nivel.kernels.flexible_articulated import factorise_flexible_tree
 from nivel.kernels.flexible_tree import clear_frames, move_flexible_tree
 from nivel.kernels.flexible_whitening import accelerate_flexible, whiten_flexible_efforts, whiten_flexible_tree_rows
 from nivel.kernels.floating_dynamics import load_modes
-from nivel.kernels.hook import apply_forces, finish_forces, measure_active
-from nivel.kernels.marker import move_marker, place_point, turn_axes
+from nivel.kernels.hook import apply_forces
 from nivel.kernels.record import correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight
-from nivel.kernels.saddle import factorise_rows, multipliers
+from nivel.kernels.saddle import factorise_rows
 from nivel.kernels.status import OK
-from nivel.motion.relative import WIDTH, normalise, write_positions
+from nivel.kernels.tree_markers import read_markers
+from nivel.motion.tree_motion import WIDTH, evaluate_tree, normalise
 
 
 @stage
 def read_flexible_tree(machine, t, y):
     """Poses and velocities of bodies, frames and the markers in use, and the rows that are left. Returns a status."""
-    record = record_at(machine)
-    bodies, markers = record.bodies, record.markers
     move_flexible_tree(machine, y)
-    for n in range(record.tree.marker.shape[0]):
-        k = record.tree.marker[n]
-        place_point(bodies, markers, k)
-        if record.tree.turning[n] != 0:
-            turn_axes(bodies, markers, k)
-        move_marker(bodies, markers, k)
-    constraint_rows(bodies, markers, record.constraints)
-    return measure_active(machine, t)
+    return read_markers(machine, t)
 
 
 @stage
@@ -49,36 +37,30 @@ def load_flexible_tree(machine, t, y):
     return status
 
 
+@stage
+def factorise_flexible(machine):
+    """Factors of the mass matrix and of S = W Wᵀ in the state last read. Returns a status."""
+    status = factorise_flexible_tree(machine)
+    if status != OK or record_at(machine).saddle.block.shape[0] == 0:
+        return status
+    whiten_flexible_tree_rows(machine)
+    return factorise_rows(machine, WIDTH)
+
+
 @entry(evaluate_signature)
 def evaluate(machine, t, y, ydot):
-    """ẏ of y = (q, v, x). Leaves everything else in the record but what `nivel.kernels.carried_flexible` adds for frames."""
-    record = record_at(machine)
-    tree = record.tree
-    status = read_flexible_tree(machine, t, y)
-    if status != OK:
-        return status
-    status = load_flexible_tree(machine, t, y)
-    if status == OK:
-        status = factorise_flexible_tree(machine)
-    if status != OK:
-        return status
-    if record.saddle.block.shape[0] > 0:
-        whiten_flexible_tree_rows(machine)
-        status = factorise_rows(machine, WIDTH)
-        if status != OK:
-            return status
-    whiten_flexible_efforts(machine)
-    status = multipliers(machine, WIDTH)
-    if status != OK:
-        return status
-    status = finish_forces(machine, t, ydot)
-    positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
-    for k in range(positions):
-        tree.state[k] = y[k]
-    accelerate_flexible(machine, ydot[positions : positions + columns])
-    for n in range(tree.node.shape[0]):
-        write_positions(machine, y, y, ydot, n, np.int64(tree.place[n, 1]))
-    return status
+    """ẏ. Leaves everything else in the record but what `nivel.kernels.carried_flexible` adds for frames."""
+    return evaluate_tree(
+        machine,
+        t,
+        y,
+        ydot,
+        read_flexible_tree,
+        load_flexible_tree,
+        factorise_flexible,
+        whiten_flexible_efforts,
+        accelerate_flexible,
+    )
 
 
 @entry(correct_signature)

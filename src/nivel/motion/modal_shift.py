@@ -13,13 +13,12 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import stage
-from nivel.kernels.flexible_articulated import factorise_flexible_tree
-from nivel.kernels.flexible_whitening import accelerate_flexible, hand_efforts_inwards, whiten_flexible_tree_rows
+from nivel.kernels.flexible_whitening import accelerate_flexible, hand_efforts_inwards
 from nivel.kernels.floating_frame import modes_of
 from nivel.kernels.record import MODAL, record_at
-from nivel.kernels.saddle import factorise_rows, solve_rows, subtract_rows
-from nivel.kernels.status import OK
-from nivel.motion.relative import WIDTH, write_positions
+from nivel.kernels.saddle import solve_rows, subtract_rows
+from nivel.motion.flexible_tree import factorise_flexible
+from nivel.motion.tree_motion import WIDTH, write_positions
 
 
 @stage
@@ -31,12 +30,9 @@ def factorise_shifted_modes(machine, s):
         first, n = modes_of(own, f)
         for j in range(n):
             shift[first + j] = s * (own.damping[f, j] + s * own.stiffness[f, j])
-    status = factorise_flexible_tree(machine)
+    status = factorise_flexible(machine)
     for j in range(shift.shape[0]):
         shift[j] = 0.0
-    if status == OK and record.saddle.block.shape[0] > 0:
-        whiten_flexible_tree_rows(machine)
-        status = factorise_rows(machine, WIDTH)
     return status
 
 

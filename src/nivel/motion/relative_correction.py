@@ -1,58 +1,15 @@
-"""Direct correction of states in relative coordinates (report 44, §5.5): only joints that are cut can be open."""
+"""The direct correction of `nivel.motion.tree_correction` for trees of rigid bodies."""
 
 from __future__ import annotations
 
-import numpy as np
-
-from nivel.kernels.articulated import accelerate, factorise_tree, whiten_tree_rows
+from nivel.kernels.articulated import accelerate
 from nivel.kernels.compile import entry
-from nivel.kernels.record import correct_signature, record_at
-from nivel.kernels.saddle import correction, exceeds, factorise_rows
-from nivel.kernels.status import OK
-from nivel.motion.relative import WIDTH, normalise, read_state, write_positions
-
-MAX_CORRECTIONS = 3
-# Violations up to this many times the tolerance leave the factor of S good enough for the next pass.
-NEAR = 1e7
+from nivel.kernels.record import correct_signature
+from nivel.motion.relative import factorise, read_state
+from nivel.motion.tree_correction import correct_tree
 
 
 @entry(correct_signature)
 def correct(machine, t, y):
-    """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137), least in the mass metric.
-
-    A level within its tolerance (control.stabilise[2:4], as a share of the row's scale) is left alone.
-    """
-    record = record_at(machine)
-    tree, saddle, constraints = record.tree, record.saddle, record.constraints
-    tolerance, change = record.control.stabilise, tree.change
-    positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
-    normalise(machine, y)
-    if saddle.row.shape[0] == 0:
-        return OK
-    factorised = False
-    for attempt in range(MAX_CORRECTIONS + 1):
-        status = read_state(machine, t, y)
-        if status != OK:
-            return status
-        at_positions = attempt < MAX_CORRECTIONS and exceeds(saddle, constraints.C, constraints.scale, tolerance[2])
-        if not at_positions and not exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]):
-            return OK
-        if not factorised:
-            factorise_tree(record.bodies, tree)
-            whiten_tree_rows(machine)
-            status = factorise_rows(machine, WIDTH)
-            if status != OK:
-                return status
-        factorised = not exceeds(saddle, constraints.C, constraints.scale, NEAR * tolerance[2])
-        correction(machine, constraints.C if at_positions else constraints.Cdot, WIDTH)
-        accelerate(machine, change)
-        if not at_positions:
-            for k in range(columns):
-                y[positions + k] += change[k]
-            return OK
-        for n in range(tree.node.shape[0]):
-            write_positions(machine, y, change, tree.moved, n, np.int64(tree.node[n, 4]))
-        for k in range(positions):
-            y[k] += tree.moved[k]
-        normalise(machine, y)
-    return OK
+    """Direct correction of the state onto the constraints."""
+    return correct_tree(machine, t, y, read_state, factorise, accelerate)

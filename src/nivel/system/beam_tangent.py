@@ -44,15 +44,16 @@ def rail_of(record: Record, n: int) -> tuple[int, ...]:
     return tuple(record.markers.body[record.coordinates.part_marker[first + 1 : last]].tolist())
 
 
-def has_sliding_nodes(record: Record) -> bool:
-    """Whether an element without damping has a node that is moved by a beam along which it, or what carries it, slides."""
-    if not len(record.tree.slider) or not has_elastic_beams(record):
+def has_carried_nodes(record: Record) -> bool:
+    """Whether an element without damping has a node that is moved by modes of a flexible body, or by a beam along which it, or what carries
+    it, slides."""
+    if not has_elastic_beams(record):
         return False
-    sliding: set[int] = set()
-    for n, (child, parent) in enumerate(record.tree.node[:, :2].tolist()):
-        if parent in sliding or rail_of(record, n):
-            sliding.add(child)
-    return any(body in sliding for nodes in _nodes(record) for body in record.markers.body[nodes].tolist())
+    carried: set[int] = set()
+    for child, parent, kind in record.tree.node[:, :3].tolist():
+        if parent in carried or kind > FREE:
+            carried.add(child)
+    return any(body in carried for nodes in _nodes(record) for body in record.markers.body[nodes].tolist())
 
 
 def plain_nodes(system: System, part: Index) -> dict[int, int]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from nivel.analysis.statics.equations import Rest, StaticEquations
 from nivel.analysis.statics.vibrations import Vibrations
+from nivel.motion.catalogue import BALANCED
 from nivel.system.layout import FrameLayout, Variable
 from nivel.system.system import Array
 
@@ -84,11 +85,13 @@ class FrameWriter:
     def _observed(self, state: Rest, velocity: Array) -> Array:
         """A frame of a machine in this state without accelerations, moving at this velocity (n,).
 
-        Reactions follow from the multipliers, so the wrenches of the bodies are those of the forces alone.
+        Reactions follow from the multipliers, so the wrenches of the bodies are those of the forces alone; but those of machines whose
+        accelerations are found by the residual follow from what this transmits, multipliers included.
         """
         equations = self.equations
         record = equations.record
-        equations.evaluate(state, np.zeros(equations.rows))
+        by_residual = equations.motion.kernels.__name__ == BALANCED
+        equations.evaluate(state, state.lam if by_residual else np.zeros(equations.rows))
         if np.any(velocity):
             equations.residual.y[equations.positions : equations.positions + equations.n] = velocity
             address = equations.motion.handle.address

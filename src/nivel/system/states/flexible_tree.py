@@ -6,9 +6,8 @@ are bodies to the joints of the tree. What the tree has more is named in `nivel.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from importlib import import_module
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -28,12 +27,14 @@ from nivel.system.topology import FREE
 @dataclass(frozen=True)
 class _Expanded:
     """Nodes of the tree with those between the frames of flexible bodies; flexible body of each modal node, frame of each outward one
-    (0 elsewhere); the frame that carries each flexible body, or NONE; extra frames, each where a body that hangs on nothing is."""
+    (0 elsewhere); the frame that carries each flexible body, or NONE; extra frames, each on a body that hangs on nothing, or on a marker
+    that its modes do not move: these markers, and the frames that they are on."""
 
     nodes: list[Node]
     link: list[int]
     carrier: list[int]
     extra: list[int]
+    held: dict[int, int]
 
 
 def arrange(
@@ -67,20 +68,29 @@ def _arranged(
     settings: SimulationSettings,
     bending: Sequence[Bending],
 ) -> tuple[System, Array]:
-    record, modes, count = absolute.record, len(absolute.modes), absolute.body_count
+    modes, count = len(absolute.modes), absolute.body_count
     expanded = _expanded(machine, absolute, settings)
+    record = _holding(absolute.record, expanded.held)
+    absolute = replace(absolute, record=record)
     p = y[7 * count : 7 * count + modes]
     bodies = np.concatenate([y[: 7 * count], y[7 * count + modes : 13 * count + modes]])
     own = _with_frames(record, poses(absolute, bodies), p, expanded.extra)
     independent = velocities_in(expanded.nodes) - (6 * count + modes - rank)
-    complete = import_module("nivel.kernels.carried_flexible").complete.address
-    system, start = in_tree(machine, absolute, own, expanded.nodes, independent, complete, _bent(record, expanded, p))
+    system, start = in_tree(machine, absolute, own, expanded.nodes, independent, _bent(record, expanded, p))
     parents = {node.parent for node in expanded.nodes}
     heavy = [node.kind == "outward" and node.child in parents for node in expanded.nodes]
     most = max(len(each.reduced.eigenvalues) for each in bending)
     bundle = len(system.record.tree.load)
     modal = modal_tree(expanded.link, expanded.carrier, heavy, modes, most, bundle)
-    return replace(system, record=system.record._replace(modal=modal)), start
+    # what modes are measured by goes with their places in the state
+    order = [np.arange(*record.flexible.mode[f]) for node, f in _linked(expanded) if node.kind == "modal"]
+    sizes = absolute.gradient_sizes[np.concatenate(order).astype(np.int64)]
+    return replace(system, record=system.record._replace(modal=modal), gradient_sizes=sizes), start
+
+
+def _linked(expanded: _Expanded) -> zip[tuple[Node, int]]:
+    """The nodes, each with its flexible body or frame."""
+    return zip(expanded.nodes, expanded.link, strict=True)
 
 
 def _expanded(machine: MachineRecord, absolute: System, settings: SimulationSettings) -> _Expanded:
@@ -91,15 +101,18 @@ def _expanded(machine: MachineRecord, absolute: System, settings: SimulationSett
     nodes: list[Node] = []
     link: list[int] = []
     carrier, extra = [NONE] * len(number), []
+    held: dict[int, int] = {}
     for branch in tree_of(machine, settings).branches:
         node, child = joint_node(machine, record, branch), branch.child
         if node.near != NONE:
             node = replace(node, parent=int(body_of[node.near]))
         if child in number:
             f = number[child]
-            if branch.joint == FREE:
+            if branch.joint == FREE or int(body_of[node.far]) == child:
                 node = replace(node, child=count + 1 + len(frames) + len(extra))
                 extra.append(child)
+                if branch.joint != FREE:
+                    held[node.far] = node.child
             else:
                 node = replace(node, child=int(body_of[node.far]))
                 carrier[f] = node.child - count - 1
@@ -112,7 +125,15 @@ def _expanded(machine: MachineRecord, absolute: System, settings: SimulationSett
         else:
             nodes.append(node)
             link.append(0)
-    return _Expanded(placed(nodes), link, carrier, extra)
+    return _Expanded(placed(nodes), link, carrier, extra, held)
+
+
+def _holding(record: Record, held: Mapping[int, int]) -> Record:
+    """With markers on the frames that they hold."""
+    body = record.markers.body.copy()
+    for marker, frame in held.items():
+        body[marker] = frame
+    return record._replace(markers=record.markers._replace(body=body))
 
 
 def _between(kind: str, child: int, parent: int) -> Node:
@@ -153,7 +174,7 @@ def _bent(record: Record, expanded: _Expanded, p: Array) -> dict[int, Bent]:
     """Modal coordinates and turns of the nodes that are no joints."""
     _, turn = _nodes_of(record, p)
     out: dict[int, Bent] = {}
-    for n, (node, link) in enumerate(zip(expanded.nodes, expanded.link, strict=True)):
+    for n, (node, link) in enumerate(_linked(expanded)):
         if node.kind == "modal":
             first, last = record.flexible.mode[link]
             k = expanded.carrier[link]

@@ -70,7 +70,8 @@ def carried_frames(markers: Markers, nodes: list[Node], count: int) -> Frames:
 
 @dataclass(frozen=True)
 class JointStart:
-    """State (q, v) in joint coordinates; number, first, theta and own_theta as in `nivel.kernels.record.Tree`."""
+    """State (q, v) in joint coordinates; number, first, theta and own_theta as in `nivel.kernels.record.Tree`. turned : Euler parameters of
+    the frames of all bodies and interfaces in these coordinates."""
 
     q: Array
     v: Array
@@ -78,6 +79,7 @@ class JointStart:
     first: Array
     theta: Array
     own_theta: Array
+    turned: Array
 
 
 @dataclass(frozen=True)
@@ -141,7 +143,7 @@ def joint_start(
             joint = joint_turn(node.kind, positions, number[n])
         turned[node.child] = product(product(turned[node.parent], theta[n]), joint)
     own_theta = np.array([product(conjugate(e), f) for e, f in zip(turned, bodies.theta, strict=False)])
-    return JointStart(np.array(q), np.array(v), number, first, theta, own_theta.reshape(-1, 4))
+    return JointStart(np.array(q), np.array(v), number, first, theta, own_theta.reshape(-1, 4), turned)
 
 
 def _rail(bodies: Poses, markers: Markers, frames: Frames, coordinates: Coordinates, along: int) -> Rail:
@@ -217,7 +219,7 @@ def _coordinates(kind: str, seen: _Relative, lead: float) -> tuple[list[float], 
 
 
 def joint_turn(kind: str, q: list[float], number: Array) -> Array:
-    """Euler parameters of the child seen from the parent's marker, as in `nivel.kernels.carried.joint_turn`."""
+    """Euler parameters of the child seen from the parent's marker, as in `nivel.kernels.tree_orientation.joint_turn`."""
     if kind == "spherical":
         return np.array(q)
     if kind == "free":

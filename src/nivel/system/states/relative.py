@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from importlib import import_module
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,6 @@ from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.orientation import conjugate, product
 from nivel.machine.settings import SimulationSettings
 from nivel.system.elimination import plan
 from nivel.system.rails import OnBeam
@@ -46,12 +46,12 @@ Index = NDArray[np.uint32]
 
 def tree_of(machine: MachineRecord, settings: SimulationSettings, *, heavy_first: bool = False) -> SpanningTree:
     """Spanning tree of `machine`. Joints that the settings name stay constraints, and those whose reaction loads a friction; those that
-    slide along beams also beside flexible bodies, and with formulations other than newton-euler.
+    slide along beams also with formulations other than newton-euler.
 
     heavy_first : see `nivel.system.topology.spanning_tree`.
     """
     number = {body.name: k for k, body in enumerate(machine.bodies)} | {"ground": len(machine.bodies)}
-    slides = not machine.is_flexible and settings.formulation == "newton-euler"
+    slides = settings.formulation == "newton-euler"
     edges = [
         Edge(joint.name, joint.type, number[first], number[second], _rail(joint, number) if slides else ())
         for joint, (first, second) in ((joint, bodies_of(machine, joint)) for joint in machine.joints)
@@ -72,8 +72,7 @@ def arrange(
     nodes = _nodes(machine, absolute.record, tree_of(machine, settings))
     # the freedoms of the tree less those of the machine (points that do not turn included) are the independent rows that are left
     independent = velocities_in(nodes) - (6 * absolute.body_count - rank)
-    complete = import_module("nivel.kernels.carried").complete.address
-    return in_tree(machine, absolute, poses(absolute, y), nodes, independent, complete)
+    return in_tree(machine, absolute, poses(absolute, y), nodes, independent)
 
 
 def in_tree(
@@ -82,13 +81,11 @@ def in_tree(
     own: Poses,
     nodes: list[Node],
     rank: int,
-    complete: int,
     bent: Mapping[int, Bent] | None = None,
 ) -> tuple[System, Array]:
     """Numbers and state in the coordinates of `nodes`.
 
-    own : poses of the bodies' own frames. rank : independent ones of the rows that are left. complete : address of the hook COMPLETE.
-    bent : the nodes that are no joints.
+    own : poses of the bodies' own frames. rank : independent ones of the rows that are left. bent : the nodes that are no joints.
     """
     old, positions, columns = absolute.record, positions_in(nodes), velocities_in(nodes)
     frames = carried_frames(old.markers, nodes, len(own.R))
@@ -139,13 +136,18 @@ def in_tree(
         frames=Frames(*(np.zeros((absolute.body_count + 1, width)) for width in (3, 4, 3, 3))),
         hooks=old.hooks._replace(address=old.hooks.address.copy()),
     )
-    record.hooks.address[COMPLETE] = complete
+    record.hooks.address[COMPLETE] = _completion(machine, sliding=bool(sliders)).complete.address
     for n in sliders:
-        child = nodes[n].child
-        record.bodies.theta[child] = product(own.theta[child], conjugate(start.own_theta[child]))
+        record.bodies.theta[nodes[n].child] = start.turned[nodes[n].child]
     x = np.zeros(len(old.elements.state) + 2)
     system = replace(absolute, record=record, state_map=_map(nodes, positions, len(x)))
     return system.known_rank(rank), np.concatenate([start.q, start.v, x])
+
+
+def _completion(machine: MachineRecord, *, sliding: bool) -> Any:
+    """The module that completes frames: for accelerations found by the residual, or by a recursion over rigid or flexible bodies."""
+    kind = "balance" if machine.shares_mass or sliding else "flexible" if machine.is_flexible else ""
+    return import_module(f"nivel.kernels.carried_{kind}" if kind else "nivel.kernels.carried")
 
 
 def has_sliders(machine: MachineRecord, settings: SimulationSettings) -> bool:

@@ -1,5 +1,5 @@
-"""Direct correction of states in relative coordinates where bodies slide along beams that carry them (report 44, §5.5): only joints that
-are cut can be open. Changes are least in the mass metric, by the matrix [M, C_qᵀ; C_q, 0] of the accelerations (`nivel.kernels.balance`).
+"""Direct correction of states whose accelerations are found by the residual (report 44, §5.5), for machines that no recursion factorises.
+Changes are least in the mass metric, by the matrix [M, C_qᵀ; C_q, 0] of the accelerations (`nivel.kernels.balance`).
 """
 
 from __future__ import annotations

@@ -1,0 +1,80 @@
+"""An evaluation in relative coordinates, whatever the recursion over the tree is made of: `nivel.motion.relative` of rigid bodies,
+`nivel.motion.flexible_tree` of flexible ones as well."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.compile import stage
+from nivel.kernels.hook import finish_forces
+from nivel.kernels.record import FREE, SPHERICAL, record_at
+from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.saddle import multipliers
+from nivel.kernels.status import OK
+
+WIDTH = 1
+
+
+@stage
+def parameters_of(kind, q):
+    """Where the Euler parameters of a joint start among its positions at q; -1 where it has none."""
+    if kind == SPHERICAL:
+        return q
+    return q + 3 if kind == FREE else -1
+
+
+@stage
+def normalise(machine, y):
+    """θ := θ/|θ| for every spherical and free joint."""
+    tree = record_at(machine).tree
+    for n in range(tree.node.shape[0]):
+        k = parameters_of(tree.node[n, 2], np.int64(tree.place[n, 0]))
+        if k >= 0:
+            square = y[k] * y[k] + y[k + 1] * y[k + 1] + y[k + 2] * y[k + 2] + y[k + 3] * y[k + 3]
+            scale = 1.0 / square**0.5
+            for i in range(4):
+                y[k + i] *= scale
+
+
+@stage
+def write_positions(machine, y, change, out, n, first):
+    """out = rates (or changes) of the positions of node n for the joint velocities (or their changes) from change[first] on."""
+    tree = record_at(machine).tree
+    node, q = tree.node[n], np.int64(tree.place[n, 0])
+    kind, count = node[2], np.int64(node[5]) - np.int64(node[4])
+    k = parameters_of(kind, q)
+    if k < 0:
+        for i in range(count):
+            out[q + i] = change[first + i]
+        return
+    for i in range(count - 3):
+        out[q + i] = change[first + i]
+    rates_of_parameters(y[k : k + 4], change[first + count - 3 : first + count], out[k : k + 4])
+
+
+@stage
+def evaluate_tree(machine, t, y, ydot, read, load, factorise, whiten, accelerate):
+    """ẏ of y = (q, v, x): x are the states of forces, the work of external forces and the dissipated energy [J]. Returns a status.
+
+    read, load, factorise, whiten, accelerate : the parts of the recursion, compiled into this one.
+    """
+    tree = record_at(machine).tree
+    status = read(machine, t, y)
+    if status == OK:
+        status = load(machine, t, y)
+    if status == OK:
+        status = factorise(machine)
+    if status != OK:
+        return status
+    whiten(machine)
+    status = multipliers(machine, WIDTH)
+    if status != OK:
+        return status
+    status = finish_forces(machine, t, ydot)
+    positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
+    for k in range(positions):
+        tree.state[k] = y[k]
+    accelerate(machine, ydot[positions : positions + columns])
+    for n in range(tree.node.shape[0]):
+        write_positions(machine, y, y, ydot, n, np.int64(tree.place[n, 1]))
+    return status

@@ -65,3 +65,30 @@ def test_no_vibration_begins_at_a_corner(integrator, step):
     assert found.dataset.attrs["outcome"] == "done"
     # the blow does 115 J of work
     assert kinetic.max() < 100.0
+
+
+@pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-9, 1e-11, 1e-13])
+@pytest.mark.parametrize("at", [0.5, 0.505])
+@pytest.mark.parametrize("integrator", ["hht", "generalised-alpha"])
+def test_a_jump_of_a_load_between_two_points_of_its_table(integrator, at, gap):
+    """A mass on a spring: m ẍ = F - k x, at rest until the jump."""
+    table = {"times": [0, at, at + gap, 1], "values": [0, 0, 5, 5], "interpolation": "linear"}
+    sections = {
+        "gravity": [0, 0, 0],
+        "bodies": {"block": {"mass": 1.0, "inertia": [1, 1, 1]}},
+        "joints": {
+            "rail": {"type": "translational", "bodies": ["ground", "block"], "point": [0, 0, 0], "axis": [1, 0, 0]}
+        },
+        "forces": {
+            "spring": {"type": "joint-spring-damper", "coordinate": "rail.displacement", "stiffness": 100.0},
+            "push": {"type": "force", "body": "block", "position": [0, 0, 0], "vector": [table, 0, 0]},
+        },
+    }
+    errors = []
+    for step in (0.02, 0.01):
+        settings = {"duration": 1.0, "step": step, "integrator": integrator, "output_interval": 0.02}
+        found = simulate({**sections, "simulation": settings})
+        t, x = found.dataset["time"].values, found.dataset["position"].values[:, 0, 0]
+        errors.append(np.abs(x - 0.05 * (1.0 - np.cos(10.0 * np.maximum(t - at - 0.5 * gap, 0.0)))).max())
+    assert errors[0] < 2e-3
+    assert errors[1] < 0.3 * errors[0]

@@ -126,6 +126,39 @@ def test_a_wire_vibrates_though_its_sections_have_hardly_any_inertia(elements, h
     np.testing.assert_allclose(found[rigid:], expected, rtol=4e-3)
 
 
+@pytest.mark.parametrize("elements", [20, 60])
+@pytest.mark.parametrize(("load", "count"), [(0.01, 4), (0.02, 2)])
+def test_a_wire_pressed_beyond_its_buckling_load(elements, load, count):
+    """ω² = (nπ/L)² (EI (nπ/L)² - P)/ρA of a wire on pins, each twice: the most unstable ones first, and none is a rigid motion."""
+    radius, E, density = 2e-4, 210e9, 7850.0
+    wire = {
+        "from": [0, 0, 0],
+        "to": [1, 0, 0],
+        "section": {"type": "circle", "radius": radius},
+        "material": {"youngs_modulus": E, "poisson_ratio": 0.3, "density": density},
+        "elements": elements,
+        "order": 2,
+    }
+    sections = {
+        "gravity": [0, 0, 0],
+        "beams": {"wire": wire},
+        "joints": {
+            "start": {
+                "type": "universal",
+                "bodies": ["ground", "wire.start"],
+                "point": [0, 0, 0],
+                "axes": [[0, 1, 0], [0, 0, 1]],
+            },
+            "end": {"type": "point-on-line", "bodies": ["ground", "wire.end"], "point": [1, 0, 0], "axis": [1, 0, 0]},
+        },
+        "forces": {"pull": {"type": "force", "body": "wire.end", "position": [0, 0, 0], "vector": [-load, 0, 0]}},
+    }
+    result = machine(sections).statics(duration=0, modes=count)
+    n = np.arange(1, 7) * np.pi
+    squares = np.sort(np.repeat(n**2 * (E * np.pi * radius**4 / 4 * n**2 - load) / (density * np.pi * radius**2), 2))
+    np.testing.assert_allclose(result.array("vibration_stiffness")[0], squares[:count], rtol=5e-3)
+
+
 def test_curved_cantilever_bends_out_of_its_plane():
     """45° of a circle of 100, loaded across at its tip by 600: Bathe, Bolourchi 1979; tip (15.79, 47.23, 53.37) of Simo, Vu-Quoc 1986 with
     eight linear elements."""

@@ -61,6 +61,12 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
         faults.append(_fault("formulation", message))
     if facts.whole:
         return faults + _refuse_beside_whole_steps(settings, coordinates)
+    if settings.stabilisation == "baumgarte" and settings.baumgarte is None and facts.rates and not facts.chooses_steps:
+        message = (
+            f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, as fast as a step of {name}, which does not iterate and "
+            f"has order one there: take direct, or own coefficients `baumgarte: {{alpha: 20 1/s, beta: 20 1/s}}`"
+        )
+        faults.append(_fault("stabilisation", message))
     if facts.implicit and settings.corrector.iteration == "functional":
         message = f"'functional' does not go with {name}, which takes Newton's method with exact tangents: leave `iteration` out"
         faults.append(_fault("corrector.iteration", message))

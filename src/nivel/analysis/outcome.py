@@ -280,9 +280,10 @@ def _no_solution(motion: MotionEquations, number: int, time: float, step: float,
         if iterated
         else ""
     )
+    or_direct = "" if len(record.residual.interval.start) else ", or direct"
     return message, settle + (
         f"Try --step {step / 4:.3g}, or a method that makes steps as short as it takes: radau, or generalised-alpha with --step-control "
-        f"error. With `stabilisation: none` round-off may keep it from its tolerance: then `corrector: {{tolerance: 1e-8}}`, or direct. If "
+        f"error. With `stabilisation: none` round-off may keep it from its tolerance: then `corrector: {{tolerance: 1e-8}}`{or_direct}. If "
         f"it stops here again, the machine comes to a position that it cannot pass, or a force jumps: look at {stalled}."
     )
 

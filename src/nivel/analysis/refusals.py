@@ -183,8 +183,13 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
         faults.append(("coordinates", f"'{coordinates}' {why.format('absolute or relative')}"))
     if formulation != "newton-euler":
         faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
-    if INTEGRATORS[machine.simulation.integrator].whole and any(beam.has_gradients for beam in machine.beams):
-        faults.append(("integrator", f"'{machine.simulation.integrator}' {why.format('generalised-alpha')}"))
+    gradients = ", ".join(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)
+    if INTEGRATORS[machine.simulation.integrator].whole and gradients:
+        message = (
+            f"'{machine.simulation.integrator}' does not go with {gradients}, whose velocities at the tips of gradients are no means of "
+            f"those at both ends of a step: take generalised-alpha, or beams of another `model`"
+        )
+        faults.append(("integrator", message))
     out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
     out += [
         Fault(

@@ -9,7 +9,7 @@ from nivel.kernels.hook import call_hook
 from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, record_at
 from nivel.kernels.status import NOT_CONVERGED, OK, SINGULAR
 from nivel.kernels.tree import has_passed
-from nivel.march.corners import before
+from nivel.march.corners import before, jump_at
 from nivel.march.residual_newton import iterate
 from nivel.march.run import EVALUATIONS, RESTART, run_at
 
@@ -27,6 +27,8 @@ CLOSER, ROUND = 0.01, 1e-13
 SHORT = 0.1
 # a difference over this share of a step gives v̈ of the start to half the digits
 DIFFERENCE = 1e-4
+# Corners nearer to each other than so many of it are one.
+NEXT = 10.0
 
 
 @leaf
@@ -195,19 +197,20 @@ def goes_on(run, residual, states, h):
 
 
 @stage
-def keep_slopes(run, residual, newton):
-    """Accelerations and rates of the state reached, changing as they did before: a step this short says nothing of their changes."""
-    stages, n = run.stages, residual.vdot.shape[0]
+def keep_slopes(run, residual, newton, h):
+    """Accelerations and rates of the state reached, changing as they did before. A step this short says nothing of their changes, and of
+    themselves what the tolerance of its velocities leaves over its length."""
+    stages, n, share = run.stages, residual.vdot.shape[0], h / run.numbers[LAST_STEP]
     for k in range(n):
-        gained = residual.vdot[k] - stages[VDOT, k]
+        gained = share * (stages[VDOT, k] - stages[BEFORE, k])
         stages[A, k] += gained
         stages[BEFORE, k] += gained
-        stages[VDOT, k] = residual.vdot[k]
+        stages[VDOT, k] += gained
     for k in range(newton.state.shape[0]):
-        gained = newton.rate[k] - stages[XDOT, k]
+        gained = share * (stages[XDOT, k] - stages[BEFORE, n + k])
         stages[W, k] += gained
         stages[BEFORE, n + k] += gained
-        stages[XDOT, k] = newton.rate[k]
+        stages[XDOT, k] += gained
 
 
 @stage
@@ -237,7 +240,7 @@ def keep_step(machine, run, h, is_part):
     record = record_at(machine)
     newton, residual, last = record.newton, record.residual, run.y.shape[0] - 2
     if is_part and h < SHORT * run.numbers[LAST_STEP]:
-        keep_slopes(run, residual, newton)
+        keep_slopes(run, residual, newton, h)
     else:
         keep_changes(run, residual, newton, h)
     for k in range(residual.lam.shape[0]):
@@ -290,6 +293,7 @@ def add_slope(machine, run, share):
 def go_on_beyond(evaluate, machine, history, t):
     """Let accelerations and rates be those beyond a corner at time t, where speeds do not jump. Returns a status.
 
+    Corners next to each other are one, which is passed at the last of them: a jump of a load.
     To what the method has for them comes the difference of both sides, at one state, of themselves and of their slopes. To begin anew with
     those of the state would be wrong for stiff springs: the slope of their accelerations is ω² times the speed of vibrations that
     the steps before have stepped over.
@@ -297,8 +301,11 @@ def go_on_beyond(evaluate, machine, history, t):
     run = run_at(history)
     last = run.numbers[LAST_STEP]
     aside, status = DIFFERENCE * last, OK
+    begin, is_end = jump_at(machine, t, NEXT * aside)
+    if not is_end:
+        return OK
     for sign in (-1.0, 1.0):
-        at = before(t) if sign < 0.0 else t
+        at = before(begin) if sign < 0.0 else t
         if status == OK:
             status = evaluate(machine, at, run.y, run.scratch)
         if status == OK:

@@ -43,6 +43,18 @@ def next_corner(machine, t, target):
 
 
 @leaf
+def jump_at(machine, t, near):
+    """The first of the corners up to t that follow each other within `near`, and whether none follows t so."""
+    corners, first, found = record_at(machine).newton.corners, t, True
+    while found:
+        found = False
+        for k in range(corners.shape[0]):
+            if first - near <= corners[k] < first and not is_near(corners[k], first):
+                first, found = corners[k], True
+    return first, not next_corner(machine, t, t + near) < np.inf
+
+
+@leaf
 def before(t):
     """A time before t by some units in its last place: functions that have a corner at t still are what they were."""
     return t - 2.0 * NEAR * np.abs(t)

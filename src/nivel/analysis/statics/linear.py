@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.linalg import LinAlgWarning, eig, eigh, eigvalsh, lu_factor, lu_solve, null_space
+from scipy.linalg import LinAlgWarning, cholesky, eig, eigh, eigvalsh, lu_factor, lu_solve, null_space, solve_triangular
 from scipy.sparse import bmat, csc_matrix, diags
 from scipy.sparse.linalg import splu
 
@@ -145,7 +145,7 @@ def negative_directions(tangent: Tangent, shift: float = 0.0) -> int:
     signs = _pivot_signs(csc_matrix(K + STIFF * (tangent.C.T @ tangent.C)))
     if signs is not None:
         return int(np.sum(signs < 0))
-    values, _ = lowest(replace(tangent, K=csc_matrix(K)), FEW, tangent.M)
+    values, _ = lowest(replace(tangent, K=csc_matrix(K)), FEW, tangent.M, nearest=True)
     return int(np.sum(values < 0.0))
 
 
@@ -180,25 +180,35 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
         order = np.argsort(np.abs(values), kind="stable") if nearest else np.arange(len(values))
         chosen = np.sort(order[:count])
         return values[chosen], Z @ vectors[:, chosen]
-    return _lanczos(tangent, count, M)
+    values, vectors = _lanczos(tangent, count, M)
+    if nearest or not has_potential(tangent):
+        return values, vectors
+    # what is most unstable may be far from zero
+    unstable = negative_directions(tangent)
+    while np.sum(values < 0.0) < unstable and len(values) < size - tangent.C.shape[0] - 1:
+        values, vectors = _lanczos(tangent, 2 * len(values), M)
+    return values[:count], vectors[:, :count]
 
 
 def _symmetric(K: Array, M: Array) -> tuple[Array, Array]:
     """Eigenvalues and directions of K φ = ω² M φ, ascending. Every ω² is known to ε times the largest, which is nothing of the low ones
-    where rotations of hardly any inertia are stiff. Those below the geometric mean of both are taken from M φ = θ (K + s M) φ."""
+    where rotations of hardly any inertia are stiff. Those nearest to zero are taken from Lᵀ K⁻¹ L x = x/ω², M = L Lᵀ."""
     values, vectors = eigh(K, M)
+    L, largest = cholesky(M, lower=True), float(np.max(np.abs(values), initial=0.0))
     for share in SHIFTS:
-        shift = share * float(np.max(np.abs(values), initial=0.0))
+        shift = -share * largest
         try:
-            theta, low = eigh(M, K + shift * M)
-        except np.linalg.LinAlgError:
-            continue  # not positive definite
-        theta, low = theta[::-1], low[:, ::-1]
-        if not theta[-1] > 0.0:
+            inverse = _Full(K - shift * M).solve(L)
+        except PivotError:
             continue
-        own = theta > np.sqrt(theta[0] * theta[-1])
-        values[own], vectors[:, own] = 1.0 / theta[own] - shift, low[:, own] / np.sqrt(theta[own])
-        break
+        theta, x = eigh(symmetric(L.T @ inverse))
+        size = np.abs(theta)
+        near = size > np.sqrt(size.max() * size.min())
+        far = np.argsort(np.abs(values - shift), kind="stable")[int(near.sum()) :]
+        low = solve_triangular(L, x[:, near], lower=True, trans="T")
+        values = np.concatenate([1.0 / theta[near] + shift, values[far]])
+        order = np.argsort(values, kind="stable")
+        return values[order], np.hstack([low, vectors[:, far]])[:, order]
     return values, vectors
 
 

@@ -9,11 +9,20 @@ import numpy as np
 from scipy.linalg import eig, eigh
 
 from nivel.analysis.statics.equations import Tangent
-from nivel.analysis.statics.linear import PivotError, factors, fastest, free_directions, is_small, lowest, symmetric
+from nivel.analysis.statics.linear import (
+    PivotError,
+    factors,
+    fastest,
+    free_directions,
+    has_potential,
+    is_small,
+    lowest,
+    symmetric,
+)
 from nivel.system.system import Array
 
-# Squares of frequencies ω² = φᵀ K φ below this share of |φ|ᵀ |K| |φ| are round-off: rigid motions. About unstable equilibria all are known
-# to such a share of the largest only.
+# Squares of frequencies ω² = φᵀ K φ below this share of |φ|ᵀ |K| |φ| are round-off: rigid motions. Where forces have no potential all are
+# known to such a share of the largest only.
 ROUND_OFF = 1e-13
 # Machines of up to so many unknowns get their damping: the eigenvalues of a full matrix of twice the size.
 DAMPED = 400
@@ -39,7 +48,7 @@ def vibrations(tangent: Tangent, count: int) -> Vibrations:
     squares, shapes = lowest(tangent, count, tangent.M)
     known = np.einsum("ik,ik->k", np.abs(shapes), np.abs(tangent.K) @ np.abs(shapes))
     still = np.abs(squares) <= ROUND_OFF * known
-    if np.any((squares < 0.0) & ~still):
+    if not has_potential(tangent):
         still |= np.abs(squares) <= ROUND_OFF * _largest(tangent)
     squares = np.where(still, 0.0, squares)
     rates = np.full(count, np.nan, dtype=complex)

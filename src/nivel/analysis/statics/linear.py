@@ -205,7 +205,7 @@ def _symmetric(K: Array, M: Array) -> tuple[Array, Array]:
         size = np.abs(theta)
         near = size > np.sqrt(size.max() * size.min())
         far = np.argsort(np.abs(values - shift), kind="stable")[int(near.sum()) :]
-        low = solve_triangular(L, x[:, near], lower=True, trans="T")
+        low = solve_triangular(L, x[:, near], lower=True, trans=1)
         values = np.concatenate([1.0 / theta[near] + shift, values[far]])
         order = np.argsort(values, kind="stable")
         return values[order], np.hstack([low, vectors[:, far]])[:, order]

@@ -103,6 +103,7 @@ def test_what_does_not_go_with_it_is_refused():
         ({"formulation": "lagrange"}, "exact tangents of angular velocities"),
         ({"coordinates": "independent", "formulation": "penalty"}, "no violation is left to feed back"),
         ({"coordinates": "independent", "stabilisation": "baumgarte"}, "no violation is left to feed back"),
+        ({"stabilisation": "baumgarte"}, "does not iterate and has order one there"),
     ):
         with pytest.raises(ModelError, match=words):
             run(machines.slider_crank(), integrator="ros2", **settings)

@@ -181,13 +181,14 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
         chosen = np.sort(order[:count])
         return values[chosen], Z @ vectors[:, chosen]
     values, vectors = _lanczos(tangent, count, M)
-    if nearest or not has_potential(tangent):
+    unstable = 0 if nearest or not has_potential(tangent) else negative_directions(tangent)
+    if np.sum(values < 0.0) >= unstable:
         return values, vectors
-    # what is most unstable may be far from zero
-    unstable = negative_directions(tangent)
-    while np.sum(values < 0.0) < unstable and len(values) < size - tangent.C.shape[0] - 1:
-        values, vectors = _lanczos(tangent, 2 * len(values), M)
-    return values[:count], vectors[:, :count]
+    # what is most unstable may be far from zero: of 1/(ω² - shift) all that are negative
+    below, directions = _lanczos(tangent, unstable, M, "SA")
+    down, up = below < 0.0, values >= 0.0
+    values = np.concatenate([below[down], values[up]])[:count]
+    return values, np.hstack([directions[:, down], vectors[:, up]])[:, :count]
 
 
 def _symmetric(K: Array, M: Array) -> tuple[Array, Array]:
@@ -238,7 +239,7 @@ def fastest(tangent: Tangent) -> float:
     return found or 1.0
 
 
-def _lanczos(tangent: Tangent, count: int, M: Sparse) -> tuple[Array, Array]:
+def _lanczos(tangent: Tangent, count: int, M: Sparse, which: str = "LM") -> tuple[Array, Array]:
     from scipy.sparse.linalg import LinearOperator, eigs, eigsh
 
     size, rows = tangent.K.shape[0], tangent.C.shape[0]
@@ -268,6 +269,6 @@ def _lanczos(tangent: Tangent, count: int, M: Sparse) -> tuple[Array, Array]:
     if not even:
         found_pairs: Any = eigs(K, k=count, M=mass, sigma=shift, OPinv=operator, v0=begin, which="LM")
         return _real(found_pairs[0], found_pairs[1], mass)
-    values, vectors = eigsh(K, k=count, M=mass, sigma=shift, OPinv=operator, v0=begin, which="LM")
+    values, vectors = eigsh(K, k=count, M=mass, sigma=shift, OPinv=operator, v0=begin, which=which)
     order = np.argsort(values)
     return values[order], vectors[:, order]

@@ -3,7 +3,8 @@
 With v̈ and v⃛ from differences of v̇, a step errs by (⅙ - β - ½ Δ) h³ v̈ in q and by -(1/12 + ½ Δ²) h³ v⃛ in v, Δ = α_m - α_f. Errors of slow
 motion add up: of each a step may make its part of the time of the run. In vibrations faster than the step they do not: a method that
 lets no amplitude grow can be wrong by twice the amplitude, after any number of steps. So there the amplitude counts, as a displacement;
-what it is as a speed, or as an acceleration, says nothing: of stiff springs both are large and change their sign.
+what it is as a speed, or as an acceleration, says nothing: of stiff springs both are large and change their sign. But the cubic between two
+steps takes the speeds at its ends for true: what it sways by for those that a vibration leaves there counts as its amplitude does.
 
 The two are told apart by `nivel.march.error_filter` for steps REACH times as long, so that also a step of the length of a vibration, in
 which its differences are largest, leaves it out. Filtering costs a matrix: it is asked for where the plain error would shorten a step,
@@ -30,8 +31,14 @@ LEAST_PART = 1e-6
 # The filter is for steps so many times as long, but for none in which the machine moves by more than a radian or its own length: what
 # changes in the time of that is slow. Steps in which it moves by more than the second number are too long for the two to be told apart.
 REACH, MOST_MOVED = 30.0, 0.1
-# rows of run.stages: h² times the second derivative of v̇ and ẋ, and their change in the step; what is fast of these
-BEND, CHANGE, FAST_BEND, FAST_CHANGE = 7, 8, 9, 10
+# What passes the filter so many times is slow.
+FOLDS = 4
+# rows of run.stages: h² times the second derivative of v̇ and ẋ, and their change in the step; what is fast of these; the change of the
+# velocities
+BEND, CHANGE, FAST_BEND, FAST_CHANGE, SPEED = 7, 8, 9, 10, 11
+# A cubic through equal positions with velocities u and -u at the ends of a step h sways by h u/4. They change by 2 u then, accelerations
+# by 4 u/h.
+BY_SPEED, BY_CHANGE = 1.0 / 8.0, 1.0 / 16.0
 
 
 @stage
@@ -111,6 +118,32 @@ def rate_of_motion(machine, history):
 
 
 @stage
+def load_speeds(run, residual, newton):
+    """SPEED := the change of the velocities in the step just attempted."""
+    n, speed = residual.vdot.shape[0], run.stages[SPEED]
+    positions = np.int64(run.y.shape[0]) - n - newton.state.shape[0] - 2
+    speed[:] = 0.0
+    for k in range(n):
+        speed[k] = residual.y[positions + k] - run.y[positions + k]
+
+
+@stage
+def size_of_sway(run, residual, newton, h):
+    """What the cubic of this step sways by for the vibrations in its velocities, of which CHANGE and SPEED are what is slow, as a share of
+    the scales. What turns with a stiff rod changes its velocity as a vibration does, but not its acceleration; vibrations that an undamped
+    method has stepped over change their acceleration by more than their velocity says."""
+    stages, scale, n = run.stages, run.scale, residual.vdot.shape[0]
+    positions = np.int64(scale.shape[0]) - n - newton.state.shape[0] - 2
+    largest = 0.0
+    for k in range(n):
+        of_change = residual.vdot[k] - stages[VDOT, k] - stages[CHANGE, k]
+        of_speed = residual.y[positions + k] - run.y[positions + k] - stages[SPEED, k]
+        sway = min(BY_CHANGE * np.abs(h * h * of_change), BY_SPEED * np.abs(h * of_speed))
+        largest = max(largest, sway / scale[newton.place[k, 0]])
+    return largest
+
+
+@stage
 def split(machine, history, t, row, fast):
     """Overwrite this row of the stages by F⁴ of it, what is slow; `fast` by F (1 - F)³ of it. Returns a status."""
     run = run_at(history)
@@ -118,7 +151,7 @@ def split(machine, history, t, row, fast):
     status = OK
     for k in range(stages.shape[1]):
         stages[fast, k] = 0.0
-    for fold in range(4):
+    for fold in range(FOLDS):
         if status == OK:
             status = keep_slow(machine, t, stages[row])
         sign = 1.0 if fold == 0 else (-3.0 if fold == 1 else (3.0 if fold == 2 else -1.0))
@@ -148,6 +181,10 @@ def filtered_error(machine, history, t, h):
         status = split(machine, history, t, BEND, FAST_BEND)
     if status == OK:
         status = split(machine, history, t, CHANGE, FAST_CHANGE)
+    load_speeds(run, record.residual, newton)
+    for _ in range(FOLDS):
+        if status == OK:
+            status = keep_slow(machine, t, run.stages[SPEED])
     if status != OK:
         return np.inf, np.inf
     change, bend = (
@@ -155,4 +192,6 @@ def filtered_error(machine, history, t, h):
         size_of_displacement(run, newton, FAST_BEND, cq, cx),
     )
     amplitude = max(change * change / bend, bend) if bend > 0.0 else 0.0
-    return size_of_error(run, newton, h) / part_of(run, h), 2.0 * amplitude / max(SHARE * run.clock[TOLERANCE], EXACT)
+    slow = size_of_error(run, newton, h) / part_of(run, h)
+    largest = max(2.0 * amplitude, size_of_sway(run, record.residual, newton, h))
+    return slow, largest / max(SHARE * run.clock[TOLERANCE], EXACT)

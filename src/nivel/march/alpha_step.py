@@ -171,14 +171,14 @@ def solve_step(machine, history, h, end, tolerance):
         tolerance = min(tolerance, max(CLOSER * tolerance, ROUND))
     predict(run, record.newton, record.residual, h)
     cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)
-    status = iterate(machine, history, end, cq, cv, cx, tolerance)
+    status = iterate(machine, history, end, cq, cv, cx, tolerance, True)
     for share in (1.0, 0.0):
         if status not in (NOT_CONVERGED, SINGULAR):
             break
         predict(run, record.newton, record.residual, h)
         cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)
         move_by_velocity(run, record.newton, record.residual, share * h, cq)
-        status = iterate(machine, history, end, cq, cv, cx, tolerance)
+        status = iterate(machine, history, end, cq, cv, cx, tolerance, share == 1.0)
     return status
 
 

@@ -53,7 +53,7 @@ def energy_momentum(evaluate, machine, history):
     h, end, last = run.clock[STEP], run.clock[REACHED], run.y.shape[0] - 2
     prepare(machine, history, h)
     cq, cv, cx = 0.5 * h * h, h, h
-    status = iterate(machine, history, end, cq, cv, cx, record.newton.settings[NEWTON_TOLERANCE])
+    status = iterate(machine, history, end, cq, cv, cx, record.newton.settings[NEWTON_TOLERANCE], False)
     for k in range(FURTHER + 1):
         if status == OK:
             status = call_hook(machine, RESIDUAL, 0, end)

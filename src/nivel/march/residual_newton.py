@@ -16,7 +16,8 @@ matrix, by the step where a stiff spring acts on what is dependent, and not bett
 Policy: a matrix is kept, also from step to step, as long as the step is the same and the iterations that it still asks for are cheaper than
 a new one, which takes about two of them for every evaluation on complex numbers; then it is made anew at the iterate. On request it is
 made anew for every iteration. A change larger than the one before by GROWTH is taken back by halves (natural monotonicity test, Deuflhard
-2004). The iteration ends where the contraction seen so far puts the next change below the tolerance; all changes are shares of the scales
+2004), and one by a matrix of a step before that is followed by another almost as large, to make a new matrix where that step began: from
+where a matrix that is none of this state leads, a new one may find another solution. The iteration ends where the contraction seen so far puts the next change below the tolerance; all changes are shares of the scales
 of the positions and velocities that they move, so neither units nor the step decide.
 
 With index 3, and without constraints, velocities are as exact as positions over the step, and positions are known to their round-off.
@@ -241,7 +242,7 @@ def is_worth_a_new_one(newton, contraction, size, tolerance):
 
 
 @leaf
-def iterate(machine, history, t, cq, cv, cx, tolerance):
+def iterate(machine, history, t, cq, cv, cx, tolerance, others):
     """The unknowns for which the residual vanishes at time t, starting from those there are. `residual.y` is the state then.
 
     tolerance : share of the scales that the positions and velocities found may still change by. Returns a status.
@@ -249,7 +250,7 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
     run, record = run_at(history), record_at(machine)
     newton, counter = record.newton, run.counter
     full = newton.settings[FULL] == 1.0
-    stale, last, share, best = full, np.inf, 1.0, np.inf
+    stale, last, share, best, inherited = full, np.inf, 1.0, np.inf, True
     for _ in range(np.int64(newton.settings[MOST])):
         status = find_state(machine, t, cq, cv, cx)
         if status == OK:
@@ -264,13 +265,21 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
                 status = factorise(machine)
             counter[FACTORISATIONS] += 1
             newton.kept[CQ], newton.kept[CV], newton.kept[CX], newton.kept[CONTRACTION] = cq, cv, cx, SANGUINE
-            stale, best = False, 0.0
+            stale, best, inherited = False, 0.0, False
         if status != OK:
             newton.kept[CQ] = 0.0
             return status
         find_change(machine, cq, cv)
         size = size_of_change(machine, run.scale, cq, cv, cx)
         contraction = size / last if last < np.inf else newton.kept[CONTRACTION]
+        astray = last < np.inf and not contraction <= (SLOW if inherited else GROWTH)
+        if astray and others:
+            newton.kept[CQ] = 0.0
+            return NOT_CONVERGED
+        if astray and inherited:
+            take_change(newton, record.residual, newton.before, newton.moved_before, -1.0)
+            stale, last = True, np.inf
+            continue
         if not contraction <= GROWTH and last < np.inf and share > LEAST_SHARE:
             share *= 0.5
             take_change(newton, record.residual, newton.before, newton.moved_before, -share)

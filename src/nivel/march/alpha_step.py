@@ -163,8 +163,8 @@ def attempt(machine, history, h, end, tolerance):
 def solve_step(machine, history, h, end, tolerance):
     """The same on the elements where bodies are held that beams carry.
 
-    Accelerations of stiff parts say little about the next ones: where the iteration finds nothing from them, it starts again from the
-    positions that the velocities lead to, and then from those there are.
+    Accelerations of stiff parts say little about the next ones: where they lead the iteration astray, it starts again from the positions
+    that the velocities lead to, and then from those there are.
     """
     run, record = run_at(history), record_at(machine)
     if record.newton.level[0] == 0:

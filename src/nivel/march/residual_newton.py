@@ -15,10 +15,13 @@ matrix, by the step where a stiff spring acts on what is dependent, and not bett
 
 Policy: a matrix is kept, also from step to step, as long as the step is the same and the iterations that it still asks for are cheaper than
 a new one, which takes about two of them for every evaluation on complex numbers; then it is made anew at the iterate. On request it is
-made anew for every iteration. A change larger than the one before by GROWTH is taken back by halves (natural monotonicity test, Deuflhard
-2004), and one by a matrix of a step before that is followed by another almost as large, to make a new matrix where that step began: from
-where a matrix that is none of this state leads, a new one may find another solution. The iteration ends where the contraction seen so far puts the next change below the tolerance; all changes are shares of the scales
-of the positions and velocities that they move, so neither units nor the step decide.
+made anew for every iteration. The iteration ends where the contraction seen so far puts the next change below the tolerance; all changes
+are shares of the scales of the positions and velocities that they move, so neither units nor the step decide.
+
+A change larger than the one before by GROWTH leads astray, and of a matrix of a step before one that is not smaller. From there
+Newton's method may find a solution of another branch, a beam wound up. So the iteration gives up where its method knows other states to
+start from; where not, what another step's matrix did is taken back and a new one made where it began, and what one of this step did is
+taken back by halves (natural monotonicity test, Deuflhard 2004).
 
 With index 3, and without constraints, velocities are as exact as positions over the step, and positions are known to their round-off.
 Where changes stop getting smaller, with a matrix that is known to be a good one, a change is the distance to the solution; it is accepted
@@ -245,12 +248,13 @@ def is_worth_a_new_one(newton, contraction, size, tolerance):
 def iterate(machine, history, t, cq, cv, cx, tolerance, others):
     """The unknowns for which the residual vanishes at time t, starting from those there are. `residual.y` is the state then.
 
-    tolerance : share of the scales that the positions and velocities found may still change by. Returns a status.
+    tolerance : share of the scales that the positions and velocities found may still change by. others : whether the method knows other
+    states to start from. Returns a status.
     """
     run, record = run_at(history), record_at(machine)
     newton, counter = record.newton, run.counter
     full = newton.settings[FULL] == 1.0
-    stale, last, share, best, inherited = full, np.inf, 1.0, np.inf, True
+    stale, inherited, last, share, best = full, True, np.inf, 1.0, np.inf
     for _ in range(np.int64(newton.settings[MOST])):
         status = find_state(machine, t, cq, cv, cx)
         if status == OK:
@@ -265,22 +269,24 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
                 status = factorise(machine)
             counter[FACTORISATIONS] += 1
             newton.kept[CQ], newton.kept[CV], newton.kept[CX], newton.kept[CONTRACTION] = cq, cv, cx, SANGUINE
-            stale, best, inherited = False, 0.0, False
+            stale, inherited = False, False
         if status != OK:
             newton.kept[CQ] = 0.0
             return status
         find_change(machine, cq, cv)
         size = size_of_change(machine, run.scale, cq, cv, cx)
         contraction = size / last if last < np.inf else newton.kept[CONTRACTION]
-        astray = last < np.inf and not contraction <= (SLOW if inherited else GROWTH)
-        if astray and others:
+        # changes that once became smaller may stop to at round-off
+        lost = best > GOOD
+        astray = last < np.inf and not contraction <= (SLOW if inherited and lost else GROWTH)
+        if astray and lost and others:
             newton.kept[CQ] = 0.0
             return NOT_CONVERGED
-        if astray and inherited:
+        if astray and lost and inherited:
             take_change(newton, record.residual, newton.before, newton.moved_before, -1.0)
             stale, last = True, np.inf
             continue
-        if not contraction <= GROWTH and last < np.inf and share > LEAST_SHARE:
+        if astray and share > LEAST_SHARE:
             share *= 0.5
             take_change(newton, record.residual, newton.before, newton.moved_before, -share)
             stale = True
@@ -292,7 +298,7 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
         if not done and last < np.inf:
             best = min(best, contraction)
             by_position = newton.level[0] == 3 or record.residual.row.shape[0] == 0
-            if by_position and contraction > STALLED and best <= GOOD:
+            if by_position and contraction > STALLED and (best <= GOOD or not inherited):
                 done = is_round_off(machine, run.scale, cq, cv, cx, tolerance)
         if done:
             return find_state(machine, t, cq, cv, cx)

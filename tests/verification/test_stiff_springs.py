@@ -4,6 +4,7 @@ within the tolerance: springs along a joint, along a rod that turns, about a joi
 import numpy as np
 import pytest
 
+from nivel.machine import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
 from running import run
 from stiff_machines import (
     double_pendulum,
@@ -102,3 +103,37 @@ def test_long_tries_do_not_step_over_the_motion_itself(coordinates):
     angle = rigid_crank(result.time)
     expected = np.transpose((0.1 * np.cos(angle), 0.1 * np.sin(angle)))
     assert np.abs(result.position[:, 0, :2] - expected).max() < 10 * 1e-3 * result.prepared.motion.system.size
+
+
+@COORDINATES
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
+@pytest.mark.parametrize("integrator", ALPHA)
+def test_frames_between_steps_over_a_vibration(integrator, tolerance, coordinates):
+    """1 kg on a spring of 1e8 N/m that is let go 0.1 um beside its place, and nothing slow that would keep the steps short: what they leave
+    of the vibration in the velocities at their ends must not bend the motion between them."""
+    bob = Body(name="bob", mass=1, inertia=(0.01, 0.01, 0.01))
+    machine = MachineRecord(
+        name="bob",
+        gravity=(0, 0, 0),
+        bodies=(bob,),
+        joints=(Joint(name="rail", type="translational", bodies=("ground", "bob"), point=(0, 0, 0), axis=(1, 0, 0)),),
+        forces=(
+            JointSpringDamper(name="spring", coordinate="rail", stiffness=1e8),
+            PointForce(name="pull", body="bob", vector=(10, 0, 0)),
+        ),
+        simulation=SimulationSettings(duration=2.0, output_interval=0.05),
+    )
+    result = solved(machine, integrator, coordinates=coordinates, tolerance=tolerance)
+    assert len(result.time) == 41
+    assert np.abs(result.position[:, 0, 0] - 1e-7).max() < tolerance
+    assert result.finished.timing["steps"] < 200
+
+
+@COORDINATES
+@pytest.mark.parametrize("stiffness", [1e7, 1e8])
+@pytest.mark.parametrize("integrator", ALPHA)
+def test_frames_of_links_that_swing(integrator, stiffness, coordinates):
+    result = solved(double_pendulum(stiffness), integrator, coordinates=coordinates, tolerance=1e-4)
+    angle = rigid_double_pendulum(result.time)
+    expected = np.transpose((0.5 * np.sin(angle), -0.5 * np.cos(angle)))
+    assert np.abs(result.position[:, 0, :2] - expected).max() < 1e-4 * result.prepared.motion.system.size

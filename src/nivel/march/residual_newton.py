@@ -23,9 +23,10 @@ Newton's method may find a solution of another branch, a beam wound up. So the i
 start from; where not, what another step's matrix did is taken back and a new one made where it began, and what one of this step did is
 taken back by halves (natural monotonicity test, Deuflhard 2004).
 
-With index 3, and without constraints, velocities are as exact as positions over the step, and positions are known to their round-off.
-Where changes stop getting smaller, with a matrix that is known to be a good one, a change is the distance to the solution; it is accepted
-where round-off explains all of it, unknown by unknown (`is_round_off`).
+Changes that stop getting smaller, with a matrix that is known to be a good one, are round-off. Where they are below the tolerance of a
+fixed step that is enough for chosen ones too, which ask for a share of their error. With index 3, and without constraints, velocities are
+as exact as positions over the step, and positions are known to their round-off: there a larger change is accepted where round-off explains
+all of it, unknown by unknown (`is_round_off`).
 """
 
 from __future__ import annotations
@@ -181,7 +182,7 @@ def find_change(machine, cq, cv):
 
 @stage
 def is_round_off(machine, scale, cq, cv, cx, tolerance):
-    """Whether the change in newton.before, of index 3 or without constraints, is no larger than the tolerance and what round-off does.
+    """Whether the change in newton.before is of index 3 or without constraints, and no larger than the tolerance and what round-off does.
 
     A position q is known to ε |q|, a constraint to ε (r s + Σ |C_q| |q|): s is its scale, r the roundings in units in the last place on the
     way from the ground to it. What the latter does to the unknowns is found by the matrix, row by row. The equations of motion are known to
@@ -190,6 +191,8 @@ def is_round_off(machine, scale, cq, cv, cx, tolerance):
     """
     record = record_at(machine)
     newton, residual, constraints = record.newton, record.residual, record.constraints
+    if newton.level[0] != 3 and residual.row.shape[0] > 0:
+        return False
     b, floor, place = newton.b, newton.last, newton.place
     n, states = residual.vdot.shape[0], newton.state.shape[0]
     first, positions = n + states, scale.shape[0] - n - states - 2
@@ -297,9 +300,8 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
         done = size <= tolerance or (contraction < 1.0 and contraction / (1.0 - contraction) * size <= tolerance)
         if not done and last < np.inf:
             best = min(best, contraction)
-            by_position = newton.level[0] == 3 or record.residual.row.shape[0] == 0
-            if by_position and contraction > STALLED and (best <= GOOD or not inherited):
-                done = is_round_off(machine, run.scale, cq, cv, cx, tolerance)
+            if contraction > STALLED and (best <= GOOD or not inherited):
+                done = size <= newton.settings[TOLERANCE] or is_round_off(machine, run.scale, cq, cv, cx, tolerance)
         if done:
             return find_state(machine, t, cq, cv, cx)
         stale = full

@@ -5,11 +5,10 @@ from __future__ import annotations
 from nivel.kernels.compile import entry
 from nivel.march.exact_matrix import find_matrix, solve_matrix
 from nivel.march.multistep_polynomials import BDF
-from nivel.march.run import run_at, step_signature
-from nivel.march.step_control import allowed
+from nivel.march.run import step_signature
 from nivel.march.stiff_vibration import look
 from nivel.march.variable_corrector import corrector
-from nivel.march.variable_gear import MOST_ORDER, SHARE
+from nivel.march.variable_gear import MOST_ORDER, of_step
 from nivel.march.variable_order import multistep
 
 variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix), look)
@@ -18,4 +17,4 @@ variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix)
 @entry(step_signature)
 def bdf(evaluate, machine, history):
     """One accepted step."""
-    return variable_step(evaluate, machine, history, allowed(run_at(history), SHARE))
+    return variable_step(evaluate, machine, history, of_step(history))

@@ -15,7 +15,7 @@ from nivel.march.variable_corrector import corrector
 from nivel.march.variable_order import multistep, plain
 
 MOST_ORDER = 5
-SHARE, TOTAL = 0.001, 1.0
+SHARE, TOTAL = 0.001, 0.3
 
 variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix), plain)
 

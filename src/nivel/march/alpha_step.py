@@ -7,6 +7,7 @@ import numpy as np
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, record_at
+from nivel.kernels.residual import known_multiplier
 from nivel.kernels.status import NOT_CONVERGED, OK, SINGULAR
 from nivel.kernels.tree import has_passed
 from nivel.march.corners import before, jump_at
@@ -42,8 +43,8 @@ def start(evaluate, machine, history, t, h):
     newton, residual, c, stages = record.newton, record.residual, run.numbers, run.stages
     n, states = residual.vdot.shape[0], newton.state.shape[0]
     positions = np.int64(run.y.shape[0]) - n - states - 2
-    for k in range(residual.row.shape[0]):
-        newton.lam[k] = record.constraints.lam[residual.row[k]]
+    for k in range(residual.lam.shape[0]):
+        newton.lam[k] = known_multiplier(record, k)
     ahead = DIFFERENCE * h
     for i in range(run.y.shape[0]):
         run.trial[i] = run.y[i] + ahead * run.rate[i]
@@ -80,8 +81,8 @@ def refresh(machine, run):
     for k in range(states):
         stages[W, k] += share_x * (rate[positions + n + k] - stages[XDOT, k])
         stages[XDOT, k] = rate[positions + n + k]
-    for k in range(residual.row.shape[0]):
-        newton.lam[k] = record.constraints.lam[residual.row[k]]
+    for k in range(residual.lam.shape[0]):
+        newton.lam[k] = known_multiplier(record, k)
 
 
 @stage
@@ -167,6 +168,9 @@ def solve_step(machine, history, h, end, tolerance):
     positions that the velocities lead to, and then from those there are.
     """
     run, record = run_at(history), record_at(machine)
+    residual = record.residual
+    for k in range(residual.stiction.shape[0]):
+        record.friction.anchor[residual.stiction[k]] = record.newton.lam[residual.row.shape[0] + k]
     if record.newton.level[0] == 0:
         tolerance = min(tolerance, max(CLOSER * tolerance, ROUND))
     predict(run, record.newton, record.residual, h)
@@ -268,9 +272,9 @@ def add_jump(machine, run, sign):
         else:
             stages[XDOT, k - n] += jump
             stages[W, k - n] += jump
-    for k in range(residual.row.shape[0]):
-        newton.lam[k] += sign * record.constraints.lam[residual.row[k]]
-        newton.lam_before[k] += sign * record.constraints.lam[residual.row[k]]
+    for k in range(residual.lam.shape[0]):
+        newton.lam[k] += sign * known_multiplier(record, k)
+        newton.lam_before[k] += sign * known_multiplier(record, k)
 
 
 @stage

@@ -50,6 +50,13 @@ CQ, CV, CX, CONTRACTION = 0, 1, 2, 3
 TOLERANCE, MOST, FULL, ROUNDINGS = 0, 1, 2, 3
 # Changes that contract by less have stopped getting smaller; a matrix with which they once contracted by as much is a good one.
 STALLED, GOOD = 0.5, 0.1
+# A change of the effort of a friction counts as this share of it.
+CLOSE = 1e-4
+# Frictions may begin to slide or to stick so often in one iteration; from then on half of such a change is made.
+MOST_TURNS = 6
+# Where Stribeck's curve is steep the iteration goes on from speed to speed, either to one that belongs to it or to its foot. Where it comes
+# no farther in so many iterations, it is where both are all but one, and the curve is taken at the speed there.
+MOST_STEEP = 12
 # samples of the round-off of the equations of motion, and how many times their mean size it may have
 SAMPLES, SAFETY = 8, 4.0
 
@@ -60,13 +67,15 @@ def write_defect(machine, cq, cv):
     record = record_at(machine)
     newton, residual, level = record.newton, record.residual, record.newton.level[0]
     b, value = newton.b, residual.value
-    n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.row.shape[0]
-    first = n + states
+    n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.lam.shape[0]
+    first, held = n + states, residual.row.shape[0]
     for i in range(n):
         b[i] = -value[i]
     for i in range(states):
         b[n + i] = value[n + i] - newton.rate[i]
-    for k in range(rows):
+    for k in range(held, rows):
+        b[first + k] = -value[first + 2 * rows + k]
+    for k in range(held):
         if level == 3:
             b[first + k] = -value[first + k] / cq
         elif level == 2:
@@ -84,12 +93,12 @@ def close_positions(machine, cq, cv):
     record = record_at(machine)
     newton, residual = record.newton, record.residual
     b, value, kept = newton.b, residual.value, newton.last
-    n, rows = residual.vdot.shape[0], residual.row.shape[0]
+    n, rows = residual.vdot.shape[0], residual.lam.shape[0]
     first = n + newton.state.shape[0]
     for i in range(b.shape[0]):
         kept[i] = b[i]
         b[i] = 0.0
-    for k in range(rows):
+    for k in range(residual.row.shape[0]):
         # C_q (cq δv̇) = -cq Ċ/cv is what the velocities' own change does to the positions
         b[first + k] = -value[first + k] + cq / cv * value[first + rows + k]
     solve(machine)
@@ -109,8 +118,8 @@ def apply_turns(newton, x):
 
 @stage
 def size_of_change(machine, scale, cq, cv, cx):
-    """Largest change of a position, velocity or state of forces by newton.b and newton.moved, as a share of its scale; its unknown is
-    left in control.failure."""
+    """Largest change of a position, velocity or state of forces by newton.b and newton.moved, as a share of its scale, or of the effort of
+    a friction with stiction, as a share of itself and its limit times CLOSE; its unknown is left in control.failure."""
     record = record_at(machine)
     newton, failure = record.newton, record.control.failure
     b, moved = newton.b, newton.moved
@@ -126,6 +135,12 @@ def size_of_change(machine, scale, cq, cv, cx):
         share = np.abs(cx * b[k]) / scale[positions + k]
         if not share <= largest:
             largest, failure[0] = share, k
+    first = n + states + record.residual.row.shape[0]
+    for k in range(record.residual.stiction.shape[0]):
+        effort = np.abs(record.residual.lam[first - n - states + k]) + record.residual.limit[k]
+        share = CLOSE * np.abs(b[first + k]) / max(effort, 1e-300)
+        if not share <= largest:
+            largest, failure[0] = share, first + k
     return largest
 
 
@@ -169,7 +184,7 @@ def find_change(machine, cq, cv):
     newton = record_at(machine).newton
     write_defect(machine, cq, cv)
     solve(machine)
-    if newton.level[0] == 2 and newton.b.shape[0] > newton.moved.shape[0] + newton.state.shape[0]:
+    if newton.level[0] == 2 and record_at(machine).residual.row.shape[0] > 0:
         close_positions(machine, cq, cv)
         apply_turns(newton, newton.moved)
     apply_turns(newton, newton.b)
@@ -240,6 +255,39 @@ def is_worth_a_new_one(newton, contraction, size, tolerance):
     return not contraction <= SLOW or size * contraction**price > tolerance
 
 
+@stage
+def is_steep(residual):
+    """Whether a friction slides where Stribeck's curve is too steep for Newton's matrix."""
+    steepest = 0.0
+    for k in range(residual.branch.shape[0]):
+        steepest = max(steepest, np.abs(residual.branch[k]))
+    return steepest > 1.0
+
+
+@stage
+def freeze(residual):
+    """Take Stribeck's curve, where it is too steep for Newton's matrix, at the speeds there are."""
+    for k in range(residual.branch.shape[0]):
+        if np.abs(residual.branch[k]) > 1.0:
+            residual.frozen[k] = residual.speed[k]
+
+
+@stage
+def thaw(residual):
+    """Take Stribeck's curve at the speeds that are found."""
+    for k in range(residual.branch.shape[0]):
+        residual.frozen[k] = np.nan
+
+
+@stage
+def has_turned(residual):
+    """Whether a friction with stiction slides or sticks otherwise than Newton's matrix has it."""
+    count = 0
+    for k in range(residual.branch.shape[0]):
+        count += residual.branch[k] != residual.made[k]
+    return count > 0
+
+
 @leaf
 def iterate(machine, history, t, cq, cv, cx, tolerance):
     """The unknowns for which the residual vanishes at time t, starting from those there are. `residual.y` is the state then.
@@ -249,7 +297,8 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
     run, record = run_at(history), record_at(machine)
     newton, counter = record.newton, run.counter
     full = newton.settings[FULL] == 1.0
-    stale, last, share, best = full, np.inf, 1.0, np.inf
+    stale, last, share, best, turns, steep = full, np.inf, 1.0, np.inf, 0, 0
+    thaw(record.residual)
     for _ in range(np.int64(newton.settings[MOST])):
         status = find_state(machine, t, cq, cv, cx)
         if status == OK:
@@ -258,12 +307,22 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
         counter[ITERATIONS] += 1
         if status == OK and not is_finite(record.residual.value):
             status = NOT_FINITE
+        if is_steep(record.residual):
+            last, steep = np.inf, steep + 1
+            if steep > MOST_STEEP:
+                freeze(record.residual)
+        turned = has_turned(record.residual)
+        if turned:
+            # another equation: what changes were before says nothing of them
+            stale, last, share, turns = True, np.inf, 1.0, turns + 1
         if status == OK and (stale or not is_kept(newton, cq, cv, cx)):
             status = differentiate(machine, t, cq, cv, cx, ACCELERATIONS if newton.level[0] < 2 else POSITIONS)
             if status == OK:
                 status = factorise(machine)
             counter[FACTORISATIONS] += 1
             newton.kept[CQ], newton.kept[CV], newton.kept[CX], newton.kept[CONTRACTION] = cq, cv, cx, SANGUINE
+            for k in range(record.residual.made.shape[0]):
+                record.residual.made[k] = record.residual.branch[k]
             stale, best = False, 0.0
         if status != OK:
             newton.kept[CQ] = 0.0
@@ -277,6 +336,9 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
             stale = True
             continue
         share = 1.0
+        if turned and turns > MOST_TURNS:
+            take_change(newton, record.residual, newton.b, newton.moved, 0.5)
+            continue
         take_change(newton, record.residual, newton.b, newton.moved, share)
         keep_change(newton)
         done = size <= tolerance or (contraction < 1.0 and contraction / (1.0 - contraction) * size <= tolerance)

@@ -191,17 +191,13 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
         )
         faults.append(("integrator", message))
     out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
-    out += [
-        Fault(
-            "",
-            0,
-            0,
-            f"forces.{force.name}",
-            f"friction under explicit integrators {why.format('generalised-alpha')}",
-        )
-        for force in machine.forces
-        if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual
-    ]
+    for force in machine.forces:
+        if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual:
+            message = f"friction under explicit integrators {why.format('generalised-alpha')}"
+            out.append(Fault("", 0, 0, f"forces.{force.name}", message))
+        elif isinstance(force, Friction) and force.model == "stiction":
+            message = f"'stiction' {why.format('lugre or coulomb')}"
+            out.append(Fault("", 0, 0, f"forces.{force.name}.model", message))
     if out:
         raise ModelError(out)
 

@@ -7,7 +7,9 @@ slides, the friction that its load makes:
 
 the law of `nivel.kernels.friction` for any mass m, as a projection (Alart, Curnier 1991), in which Newton's iteration decides by F and c̈
 together which of the two it is: with one friction it decides right at once. m is the mass that F moves; ε has F stay near that of the
-accepted state, F₀, where several frictions hold one motion. b is viscous friction.
+accepted state, F₀, where several frictions hold one motion. b is viscous friction. Where the multipliers of constraints close velocities at
+the ends of steps, c̈ and ċ of what sticks are means of a step (ċ that at its end in steps longer than τ): accelerations at the ends are a
+little open, and two frictions of a loop would contradict each other.
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 
 # ε: the acceleration that is left of a joint that sticks is this share of what the change of the effort since F₀ would make.
-NEAR = 1e-6
+NEAR = 1e-4
 # Where Stribeck's curve falls so steeply that within τ it would change the speed by this share of itself, the matrix does not know of it:
 # with it pivots would vanish, and the iteration go to the wrong side of the fall.
 STEEP = 0.5
@@ -67,34 +69,43 @@ def is_steep(n, speed, load, mass, tau):
 
 
 @stage
+def greatest(machine, k, number, rate):
+    """(L, whether Stribeck's curve is too steep for the matrix there): the greatest effort of friction k without its viscous part."""
+    record = record_at(machine)
+    n, own = record.friction.number[k], record.residual
+    load, speed, frozen = normal_load(machine, k) * n[ARM], rate * n[ARM], own.frozen[number]
+    if not np.isnan(frozen):
+        return coefficient(n, frozen * n[ARM]) * load, False
+    if is_steep(n, real(speed), real(load), record.friction.mass[k], record.control.stick[0]):
+        return coefficient(n, real(speed)) * load, True
+    return coefficient(n, speed) * load, False
+
+
+@stage
 def hold(machine, k, place):
-    """Row of the friction k, whose effort is multiplier `place` of the residual. Returns the effort."""
+    """Fill the row of friction k, whose effort is multiplier `place` of the residual. Returns the effort."""
     record = record_at(machine)
     friction, own, tau = record.friction, record.residual, record.control.stick[0]
-    n, q, mass = friction.number[k], friction.columns[k, COORDINATE], friction.mass[k]
-    number = place - own.row.shape[0]
+    q, number, span = friction.columns[k, COORDINATE], place - own.row.shape[0], own.span[0]
     force, rate = own.lam[place], record.coordinates.rate[q]
-    dry, change = force + n[VISCOUS] * rate, force - friction.anchor[k]
-    load = normal_load(machine, k) * n[ARM]
-    speed = rate * n[ARM]
-    frozen = not np.isnan(own.frozen[number])
-    steep = not frozen and is_steep(n, real(speed), real(load), mass, tau)
-    limit = coefficient(n, own.frozen[number] if frozen else real(speed)) * load
-    if not steep and not frozen:
-        limit = coefficient(n, speed) * load
-    missed = mass * (second_derivative(machine, q) + rate / tau) + NEAR * change
-    wanted = real(dry - missed)
-    branch, row = 0.0, missed
+    dry, change = force + friction.number[k, VISCOUS] * rate, force - friction.anchor[k]
+    limit, steep = greatest(machine, k, number, rate)
+    if span > 0.0:
+        second, slowing = (rate - own.begun[number]) / span, 0.5 * (rate + own.begun[number]) if span <= tau else rate
+    else:
+        second, slowing = second_derivative(machine, q), rate
+    missed = friction.mass[k] * (second + slowing / tau) + NEAR * change
+    branch = own.bidden[number]
+    if np.isnan(branch):
+        wanted = real(dry - missed)
+        branch = 1.0 if wanted > real(limit) else (-1.0 if wanted < -real(limit) else 0.0)
+    row = missed if branch == 0.0 else dry - branch * limit
     if tau == np.inf:
+        # forces do not jump where speeds do, see `nivel.march.corners`
         row = change
-    elif wanted > real(limit):
-        branch, row = 1.0, dry - limit
-    elif wanted < -real(limit):
-        branch, row = -1.0, dry + limit
-    own.branch[number], own.limit[number] = (2.0 if steep else 1.0) * branch, real(limit)
-    own.speed[number] = real(speed)
     own.value[own.vdot.shape[0] + record.elements.state_rate.shape[0] + 2 * own.lam.shape[0] + place] = row
-    friction.force[k] = real(force)
+    own.branch[number] = 2.0 * branch if steep else branch
+    own.limit[number], own.rate[number], friction.force[k] = real(limit), real(rate), real(force)
     return force
 
 

@@ -45,9 +45,13 @@ class Residual(NamedTuple):
     # (K - H,) as last evaluated: 0 where a friction sticks, else the sign of its effort, twice where Stribeck's curve is too steep
     branch: F1
     made: F1  # (K - H,) the same when Newton's matrix was made
+    bidden: F1  # (K - H,) the same where it does not follow from the state; not a number: it does
     limit: F1  # (K - H,) [N or N m] greatest effort of a friction, as last evaluated
-    speed: F1  # (K - H,) [m/s] of the surfaces, as last evaluated
-    frozen: F1  # (K - H,) [m/s] that for which Stribeck's curve is taken in place of it; not a number: none
+    rate: F1  # (K - H,) [m/s or 1/s] of the coordinate, as last evaluated
+    begun: F1  # (K - H,) [m/s or 1/s] rate of the coordinate at the begin of the step
+    span: F1  # (1,) [s] the step where c̈ of frictions is its mean; 0: it is that at the time
+    tally: F1  # (3,) of the iteration: turns, evaluations where Stribeck's curve was steep, seed; see `nivel.march.friction_turns`
+    frozen: F1  # (K - H,) [m/s or 1/s] that for which Stribeck's curve is taken in place of it; not a number: none
     acceleration: W2  # (B+1, 6) (α, R̈) of the bodies, global axes
     wrench: W2  # (B+1, 6) (moment about the frame origin, force) that their joints have to transmit
     interval: Interval

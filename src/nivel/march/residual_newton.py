@@ -34,6 +34,7 @@ from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import RESIDUAL, record_at
 from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.tangent import ACCELERATIONS, POSITIONS, differentiate, inverse_tangent
+from nivel.march.friction_turns import begin_turns, follow_turns, keep_made, next_seed, release
 from nivel.march.newton_state import find_state
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
 from nivel.march.step_control import ROUND_OFF
@@ -52,11 +53,6 @@ TOLERANCE, MOST, FULL, ROUNDINGS = 0, 1, 2, 3
 STALLED, GOOD = 0.5, 0.1
 # A change of the effort of a friction counts as this share of it.
 CLOSE = 1e-4
-# Frictions may begin to slide or to stick so often in one iteration; from then on half of such a change is made.
-MOST_TURNS = 6
-# Where Stribeck's curve is steep the iteration goes on from speed to speed, either to one that belongs to it or to its foot. Where it comes
-# no farther in so many iterations, it is where both are all but one, and the curve is taken at the speed there.
-MOST_STEEP = 12
 # samples of the round-off of the equations of motion, and how many times their mean size it may have
 SAMPLES, SAFETY = 8, 4.0
 
@@ -215,8 +211,7 @@ def is_round_off(machine, scale, cq, cv, cx, tolerance):
                 if newton.column[p] < n:
                     at = place[newton.column[p], 0]
                     known += np.abs(newton.value[p]) * max(scale[at], np.abs(residual.y[at]))
-            # minimal standard generator (Park, Miller 1988)
-            seed = seed * 16807 % 2147483647
+            seed = next_seed(seed)
             b[i] = ROUND_OFF * known / cq if seed % 2 == 0 else -ROUND_OFF * known / cq
         solve(machine)
         for i in range(b.shape[0]):
@@ -255,39 +250,6 @@ def is_worth_a_new_one(newton, contraction, size, tolerance):
     return not contraction <= SLOW or size * contraction**price > tolerance
 
 
-@stage
-def is_steep(residual):
-    """Whether a friction slides where Stribeck's curve is too steep for Newton's matrix."""
-    steepest = 0.0
-    for k in range(residual.branch.shape[0]):
-        steepest = max(steepest, np.abs(residual.branch[k]))
-    return steepest > 1.0
-
-
-@stage
-def freeze(residual):
-    """Take Stribeck's curve, where it is too steep for Newton's matrix, at the speeds there are."""
-    for k in range(residual.branch.shape[0]):
-        if np.abs(residual.branch[k]) > 1.0:
-            residual.frozen[k] = residual.speed[k]
-
-
-@stage
-def thaw(residual):
-    """Take Stribeck's curve at the speeds that are found."""
-    for k in range(residual.branch.shape[0]):
-        residual.frozen[k] = np.nan
-
-
-@stage
-def has_turned(residual):
-    """Whether a friction with stiction slides or sticks otherwise than Newton's matrix has it."""
-    count = 0
-    for k in range(residual.branch.shape[0]):
-        count += residual.branch[k] != residual.made[k]
-    return count > 0
-
-
 @leaf
 def iterate(machine, history, t, cq, cv, cx, tolerance):
     """The unknowns for which the residual vanishes at time t, starting from those there are. `residual.y` is the state then.
@@ -297,8 +259,8 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
     run, record = run_at(history), record_at(machine)
     newton, counter = record.newton, run.counter
     full = newton.settings[FULL] == 1.0
-    stale, last, share, best, turns, steep = full, np.inf, 1.0, np.inf, 0, 0
-    thaw(record.residual)
+    stale, last, share, best = full, np.inf, 1.0, np.inf
+    begin_turns(record.residual)
     for _ in range(np.int64(newton.settings[MOST])):
         status = find_state(machine, t, cq, cv, cx)
         if status == OK:
@@ -307,41 +269,38 @@ def iterate(machine, history, t, cq, cv, cx, tolerance):
         counter[ITERATIONS] += 1
         if status == OK and not is_finite(record.residual.value):
             status = NOT_FINITE
-        if is_steep(record.residual):
-            last, steep = np.inf, steep + 1
-            if steep > MOST_STEEP:
-                freeze(record.residual)
-        turned = has_turned(record.residual)
-        if turned:
-            # another equation: what changes were before says nothing of them
-            stale, last, share, turns = True, np.inf, 1.0, turns + 1
+        other, bidding, steep = False, False, False
+        if status == OK and record.residual.stiction.shape[0] > 0:
+            status, other, bidding, steep = follow_turns(machine, t)
+        if other or steep:
+            # another equation: changes that were before say nothing of those to come
+            stale, last, share = stale or other, np.inf, 1.0
         if status == OK and (stale or not is_kept(newton, cq, cv, cx)):
             status = differentiate(machine, t, cq, cv, cx, ACCELERATIONS if newton.level[0] < 2 else POSITIONS)
             if status == OK:
                 status = factorise(machine)
             counter[FACTORISATIONS] += 1
             newton.kept[CQ], newton.kept[CV], newton.kept[CX], newton.kept[CONTRACTION] = cq, cv, cx, SANGUINE
-            for k in range(record.residual.made.shape[0]):
-                record.residual.made[k] = record.residual.branch[k]
+            keep_made(record.residual)
             stale, best = False, 0.0
         if status != OK:
             newton.kept[CQ] = 0.0
             return status
         find_change(machine, cq, cv)
         size = size_of_change(machine, run.scale, cq, cv, cx)
-        contraction = size / last if last < np.inf else newton.kept[CONTRACTION]
+        contraction = size / last if last < np.inf else (1.0 if steep else newton.kept[CONTRACTION])
         if not contraction <= GROWTH and last < np.inf and share > LEAST_SHARE:
             share *= 0.5
             take_change(newton, record.residual, newton.before, newton.moved_before, -share)
             stale = True
             continue
         share = 1.0
-        if turned and turns > MOST_TURNS:
-            take_change(newton, record.residual, newton.b, newton.moved, 0.5)
-            continue
         take_change(newton, record.residual, newton.b, newton.moved, share)
         keep_change(newton)
         done = size <= tolerance or (contraction < 1.0 and contraction / (1.0 - contraction) * size <= tolerance)
+        if bidding:
+            release(record.residual)
+            done, size = False, np.inf
         if not done and last < np.inf:
             best = min(best, contraction)
             by_position = newton.level[0] == 3 or record.residual.row.shape[0] == 0

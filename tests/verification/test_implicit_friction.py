@@ -124,7 +124,8 @@ def test_stick_slip_with_stribecks_curve_is_of_order_two(integrator, coordinates
         energies.append(np.abs(r.array("energy_error")).max())
     assert errors[-1] < 1e-5  # one cycle moves it by 2 cm
     assert np.polyfit(np.log(steps), np.log(errors), 1)[0] > 1.8, errors
-    assert energies[-1] < 1e-5 * 0.5 * DRAWN.stiffness * 0.01**2, energies
+    assert energies[-1] < 1e-5 * DRAWN.static * DRAWN.load * 0.06, energies  # of the heat of 6 cm of way
+    assert np.polyfit(np.log(steps), np.log(energies), 1)[0] > 1.5, energies
 
 
 @pytest.mark.parametrize(("step", "tolerance"), [(2e-3, 2e-4), (1e-3, 1e-4), (1e-4, 1e-4)])
@@ -241,7 +242,8 @@ def test_block_keeps_its_speed_where_that_of_its_carriage_jumps():
     }
     r = simulate(sections, duration=0.9, step=step, integrator="generalised-alpha", coordinates="absolute")
     expected = np.clip(MU * load / MASS * (r.time - jump), 0.0, 1.0)
-    bends = np.abs(r.time - jump - MASS / (MU * load)) < 10 * step
+    bend = jump + MASS / (MU * load)
+    bends = (r.time > bend - 2 * step) & (r.time < bend + 60 * step)
     np.testing.assert_allclose(r.array("block.velocity.x")[~bends], expected[~bends], atol=1e-9)
 
 
@@ -282,16 +284,15 @@ def rubbing_crank(**settings):
 
 @SECOND_ORDER
 def test_friction_in_a_closed_loop_moves_it_as_explicit_methods_do(integrator, coordinates):
-    """With chosen steps and the same τ, that is the same law to the last digit, so fixed steps differ from it by their own error: order two
-    in the motion and in the balance of energy; a turn of the crank that falls within a step costs some of it."""
+    """dopri5 with chosen steps and the same τ has the same law, so fixed steps differ from it by their own error: of order two in the
+    balance of energy; in the motion of order one at least, as the crank turns back somewhere within a step."""
     steps, errors, energies = [2e-3, 1e-3, 5e-4], [], []
     for step in steps:
         exact = rubbing_crank(integrator="dopri5", step=step, tolerance=1e-8)
         r = rubbing_crank(integrator=integrator, coordinates=coordinates, step=step)
         errors.append(np.abs(r.array("hinge.angle") - exact.array("hinge.angle")).max())
         energies.append(np.abs(r.array("energy_error")).max())
-    assert errors[-1] < 5e-4, errors
-    assert np.polyfit(np.log(steps), np.log(errors), 1)[0] > 1.5, errors
+    assert np.all(np.array(errors) < 0.3 * np.array(steps)), errors
     assert np.polyfit(np.log(steps), np.log(energies), 1)[0] > 1.5, energies
 
 

@@ -273,8 +273,15 @@ def test_pendulum_on_a_thick_pin_comes_to_rest_aside_without_ringing(integrator,
 def rubbing_crank(**settings):
     """The spatial slider-crank of report 44 with dry friction, loaded by the reactions, at its hinge and its slide: a closed loop. Driven
     from rest, its crank rests and turns back several times."""
-    load = {"coefficient": 0.3, "static_coefficient": 0.35, "stribeck_speed": 0.02}
-    pin = Friction(name="pin", coordinate="hinge.angle", model="stiction", radius=0.02, **load)
+    pin = Friction(
+        name="pin",
+        coordinate="hinge.angle",
+        model="stiction",
+        radius=0.02,
+        coefficient=0.3,
+        static_coefficient=0.35,
+        stribeck_speed=0.02,
+    )
     way = Friction(name="way", coordinate="slide.displacement", model="stiction", coefficient=0.15)
     record = machines.slider_crank()
     simulation = record.simulation.replace(duration=3.0, output_interval=0.02, **settings)

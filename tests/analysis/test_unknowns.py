@@ -3,11 +3,12 @@
 import machines
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.unknowns import unknown_name
+from nivel.machine import Friction
 from running import run
 
 
-def names(coordinates):
-    machine = machines.slider_crank(integrator="generalised-alpha")
+def names(coordinates, forces=()):
+    machine = machines.slider_crank(integrator="generalised-alpha").replace(forces=forces)
     system = prepare(machine, coordinates=coordinates).motion.system
     return [unknown_name(system, k) for k in range(len(system.record.newton.b))]
 
@@ -18,6 +19,8 @@ def test_every_unknown_has_its_name():
     assert len(set(absolute)) == len(absolute)
     assert relative[0] == "the joint hinge, coordinate hinge.angle"
     assert any(name.startswith("the constraint ") for name in relative)
+    way = Friction(name="way", model="stiction", coordinate="slide.displacement", coefficient=0.1)
+    assert names("absolute", (way,)) == [*absolute, "the effort of way"]
 
 
 def test_a_failed_iteration_keeps_the_result_and_names_where_it_stalls():

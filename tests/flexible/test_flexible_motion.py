@@ -343,38 +343,50 @@ def test_markers_away_from_interfaces_and_too_many_modes_are_named(files):
         run(pendulum(files, "missing"))
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
-def test_friction_in_the_joint_of_a_stiff_body_is_that_of_a_rigid_one(files, coordinates):
-    """Loaded by the joint's own reaction; in explicit and implicit methods."""
+def rubbing(files, **law):
+    """(bar of a stiff flexible body on a hinge that rubs, the same bar as a rigid body)."""
     body = files[1]["stout"]
     machine = MachineRecord(
         name="rubbing",
         gravity=GRAVITY,
         bodies=(Body(name="bar", flexible=flexible(files, "stout", modes=2, damping_ratio=0.3)),),
         joints=(Joint(name="hinge", type="revolute", bodies=("ground", "bar"), point=(0, 0, 0), axis=(0, 0, 1)),),
-        forces=(
-            Friction(
-                name="rub",
-                model="coulomb",
-                coordinate="hinge.angle",
-                coefficient=0.3,
-                radius=0.05,
-                transition_speed=0.01,
-            ),
-        ),
+        forces=(Friction(name="rub", coordinate="hinge.angle", **law),),
         markers=(Marker(name="tip", body="bar", position=(1.0, 0.0, 0.0)),),
         sensors=(Sensor(name="tip", marker="tip", quantity="position"),),
     )
     inertia = body.inertia.tolist()
     solid = Body(name="bar", mass=body.mass, centre_of_mass=tuple(body.centre_of_mass), inertia=inertia)
+    return machine, machine.replace(bodies=(solid,))
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_friction_in_the_joint_of_a_stiff_body_is_that_of_a_rigid_one(files, coordinates):
+    """Loaded by the joint's own reaction; in explicit and implicit methods."""
+    machine, solid = rubbing(files, model="coulomb", coefficient=0.3, radius=0.05, transition_speed=0.01)
     common = {"duration": 0.5, "output_interval": 0.05, "coordinates": "absolute"}
-    rigid = run(machine.replace(bodies=(solid,)), step=1e-4, **common)
+    rigid = run(solid, step=1e-4, **common)
     assert rigid.dissipated_energy[-1] > 0.05 * rigid.kinetic_energy.max()
     for integrator in ("rk4", "generalised-alpha"):
         r = run(machine, integrator=integrator, step=1e-4, **common | {"coordinates": coordinates})
         assert r.finished.outcome == "done"
         assert np.abs(tip_of(r) - tip_of(rigid)).max() < 1e-4
         assert r.dissipated_energy[-1] == pytest.approx(rigid.dissipated_energy[-1], rel=1e-3)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_stiction_in_the_joint_of_a_flexible_body_is_that_of_an_explicit_method(files, coordinates):
+    """A thick pin, on which the bar turns back; of order two against rk4 with a tenth of the step."""
+    machine, _ = rubbing(files, model="stiction", coefficient=0.6, radius=0.3)
+    common = {"duration": 1.5, "output_interval": 0.05}
+    expected = run(machine, integrator="rk4", coordinates="absolute", step=1e-4, **common)
+    errors = []
+    for step in (1e-3, 5e-4):
+        r = run(machine, integrator="generalised-alpha", coordinates=coordinates, step=step, **common)
+        assert r.finished.outcome == "done"
+        errors.append(np.abs(tip_of(r) - tip_of(expected)).max())
+    assert errors[1] < errors[0] / 3 < 1e-3
+    assert r.dissipated_energy[-1] == pytest.approx(expected.dissipated_energy[-1], rel=1e-3)
 
 
 def test_modes_that_leave_no_mass_to_the_frame_are_told(files, tmp_path):

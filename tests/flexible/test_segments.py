@@ -211,6 +211,20 @@ def test_segments_run_in_all_methods_of_rigid_bodies(method):
     np.testing.assert_allclose(result.array("position"), expected.array("position"), atol=2e-5)
 
 
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_stiction_in_a_joint_of_segments_is_that_of_explicit_methods(coordinates):
+    """A hinge that rubs, loaded by its reaction, held at first and then slid by a bar that bends; dopri5 with the same τ."""
+    sections = pendulum(2, model="segments", damping=1e-4)
+    rub = {"type": "friction", "coordinate": "hinge.angle", "model": "stiction", "coefficient": 0.5, "radius": 0.3}
+    sections["forces"] = {"rub": rub}
+    common = {**sections["simulation"], "duration": 1.0, "step": 1e-3}
+    chosen = {**common, "integrator": "dopri5", "tolerance": 1e-5, "coordinates": "absolute"}
+    expected = simulate({**sections, "simulation": chosen})
+    found = simulate({**sections, "simulation": {**common, "coordinates": coordinates}})
+    assert np.ptp(found.array("hinge.angle")) > 2.0
+    np.testing.assert_allclose(found.array("position"), expected.array("position"), atol=1e-4)
+
+
 def test_a_slider_comes_by_on_segments():
     """The joints that slide along a beam take hold of its nodes, whatever is between them."""
     places = {}

@@ -19,8 +19,8 @@ def seeded(make, *arguments, **options):
 
 
 def example(path):
-    """An example; stiction, which implicit methods refuse, as Coulomb's friction, and where there is friction gravity aslant: a reaction of
-    zero is at the kink of its size, where nothing has a derivative."""
+    """An example; stiction, for which there is `test_implicit_friction`, as Coulomb's friction, and where there is friction gravity
+    aslant: a reaction of zero is at the kink of its size, where nothing has a derivative."""
     machine = nivel.load(path, allow_code=True).record
     if not any(force.type == "friction" for force in machine.forces):
         return machine

@@ -83,6 +83,15 @@ def test_methods_that_need_masses_of_single_bodies_say_so():
         simulate({**flying(1), "simulation": {"coordinates": "independent", "integrator": "rk4"}})
 
 
+def test_stiction_beside_consistent_mass_is_refused():
+    sections = hinged(4)
+    rub = {"type": "friction", "coordinate": "hinge.angle", "model": "stiction", "coefficient": 0.1, "radius": 0.1}
+    with pytest.raises(
+        ModelError, match="'stiction' does not go with the consistent mass of inner, outer: take lugre or coulomb"
+    ):
+        simulate({**sections, "forces": {"rub": rub}, "simulation": {"integrator": "generalised-alpha"}})
+
+
 def test_baumgarte_feeds_violations_back_where_masses_are_shared(rng):
     """C_q v̇ = γ - 2α Ċ - β² C of a state whose velocities are open."""
     cantilevered = prepared(cantilever(), "absolute")

@@ -67,8 +67,9 @@ def explicit(motion, y, positions, states):
     residual = motion.system.record.residual
     n = len(y) - positions - states - 2
     vdot, xdot = rate[positions : positions + n], rate[positions + n : positions + n + states]
-    lam = motion.system.record.constraints.lam[residual.row].copy()
-    if len(lam) < len(motion.system.record.saddle.row):
+    record = motion.system.record
+    lam = np.append(record.constraints.lam[residual.row], record.friction.force[residual.stiction])
+    if len(residual.row) < len(motion.system.record.saddle.row):
         residual.y[:], residual.vdot[:], residual.lam[:] = y, vdot, 0.0
         assert evaluate_residual(motion, TIME) == OK
         value = residual.value[:n].copy()
@@ -78,11 +79,11 @@ def explicit(motion, y, positions, states):
 
 
 def value_at(here, y, vdot, lam):
-    """(M v̇ + C_qᵀ λ - Q, rates of states, C, Ċ, C̈)."""
+    """(M v̇ + C_qᵀ λ - Q, rates of states, C, Ċ, C̈); the rows of efforts with stiction are behind those of C̈."""
     residual = here.motion.system.record.residual
     residual.y[:], residual.vdot[:], residual.lam[:] = y, vdot, lam
     assert evaluate_residual(here.motion, TIME) == OK
-    n, states, rows = here.n, here.states, here.rows
+    n, states, rows = here.n, here.states, len(lam)
     return np.split(residual.value.copy(), np.cumsum([n, states, rows, rows]))
 
 
@@ -133,10 +134,12 @@ class Unknowns:
         return y
 
     def residual(self, z):
-        """(r, ẋ - rates, C/cq)."""
+        """(r, ẋ - rates, C/cq, rows of efforts)."""
         here = self.here
-        r, rates, C, _, _ = value_at(here, self.state(z), z[: here.n], z[here.n + here.states :])
-        return np.concatenate([r, z[here.n : here.n + here.states] - rates, C / SHARES[0]])
+        r, rates, C, _, rows = value_at(here, self.state(z), z[: here.n], z[here.n + here.states :])
+        return np.concatenate(
+            [r, z[here.n : here.n + here.states] - rates, C[: here.rows] / SHARES[0], rows[here.rows :]]
+        )
 
     def widths(self):
         """First steps of the differences, by unknown: 2 % of a radian, of the machine's length or a metre, of the largest multiplier."""
@@ -145,7 +148,7 @@ class Unknowns:
         lengths = np.array(
             [min(here.size, 1.0) if unit == "m/s" else 1.0 for unit in units[here.positions : here.positions + here.n]]
         )
-        lam = np.full(here.rows, 1.0 + np.abs(here.lam).max(initial=0.0))
+        lam = np.full(len(here.lam), 1.0 + np.abs(here.lam).max(initial=0.0))
         return 0.02 * np.concatenate([lengths / cq, np.full(here.states, 5e-3 / cx), lam])
 
     def derivative(self, j, width):

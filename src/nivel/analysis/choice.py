@@ -61,8 +61,9 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
     from nivel.system.states.relative import tree_of
 
     settings, facts = machine.simulation, INTEGRATORS[machine.simulation.integrator]
-    if not facts.residual and any(isinstance(force, Friction) for force in machine.forces):
-        # friction needs forces that explicit methods know one by one, and bodies carried by beams have none
+    frictions = [force for force in machine.forces if isinstance(force, Friction)]
+    if frictions and (not facts.residual or any(force.model == "stiction" for force in frictions)):
+        # friction needs forces that explicit methods, and with stiction all, know one by one, and bodies carried by beams have none
         sliders = (joint.name for joint in machine.joints if JOINT_KINDS[joint.type].rail)
         settings = settings.replace(cut=tuple(dict.fromkeys((*settings.cut, *sliders))))
     if machine.simulation.cut or not facts.residual or facts.rates:

@@ -30,9 +30,9 @@ from nivel.analysis.refusals import (
     refuse_deep_starts,
     refuse_for_shared_mass,
     refuse_friction_at_jumps,
-    refuse_implicit_stiction,
     refuse_moved_nodes,
     refuse_rough_motions,
+    refuse_stiction_over_steps,
     refuse_struck_nodes,
     refuse_uncertain_loads,
     refuse_unsettled_multipliers,
@@ -153,7 +153,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
         raise ModelError(Fault("", 0, 0, "machine", message))
     refuse_uncertain_loads(machine, redundancy)
     refuse_conserved_drivers(machine)
-    refuse_implicit_stiction(machine)
+    refuse_stiction_over_steps(machine)
     refuse_rough_motions(machine)
     refuse_friction_at_jumps(machine)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 
 from nivel.analysis.equations import MotionEquations
-from nivel.analysis.unknown_groups import unknown_groups
+from nivel.analysis.unknown_groups import frictions_with_stiction, unknown_groups
 from nivel.kernels.arrays import complex_twin
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES
@@ -102,7 +102,8 @@ def equip(motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted = 
     residual = whole.system.record.residual
     residual.y[:] = y
     _, tangent = find_tangent(whole, 0.0, 1.0, 1.0, 1.0)
-    kept = _independent(tangent[len(tangent) - rows :, : len(residual.vdot)], rank)
+    first = len(tangent) - len(residual.lam)
+    kept = _independent(tangent[first : first + rows, : len(residual.vdot)], rank)
     return _with_rows(motion, y, coordinates, wanted, kept)
 
 
@@ -130,6 +131,7 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     own = record.flexible
     counts = (len(own.p), len(own.frame), len(own.body)) if wanted.free is not None else (0, 0, 0)
     nodes = nodes_of_elements(record) if wanted.free is not None else []
+    stiction = frictions_with_stiction(system)
     residual = residual_tables(
         len(record.bodies.wrench) - 1,
         len(y),
@@ -137,6 +139,7 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
         states,
         row,
         part,
+        stiction=stiction,
         free=wanted.free,
         flexible=counts,
         nodes=nodes,
@@ -159,7 +162,9 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
         "filtered": wanted.filtered,
         "compliance": wanted.compliance,
     }
-    newton = newton_tables(place, len(y), states, len(row), plan, wanted.corners, length=system.size, **room)
+    newton = newton_tables(
+        place, len(y), states, len(row) + len(stiction), plan, wanted.corners, length=system.size, **room
+    )
     newton.settings[3] = ROUNDINGS * _longest_chain(record)
     path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=len(record.flexible.body) > 0)
     assert path is not None

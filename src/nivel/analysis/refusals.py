@@ -64,9 +64,9 @@ def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> No
         raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
 
 
-def refuse_implicit_stiction(machine: MachineRecord) -> None:
-    """Stiction stops a joint within two steps of an explicit method; implicit ones need a law of the state."""
-    if not INTEGRATORS[machine.simulation.integrator].residual:
+def refuse_stiction_over_steps(machine: MachineRecord) -> None:
+    """Stiction is a law of the acceleration at a time, of which a balance over a whole step knows nothing."""
+    if not INTEGRATORS[machine.simulation.integrator].whole:
         return
     faults = [
         Fault(
@@ -74,8 +74,8 @@ def refuse_implicit_stiction(machine: MachineRecord) -> None:
             0,
             0,
             f"forces.{force.name}.model",
-            f"'stiction' does not go with `integrator: {machine.simulation.integrator}`, whose forces have to follow from the "
-            f"state: take lugre, which sticks too, or coulomb; or an explicit integrator",
+            f"'stiction' does not go with `integrator: {machine.simulation.integrator}`, which balances momenta over whole steps, while "
+            f"sticking is a matter of the acceleration at a time: take generalised-alpha, or lugre, which sticks too",
         )
         for force in machine.forces
         if isinstance(force, Friction) and force.model == "stiction"
@@ -191,17 +191,13 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
         )
         faults.append(("integrator", message))
     out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
-    out += [
-        Fault(
-            "",
-            0,
-            0,
-            f"forces.{force.name}",
-            f"friction under explicit integrators {why.format('generalised-alpha')}",
-        )
-        for force in machine.forces
-        if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual
-    ]
+    for force in machine.forces:
+        if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual:
+            message = f"friction under explicit integrators {why.format('generalised-alpha')}"
+            out.append(Fault("", 0, 0, f"forces.{force.name}", message))
+        elif isinstance(force, Friction) and force.model == "stiction":
+            message = f"'stiction' {why.format('lugre or coulomb')}"
+            out.append(Fault("", 0, 0, f"forces.{force.name}.model", message))
     if out:
         raise ModelError(out)
 

@@ -22,21 +22,21 @@ def unknown_groups(
     system: System, velocities: int, row: Index, part: Index, coordinates: str
 ) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
     """Sizes of the groups of unknowns, which are constraints, and which depend on each other: bodies, then modes of flexible ones (or all
-    joint velocities as one), states of forces, joints."""
+    joint velocities as one), states of forces, joints, efforts of frictions with stiction."""
     record = system.record
-    states = len(record.elements.state)
+    states, stiction = len(record.elements.state), frictions_with_stiction(system)
     owners = [system.row_owner[k] for k in row]
     joints = list(dict.fromkeys(owners))
     if coordinates == "relative" and not system.frictions:
         return _groups_of_tree(system, row, part)
     if coordinates == "relative":
-        sizes = [velocities, *[1] * states, *(owners.count(joint) for joint in joints)]
+        sizes = [velocities, *[1] * states, *(owners.count(joint) for joint in joints), *[1] * len(stiction)]
         constraint = [k > states for k in range(len(sizes))]
         return sizes, constraint, {(a, b) for b in range(len(sizes)) for a in range(b)}
     count = system.body_count
     modes = [int(last - first) for first, last in record.flexible.mode]
     moving = count + len(modes)
-    sizes = [*[6] * count, *modes, *[1] * states, *(owners.count(joint) for joint in joints)]
+    sizes = [*[6] * count, *modes, *[1] * states, *(owners.count(joint) for joint in joints), *[1] * len(stiction)]
     constraint = [k >= moving + states for k in range(len(sizes))]
     number = {joint: moving + states + k for k, joint in enumerate(joints)}
     couples = {(body, count + f) for f, body in enumerate(record.flexible.body.tolist())}
@@ -51,8 +51,10 @@ def unknown_groups(
             couples |= set(combinations(sorted(_moved_by(system, together)), 2))
     for bodies in system.coupled:
         couples |= set(combinations(sorted(_moved_by(system, bodies)), 2))
-    for bodies, state, joint in _frictions(system):
+    effort = {k: moving + states + len(joints) + place for place, k in enumerate(stiction)}
+    for k, (bodies, state, joint) in enumerate(_frictions(system)):
         depending = [*([moving + state] if state != NONE else []), *([number[joint]] if joint in number else [])]
+        depending += [effort[k]] if k in effort else []
         couples |= {(body, group) for body in _moved_by(system, bodies) for group in depending}
         couples |= set(combinations(depending, 2))
     return sizes, constraint, couples
@@ -132,6 +134,14 @@ def _moved_by(system: System, bodies: Iterable[int]) -> set[int]:
         elif body != count:
             groups.add(body)
     return groups
+
+
+def frictions_with_stiction(system: System) -> list[int]:
+    """Numbers of the frictions whose efforts are unknowns."""
+    if not system.frictions:
+        return []
+    columns = import_module("nivel.kernels.friction")
+    return np.flatnonzero(system.record.friction.columns[:, columns.MODEL] == columns.STICTION).tolist()
 
 
 def _frictions(system: System) -> list[tuple[set[int], int, str]]:

@@ -1,4 +1,5 @@
-"""Names of the unknowns of implicit methods: what moves in a joint or a body, the states of forces, the rows of constraints."""
+"""Names of the unknowns of implicit methods: what moves in a joint or a body, the states of forces, the rows of constraints, the efforts
+of frictions with stiction."""
 
 from __future__ import annotations
 
@@ -13,6 +14,8 @@ def unknown_name(system: System, number: int) -> str:
     """Unknown `number` of the iteration in words: a joint and its coordinate, a body and its direction, a friction, a constraint row."""
     record = system.record
     n, states = len(record.residual.vdot), len(record.newton.state)
+    if number >= n + states + len(record.residual.row):
+        return f"the effort of {system.frictions[record.residual.stiction[number - n - states - len(record.residual.row)]]}"
     if number >= n + states:
         return f"the constraint {system.rows[record.residual.row[number - n - states]]}"
     if number >= n:

@@ -34,13 +34,27 @@ TOLERANCE, ENOUGH = 1e-12, 1e-7
 # Two frictions that hold one motion may have no common solution by a hair, or many: they then stay near their last efforts, and the
 # acceleration that is left is this share of what the change of effort would do.
 ANCHOR = 1e-3
+# What an effort moves counts for no more than this times what it would move of the two bodies without their other joints.
+BOUND = 1e3
 # Rate of relaxation of the bristles times two steps: beyond it RK4 is unstable (2.78 a step).
 FASTEST = 5.5
 
 
 @stage
+def along(machine, k, change):
+    """Acceleration of coordinate k for whitened accelerations `change` of the bodies."""
+    record = record_at(machine)
+    friction, saddle = record.friction, record.saddle
+    total = 0.0
+    for n in range(friction.block[k, 0], friction.block[k, 1]):
+        for i in range(saddle.z.shape[1]):
+            total += saddle.W[n, i] * change[saddle.block[n, 3], i]
+    return total
+
+
+@stage
 def respond(machine):
-    """Multipliers and whitened accelerations for a unit effort on each coordinate, and S."""
+    """Multipliers and whitened accelerations for a unit effort on each coordinate, S, and the masses that efforts move."""
     record = record_at(machine)
     friction, saddle = record.friction, record.saddle
     width, rows = saddle.z.shape[1], saddle.b.shape[0]
@@ -52,6 +66,7 @@ def respond(machine):
         for n in range(friction.block[k, 0], friction.block[k, 1]):
             for i in range(width):
                 change[saddle.block[n, 3], i] += saddle.W[n, i]
+        friction.mass[k] = along(machine, k, change)
         for row in range(rows):
             saddle.b[row] = 0.0
         for n in range(saddle.blocks[0]):
@@ -67,11 +82,8 @@ def respond(machine):
                 change[body, i] -= saddle.W[n, i] * saddle.b[row]
     for k in range(friction.columns.shape[0]):
         for other in range(friction.columns.shape[0]):
-            total = 0.0
-            for n in range(friction.block[k, 0], friction.block[k, 1]):
-                for i in range(width):
-                    total += saddle.W[n, i] * friction.change[other, saddle.block[n, 3], i]
-            friction.S[k, other] = total
+            friction.S[k, other] = along(machine, k, friction.change[other])
+        friction.mass[k] = 1.0 / max(friction.S[k, k], friction.mass[k] / BOUND, 1e-300)
 
 
 @stage

@@ -1,6 +1,7 @@
 """What implicit methods add to a machine in numbers: its equations as a residual, and Newton's iteration for them.
 
-n velocities, S states of forces and K constraint rows make N = n + S + K unknowns: accelerations v̇, rates ẋ, multipliers λ.
+n velocities, S states of forces and K multipliers make N = n + S + K unknowns: accelerations v̇, rates ẋ, multipliers λ. Of the latter H
+hold constraint rows; the last K - H are the efforts of frictions with stiction, with rows of their own: `nivel.kernels.friction_residual`.
 """
 
 from __future__ import annotations
@@ -31,14 +32,26 @@ class Interval(NamedTuple):
 class Residual(NamedTuple):
     """The equations of motion as a residual; see `nivel.kernels.residual`. Without numbers for explicit methods."""
 
-    row: U1  # (K,) row of the constraints that each row here is: no redundant one is
+    row: U1  # (H,) row of the constraints that each row here is: no redundant one is
+    stiction: U1  # (K - H,) friction of each effort behind them
     part: U2  # (·, 4) row here, part of C_q, marker, body
     # what it is to be evaluated for
     y: W1  # (ny,) state
     vdot: W1  # (n,) accelerations
     lam: W1  # (K,) multipliers
     # work
-    value: W1  # (n + S + 3 K,) M v̇ + C_qᵀ λ - Q, rates of the states of forces, then C, Ċ and C̈ with its feedback
+    # (n + S + 3 K,) M v̇ + C_qᵀ λ - Q, rates of the states of forces, then C, Ċ and C̈ with its feedback; of efforts what stands for C̈ alone
+    value: W1
+    # (K - H,) as last evaluated: 0 where a friction sticks, else the sign of its effort, twice where Stribeck's curve is too steep
+    branch: F1
+    made: F1  # (K - H,) the same when Newton's matrix was made
+    bidden: F1  # (K - H,) the same where it does not follow from the state; not a number: it does
+    limit: F1  # (K - H,) [N or N m] greatest effort of a friction, as last evaluated
+    rate: F1  # (K - H,) [m/s or 1/s] of the coordinate, as last evaluated
+    begun: F1  # (K - H,) [m/s or 1/s] rate of the coordinate at the begin of the step
+    span: F1  # (1,) [s] the step where c̈ of frictions is its mean; 0: it is that at the time
+    tally: F1  # (3,) of the iteration: turns, evaluations where Stribeck's curve was steep, seed; see `nivel.march.friction_turns`
+    frozen: F1  # (K - H,) [m/s or 1/s] that for which Stribeck's curve is taken in place of it; not a number: none
     acceleration: W2  # (B+1, 6) (α, R̈) of the bodies, global axes
     wrench: W2  # (B+1, 6) (moment about the frame origin, force) that their joints have to transmit
     interval: Interval

@@ -170,6 +170,7 @@ class Friction(NamedTuple):
     block: U2  # (X, 2) first block of `saddle.block`, one past the last
     # work
     force: F1  # (X,) effort on the coordinate; where the next iteration starts
+    mass: F1  # (X,) [kg or kg m²] what an effort on the coordinate moves: 1/S, at most BOUND times that of its two bodies alone
     S: F2  # (X, X) acceleration of coordinate i for a unit effort on j
     response: F2  # (X, K) multipliers for a unit effort
     change: F3  # (X, B, width) whitened accelerations for a unit effort

@@ -43,6 +43,15 @@ def load_multipliers(machine, t):
 
 
 @stage
+def known_multiplier(record, k):
+    """Multiplier k of the residual as the equations of motion last found it: that of a constraint, or the effort of a friction."""
+    rows = record.residual.row.shape[0]
+    if k < rows:
+        return record.constraints.lam[record.residual.row[k]]
+    return record.friction.force[record.residual.stiction[k - rows]]
+
+
+@stage
 def acceleration_of(machine, b):
     """(α, R̈) of body or frame b from `residual.acceleration`: in relative coordinates the whole of it, else that of a frame at an interface
     less its bias."""
@@ -95,7 +104,7 @@ def inertial_wrenches(machine):
 
 @stage
 def write_rows(machine, first):
-    """Rates of the states of forces, C, Ċ and C̈ into `residual.value` from `first` on."""
+    """Rates of the states of forces, C, Ċ and C̈ into `residual.value` from `first` on; the rows of frictions are there already."""
     record = record_at(machine)
     residual, constraints, markers, rate = (
         record.residual,
@@ -103,12 +112,12 @@ def write_rows(machine, first):
         record.markers,
         record.elements.state_rate,
     )
-    value, rows, states = residual.value, residual.row.shape[0], rate.shape[0]
+    value, rows, states = residual.value, residual.lam.shape[0], rate.shape[0]
     for i in range(states):
         value[first + i] = rate[i]
     at = first + states
     twice_alpha, beta_squared = record.control.stabilise[0], record.control.stabilise[1]
-    for k in range(rows):
+    for k in range(residual.row.shape[0]):
         row = residual.row[k]
         value[at + k], value[at + rows + k] = constraints.C[row], constraints.Cdot[row]
         value[at + 2 * rows + k] = (

@@ -18,6 +18,7 @@ from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_family
 from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import NONE, record_at
+from nivel.kernels.residual import known_multiplier
 from nivel.kernels.rotation import angular_velocity, rates_of_parameters
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import ACCELERATIONS, EPSILON, differentiate, load_twin
@@ -36,7 +37,7 @@ def prepare_shifted(machine, t, y, rate, s):
         residual.vdot[k] = rate[positions + k]
         newton.change[k] = 0.0
     for k in range(residual.lam.shape[0]):
-        residual.lam[k] = record.constraints.lam[residual.row[k]]
+        residual.lam[k] = known_multiplier(record, k)
     status = differentiate(machine, t, s * s, s, s, ACCELERATIONS)
     return factorise(machine) if status == OK else status
 
@@ -71,7 +72,7 @@ def solve_shifted(machine, t, r, s, ahead):
     record = record_at(machine)
     newton, residual = record.newton, record.residual
     twin, moving = load_twin(newton, residual)
-    n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.row.shape[0]
+    n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.lam.shape[0]
     positions = np.int64(r.shape[0]) - n - states - 2
     move_along(newton, residual, moving, r, s)
     status = call_family(newton.address[1], twin, 0, complex(t, EPSILON * ahead))  # type: ignore[call-arg]

@@ -16,6 +16,7 @@ import numpy as np
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.lu import factorise_lu, solve_lu
 from nivel.kernels.record import NONE, record_at
+from nivel.kernels.residual import known_multiplier
 from nivel.kernels.rotation import angular_velocity
 from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.kernels.status import NOT_CONVERGED, OK
@@ -27,7 +28,7 @@ def keep_multipliers(machine):
     """`residual.lam` := the multipliers of the state last evaluated."""
     record = record_at(machine)
     for k in range(record.residual.lam.shape[0]):
-        record.residual.lam[k] = record.constraints.lam[record.residual.row[k]]
+        record.residual.lam[k] = known_multiplier(record, k)
 
 
 @stage

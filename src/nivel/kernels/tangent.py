@@ -63,15 +63,20 @@ def move_unknown(newton, moving, j, factor, cq, cv, cx):
 
 
 @stage
-def write_column(newton, value, j, n, cq, level):
-    """Column j of the matrix from the imaginary parts of the residual's value, and the row of C_qᵀ that goes with it."""
+def write_column(newton, value, j, n, held, cq, level):
+    """Column j of the matrix from the imaginary parts of the residual's value, and the row of C_qᵀ that goes with it.
+
+    held : constraint rows; those behind them are of frictions, at the level of accelerations always.
+    """
     states = newton.state.shape[0]
     rows = newton.b.shape[0] - n - states
     for e in range(newton.entry_start[j], newton.entry_start[j + 1]):
         row, p, transposed = np.int64(newton.entry[e, 0]), newton.entry[e, 1], newton.entry[e, 2]
         slope = value[row].imag / EPSILON
         if row >= n + states:
-            newton.value[p] = slope / cq if level == POSITIONS else value[row + 2 * rows].imag / EPSILON
+            newton.value[p] = (
+                slope / cq if level == POSITIONS and row < n + states + held else value[row + 2 * rows].imag / EPSILON
+            )
             if transposed != NONE:
                 newton.value[transposed] = slope / cq
         elif row >= n:
@@ -112,7 +117,7 @@ def differentiate(machine, t, cq, cv, cx, level):
     record = record_at(machine)
     newton, here = record.newton, record.residual
     twin, moving = load_twin(newton, here)
-    n = here.vdot.shape[0]
+    n, held = here.vdot.shape[0], here.row.shape[0]
     for g in range(newton.group_start.shape[0] - 1):
         first, last = np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])
         for m in range(first, last):
@@ -121,7 +126,7 @@ def differentiate(machine, t, cq, cv, cx, level):
         if status != OK:
             return status
         for m in range(first, last):
-            write_column(newton, moving.value, np.int64(newton.group[m]), n, cq, level)
+            write_column(newton, moving.value, np.int64(newton.group[m]), n, held, cq, level)
         # moved back: a complex number less what was added would keep its imaginary part only to round-off
         for m in range(first, last):
             still(newton, moving, here, np.int64(newton.group[m]))

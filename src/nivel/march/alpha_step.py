@@ -6,7 +6,8 @@ import numpy as np
 
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import call_hook
-from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, record_at
+from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, RESIDUAL, record_at
+from nivel.kernels.residual import known_multiplier
 from nivel.kernels.status import NOT_CONVERGED, OK, SINGULAR
 from nivel.kernels.tree import has_passed
 from nivel.march.corners import before, jump_at
@@ -42,8 +43,8 @@ def start(evaluate, machine, history, t, h):
     newton, residual, c, stages = record.newton, record.residual, run.numbers, run.stages
     n, states = residual.vdot.shape[0], newton.state.shape[0]
     positions = np.int64(run.y.shape[0]) - n - states - 2
-    for k in range(residual.row.shape[0]):
-        newton.lam[k] = record.constraints.lam[residual.row[k]]
+    for k in range(residual.lam.shape[0]):
+        newton.lam[k] = known_multiplier(record, k)
     ahead = DIFFERENCE * h
     for i in range(run.y.shape[0]):
         run.trial[i] = run.y[i] + ahead * run.rate[i]
@@ -66,7 +67,8 @@ def refresh(machine, run):
     """As index 1 or 2, take accelerations, rates and multipliers of the accepted state from its evaluation by the loop.
 
     In a step only the mean of the accelerations at both ends counts for an undamped method: what it got wrong once along the constraints
-    would alternate for ever. a becomes what `keep_step` would have made of these accelerations.
+    would alternate for ever. a becomes what `keep_step` would have made of these accelerations. Efforts with stiction stay as they are:
+    where several hold one motion the evaluation may share it out otherwise.
     """
     record = record_at(machine)
     newton, residual = record.newton, record.residual
@@ -129,6 +131,21 @@ def prepare(run, newton, n, h):
 
 
 @stage
+def begin_frictions(machine, y, h, t):
+    """What rows of frictions with stiction need to know of the accepted state y: rates and efforts. Returns a status."""
+    record = record_at(machine)
+    residual, friction = record.residual, record.friction
+    for i in range(y.shape[0]):
+        residual.y[i] = y[i]
+    status = call_hook(machine, RESIDUAL, 0, t)
+    for k in range(residual.stiction.shape[0]):
+        residual.begun[k] = residual.rate[k]
+        friction.anchor[residual.stiction[k]] = record.newton.lam[residual.row.shape[0] + k]
+    residual.span[0] = h if record.newton.level[0] == 2 else 0.0
+    return status
+
+
+@stage
 def move_by_velocity(run, newton, residual, h, cq):
     """Accelerations with which positions change by h times the velocities at the start of the step."""
     n = residual.vdot.shape[0]
@@ -167,6 +184,10 @@ def solve_step(machine, history, h, end, tolerance):
     that the velocities lead to, and then from those there are.
     """
     run, record = run_at(history), record_at(machine)
+    if record.residual.stiction.shape[0] > 0:
+        status = begin_frictions(machine, run.y, h, end)
+        if status != OK:
+            return status
     if record.newton.level[0] == 0:
         tolerance = min(tolerance, max(CLOSER * tolerance, ROUND))
     predict(run, record.newton, record.residual, h)
@@ -268,9 +289,9 @@ def add_jump(machine, run, sign):
         else:
             stages[XDOT, k - n] += jump
             stages[W, k - n] += jump
-    for k in range(residual.row.shape[0]):
-        newton.lam[k] += sign * record.constraints.lam[residual.row[k]]
-        newton.lam_before[k] += sign * record.constraints.lam[residual.row[k]]
+    for k in range(residual.lam.shape[0]):
+        newton.lam[k] += sign * known_multiplier(record, k)
+        newton.lam_before[k] += sign * known_multiplier(record, k)
 
 
 @stage

@@ -63,8 +63,8 @@ def before(t):
 @stage
 def speeds_are_open(residual, scale, first):
     """Whether a velocity constraint is violated, by more than round-off."""
-    rows, largest = residual.row.shape[0], 0.0
-    for k in range(rows):
+    rows, largest = residual.lam.shape[0], 0.0
+    for k in range(residual.row.shape[0]):
         largest = max(largest, np.abs(residual.value[first + rows + k]) / scale[residual.row[k]])
     return largest > SMOOTH
 
@@ -87,10 +87,10 @@ def find_jump(machine):
     record = record_at(machine)
     newton, residual = record.newton, record.residual
     b, total = newton.b, newton.before
-    first, rows = residual.vdot.shape[0] + newton.state.shape[0], residual.row.shape[0]
-    for k in range(first):
+    first, rows = residual.vdot.shape[0] + newton.state.shape[0], residual.lam.shape[0]
+    for k in range(b.shape[0]):
         b[k] = 0.0
-    for k in range(rows):
+    for k in range(residual.row.shape[0]):
         b[first + k] = -residual.value[first + rows + k]
     solve(machine)
     if newton.compliance.shape[0] == 0:
@@ -99,7 +99,8 @@ def find_jump(machine):
         total[k] = b[k]
     for _ in range(FURTHER):
         for k in range(b.shape[0]):
-            b[k] = 0.0 if k < first else -newton.compliance[k - first] * b[k]
+            is_held = first <= k < first + newton.compliance.shape[0]
+            b[k] = -newton.compliance[k - first] * b[k] if is_held else 0.0
         solve(machine)
         for k in range(b.shape[0]):
             total[k] += b[k]
@@ -121,7 +122,10 @@ def pass_corner(machine, history, t):
         jumps = True
         for k in range(n):
             newton.change[k] = 0.0
+        # friction is a force, not an impulse
+        stick, record.control.stick[0] = record.control.stick[0], np.inf
         status = differentiate(machine, t, INSTANT * INSTANT, INSTANT, INSTANT, POSITIONS)
+        record.control.stick[0] = stick
         if status == OK:
             status = factorise(machine)
         if status != OK:
@@ -135,7 +139,7 @@ def pass_corner(machine, history, t):
             constraints.lam[residual.row[k]] = newton.b[first + k]
         # an impulse does the mean of the work that it would do at the speeds on either side
         work = work_of_drivers(constraints)
-        for k in range(rows):
+        for k in range(residual.lam.shape[0]):
             residual.lam[k] = newton.b[first + k]
         status = call_hook(machine, RESIDUAL, 0, before(t))
         run.y[run.y.shape[0] - 2] += 0.5 * (work + work_of_drivers(constraints))

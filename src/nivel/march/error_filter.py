@@ -6,6 +6,8 @@ the springs make of the forces M δ within about √c_q of time: of a vibration 
 
 from __future__ import annotations
 
+import numpy as np
+
 from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_family
 from nivel.kernels.record import record_at
@@ -17,9 +19,12 @@ from nivel.march.residual_newton import apply_turns
 
 @stage
 def find_filter(machine, t, cq, cv, cx):
-    """The factors at the state, accelerations and multipliers in `residual`. Returns a status."""
-    newton = record_at(machine).newton
+    """The factors at the state, accelerations and multipliers in `residual`, frictions with stiction neither holding nor braking what they
+    hold: an error of that is one of its place for ever. Returns a status."""
+    newton, stick = record_at(machine).newton, record_at(machine).control.stick
+    tau, stick[0] = stick[0], np.inf
     status = differentiate(machine, t, cq, cv, cx, POSITIONS)
+    stick[0] = tau
     for p in range(newton.value.shape[0]):
         newton.filter.value[p] = newton.value[p]
     return factorise_entries(machine, newton.filter) if status == OK else status

@@ -39,6 +39,7 @@ from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import RESIDUAL, record_at
 from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.tangent import ACCELERATIONS, POSITIONS, differentiate, inverse_tangent
+from nivel.march.friction_turns import begin_turns, follow_turns, keep_made, next_seed, release
 from nivel.march.newton_state import find_state
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
 from nivel.march.step_control import ROUND_OFF
@@ -55,6 +56,8 @@ CQ, CV, CX, CONTRACTION = 0, 1, 2, 3
 TOLERANCE, MOST, FULL, ROUNDINGS = 0, 1, 2, 3
 # Changes that contract by less have stopped getting smaller; a matrix with which they once contracted by as much is a good one.
 STALLED, GOOD = 0.5, 0.1
+# A change of the effort of a friction counts as this share of it.
+CLOSE = 1e-4
 # samples of the round-off of the equations of motion, and how many times their mean size it may have
 SAMPLES, SAFETY = 8, 4.0
 
@@ -65,13 +68,15 @@ def write_defect(machine, cq, cv):
     record = record_at(machine)
     newton, residual, level = record.newton, record.residual, record.newton.level[0]
     b, value = newton.b, residual.value
-    n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.row.shape[0]
-    first = n + states
+    n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.lam.shape[0]
+    first, held = n + states, residual.row.shape[0]
     for i in range(n):
         b[i] = -value[i]
     for i in range(states):
         b[n + i] = value[n + i] - newton.rate[i]
-    for k in range(rows):
+    for k in range(held, rows):
+        b[first + k] = -value[first + 2 * rows + k]
+    for k in range(held):
         if level == 3:
             b[first + k] = -value[first + k] / cq
         elif level == 2:
@@ -89,12 +94,12 @@ def close_positions(machine, cq, cv):
     record = record_at(machine)
     newton, residual = record.newton, record.residual
     b, value, kept = newton.b, residual.value, newton.last
-    n, rows = residual.vdot.shape[0], residual.row.shape[0]
+    n, rows = residual.vdot.shape[0], residual.lam.shape[0]
     first = n + newton.state.shape[0]
     for i in range(b.shape[0]):
         kept[i] = b[i]
         b[i] = 0.0
-    for k in range(rows):
+    for k in range(residual.row.shape[0]):
         # C_q (cq δv̇) = -cq Ċ/cv is what the velocities' own change does to the positions
         b[first + k] = -value[first + k] + cq / cv * value[first + rows + k]
     solve(machine)
@@ -114,8 +119,8 @@ def apply_turns(newton, x):
 
 @stage
 def size_of_change(machine, scale, cq, cv, cx):
-    """Largest change of a position, velocity or state of forces by newton.b and newton.moved, as a share of its scale; its unknown is
-    left in control.failure."""
+    """Largest change of a position, velocity or state of forces by newton.b and newton.moved, as a share of its scale, or of the effort of
+    a friction with stiction, as a share of itself and its limit times CLOSE; its unknown is left in control.failure."""
     record = record_at(machine)
     newton, failure = record.newton, record.control.failure
     b, moved = newton.b, newton.moved
@@ -131,6 +136,12 @@ def size_of_change(machine, scale, cq, cv, cx):
         share = np.abs(cx * b[k]) / scale[positions + k]
         if not share <= largest:
             largest, failure[0] = share, k
+    first = n + states + record.residual.row.shape[0]
+    for k in range(record.residual.stiction.shape[0]):
+        effort = np.abs(record.residual.lam[first - n - states + k]) + record.residual.limit[k]
+        share = CLOSE * np.abs(b[first + k]) / max(effort, 1e-300)
+        if not share <= largest:
+            largest, failure[0] = share, first + k
     return largest
 
 
@@ -174,7 +185,7 @@ def find_change(machine, cq, cv):
     newton = record_at(machine).newton
     write_defect(machine, cq, cv)
     solve(machine)
-    if newton.level[0] == 2 and newton.b.shape[0] > newton.moved.shape[0] + newton.state.shape[0]:
+    if newton.level[0] == 2 and record_at(machine).residual.row.shape[0] > 0:
         close_positions(machine, cq, cv)
         apply_turns(newton, newton.moved)
     apply_turns(newton, newton.b)
@@ -207,8 +218,7 @@ def is_round_off(machine, scale, cq, cv, cx, tolerance):
                 if newton.column[p] < n:
                     at = place[newton.column[p], 0]
                     known += np.abs(newton.value[p]) * max(scale[at], np.abs(residual.y[at]))
-            # minimal standard generator (Park, Miller 1988)
-            seed = seed * 16807 % 2147483647
+            seed = next_seed(seed)
             b[i] = ROUND_OFF * known / cq if seed % 2 == 0 else -ROUND_OFF * known / cq
         solve(machine)
         for i in range(b.shape[0]):
@@ -258,6 +268,7 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
     newton, counter = record.newton, run.counter
     full = newton.settings[FULL] == 1.0
     stale, inherited, last, share, best = full, True, np.inf, 1.0, np.inf
+    begin_turns(record.residual)
     for _ in range(np.int64(newton.settings[MOST])):
         status = find_state(machine, t, cq, cv, cx)
         if status == OK:
@@ -266,19 +277,26 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
         counter[ITERATIONS] += 1
         if status == OK and not is_finite(record.residual.value):
             status = NOT_FINITE
+        other, bidding, steep = False, False, False
+        if status == OK and record.residual.stiction.shape[0] > 0:
+            status, other, bidding, steep = follow_turns(machine, t)
+        if other or steep:
+            # another equation: changes that were before say nothing of those to come
+            stale, last, share = stale or other, np.inf, 1.0
         if status == OK and (stale or not is_kept(newton, cq, cv, cx)):
             status = differentiate(machine, t, cq, cv, cx, ACCELERATIONS if newton.level[0] < 2 else POSITIONS)
             if status == OK:
                 status = factorise(machine)
             counter[FACTORISATIONS] += 1
             newton.kept[CQ], newton.kept[CV], newton.kept[CX], newton.kept[CONTRACTION] = cq, cv, cx, SANGUINE
+            keep_made(record.residual)
             stale, inherited = False, False
         if status != OK:
             newton.kept[CQ] = 0.0
             return status
         find_change(machine, cq, cv)
         size = size_of_change(machine, run.scale, cq, cv, cx)
-        contraction = size / last if last < np.inf else newton.kept[CONTRACTION]
+        contraction = size / last if last < np.inf else (1.0 if steep else newton.kept[CONTRACTION])
         # changes that once became smaller may stop to at round-off
         lost = best > GOOD
         astray = last < np.inf and not contraction <= (SLOW if inherited and lost else GROWTH)
@@ -298,6 +316,9 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
         take_change(newton, record.residual, newton.b, newton.moved, share)
         keep_change(newton)
         done = size <= tolerance or (contraction < 1.0 and contraction / (1.0 - contraction) * size <= tolerance)
+        if bidding:
+            release(record.residual)
+            done, size = False, np.inf
         if not done and last < np.inf:
             best = min(best, contraction)
             if contraction > STALLED and (best <= GOOD or not inherited):

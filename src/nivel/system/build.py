@@ -217,6 +217,7 @@ def _friction(draft: Draft, saddle: Saddle, extra: list[tuple[int, int, int]], r
         part=index_array([min(part for row, part, _ in extra if row == row_count + k) for k in range(count)], 1),
         block=index_array(list(pairwise(first)), 2),
         force=np.zeros(count),
+        mass=np.ones(count),
         S=np.zeros((count, count)),
         response=np.zeros((count, row_count)),
         change=np.zeros((count, *saddle.z.shape)),

@@ -39,24 +39,35 @@ def residual_tables(
     row: Index,
     part: Index,
     *,
+    stiction: Sequence[int] = (),
     free: bool | None = None,
     flexible: tuple[int, int, int] = (0, 0, 0),
     nodes: Sequence[int] = (),
 ) -> Residual:
-    """For so many bodies, entries of y, velocities and states of forces. row, part : as in `Residual`.
+    """For so many bodies, entries of y, velocities and states of forces. row, part, stiction : as in `Residual`.
 
     free : whether nothing joins the machine to the ground, for residuals over a whole step; None for all others. flexible : numbers of
     modes, frames at interfaces and flexible bodies that such a residual knows. nodes : markers that are nodes of geometrically exact beams.
     """
-    rows = len(row)
+    rows = len(row) + len(stiction)
     whole = free is not None
     return Residual(
         row=row,
+        stiction=index_array(stiction, 1),
         part=part,
         y=np.zeros(state),
         vdot=np.zeros(velocities),
         lam=np.zeros(rows),
         value=np.zeros(velocities + states + 3 * rows),
+        branch=np.zeros(len(stiction)),
+        made=np.zeros(len(stiction)),
+        bidden=np.full(len(stiction), np.nan),
+        limit=np.zeros(len(stiction)),
+        rate=np.zeros(len(stiction)),
+        begun=np.zeros(len(stiction)),
+        span=np.zeros(1),
+        tally=np.zeros(3),
+        frozen=np.full(len(stiction), np.nan),
         acceleration=np.zeros((bodies + 1, 6)),
         wrench=np.zeros((bodies + 1, 6)),
         interval=Interval(
@@ -167,10 +178,10 @@ def newton_tables(
     length: float = 1.0,
     compliance: Array | None = None,
 ) -> Newton:
-    """For `place` of the velocities, entries of y, states of forces, constraint rows, the derivatives planned and corners [s]; with room
+    """For `place` of the velocities, entries of y, states of forces, multipliers, the derivatives planned and corners [s]; with room
     for `Shifted`, for the balance of accelerations and for filtered errors where a method or a machine asks for it.
 
-    length : of the machine [m]. compliance : (rows,) 1/α of penalty methods; None for multipliers.
+    length : of the machine [m]. compliance : (H,) 1/α of penalty methods; None for multipliers.
     """
     n, factor = len(place), plan.factor
     size = factor.size
@@ -217,12 +228,13 @@ def newton_tables(
         asked=np.zeros(3),
         level=np.zeros(1, dtype=np.uint32),
         compliance=np.zeros(0) if compliance is None else compliance,
-        diagonal=_corner(plan, rows if compliance is not None else 0),
+        diagonal=_corner(plan, rows, 0 if compliance is None else len(compliance)),
         shifted=shifted_tables(plan, place, state) if shifted else shifted_tables(EMPTY, place[:0], 0),
     )
 
 
-def _corner(plan: TangentPlan, rows: int) -> Index:
-    """Places of the diagonal of the last so many unknowns."""
-    last = np.arange(plan.factor.size - rows, plan.factor.size)
-    return plan.factor.entry(last, last)
+def _corner(plan: TangentPlan, rows: int, count: int) -> Index:
+    """Places of the diagonal of the first `count` of the last `rows` unknowns."""
+    first = plan.factor.size - rows
+    own = np.arange(first, first + count)
+    return plan.factor.entry(own, own)

@@ -180,6 +180,19 @@ def is_kept(newton, cq, cv, cx):
 
 
 @stage
+def renew(machine, t, cq, cv, cx):
+    """The factors of the matrix at the iterate. Returns a status."""
+    record = record_at(machine)
+    newton = record.newton
+    status = differentiate(machine, t, cq, cv, cx, ACCELERATIONS if newton.level[0] < 2 else POSITIONS)
+    if status == OK:
+        status = factorise(machine)
+    newton.kept[CQ], newton.kept[CV], newton.kept[CX], newton.kept[CONTRACTION] = cq, cv, cx, SANGUINE
+    keep_made(record.residual)
+    return status
+
+
+@stage
 def find_change(machine, cq, cv):
     """newton.b and newton.moved: the change of all unknowns that the residual just evaluated asks for."""
     newton = record_at(machine).newton
@@ -284,12 +297,8 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
             # another equation: changes that were before say nothing of those to come
             stale, last, share = stale or other, np.inf, 1.0
         if status == OK and (stale or not is_kept(newton, cq, cv, cx)):
-            status = differentiate(machine, t, cq, cv, cx, ACCELERATIONS if newton.level[0] < 2 else POSITIONS)
-            if status == OK:
-                status = factorise(machine)
+            status = renew(machine, t, cq, cv, cx)
             counter[FACTORISATIONS] += 1
-            newton.kept[CQ], newton.kept[CV], newton.kept[CX], newton.kept[CONTRACTION] = cq, cv, cx, SANGUINE
-            keep_made(record.residual)
             stale, inherited = False, False
         if status != OK:
             newton.kept[CQ] = 0.0

@@ -287,15 +287,16 @@ def double_pendulum(folder, modes):
     return machine("double", bars, hinges)
 
 
+@EACH_METHOD
 @pytest.mark.parametrize("integrator", ["newmark", "generalised-alpha", "ros2"])
-def test_implicit_methods_have_order_two_in_independent_coordinates(folder, integrator):
+def test_implicit_methods_have_order_two(folder, integrator, method):
     """Positions and velocities, modes included in what moves them; the first mode of a bar has some 100 periods a second."""
     record = double_pendulum(folder, 1)
     common = {"duration": 0.1, "output_interval": 0.01}
     fine = run(record, integrator="rk4", step=2e-5, coordinates="absolute", **common)
     errors = []
     for step in (2e-4, 1e-4, 5e-5):
-        r = run(record, integrator=integrator, step=step, **common, **METHODS["independent"])
+        r = run(record, integrator=integrator, step=step, **common, **METHODS[method])
         assert r.finished.outcome == "done"
         assert np.abs(r.constraint_violation).max() < 1e-10
         assert np.abs(r.constraint_rate_violation).max() < 1e-10
@@ -304,12 +305,13 @@ def test_implicit_methods_have_order_two_in_independent_coordinates(folder, inte
     assert np.all(np.abs(np.log2(np.array(errors)[:-1] / errors[1:]) - 2.0) < 0.3)
 
 
+@EACH_METHOD
 @pytest.mark.parametrize("integrator", ["radau", "bdf"])
-def test_implicit_methods_meet_their_tolerance_in_independent_coordinates(folder, integrator):
+def test_implicit_methods_meet_their_tolerance(folder, integrator, method):
     record = MACHINES["loop"](folder)
     common = {"duration": 0.05, "output_interval": 0.005}
     fine = run(record, integrator="rk4", step=1e-5, coordinates="absolute", **common)
-    r = run(record, integrator=integrator, tolerance=1e-6, **common, **METHODS["independent"])
+    r = run(record, integrator=integrator, tolerance=1e-6, **common, **METHODS[method])
     assert r.finished.outcome == "done"
     assert np.abs(r.position - fine.position).max() < 10 * 1e-6 * r.prepared.motion.system.size
     assert np.abs(r.constraint_violation).max() < 1e-10

@@ -2,6 +2,7 @@
 are motions."""
 
 from importlib import import_module
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from nivel.system.flexible import bending_bodies
 from observing import assert_same_frame, observed, of_absolute
 from running import run
 from tree_machines import MACHINES, beam, hinge, machine, write_beams
+from unknowns import Unknowns, error_of, explicit, value_at
 
 TIME = 0.1
 METHODS = {
@@ -285,6 +287,32 @@ def double_pendulum(folder, modes):
     bars = [beam(folder, name, (k, 0, 0), file="beam", modes=modes) for k, name in enumerate("ab")]
     hinges = [hinge("r", "ground", "a", 0.0, axis=(0, 0, 1)), hinge("e", "a", "b", 1.0, axis=(0, 0, 1))]
     return machine("double", bars, hinges)
+
+
+@EACH
+@LAGRANGE
+def test_residual_vanishes_for_explicit_accelerations_and_its_matrix_is_its_derivative(folder, rng, name, method):
+    """Of bodies, modes, constraints and the normalisation; states of forces apart."""
+    record = MACHINES[name](folder)
+    prepared = prepared_by(record.replace(simulation=record.simulation.replace(integrator="generalised-alpha")), method)
+    motion, y = prepared.motion, moving(prepared, rng)
+    system, states = motion.system, len(motion.system.record.elements.state)
+    here = SimpleNamespace(
+        motion=motion,
+        y=y,
+        size=system.size,
+        positions=system.positions,
+        n=len(y) - system.positions - states - 2,
+        states=states,
+        rows=len(system.record.residual.row),
+        **explicit(motion, y, system.positions, states),
+    )
+    r, _, _, _, Cddot = value_at(here, y, here.vdot, here.lam)
+    forces = value_at(here, y, 0.0 * here.vdot, here.lam)[0]
+    assert np.abs(r).max() < 1e-10 * np.abs(forces).max()
+    assert np.abs(Cddot).max(initial=0.0) < 1e-9 * np.abs(here.vdot).max()
+    unknowns = Unknowns(here)
+    assert error_of(unknowns.matrix()[1], unknowns.jacobian(), unknowns.widths()) < 1e-9
 
 
 @EACH_METHOD

@@ -16,8 +16,8 @@ from nivel.motion.floating_frame import read_flexible_state
 
 @stage
 def find_flexible_wrenches(machine, t, first):
-    """`residual.wrench` of all bodies for the state read and `residual.acceleration`, and the rows of the modes, whose accelerations stand in
-    `residual.vdot` from `first` on as they do in `residual.value`. Returns a status."""
+    """`residual.wrench` of all bodies for the state read and `residual.acceleration`, and the rows of the modes, which stand from `first`
+    on as their accelerations do in `residual.vdot`. Returns a status."""
     record = record_at(machine)
     bodies, flexible, own = record.bodies, record.flexible, record.residual
     load_weight(bodies)

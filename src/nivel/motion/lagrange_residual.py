@@ -68,7 +68,7 @@ def write_body(machine, b):
 
 @stage
 def write_bodies(machine, first):
-    """The rows of all bodies, rates of the states of forces, and constraints, from `residual.wrench`. first : row behind those of velocities."""
+    """The rows of all bodies from `residual.wrench`, rates of the states of forces, and constraints. first : the row behind velocities."""
     record = record_at(machine)
     own = record.residual
     for b in range(record.bodies.mass.shape[0]):

@@ -31,7 +31,7 @@ def accelerate_bodies(machine):
 
 @stage
 def write_bodies(machine, first):
-    """The rows of all bodies, rates of the states of forces, and constraints, from `residual.wrench`. first : row behind those of velocities."""
+    """The rows of all bodies from `residual.wrench`, rates of the states of forces, and constraints. first : the row behind velocities."""
     record = record_at(machine)
     bodies, own = record.bodies, record.residual
     for b in range(bodies.mass.shape[0]):

@@ -53,6 +53,7 @@ def at_state(record, prepared, coordinates, y, rng):
         system, own = arrange(record, system, y, rank, record.simulation)
     elif coordinates in ROTATIONS:
         path = path_of("absolute", "lagrange", coordinates)
+        assert path is not None
         kernels = import_module(path.module)
         if coordinates == "euler-parameters":
             system, own = parameters.arrange(record, system, y, rank, record.simulation)
@@ -81,7 +82,7 @@ def at_state(record, prepared, coordinates, y, rng):
 
 def anywhere(rotations, count, y, rng):
     """Kind, A(φ) and A(body) as Euler parameters, φ and φ̇ of so many bodies in a state of absolute coordinates, φ anywhere regular."""
-    body = Rotation.random(count, random_state=rng)
+    body = Rotation.from_quat(rng.standard_normal((count, 4)))
     omega = np.einsum(
         "bij,bj->bi", body.as_matrix().reshape(count, 3, 3), y[7 * count : 13 * count].reshape(count, 6)[:, 3:]
     )
@@ -91,8 +92,8 @@ def anywhere(rotations, count, y, rng):
     start = Rotation.from_euler("ZXZ", phi) if rotations == "euler-angles" else Rotation.from_rotvec(phi)
     rates = [np.linalg.solve(transformation(rotations, each), w) for each, w in zip(phi, omega, strict=True)]
     kind = EULER_ANGLES if rotations == "euler-angles" else ROTATION_VECTOR
-    theta = [each.as_quat(scalar_first=True).reshape(count, 4) for each in (start, body)]
-    return kind, *theta, phi, np.array(rates).reshape(count, 3)
+    first, second = (each.as_quat(scalar_first=True).reshape(count, 4) for each in (start, body))
+    return kind, first, second, phi, np.array(rates).reshape(count, 3)
 
 
 def transformation(rotations, phi):

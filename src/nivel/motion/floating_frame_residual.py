@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.floating_dynamics import flexible_wrench, gather
 from nivel.kernels.floating_frame import move_frames
 from nivel.kernels.hook import apply_forces, call_hook, family
@@ -14,37 +13,16 @@ from nivel.kernels.status import OK
 from nivel.motion.floating_frame import read_flexible_state
 
 
-@stage
-def find_flexible_wrenches(machine, t, first):
-    """`residual.wrench` of all bodies for the state read and `residual.acceleration`, and the rows of the modes, which stand from `first`
-    on as their accelerations do in `residual.vdot`. Returns a status."""
-    record = record_at(machine)
-    bodies, flexible, own = record.bodies, record.flexible, record.residual
-    load_weight(bodies)
-    status = apply_forces(machine, t, own.y)
-    if status != OK:
-        return status
-    for j in range(flexible.p.shape[0]):
-        flexible.pddot[j] = own.vdot[first + j]
-    move_frames(machine)
-    status = load_multipliers(machine, t)
-    if status == OK:
-        status = call_hook(machine, POINTS, 0, t)
-    if status != OK:
-        return status
-    gather(machine)
-    inertial_wrenches(machine)
-    for f in range(flexible.body.shape[0]):
-        flexible_wrench(bodies, flexible, f, own.acceleration, own.wrench, own.value[first:])
-    return OK
-
-
 @family
 def residual(machine, job, t):
     """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual`."""
     record = record_at(machine)
-    bodies, own = record.bodies, record.residual
+    bodies, flexible, own = record.bodies, record.flexible, record.residual
     status = read_flexible_state(machine, t, own.y)
+    if status != OK:
+        return status
+    load_weight(bodies)
+    status = apply_forces(machine, t, own.y)
     if status != OK:
         return status
     count = bodies.mass.shape[0]
@@ -53,13 +31,23 @@ def residual(machine, job, t):
         multiply(bodies.A[b], v[3:6], x[:3])
         for i in range(3):
             x[3 + i] = v[i]
-    status = find_flexible_wrenches(machine, t, 6 * count)
+    for j in range(flexible.p.shape[0]):
+        flexible.pddot[j] = own.vdot[6 * count + j]
+    move_frames(machine)
+    status = load_multipliers(machine, t)
     if status != OK:
         return status
+    status = call_hook(machine, POINTS, 0, t)
+    if status != OK:
+        return status
+    gather(machine)
+    inertial_wrenches(machine)
+    for f in range(flexible.body.shape[0]):
+        flexible_wrench(bodies, flexible, f, own.acceleration, own.wrench, own.value[6 * count :])
     for b in range(count):
         A, F = bodies.A[b], own.wrench[b]
         for i in range(3):
             own.value[6 * b + i] = F[3 + i]
             own.value[6 * b + 3 + i] = A[0, i] * F[0] + A[1, i] * F[1] + A[2, i] * F[2]
-    write_rows(machine, 6 * count + record.flexible.p.shape[0])
+    write_rows(machine, 6 * count + flexible.p.shape[0])
     return OK

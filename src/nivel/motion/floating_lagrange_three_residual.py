@@ -3,10 +3,10 @@ modes."""
 
 from __future__ import annotations
 
+from nivel.kernels.floating_residual import find_flexible_wrenches
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
-from nivel.motion.floating_frame_residual import find_flexible_wrenches
 from nivel.motion.floating_lagrange_three import read_flexible_state
 from nivel.motion.lagrange_three_residual import accelerate_bodies, write_bodies
 

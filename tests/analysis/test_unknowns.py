@@ -1,5 +1,7 @@
 """A failed iteration is told by joint and coordinate."""
 
+import pytest
+
 import machines
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.unknowns import unknown_name
@@ -7,9 +9,10 @@ from nivel.machine import Friction
 from running import run
 
 
-def names(coordinates, forces=()):
-    machine = machines.slider_crank(integrator="generalised-alpha").replace(forces=forces)
-    system = prepare(machine, coordinates=coordinates).motion.system
+def names(coordinates, formulation="newton-euler", rotations="euler-parameters", forces=()):
+    settings = {"integrator": "generalised-alpha", "formulation": formulation, "rotations": rotations}
+    machine = machines.slider_crank(**settings).replace(forces=forces)
+    system = prepare(machine, formulation, coordinates).motion.system
     return [unknown_name(system, k) for k in range(len(system.record.newton.b))]
 
 
@@ -20,7 +23,15 @@ def test_every_unknown_has_its_name():
     assert relative[0] == "the joint hinge, coordinate hinge.angle"
     assert any(name.startswith("the constraint ") for name in relative)
     way = Friction(name="way", model="stiction", coordinate="slide.displacement", coefficient=0.1)
-    assert names("absolute", (way,)) == [*absolute, "the effort of way"]
+    assert names("absolute", forces=(way,)) == [*absolute, "the effort of way"]
+
+
+@pytest.mark.parametrize(("rotations", "last"), [("euler-parameters", 4), ("euler-angles", 3), ("rotation-vector", 3)])
+def test_rotation_coordinates_have_their_names(rotations, last):
+    found = names("absolute", "lagrange", rotations)
+    assert found[3 : 3 + last : last - 1] == [f"crank, its rotation coordinate {k}" for k in (1, last)]
+    assert len(set(found)) == len(found)
+    assert ("the constraint crank.euler_parameters" in found) == (rotations == "euler-parameters")
 
 
 def test_a_failed_iteration_keeps_the_result_and_names_where_it_stalls():

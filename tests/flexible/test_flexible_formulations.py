@@ -2,6 +2,7 @@
 are motions."""
 
 from importlib import import_module
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from nivel.system.flexible import bending_bodies
 from observing import assert_same_frame, observed, of_absolute
 from running import run
 from tree_machines import MACHINES, beam, hinge, machine, write_beams
+from unknowns import Unknowns, error_of, explicit, value_at
 
 TIME = 0.1
 METHODS = {
@@ -287,15 +289,42 @@ def double_pendulum(folder, modes):
     return machine("double", bars, hinges)
 
 
+@EACH
+@LAGRANGE
+def test_residual_vanishes_for_explicit_accelerations_and_its_matrix_is_its_derivative(folder, rng, name, method):
+    """Of bodies, modes, constraints and the normalisation; states of forces apart."""
+    record = MACHINES[name](folder)
+    prepared = prepared_by(record.replace(simulation=record.simulation.replace(integrator="generalised-alpha")), method)
+    motion, y = prepared.motion, moving(prepared, rng)
+    system, states = motion.system, len(motion.system.record.elements.state)
+    here = SimpleNamespace(
+        motion=motion,
+        y=y,
+        size=system.size,
+        positions=system.positions,
+        n=len(y) - system.positions - states - 2,
+        states=states,
+        rows=len(system.record.residual.row),
+        **explicit(motion, y, system.positions, states),
+    )
+    r, _, _, _, Cddot = value_at(here, y, here.vdot, here.lam)
+    forces = value_at(here, y, 0.0 * here.vdot, here.lam)[0]
+    assert np.abs(r).max() < 1e-10 * np.abs(forces).max()
+    assert np.abs(Cddot).max(initial=0.0) < 1e-9 * np.abs(here.vdot).max()
+    unknowns = Unknowns(here)
+    assert error_of(unknowns.matrix()[1], unknowns.jacobian(), unknowns.widths()) < 1e-9
+
+
+@EACH_METHOD
 @pytest.mark.parametrize("integrator", ["newmark", "generalised-alpha", "ros2"])
-def test_implicit_methods_have_order_two_in_independent_coordinates(folder, integrator):
+def test_implicit_methods_have_order_two(folder, integrator, method):
     """Positions and velocities, modes included in what moves them; the first mode of a bar has some 100 periods a second."""
     record = double_pendulum(folder, 1)
     common = {"duration": 0.1, "output_interval": 0.01}
     fine = run(record, integrator="rk4", step=2e-5, coordinates="absolute", **common)
     errors = []
     for step in (2e-4, 1e-4, 5e-5):
-        r = run(record, integrator=integrator, step=step, **common, **METHODS["independent"])
+        r = run(record, integrator=integrator, step=step, **common, **METHODS[method])
         assert r.finished.outcome == "done"
         assert np.abs(r.constraint_violation).max() < 1e-10
         assert np.abs(r.constraint_rate_violation).max() < 1e-10
@@ -304,12 +333,13 @@ def test_implicit_methods_have_order_two_in_independent_coordinates(folder, inte
     assert np.all(np.abs(np.log2(np.array(errors)[:-1] / errors[1:]) - 2.0) < 0.3)
 
 
+@EACH_METHOD
 @pytest.mark.parametrize("integrator", ["radau", "bdf"])
-def test_implicit_methods_meet_their_tolerance_in_independent_coordinates(folder, integrator):
+def test_implicit_methods_meet_their_tolerance(folder, integrator, method):
     record = MACHINES["loop"](folder)
     common = {"duration": 0.05, "output_interval": 0.005}
     fine = run(record, integrator="rk4", step=1e-5, coordinates="absolute", **common)
-    r = run(record, integrator=integrator, tolerance=1e-6, **common, **METHODS["independent"])
+    r = run(record, integrator=integrator, tolerance=1e-6, **common, **METHODS[method])
     assert r.finished.outcome == "done"
     assert np.abs(r.position - fine.position).max() < 10 * 1e-6 * r.prepared.motion.system.size
     assert np.abs(r.constraint_violation).max() < 1e-10

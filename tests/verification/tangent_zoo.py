@@ -9,7 +9,7 @@ import force_zoo
 import linked
 import machines
 import nivel
-from unknowns import moving
+from unknowns import ROTATIONS, moving
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
@@ -55,6 +55,7 @@ ZOO = {**JOINTS, **WHOLE, **force_zoo.ELEMENTS}
 DRAWS = 40
 EACH = pytest.mark.parametrize("name", ZOO)
 COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+FORMULATED = pytest.mark.parametrize("coordinates", ["absolute", "relative", *ROTATIONS])
 
 
 def state_of(name, coordinates, rng):

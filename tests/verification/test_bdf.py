@@ -131,7 +131,6 @@ def test_matrix_is_that_of_differences():
     ("settings", "words"),
     [
         ({"corrector": {"iteration": "functional"}}, "'functional' does not go with `integrator: bdf`"),
-        ({"formulation": "lagrange"}, "'lagrange' does not go with `integrator: bdf`, which has the exact tangents"),
         ({"coordinates": "independent", "formulation": "penalty"}, "no violation is left to feed back"),
         ({"stabilisation": "baumgarte"}, "take direct, or own coefficients"),
     ],

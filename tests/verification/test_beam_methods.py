@@ -42,6 +42,26 @@ def test_all_methods_find_the_motion_of_radau(method, within, coordinates):
     assert_allclose(found, expected, atol=within * sag)
 
 
+@pytest.mark.parametrize("rotations", ["euler-parameters", "euler-angles", "rotation-vector"])
+@pytest.mark.parametrize(
+    ("method", "within"),
+    [
+        ({"integrator": "radau", "tolerance": 1e-6}, 1e-5),
+        ({"integrator": "generalised-alpha", "step": 1e-3}, 1e-5),
+        ({"integrator": "ros2", "step": 1e-4}, 1e-6),
+    ],
+    ids=lambda each: each["integrator"] if isinstance(each, dict) else "",
+)
+def test_rotation_coordinates_of_nodes_give_the_motion_of_angular_velocities(method, within, rotations):
+    """Whose tangents are found by hand. A beam of lumped masses that flies, turns and vibrates; errors of order two in the step."""
+    base = {"duration": 0.1, "output_interval": 0.02, "coordinates": "absolute", **method}
+    ways = ({}, {"formulation": "lagrange", "rotations": rotations})
+    one, other = (simulate({**flying(1, "lumped"), "simulation": {**base, **way}}) for way in ways)
+    assert other.outcome == "done"
+    assert np.abs(one.array("angular_velocity")).max() > 3.0
+    assert_allclose(other.array("position"), one.array("position"), atol=within)
+
+
 @pytest.mark.parametrize("spin", [(0, 0, 5), (0, 1, 5), (2, 1, 5)])
 @pytest.mark.parametrize("integrator", ["generalised-alpha", "newmark"])
 def test_a_straight_round_beam_starts_to_fly(spin, integrator):

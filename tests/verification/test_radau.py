@@ -384,7 +384,6 @@ def test_stabilisations(stabilisation):
 @pytest.mark.parametrize(
     ("settings", "reason"),
     [
-        ({"formulation": "lagrange"}, "take newton-euler"),
         ({"coordinates": "independent", "formulation": "penalty"}, "no violation is left to feed back"),
         ({"stabilisation": "baumgarte"}, "take direct, or own coefficients"),
     ],

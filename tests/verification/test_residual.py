@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from nivel.analysis.implicit import find_tangent
-from tangent_zoo import COORDINATES, EACH, state_of
+from tangent_zoo import EACH, FORMULATED, state_of
 from unknowns import TIME, value_at
 
 # round-off, and what friction's iteration is closed to
 TOLERANCE = 1e-12
 
 
-@COORDINATES
+@FORMULATED
 @EACH
 def test_residual_vanishes_for_accelerations_and_multipliers_of_the_explicit_evaluation(name, coordinates, rng):
     """M v̇ + C_qᵀ λ = Q, C = 0, Ċ = 0, C̈ = 0 and the rates of states; each as a share of the largest term in it."""

@@ -100,7 +100,6 @@ def test_chunks_change_nothing(coordinates):
 
 def test_what_does_not_go_with_it_is_refused():
     for settings, words in (
-        ({"formulation": "lagrange"}, "exact tangents of angular velocities"),
         ({"coordinates": "independent", "formulation": "penalty"}, "no violation is left to feed back"),
         ({"coordinates": "independent", "stabilisation": "baumgarte"}, "no violation is left to feed back"),
         ({"stabilisation": "baumgarte"}, "does not iterate and has order one there"),

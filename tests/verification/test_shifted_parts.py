@@ -9,6 +9,7 @@ import machines
 from nivel.analysis.dynamics import prepare
 from nivel.kernels.status import OK
 from nivel.machine import Body, Bushing, Friction, Joint, MachineRecord, Marker, SpringDamper
+from unknowns import ROTATIONS
 
 
 def sled():
@@ -72,13 +73,15 @@ def differences(motion, t, y):
     return out
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("coordinates", ["absolute", "relative", *ROTATIONS])
 @pytest.mark.parametrize("make", [machines.slider_crank, machines.four_bar, loaded_tree, loose, sled])
 def test_solutions_satisfy_the_equations(make, coordinates, rng):
     """All entries but the energies at the end, on which nothing depends: of them x = r."""
-    record = make()
-    record = record.replace(simulation=record.simulation.replace(integrator="radau"))
-    prepared = prepare(record, "newton-euler", coordinates)
+    record, method = make(), {"integrator": "radau", "coordinates": coordinates}
+    if coordinates in ROTATIONS:
+        method |= {"formulation": "lagrange", "rotations": coordinates, "coordinates": "absolute"}
+    record = record.replace(simulation=record.simulation.replace(**method))
+    prepared = prepare(record, record.simulation.formulation, method["coordinates"])
     motion, y = prepared.motion, prepared.start.copy()
     states = len(motion.system.record.elements.state)
     y[len(y) - 2 - states : len(y) - 2] = 1e-3

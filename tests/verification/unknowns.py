@@ -1,33 +1,42 @@
 """The unknowns of implicit methods: machines and states in motion, their residual as a function of accelerations, rates and multipliers,
 and its derivatives by extrapolated differences."""
 
+from importlib import import_module
 from types import SimpleNamespace
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from assembled import TIME, random_states
 from nivel.analysis.dynamics import prepare
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.implicit import Wanted, equip, evaluate_residual, find_tangent
-from nivel.kernels.record import NONE
+from nivel.kernels.record import EULER_ANGLES, NONE, ROTATION_VECTOR
 from nivel.kernels.status import OK
+from nivel.motion.catalogue import path_of
+from nivel.system.states import parameters
 from nivel.system.states.relative import arrange
+from nivel.system.states.three_coordinates import arranged
 
 # [s², s, s] by how much an acceleration moves positions and velocities, and a rate its state: as in a step of about 0.3 s
 SHARES = (0.04, 0.2, 0.2)
 # weights of f(+k h) - f(-k h) in central differences of order eight
 CENTRAL = (4 / 5, -1 / 5, 4 / 105, -1 / 280)
 HALVINGS = 12
+# rotation coordinates of the Lagrange equations, which name the coordinates here
+ROTATIONS = ("euler-parameters", "euler-angles", "rotation-vector")
 
 
 def moving(machine, coordinates, rng, count=1, *, place=None):
     """Assembled states in motion: each with the equations, and its state, accelerations, rates and multipliers by `evaluate`.
 
+    coordinates : absolute, relative, or the rotations of the Lagrange equations in absolute ones.
     place : a free body that is put at an offset [m] from another one, or (no name) from the origin.
     """
-    settings = {"integrator": "generalised-alpha", "stabilisation": "direct", "coordinates": coordinates}
+    of_bodies = "absolute" if coordinates in ROTATIONS else coordinates
+    settings = {"integrator": "generalised-alpha", "stabilisation": "direct", "coordinates": of_bodies}
     record = machine.replace(simulation=machine.simulation.replace(**settings))
-    prepared = prepare(record, "newton-euler", coordinates)
+    prepared = prepare(record, "newton-euler", of_bodies)
     for y in random_states(prepared, rng, count):
         if place is not None:
             body, other, offset = place
@@ -38,14 +47,25 @@ def moving(machine, coordinates, rng, count=1, *, place=None):
 
 def at_state(record, prepared, coordinates, y, rng):
     """The equations equipped for state y of absolute coordinates, and all unknowns there."""
-    system, own, kernels = prepared.absolute.system, y.copy(), prepared.motion.kernels
+    system, own, kernels, path = prepared.absolute.system, y.copy(), prepared.motion.kernels, None
+    rank = int(system.record.control.rank[0])
     if coordinates == "relative":
-        system, own = arrange(record, system, y, int(system.record.control.rank[0]), record.simulation)
+        system, own = arrange(record, system, y, rank, record.simulation)
+    elif coordinates in ROTATIONS:
+        path = path_of("absolute", "lagrange", coordinates)
+        assert path is not None
+        kernels = import_module(path.module)
+        if coordinates == "euler-parameters":
+            system, own = parameters.arrange(record, system, y, rank, record.simulation)
+        else:
+            system, own = arranged(system.known_rank(rank), y, *anywhere(coordinates, system.body_count, y, rng))
+        system.record.coordinates.reference[:] = prepared.absolute.system.record.coordinates.reference
     states = len(system.record.elements.state)
     own[len(own) - 2 - states : -2] = 1e-4 * rng.uniform(-1, 1, states)
     # bodies that beams carry have no accelerations but by the residual
     wanted = Wanted(balance=len(system.record.tree.slider) > 0)
-    motion = equip(MotionEquations(system, kernels), own, coordinates, wanted)
+    of_bodies = "relative" if coordinates == "relative" else "absolute"
+    motion = equip(MotionEquations(system, kernels), own, of_bodies, wanted, path)
     return SimpleNamespace(
         record=record,
         prepared=prepared,
@@ -58,6 +78,30 @@ def at_state(record, prepared, coordinates, y, rng):
         rows=len(motion.system.record.residual.row),
         **explicit(motion, own, system.positions, states),
     )
+
+
+def anywhere(rotations, count, y, rng):
+    """Kind, A(φ) and A(body) as Euler parameters, φ and φ̇ of so many bodies in a state of absolute coordinates, φ anywhere regular."""
+    body = Rotation.from_quat(rng.standard_normal((count, 4)))
+    omega = np.einsum(
+        "bij,bj->bi", body.as_matrix().reshape(count, 3, 3), y[7 * count : 13 * count].reshape(count, 6)[:, 3:]
+    )
+    phi = rng.uniform(-2.0, 2.0, (count, 3))
+    if rotations == "euler-angles":
+        phi[:, 1] = rng.uniform(0.5, 2.5, count)
+    start = Rotation.from_euler("ZXZ", phi) if rotations == "euler-angles" else Rotation.from_rotvec(phi)
+    rates = [np.linalg.solve(transformation(rotations, each), w) for each, w in zip(phi, omega, strict=True)]
+    kind = EULER_ANGLES if rotations == "euler-angles" else ROTATION_VECTOR
+    first, second = (each.as_quat(scalar_first=True).reshape(count, 4) for each in (start, body))
+    return kind, first, second, phi, np.array(rates).reshape(count, 3)
+
+
+def transformation(rotations, phi):
+    """Ḡ of ω̄ = Ḡ φ̇; of angles z, x, z its columns are their axes as the turned frame sees them."""
+    if rotations == "rotation-vector":
+        return tangent_of_vector(phi)
+    last, middle = Rotation.from_euler("Z", phi[2]).inv(), Rotation.from_euler("X", phi[1]).inv()
+    return np.column_stack([(last * middle).apply([0, 0, 1]), last.apply([1, 0, 0]), [0, 0, 1]])
 
 
 def explicit(motion, y, positions, states):

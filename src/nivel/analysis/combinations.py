@@ -53,12 +53,6 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
     if facts is None or not facts.residual:
         return faults
     name = f"`integrator: {settings.integrator}`"
-    if settings.formulation == "lagrange":
-        message = (
-            f"'lagrange' does not go with {name}, which has the exact tangents of angular velocities and small turns, not of rotation "
-            f"parameters and their rates: take newton-euler, whose motion is the same"
-        )
-        faults.append(_fault("formulation", message))
     if facts.whole:
         return faults + _refuse_beside_whole_steps(settings, coordinates)
     if settings.stabilisation == "baumgarte" and settings.baumgarte is None and facts.rates and not facts.chooses_steps:
@@ -80,6 +74,12 @@ def _refuse_beside_whole_steps(settings: SimulationSettings, coordinates: str) -
         message = (
             f"'{settings.formulation}' does not go with {name}, whose multipliers close the positions: take newton-euler, whose motion is "
             f"the same"
+        )
+        faults.append(_fault("formulation", message))
+    if settings.formulation == "lagrange":
+        message = (
+            f"'lagrange' does not go with {name}, which balances momenta along angular velocities, not along rates of rotation "
+            f"coordinates: take newton-euler, whose motion is the same"
         )
         faults.append(_fault("formulation", message))
     if coordinates != "absolute":

@@ -88,8 +88,8 @@ def compile_path(
         import_module(module)
     if asks and integrator in INTEGRATORS and facts is not None and facts.residual:
         residual = INTEGRATORS[integrator].over_step(machine.is_flexible) or facts.residual
-        whole = bool(INTEGRATORS[integrator].whole) or INTEGRATORS[integrator].along
-        _compile_derivatives(residual, [module for module, _ in parts], listener, held=not whole)
+        plain = bool(INTEGRATORS[integrator].whole) or INTEGRATORS[integrator].along or path[1] == "lagrange"
+        _compile_derivatives(residual, [module for module, _ in parts], listener, held=not plain)
     return perf_counter() - begin
 
 

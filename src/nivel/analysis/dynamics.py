@@ -199,7 +199,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
             accelerations=integrator.accelerations,
             compliance=prepared.system.record.saddle.shift if FORMULATIONS[formulation].factor > 0.0 else None,
         )
-        prepared = equip(prepared, y, coordinates, wanted)
+        prepared = equip(prepared, y, coordinates, wanted, facts)
     return Prepared(facts, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator, machine.beams)
 
 

@@ -86,25 +86,32 @@ def constraint_index(formulation: str, stabilisation: str, path: PathFacts) -> i
     return 1 if FORMULATIONS[formulation].factor > 0.0 or stabilisation == "baumgarte" else 3
 
 
-def equip(motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted = INSTANT) -> MotionEquations:
+def equip(
+    motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted = INSTANT, path: PathFacts | None = None
+) -> MotionEquations:
     """The same equations, with the residual of implicit methods, its derivatives, and the record of its complex twin.
 
+    path : where they are; None: those of newton-euler in these coordinates.
     Of redundant constraints those rows stay that say something new at the state y of the start:
     with the others the matrix would be singular.
     """
     rows = len(motion.system.record.saddle.row)
-    whole = _with_rows(motion, y, coordinates, wanted, np.arange(rows))
+    if path is None:
+        flexible = len(motion.system.record.flexible.body) > 0
+        path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=flexible)
+        assert path is not None
+    whole = _with_rows(motion, y, coordinates, wanted, path, np.arange(rows))
     rank = int(motion.system.record.control.rank[0])
     if rank == rows:
         return whole
     if wanted.whole:
-        whole = _with_rows(motion, y, coordinates, INSTANT, np.arange(rows))
+        whole = _with_rows(motion, y, coordinates, INSTANT, path, np.arange(rows))
     residual = whole.system.record.residual
     residual.y[:] = y
     _, tangent = find_tangent(whole, 0.0, 1.0, 1.0, 1.0)
     first = len(tangent) - len(residual.lam)
     kept = _independent(tangent[first : first + rows, : len(residual.vdot)], rank)
-    return _with_rows(motion, y, coordinates, wanted, kept)
+    return _with_rows(motion, y, coordinates, wanted, path, kept)
 
 
 def _independent(C_q: Array, rank: int) -> Index:
@@ -116,7 +123,9 @@ def _independent(C_q: Array, rank: int) -> Index:
     return np.sort(order[:rank])
 
 
-def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted, kept: Index) -> MotionEquations:
+def _with_rows(
+    motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted, path: PathFacts, kept: Index
+) -> MotionEquations:
     """With the rows `kept` of those of the saddle."""
     system = motion.system
     record, positions = system.record, system.positions
@@ -151,8 +160,10 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
     mirrored = wanted.free is None and not len(system.frictions)
     groups = unknown_groups(system, velocities, row, part, coordinates)
     # residuals over a whole step have elements of beams act at the mean place too
-    # and by hand nothing is known of modes that move nodes of beams, nor of beams that move nodes of others
-    by_hand = not (wanted.whole or wanted.along or has_carried_nodes(record)) and has_elastic_beams(record)
+    # and by hand nothing is known of rotation coordinates, of modes that move nodes of beams, nor of beams that move nodes of others
+    by_rates = coordinates == "absolute" and len(system.map.turns) == 0
+    unknown = wanted.whole or wanted.along or by_rates or has_carried_nodes(record)
+    by_hand = not unknown and has_elastic_beams(record)
     plain = plain_nodes(system, part) if by_hand else {}
     plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values(), stages=3 if wanted.shifted else 0)
     place = places(system.map, velocities, positions)
@@ -166,8 +177,6 @@ def _with_rows(motion: MotionEquations, y: Array, coordinates: str, wanted: Want
         place, len(y), states, len(row) + len(stiction), plan, wanted.corners, length=system.size, **room
     )
     newton.settings[3] = ROUNDINGS * _longest_chain(record)
-    path = path_of(coordinates, "newton-euler", "euler-parameters", flexible=len(record.flexible.body) > 0)
-    assert path is not None
     family = import_module(wanted.whole or path.residual).residual
     instant = import_module(path.residual).residual if wanted.balance else family
     hooks = record.hooks._replace(address=record.hooks.address.copy())

@@ -25,7 +25,8 @@ def unknown_groups(
     joint velocities as one), states of forces, joints, efforts of frictions with stiction."""
     record = system.record
     states, stiction = len(record.elements.state), frictions_with_stiction(system)
-    owners = [system.row_owner[k] for k in row]
+    normalised = {f"{name}.euler_parameters": body for body, name in enumerate(system.bodies)}
+    owners = [system.row_owner[k] if k < system.machine_rows else system.rows[k] for k in row]
     joints = list(dict.fromkeys(owners))
     if coordinates == "relative" and not system.frictions:
         return _groups_of_tree(system, row, part)
@@ -36,10 +37,13 @@ def unknown_groups(
     count = system.body_count
     modes = [int(last - first) for first, last in record.flexible.mode]
     moving = count + len(modes)
-    sizes = [*[6] * count, *modes, *[1] * states, *(owners.count(joint) for joint in joints), *[1] * len(stiction)]
+    velocities_of_body = [system.equations.velocities] * count
+    of_joints = [owners.count(joint) for joint in joints]
+    sizes = [*velocities_of_body, *modes, *[1] * states, *of_joints, *[1] * len(stiction)]
     constraint = [k >= moving + states for k in range(len(sizes))]
     number = {joint: moving + states + k for k, joint in enumerate(joints)}
     couples = {(body, count + f) for f, body in enumerate(record.flexible.body.tolist())}
+    couples |= {(normalised[system.rows[k]], number[system.rows[k]]) for k in row if k >= system.machine_rows}
     bodies_of: dict[int, set[int]] = {}
     rows_of: dict[int, set[int]] = {}
     for k, _, _, body in part.tolist():

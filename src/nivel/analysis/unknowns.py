@@ -6,8 +6,8 @@ from __future__ import annotations
 from nivel.kernels.record import MODAL
 from nivel.system.system import System
 
-DIRECTIONS = ("x of its position", "y of its position", "z of its position", "its turn about its x axis", "its turn about its y axis",
-              "its turn about its z axis")  # fmt: skip
+POSITIONS = tuple(f"{axis} of its position" for axis in "xyz")
+TURNS = tuple(f"its turn about its {axis} axis" for axis in "xyz")
 
 
 def unknown_name(system: System, number: int) -> str:
@@ -21,9 +21,12 @@ def unknown_name(system: System, number: int) -> str:
     if number >= n:
         return "the state of a friction"
     if not len(record.tree.node):
-        if number >= 6 * system.body_count:
-            return f"the mode {system.modes[number - 6 * system.body_count]}"
-        return f"{system.bodies[number // 6]}, {DIRECTIONS[number % 6]}"
+        width = system.equations.velocities
+        if number >= width * system.body_count:
+            return f"the mode {system.modes[number - width * system.body_count]}"
+        rates = tuple(f"its rotation coordinate {k}" for k in range(1, width - 2))
+        directions = POSITIONS + (TURNS if len(system.map.turns) else rates)
+        return f"{system.bodies[number // width]}, {directions[number % width]}"
     of_node = next(node for node in record.tree.node.tolist() if node[4] <= number < node[5])
     child, _, kind, joint, first, last = of_node
     if kind == MODAL:

@@ -50,10 +50,10 @@ class Rotations(NamedTuple):
     body: F2  # (B, 4) Euler parameters, constant: the body axes in those that φ turns
     turned_b: F3  # (B, 3, 3) columns are the axes that φ turns, in body axes: A(body)ᵀ
     # work
-    theta: F2  # (B, 4) Euler parameters of A(φ)
-    G: F3  # (B, 3, 3) Ḡ: ω̄ = Ḡ φ̇
-    bias: F2  # (B, 3) [rad/s²] Ḡ̇ φ̇
-    regularity: F1  # (B,) distance from the first singular position of the coordinates, zero there
+    theta: W2  # (B, 4) Euler parameters of A(φ)
+    G: W3  # (B, 3, 3) Ḡ: ω̄ = Ḡ φ̇
+    bias: W2  # (B, 3) [rad/s²] Ḡ̇ φ̇
+    regularity: W1  # (B,) distance from the first singular position of the coordinates, zero there
 
 
 class Markers(NamedTuple):

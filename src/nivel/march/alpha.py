@@ -1,9 +1,9 @@
 """Newmark's method, HHT-α and generalised-α, on rotations as a Lie group (Brüls, Cardona, Arnold 2012), as index 3, as stabilised
 index 2, as index 1 or in independent coordinates; constants: `nivel.march.alpha_constants`.
 
-The positions of a step are base ∘ exp(h v₀ + h² (…)), so Euler parameters stay of unit length and no frame is special. Where a function
-of time has a known corner a step is done in two parts that meet there, each with accelerations of its own side; the steps between frames
-stay what they are.
+The positions of a step are base ∘ exp(h v₀ + h² (…)), so Euler parameters stay of unit length and no frame is special. Rotation coordinates
+of the Lagrange equations, and joint coordinates, move as vectors. Where a function of time has a known corner a step is done in two parts
+that meet there, each with accelerations of its own side; the steps between frames stay what they are.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
     q = base ∘ exp(turn + cq v̇ + correction)        v = speed + cv v̇        x = state + cx ẋ
 
+Positions whose rates are velocities, rotation coordinates among them, are base + turn + cq v̇ + correction.
+
 In independent coordinates these formulas of the method hold for the independent velocities, and for what these move, alone: all other
 positions, velocities and accelerations follow from C = 0, Ċ = 0 and C̈ = 0. A body of which some turns are dependent stands where the
 formula puts it, but for a small turn about its dependent axes.

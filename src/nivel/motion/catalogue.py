@@ -39,7 +39,12 @@ _ABSOLUTE = PathFacts(
     "nivel.system.states.absolute",
     "nivel.motion.newton_euler_residual",
 )
-_PARAMETERS = PathFacts("nivel.motion.lagrange", "nivel.motion.lagrange_correction", "nivel.system.states.parameters")
+_PARAMETERS = PathFacts(
+    "nivel.motion.lagrange",
+    "nivel.motion.lagrange_correction",
+    "nivel.system.states.parameters",
+    "nivel.motion.lagrange_residual",
+)
 _INDEPENDENT = PathFacts(
     "nivel.motion.independent",
     "nivel.motion.independent",
@@ -48,7 +53,12 @@ _INDEPENDENT = PathFacts(
     "nivel.motion.dependent",
 )
 _ANGLES, _VECTOR = (
-    PathFacts("nivel.motion.lagrange_three", "nivel.motion.lagrange_three_correction", f"nivel.system.states.{kind}")
+    PathFacts(
+        "nivel.motion.lagrange_three",
+        "nivel.motion.lagrange_three_correction",
+        f"nivel.system.states.{kind}",
+        "nivel.motion.lagrange_three_residual",
+    )
     for kind in ("euler_angles", "rotation_vector")
 )
 
@@ -69,12 +79,14 @@ _FLOATING_PARAMETERS = PathFacts(
     "nivel.motion.floating_lagrange",
     "nivel.motion.floating_lagrange_correction",
     "nivel.system.states.floating_parameters",
+    "nivel.motion.floating_lagrange_residual",
 )
 _FLOATING_ANGLES, _FLOATING_VECTOR = (
     PathFacts(
         "nivel.motion.floating_lagrange_three",
         "nivel.motion.floating_lagrange_three_correction",
         f"nivel.system.states.floating_{kind}",
+        "nivel.motion.floating_lagrange_three_residual",
     )
     for kind in ("euler_angles", "rotation_vector")
 )

@@ -9,6 +9,7 @@ the Newton–Euler equations, and so are the multipliers. Ḡ appears where the 
 from __future__ import annotations
 
 from nivel.kernels import euler_angles, rotation_vector
+from nivel.kernels.analytic import real
 from nivel.kernels.compile import entry, leaf, stage
 from nivel.kernels.record import EULER_ANGLES, correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import set_axes
@@ -68,7 +69,7 @@ def find_singular(machine):
     """ROTATION_SINGULAR where the coordinates of a body are near a singular position."""
     record = record_at(machine)
     for b in range(record.bodies.mass.shape[0]):
-        if record.rotations.regularity[b] < SINGULAR:
+        if real(record.rotations.regularity[b]) < SINGULAR:
             record.control.failure[0] = b
             return ROTATION_SINGULAR
     return OK

@@ -90,7 +90,10 @@ def parts_of(record: Record, relative: bool) -> Index:
         return index_array([entry for entry in record.tree.part.tolist() if entry[0] < len(record.saddle.row)], 4)
     blocks, bodies = record.saddle.block[: int(record.saddle.blocks[0])].tolist(), len(record.bodies.mass)
     # what is on a frame at an interface of a flexible body acts there; blocks behind the bodies are those of modes
-    return index_array([(row, part, m, record.markers.body[m]) for row, part, m, body in blocks if body < bodies], 4)
+    # and those without a part of C_q are normalisations
+    return index_array(
+        [(row, part, m, record.markers.body[m]) for row, part, m, body in blocks if body < bodies and part != NONE], 4
+    )
 
 
 def places(state_map: StateMap, velocities: int, positions: int) -> Index:

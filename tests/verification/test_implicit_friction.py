@@ -342,6 +342,18 @@ def test_machine_with_every_element_runs_as_with_an_explicit_method(integrator, 
     assert errors[-1] < 0.4 * errors[0] < 1e-2, errors
 
 
+@pytest.mark.parametrize("integrator", ["generalised-alpha", "ros2", "radau"])
+@pytest.mark.parametrize("rotations", ["euler-parameters", "euler-angles", "rotation-vector"])
+def test_in_rotation_coordinates_friction_is_the_same(integrator, rotations):
+    """The loop with two frictions as Lagrange equations, whose normalisations stand between the rows of joints and of efforts."""
+    steps = {"integrator": integrator, "step": 1e-3, "tolerance": 1e-6}
+    same = rubbing_crank(coordinates="absolute", **steps)
+    r = rubbing_crank(coordinates="absolute", formulation="lagrange", rotations=rotations, **steps)
+    # the same law in other unknowns: by the error of the steps
+    np.testing.assert_allclose(r.array("hinge.angle"), same.array("hinge.angle"), atol=1e-3)
+    assert np.abs(r.array("energy_error")).max() < 10 * np.abs(same.array("energy_error")).max() + 1e-9
+
+
 def test_balances_over_whole_steps_refuse_it():
     settings = {"integrator": "energy-momentum", "coordinates": "absolute", "stabilisation": "none", "step": 1e-3}
     with pytest.raises(ModelError, match="'stiction' does not go with `integrator: energy-momentum`"):

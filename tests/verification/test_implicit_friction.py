@@ -354,6 +354,35 @@ def test_in_rotation_coordinates_friction_is_the_same(integrator, rotations):
     assert np.abs(r.array("energy_error")).max() < 10 * np.abs(same.array("energy_error")).max() + 1e-9
 
 
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("integrator", ["rk4", "generalised-alpha"])
+def test_friction_of_a_prescribed_motion_acts_against_it(integrator, coordinates):
+    """What a driver turns no effort moves: friction is -μ N r all the time, and the driver makes up for it."""
+    links = {"a": solid(position=[0.5, 0, 0]), "b": solid(position=[1.5, 0, 0])}
+    pivots = {"main": ("ground", "a", 0), "pin": ("a", "b", 1)}
+    joints = {
+        name: {"type": "revolute", "bodies": [first, second], "point": [x, 0, 0], "axis": [0, 0, 1]}
+        for name, (first, second, x) in pivots.items()
+    }
+    rub = {"type": "friction", "coordinate": "pin", "coefficient": 0.5, "model": "stiction", "radius": 0.1}
+    sections = {
+        "bodies": links,
+        "joints": joints,
+        "drivers": {"turn": {"coordinate": "pin", "value": "10*time"}},
+        "forces": {"rub": {**rub, "normal_load": 100}},
+    }
+    r = simulate(sections, integrator=integrator, coordinates=coordinates, duration=0.5, step=1e-3)
+    np.testing.assert_allclose(r.array("force.rub.magnitude"), -5.0, rtol=1e-12)
+
+
+@pytest.mark.parametrize("integrator", ["generalised-alpha", "radau"])
+def test_regularised_friction_of_a_fast_block(integrator):
+    """Sliding at 700 times the transition speed, where tanh of complex numbers overflows: it stops at v0²/(2 μ g)."""
+    sections = sled({"model": "coulomb", "transition_speed": 1e-3}, 0.7)
+    r = simulate(sections, integrator=integrator, duration=0.5, step=1e-3)
+    assert abs(r.array("rail.displacement")[-1] - 0.49 / (2 * MU * G)) < 1e-3
+
+
 def test_balances_over_whole_steps_refuse_it():
     settings = {"integrator": "energy-momentum", "coordinates": "absolute", "stabilisation": "none", "step": 1e-3}
     with pytest.raises(ModelError, match="'stiction' does not go with `integrator: energy-momentum`"):

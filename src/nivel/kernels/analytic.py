@@ -48,6 +48,12 @@ def minimum(x, y):
 
 
 @leaf
+def tanh(x):
+    """np.tanh, which is ±1 to round-off from 20 on and on complex numbers overflows from 355 on."""
+    return np.tanh(minimum(maximum(x, -40.0), 40.0))
+
+
+@leaf
 def power(x, y):
     """x ** y. Through a logarithm, as the power of complex numbers is, a negative x would leave round-off of the size of the result in
     place of the derivative: y x**(y - 1) along x, log x x**y along y."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import absolute
+from nivel.kernels.analytic import absolute, tanh
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
@@ -36,6 +36,8 @@ TOLERANCE, ENOUGH = 1e-12, 1e-7
 ANCHOR = 1e-3
 # What an effort moves counts for no more than this times what it would move of the two bodies without their other joints.
 BOUND = 1e3
+# S_kk as this share of 1/m is round-off: the motion is prescribed.
+PRESCRIBED = 1e-7
 # Rate of relaxation of the bristles times two steps: beyond it RK4 is unstable (2.78 a step).
 FASTEST = 5.5
 
@@ -185,11 +187,18 @@ def sliding_effort(machine, k):
     load = normal_load(machine, k) * n[ARM]
     viscous = n[VISCOUS] * rate
     if friction.columns[k, MODEL] == COULOMB:
-        return -coefficient(n, speed) * np.tanh(speed / n[TRANSITION]) * load - viscous
+        return -coefficient(n, speed) * tanh(speed / n[TRANSITION]) * load - viscous
     z = record.elements.state[friction.columns[k, STATE]]
     zdot = speed - relaxation(machine, k) * z
     record.elements.state_rate[friction.columns[k, STATE]] = zdot
     return -(n[STIFFNESS] * z + n[DAMPING] * zdot) * load - viscous
+
+
+@stage
+def yielding(friction, k):
+    """S_kk, or of a motion that is prescribed, which no effort changes, so much more that friction acts against its rate."""
+    own = friction.S[k, k]
+    return own if own * friction.mass[k] > PRESCRIBED else 1.0 / friction.mass[k]
 
 
 @stage
@@ -207,7 +216,7 @@ def effort(machine, k, tau, anchor):
     for other in range(friction.columns.shape[0]):
         if other != k:
             acceleration += friction.S[k, other] * friction.force[other]
-    wanted = (anchor * friction.anchor[k] - acceleration / friction.S[k, k]) / (1.0 + anchor) + viscous
+    wanted = (anchor * friction.anchor[k] - acceleration / yielding(friction, k)) / (1.0 + anchor) + viscous
     largest = coefficient(n, rate * n[ARM]) * normal_load(machine, k) * n[ARM]
     return min(max(wanted, -largest), largest) - viscous
 

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 # functions of math and numpy: the numpy function that is analytic itself
 PLAIN = {
-    **{name: name for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")},
+    **{name: name for name in ("sin", "cos", "tan", "sinh", "cosh", "exp", "log", "sqrt")},
     **{f"a{name}": f"arc{name}" for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh")},
     **{f"arc{name}": f"arc{name}" for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh")},
 }
@@ -24,6 +24,7 @@ BRANCHING = {
     **dict.fromkeys(("max", "maximum"), "maximum"),
     **dict.fromkeys(("pow", "power"), "power"),
     "hypot": "hypot",
+    "tanh": "tanh",
     "copysign": "copysign",
 }
 BUILT_IN = ("abs", "min", "max", "pow")
@@ -31,7 +32,7 @@ BUILT_IN = ("abs", "min", "max", "pow")
 STEPS = ("floor", "ceil", "trunc")
 COUNTING = ("range", "len")
 CONSTANTS = ("pi", "e", "tau", "inf", "nan")
-HELPERS = ("absolute", "arctan2", "copysign", "hypot", "maximum", "minimum", "modulo", "power", "real")
+HELPERS = ("absolute", "arctan2", "copysign", "hypot", "maximum", "minimum", "modulo", "power", "real", "tanh")
 PREFIX = "_nivel_"
 NUMPY = f"{PREFIX}numpy"
 

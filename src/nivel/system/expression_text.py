@@ -16,7 +16,15 @@ SPELLING = {
     "min": "np.minimum",
     "max": "np.maximum",
 }
-ANALYTIC = {**SPELLING, "atan2": "arctan2", "min": "minimum", "max": "maximum", "abs": "absolute", "**": "power"}
+ANALYTIC = {
+    **SPELLING,
+    "atan2": "arctan2",
+    "min": "minimum",
+    "max": "maximum",
+    "abs": "absolute",
+    "tanh": "tanh",
+    "**": "power",
+}
 
 
 def motion_lines(expression: Expression, spelling: Mapping[str, str]) -> str:

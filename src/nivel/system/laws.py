@@ -60,7 +60,7 @@ COMPLEX_EXPRESSION = '''"""A function written by nivel from an expression of a m
 import numpy as np
 from numba import cfunc, types
 
-from nivel.kernels.analytic import absolute, arctan2, maximum, minimum, power
+from nivel.kernels.analytic import absolute, arctan2, maximum, minimum, power, tanh
 
 
 @cfunc(types.complex128(types.CPointer(types.complex128)), cache=True, error_model="numpy")

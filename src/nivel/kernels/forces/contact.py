@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import maximum, real
+from nivel.kernels.analytic import maximum, real, tanh
 from nivel.kernels.compile import stage
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.push import push_point
@@ -88,7 +88,7 @@ def touch(machine, k, n, depth):
     speed = np.sqrt(s0 * s0 + s1 * s1 + s2 * s2)
     friction = 0.0 * force
     if real(numbers[FRICTION]) > 0.0 and real(speed) > 0.0:
-        friction = numbers[FRICTION] * force * np.tanh(speed / numbers[TRANSITION])
+        friction = numbers[FRICTION] * force * tanh(speed / numbers[TRANSITION])
         s0, s1, s2 = friction * s0 / speed, friction * s1 / speed, friction * s2 / speed
         control.power[1] += friction * speed
     else:

@@ -57,9 +57,8 @@ WORTH, AFTER_FAILURE = 1.3, 0.5
 FREE, HELPS, MOST_PATIENCE = (SAFETY / WORTH) ** 2, 0.5, 1024.0
 # A step held for so long is tried with LEAP, its square and its cube times its length, each time after twice as long.
 LEAST_HELD, LEAP, MOST_LEAPS = 16.0, 10.0, 30.0
-# entries of run.numbers: steps since errors were filtered, after how many they are again; steps no longer than WORTH times a length, that
-# length, leaps tried
-UNFILTERED, PATIENCE, HELD, HELD_LENGTH, LEAPS = 9, 10, 11, 12, 13
+# entries of run.numbers: steps since errors were filtered, after how many they are again; steps of the same length, leaps tried
+UNFILTERED, PATIENCE, HELD, LEAPS = 9, 10, 11, 12
 # What the iteration leaves, as a share of what a step may be wrong by: it must not look like an error of the step.
 CLOSE = 0.01
 
@@ -149,14 +148,14 @@ def controlled_step(evaluate, machine, history):
     fresh = is_fresh(run)
     enter_boldly(machine, history, 2.0, SHARE * clock[TOLERANCE])
     if fresh:
-        c[UNFILTERED], c[PATIENCE], c[HELD], c[HELD_LENGTH], c[LEAPS] = 0.0, 1.0, 0.0, 0.0, 0.0
+        c[UNFILTERED], c[PATIENCE], c[HELD], c[LEAPS] = 0.0, 1.0, 0.0, 0.0
     # a step that has been held for long is tried with a multiple of it
     leap = c[HELD] >= LEAST_HELD * 2.0 ** (c[LEAPS])
     usual = clock[STEP]
     if leap:
         clock[STEP] *= LEAP ** (1.0 + c[LEAPS] % 3.0)
         bound_step(machine, run)
-        c[HELD], c[HELD_LENGTH] = 0.0, usual
+        c[HELD] = 0.0
         c[LEAPS] = min(c[LEAPS] + 1.0, MOST_LEAPS)
     status, error = OK, 0.0
     while True:
@@ -185,12 +184,11 @@ def controlled_step(evaluate, machine, history):
             if error > 1.0:
                 factor = factor_after_rejection(OK, error, 2.0)
         reject(run, h, factor)
-        if leap and clock[STEP] < LEAP * usual:
+        if leap:
             clock[STEP], leap = usual, False
         newton.kept[0] = 0.0
-    if (leap and h > usual) or h * LEAP < c[HELD_LENGTH]:
-        # a leap that succeeded, or steps that have become so short that what was tried before says nothing
-        c[LEAPS], c[HELD], c[HELD_LENGTH] = 0.0, 0.0, h
+    if leap and h > usual:
+        c[LEAPS] = 0.0
     keep_step(machine, run, h, corner < np.inf)
     growth = SAFETY * max(error, 1e-4) ** -0.5
     c[HELD] += 1.0
@@ -198,8 +196,7 @@ def controlled_step(evaluate, machine, history):
         status = end_at_corner(evaluate, machine, history, clock[REACHED], fresh)
     elif growth >= WORTH:
         clock[STEP] = h * min(growth, MOST_CHANGE)
-        if clock[STEP] > WORTH * c[HELD_LENGTH]:
-            c[HELD], c[HELD_LENGTH] = 0.0, clock[STEP]
+        c[HELD] = 0.0
     return status
 
 

@@ -56,6 +56,8 @@ CQ, CV, CX, CONTRACTION = 0, 1, 2, 3
 TOLERANCE, MOST, FULL, ROUNDINGS = 0, 1, 2, 3
 # Changes that contract by less have stopped getting smaller; a matrix with which they once contracted by as much is a good one.
 STALLED, GOOD = 0.5, 0.1
+# Changes below this share of the scales lead to no other solution.
+FAR = 1e-4
 # A change of the effort of a friction counts as this share of it.
 CLOSE = 1e-4
 # samples of the round-off of the equations of motion, and how many times their mean size it may have
@@ -306,8 +308,8 @@ def iterate(machine, history, t, cq, cv, cx, tolerance, others):
         find_change(machine, cq, cv)
         size = size_of_change(machine, run.scale, cq, cv, cx)
         contraction = size / last if last < np.inf else (1.0 if steep else newton.kept[CONTRACTION])
-        # changes that once became smaller may stop to at round-off
-        lost = best > GOOD
+        # small changes, and those that once became smaller, may stop to at round-off
+        lost = best > GOOD and size > FAR
         astray = last < np.inf and not contraction <= (SLOW if inherited and lost else GROWTH)
         if astray and lost and others:
             newton.kept[CQ] = 0.0

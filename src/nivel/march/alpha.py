@@ -14,14 +14,8 @@ from nivel.kernels.compile import entry, leaf
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 from nivel.march.alpha_error import SHARE, filtered_error, part_of, plain_error
-from nivel.march.alpha_step import (
-    RATE,
-    attempt,
-    go_on_beyond,
-    keep_step,
-    refresh,
-    start,
-)
+from nivel.march.alpha_start import go_on_beyond, start
+from nivel.march.alpha_step import RATE, attempt, keep_step, refresh
 from nivel.march.corners import before, is_near, next_corner, pass_corner
 from nivel.march.dense import cubic, wanted
 from nivel.march.residual_newton import TOLERANCE as NEWTON_TOLERANCE

@@ -7,18 +7,18 @@ import numpy as np
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, RESIDUAL, record_at
-from nivel.kernels.residual import known_multiplier
 from nivel.kernels.status import NOT_CONVERGED, OK, SINGULAR
 from nivel.kernels.tree import has_passed
-from nivel.march.corners import before, jump_at
 from nivel.march.residual_newton import iterate
-from nivel.march.run import EVALUATIONS, RESTART, run_at
+from nivel.march.run import run_at
 
 # entries of run.numbers: the constants; the step before, 0 after a start (then BEFORE is what it would have been a step earlier)
 ALPHA_M, ALPHA_F, BETA, GAMMA, DELTA_M, DELTA_F, THETA = 0, 1, 2, 3, 4, 5, 6
 LAST_STEP = 7
 # 1 where accelerations went on to change in the last step as in the one before
 GOES_ON = 8
+# 1 where accelerations have been begun with anew without what decays within a step: those of the state are not to be taken
+SMOOTHED = 13
 # rows of run.stages: a and v̇ of the accepted state, w and ẋ; v̇ and ẋ of the state before; work; rate at the begin of the step
 A, VDOT, W, XDOT, BEFORE, AHEAD, RATE = 0, 1, 2, 3, 4, 5, 6
 # In independent coordinates accelerations are what the iteration leaves them, step for step, so it ends at this share of its tolerance, but
@@ -26,40 +26,6 @@ A, VDOT, W, XDOT, BEFORE, AHEAD, RATE = 0, 1, 2, 3, 4, 5, 6
 CLOSER, ROUND = 0.01, 1e-13
 # A part of a step cut at a corner that is shorter than this share of the step before says nothing of the changes of accelerations.
 SHORT = 0.1
-# a difference over this share of a step gives v̈ of the start to half the digits
-DIFFERENCE = 1e-4
-# Corners nearer to each other than so many of it are one.
-NEXT = 10.0
-
-
-@leaf
-def start(evaluate, machine, history, t, h):
-    """Accelerations, rates and multipliers of the state run.y at time t, whose rate is run.rate.
-
-    a approximates v̇ at t + (α_m - α_f) h (Arnold, Brüls, Cardona 2015): a start with v̇ itself would cost the multipliers of the first
-    steps an order.
-    """
-    run, record = run_at(history), record_at(machine)
-    newton, residual, c, stages = record.newton, record.residual, run.numbers, run.stages
-    n, states = residual.vdot.shape[0], newton.state.shape[0]
-    positions = np.int64(run.y.shape[0]) - n - states - 2
-    for k in range(residual.lam.shape[0]):
-        newton.lam[k] = known_multiplier(record, k)
-    ahead = DIFFERENCE * h
-    for i in range(run.y.shape[0]):
-        run.trial[i] = run.y[i] + ahead * run.rate[i]
-    status = evaluate(machine, t + ahead, run.trial, stages[AHEAD])
-    run.counter[EVALUATIONS] += 1
-    for k in range(n + states):
-        rate = run.rate[positions + k]
-        slope = (stages[AHEAD, positions + k] - rate) * h / ahead if status == OK else 0.0
-        stages[BEFORE, k] = rate - slope
-        if k < n:
-            stages[VDOT, k], stages[A, k] = rate, rate + (c[ALPHA_M] - c[ALPHA_F]) * slope
-        else:
-            stages[XDOT, k - n], stages[W, k - n] = rate, rate + (c[DELTA_M] - c[DELTA_F]) * slope
-    newton.kept[0], c[LAST_STEP], c[GOES_ON] = 0.0, 0.0, 1.0
-    run.counter[RESTART] = 0
 
 
 @stage
@@ -70,6 +36,9 @@ def refresh(machine, run):
     would alternate for ever. a becomes what `keep_step` would have made of these accelerations. Efforts with stiction stay as they are:
     where several hold one motion the evaluation may share it out otherwise.
     """
+    if run.numbers[SMOOTHED] == 1.0:
+        run.numbers[SMOOTHED] = 0.0
+        return
     record = record_at(machine)
     newton, residual = record.newton, record.residual
     n, states = residual.vdot.shape[0], newton.state.shape[0]
@@ -271,71 +240,3 @@ def keep_step(machine, run, h, is_part):
     # energies: the trapezoidal rule
     for i in range(2):
         run.y[last + i] += 0.5 * h * (run.rate[last + i] + record.control.power[i])
-
-
-@stage
-def add_jump(machine, run, sign):
-    """Add `sign` times the rate in run.scratch to the accelerations and rates of the accepted state, and the multipliers of the record."""
-    record = record_at(machine)
-    newton, residual, stages = record.newton, record.residual, run.stages
-    n, states = residual.vdot.shape[0], newton.state.shape[0]
-    positions = np.int64(run.y.shape[0]) - n - states - 2
-    for k in range(n + states):
-        jump = sign * run.scratch[positions + k]
-        stages[BEFORE, k] += jump
-        if k < n:
-            stages[VDOT, k] += jump
-            stages[A, k] += jump
-        else:
-            stages[XDOT, k - n] += jump
-            stages[W, k - n] += jump
-    for k in range(residual.lam.shape[0]):
-        newton.lam[k] += sign * known_multiplier(record, k)
-        newton.lam_before[k] += sign * known_multiplier(record, k)
-
-
-@stage
-def add_slope(machine, run, share):
-    """Let accelerations and rates change by so much more in a step like the last: `share` of the difference of AHEAD and run.scratch."""
-    record = record_at(machine)
-    c, stages = run.numbers, run.stages
-    n, states = record.residual.vdot.shape[0], record.newton.state.shape[0]
-    positions = np.int64(run.y.shape[0]) - n - states - 2
-    for k in range(n + states):
-        gained = share * (stages[AHEAD, positions + k] - run.scratch[positions + k])
-        stages[BEFORE, k] -= gained
-        if k < n:
-            stages[A, k] += (c[ALPHA_M] - c[ALPHA_F]) * gained
-        else:
-            stages[W, k - n] += (c[DELTA_M] - c[DELTA_F]) * gained
-
-
-@leaf
-def go_on_beyond(evaluate, machine, history, t):
-    """Let accelerations and rates be those beyond a corner at time t, where speeds do not jump. Returns a status.
-
-    Corners next to each other are one, which is passed at the last of them: a jump of a load.
-    To what the method has for them comes the difference of both sides, at one state, of themselves and of their slopes. To begin anew with
-    those of the state would be wrong for stiff springs: the slope of their accelerations is ω² times the speed of vibrations that
-    the steps before have stepped over.
-    """
-    run = run_at(history)
-    last = run.numbers[LAST_STEP]
-    aside, status = DIFFERENCE * last, OK
-    begin, is_end = jump_at(machine, t, NEXT * aside)
-    if not is_end:
-        return OK
-    for sign in (-1.0, 1.0):
-        at = before(begin) if sign < 0.0 else t
-        if status == OK:
-            status = evaluate(machine, at, run.y, run.scratch)
-        if status == OK:
-            add_jump(machine, run, sign)
-            for i in range(run.y.shape[0]):
-                run.trial[i] = run.y[i] + sign * aside * run.scratch[i]
-            status = evaluate(machine, at + sign * aside, run.trial, run.stages[AHEAD])
-        if status == OK:
-            # backwards the difference is that of the slope with its sign changed, as it is to be taken away
-            add_slope(machine, run, last / aside)
-        run.counter[EVALUATIONS] += 2
-    return status

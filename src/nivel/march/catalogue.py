@@ -70,7 +70,7 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 34, 12, 72, chooses_steps=True, implicit=True),
     **{
         name: IntegratorFacts(
-            "nivel.march.alpha", "alpha", 12, 2, 13, implicit=True, residual=True, either=True, jumps=True, filters=True
+            "nivel.march.alpha", "alpha", 12, 2, 14, implicit=True, residual=True, either=True, jumps=True, filters=True
         )
         for name in ("newmark", "hht", "generalised-alpha")
     },

@@ -11,7 +11,7 @@ MASS, DAMPING, STEP = 2.0, 1e6, 1e-3
 METHODS = pytest.mark.parametrize("integrator", ["newmark", "hht", "generalised-alpha"])
 
 
-def block(*, speed=0.0, stiffness=0.0, damping=0.0, load=0.0):
+def block(*, speed=0.0, stiffness=0.0, damping=0.0, load: float | Table = 0.0):
     """A block on a rail along x."""
     return MachineRecord(
         name="block",

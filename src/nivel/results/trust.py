@@ -58,9 +58,10 @@ def assess(result: Readable, facts: Facts) -> Trust:
     speed, slowest = largest_speed(result), speed_of_rest(result, size)
     at_rest = speed < slowest
     speed = max(speed, slowest)
-    energy_scale, energy_scale_kind = largest_energy(result, size)
     energy = peak(result, "energy_error")
     violation, violation_units = worst_row(result, "constraint_violation", {"m": 1.0 / size, "1": 1.0})
+    opening = violation.value / size if violation_units == "m" else violation.value
+    energy_scale, energy_scale_kind = largest_energy(result, size, opening, at_rest)
     rate, rate_units = worst_row(result, "constraint_rate_violation", {"m": 1.0 / speed, "1": size / speed})
     lacking = facts.neglected
     trust = Trust(

@@ -64,15 +64,15 @@ def _free_path(result: Readable) -> float:
     """How far the loads would move the whole machine in the run if nothing balanced them [m]; 0 where its mass is not known."""
     mass = _mass(result)
     force = _weight(result) + _largest_load(result, 0.0)
-    return 0.5 * force / mass * _span(result) ** 2 if mass > 0.0 else 0.0
+    return 0.5 * force / mass * span(result) ** 2 if mass > 0.0 else 0.0
 
 
 def speed_of_rest(result: Readable, size: float) -> float:
     """Largest speed [m/s] of a machine that counts as at rest during the run; one frame alone counts as a second."""
-    return REST * size / _span(result)
+    return REST * size / span(result)
 
 
-def _span(result: Readable) -> float:
+def span(result: Readable) -> float:
     """Time between the first and the last frame [s]; a second for one frame alone."""
     time = result.time
     span = float(time[-1] - time[0]) if len(time) else 0.0
@@ -127,7 +127,7 @@ def _energy_of_rest(result: Readable, size: float, opening: float, at_rest: bool
     # loads of a machine that moves may be impacts, whose work is no measure of what it is solved for
     share = max(ENERGY_FLOOR, float(settings.get("tolerance", 0.0))) if at_rest else ENERGY_FLOOR
     work = size * _weight(result) + _largest_load(result, size)
-    travelling = 0.5 * _mass(result) * (size / _span(result)) ** 2
+    travelling = 0.5 * _mass(result) * (size / span(result)) ** 2
     # the solver closes joints to a share of a metre where all is one point
     closed = CLOSED * max(1.0, POINT_SIZE / size) if _extent(result, [slice(0, 1)]) == 0.0 else CLOSED
     return max(

@@ -126,6 +126,7 @@ class Trust:
     live to tell. modes : of flexible bodies, whose coordinates
     are freedoms that joints may take. neglected_share : the largest share of the mass matrix of a flexible body that is lacking because it
     moves without the inertia invariants `neglected_names`; None where none does. drivers : motions that are prescribed.
+    undetermined_efforts : results that are not unique while a friction and a driver hold a joint at rest together.
     """
 
     verdict: Verdict
@@ -159,6 +160,7 @@ class Trust:
     neglected_body: str = ""
     neglected_names: tuple[str, ...] = ()
     neglected_time: float | None = None
+    undetermined_efforts: tuple[str, ...] = ()
     items: tuple[Item, ...] = ()
 
     def to_json(self) -> str:
@@ -170,7 +172,7 @@ class Trust:
         """Read what `to_json` wrote; keys of later versions are passed over."""
         data = json.loads(text)
         data["items"] = tuple(Item(**_known(Item, each)) for each in data["items"])
-        for name in ("redundant_rows", "non_unique_joints", "neglected_names"):
+        for name in ("redundant_rows", "non_unique_joints", "neglected_names", "undetermined_efforts"):
             data[name] = tuple(data.get(name, ()))
         return cls(**_known(cls, data))
 

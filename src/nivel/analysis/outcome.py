@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.fast_beams import too_fast
+from nivel.analysis.growth import grown_motion
 from nivel.analysis.unknowns import unknown_name
 from nivel.kernels.status import (
     BRISTLE_TOO_FAST,
@@ -76,6 +77,9 @@ def failure(
             told = _no_solution(motion, number, time, step, y)
         elif told is None:
             told = (_not_converged if status == NOT_CONVERGED else _not_a_number)(motion, time, step, y)
+    if not chosen and (grown := grown_motion(motion, time, step, y)):
+        # what failed in the end failed because of that
+        told = too_fast(beams, step) or grown
     return f"stopped at t = {time:.6g} s: {told[0]}", told[1]
 
 

@@ -14,7 +14,6 @@ from nivel.system.system import Array, System
 GROWN, OF_WORK = 1e3, 0.1
 
 
-@np.errstate(over="ignore", invalid="ignore")
 def grown_motion(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str] | None:
     """(message, advice) where the last accepted state y has far more energy than anything gave it, in what is elastic too, and bodies that
     move by more than the length of the machine in a step of fixed size; None where it has not."""

@@ -35,6 +35,7 @@ NEAR_SINGULAR = 1e-6
 DRIFTED = 1e-2
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a state that may be beyond all bounds
 def failure(
     motion: MotionEquations,
     status: int,
@@ -165,7 +166,8 @@ def _jammed(name: str) -> tuple[str, str]:
     )
     advice = (
         f"Look at {name}: a smaller coefficient, a longer bearing_length or a smaller radius; or give its normal_load. "
-        f"With Coulomb friction and rigid bodies some positions have no solution (Painlevé)."
+        f"With Coulomb friction and rigid bodies some positions have no solution (Painlevé). Within a step that is far too long for a "
+        f"stiff spring it looks the same: then try a shorter --step."
     )
     return message, advice
 

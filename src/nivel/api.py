@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -40,6 +41,8 @@ if TYPE_CHECKING:
     from nivel.results.comparison import Comparison
     from nivel.results.result import Result
     from nivel.view.sources import Hand
+
+SETTING = re.compile(r"`(\w+)[:`]")  # in messages
 
 
 class Machine:
@@ -88,19 +91,32 @@ class Machine:
         )
         self.source = ""
         self.file = ""
-        self.asked: frozenset[str] = frozenset()
+        self.outside: frozenset[str] = frozenset()
+        self.given: frozenset[str] = frozenset()
 
     @classmethod
     def from_record(
-        cls, record: MachineRecord, source: str = "", file: str = "", asked: frozenset[str] = frozenset()
+        cls,
+        record: MachineRecord,
+        source: str = "",
+        file: str = "",
+        outside: frozenset[str] = frozenset(),
+        given: frozenset[str] = frozenset(),
     ) -> Machine:
-        """Wrap a record; `source` is the text of the `file` it came from, `asked` the simulation settings set from outside of it."""
+        """Wrap a record; `source` is the text of the `file` it came from, `outside` the paths of what was set from outside of it, `given`
+        the simulation settings that are arguments of a run."""
         machine = cls.__new__(cls)
         machine.record = record
         machine.source = source
         machine.file = file
-        machine.asked = asked
+        machine.outside = outside
+        machine.given = given
         return machine
+
+    @property
+    def asked(self) -> frozenset[str]:
+        """Names of the simulation settings that were set from outside of the file."""
+        return frozenset(path.split(".")[1] for path in self.outside if path.startswith("simulation."))
 
     @property
     def name(self) -> str:
@@ -345,10 +361,9 @@ class Machine:
         from nivel.analysis.agreement import disagreements  # imports what builds machines
 
         coordinates = self._coordinates()
-        faults = idle_settings(given, self.record.simulation, coordinates)
-        faults += self._placed(disagreements(self.record))
+        faults = [*idle_settings(given, self.record.simulation, coordinates), *disagreements(self.record)]
         if faults:
-            raise ModelError(faults)
+            raise ModelError(self._placed(faults))
 
     def _coordinates(self) -> str:
         """The coordinates of a run. Raises ModelError where joints do not meet the beams that they slide along."""
@@ -364,13 +379,18 @@ class Machine:
             raise ModelError(self._placed(error.faults)) from error
 
     def _placed(self, faults: Iterable[Fault]) -> list[Fault]:
-        """`faults` with the places of their elements in the machine's file, if it has one."""
-        return [
-            fault
-            if not self.source or fault.line or not fault.path
-            else replace(fault, file=self.file, **_place(self.source, fault.path))
-            for fault in faults
-        ]
+        """`faults` with the places of their elements in the machine's file, if it has one, or how they came from outside of it."""
+        return [self._in_place(fault) for fault in faults]
+
+    def _in_place(self, fault: Fault) -> Fault:
+        if fault.line or not fault.path:
+            return fault
+        words = fault.path.split(".")
+        if words[0] == "simulation" and words[1:2] and words[1] in self.given:
+            return replace(fault, path=".".join(words[1:]))
+        if any(".".join(words[:end]) in self.outside for end in range(1, len(words) + 1)):
+            return replace(fault, message=f"{fault.message} (set from outside the file)")
+        return replace(fault, file=self.file, **_place(self.source, fault.path)) if self.source else fault
 
     def with_settings(self, settings: Mapping[str, Any]) -> Machine:
         """The same machine with some simulation settings replaced."""
@@ -383,10 +403,32 @@ class Machine:
         try:
             simulation = changed(self.record.simulation, {**asked, **settings})
         except ModelError as error:
-            # what of the file does not go with the new settings stands among those of its simulation
-            faults = [fault if fault.path else replace(fault, path="simulation") for fault in error.faults]
-            raise ModelError(self._placed(faults)) from None
-        return Machine.from_record(self.record.replace(simulation=simulation), self.source, self.file, self.asked)
+            faults = [self._of_settings(fault, settings) for fault in error.faults]
+            raise ModelError(self._with(self.record, settings)._placed(faults)) from None
+        try:
+            record = self.record.replace(simulation=simulation)
+        except ModelError as error:
+            raise ModelError(self._with(self.record, settings)._placed(error.faults)) from None
+        return self._with(record, settings)
+
+    def _of_settings(self, fault: Fault, given: Collection[str]) -> Fault:
+        """A fault of the simulation settings; one of several settings that do not go together is that of the one that was `given`, and
+        says where the file has the other."""
+        if fault.path:
+            return replace(fault, path=f"simulation.{fault.path}")
+        named = [word for word in SETTING.findall(fault.message) if word in SimulationSettings.model_fields]
+        mine, others = [word for word in named if word in given], [word for word in named if word not in given]
+        if not mine:
+            return replace(fault, path="simulation")
+        message = fault.message
+        if others and self.source and f"simulation.{others[0]}" not in self.outside:
+            line, column = locate(self.source, f"simulation.{others[0]}")
+            message += f" ({self.file}:{line}:{column})"
+        return replace(fault, path=f"simulation.{mine[0]}", message=message)
+
+    def _with(self, record: MachineRecord, settings: Collection[str]) -> Machine:
+        """`record` from the same file, with these settings given for a run."""
+        return Machine.from_record(record, self.source, self.file, self.outside, self.given | frozenset(settings))
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the machine as a YAML file."""
@@ -427,9 +469,8 @@ def load(path: str | PathLike[str], overrides: Mapping[str, str] | None = None, 
     """
     text, file = read_text(fspath(path)), fspath(path)
     record = parse_machine(text, file, overrides=dict(overrides or {}), allow_code=allow_code)
-    steps = [[step.strip() for step in path.split(".")] for path in overrides or ()]
-    asked = frozenset(path[1] for path in steps if path[0] == "simulation" and len(path) > 1)
-    return Machine.from_record(record, text, file, asked)
+    outside = frozenset(".".join(step.strip() for step in path.split(".")) for path in overrides or ())
+    return Machine.from_record(record, text, file, outside)
 
 
 def _place(source: str, path: str) -> dict[str, int]:

@@ -165,8 +165,11 @@ def test_forces_beyond_all_bounds_give_no_warnings(folder):
             ["--set", "simulation.generalised_alpha.spectral_radius=0.5"],
             ["`generalised_alpha` has no effect", "integrator: generalised-alpha"],
         ),
-        (["--output-interval", "1e-5"], ["pendulum.yaml:", "`output_interval` 1e-05 s is shorter than `step`"]),
-        (["--output-interval", "1.5 ms"], ["output_interval", "multiple of the step"]),
+        (
+            ["--output-interval", "1e-5"],
+            ["--output-interval  ", "pendulum.yaml:", "`output_interval` 1e-05 s is shorter than `step`"],
+        ),
+        (["--output-interval", "1.5 ms"], ["--output-interval  ", "multiple of the step"]),
         (["--set", "bodies.bra.mass=2"], ["bra", "bar"]),
         (["--set", "nonsense"], ["PATH=VALUE"]),
         (["--out", "missing/folder/x.nc"], ["missing"]),

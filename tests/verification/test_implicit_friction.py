@@ -342,16 +342,21 @@ def test_machine_with_every_element_runs_as_with_an_explicit_method(integrator, 
     assert errors[-1] < 0.4 * errors[0] < 1e-2, errors
 
 
-@pytest.mark.parametrize("integrator", ["generalised-alpha", "ros2", "radau"])
+@pytest.mark.parametrize(
+    ("integrator", "angle", "energy"),
+    [("generalised-alpha", 1e-5, 1e-6), ("ros2", 1e-5, 4e-7), ("radau", 1e-4, 1e-6)],
+)
 @pytest.mark.parametrize("rotations", ["euler-parameters", "euler-angles", "rotation-vector"])
-def test_in_rotation_coordinates_friction_is_the_same(integrator, rotations):
-    """The loop with two frictions as Lagrange equations, whose normalisations stand between the rows of joints and of efforts."""
+def test_in_rotation_coordinates_friction_is_the_same(integrator, angle, energy, rotations):
+    """The loop with two frictions as Lagrange equations, whose normalisations stand between the rows of joints and of efforts: the same
+    law in other unknowns. Fixed steps differ by round-off that moves when a friction turns within a step, of up to a hundredth of what
+    they miss; chosen ones by ten times the tolerance of the angle of 3 rad. Energy as a share of the largest kinetic energy."""
     steps = {"integrator": integrator, "step": 1e-3, "tolerance": 1e-6}
     same = rubbing_crank(coordinates="absolute", **steps)
     r = rubbing_crank(coordinates="absolute", formulation="lagrange", rotations=rotations, **steps)
-    # the same law in other unknowns: by the error of the steps
-    np.testing.assert_allclose(r.array("hinge.angle"), same.array("hinge.angle"), atol=1e-3)
-    assert np.abs(r.array("energy_error")).max() < 10 * np.abs(same.array("energy_error")).max() + 1e-3
+    np.testing.assert_allclose(r.array("hinge.angle"), same.array("hinge.angle"), rtol=0, atol=angle)
+    missed = energy * same.array("kinetic_energy").max()
+    assert np.abs(r.array("energy_error")).max() < np.abs(same.array("energy_error")).max() + missed
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])

@@ -6,8 +6,6 @@ import math
 from dataclasses import replace
 from itertools import combinations, pairwise
 
-import numpy as np
-
 import nivel
 from nivel.analysis.compare_grid import Cell, Grid, reasons
 from nivel.analysis.dynamics import Finished
@@ -21,7 +19,7 @@ from nivel.results.comparison_table import number, seconds
 from nivel.results.measures import constraint_measures, energy_measures
 from nivel.results.motion import Motion, distance
 from nivel.results.result import Result
-from nivel.results.scales import machine_size
+from nivel.results.scales import largest_kinetic_energy, machine_size
 
 
 def compare(machine: MachineRecord, grid: Grid, *, repeat: int = 3, listener: Listener | None = None) -> Comparison:
@@ -100,7 +98,7 @@ class _Bench:
             return row
         if not self.references and self.size == 0.0:
             self.size = machine_size(result)[0]
-            self.kinetic_energy = float(np.max(np.abs(result.array("kinetic_energy")), initial=0.0))
+            self.kinetic_energy = largest_kinetic_energy(result, self.size)
         motion = Motion.of(result)
         kept = [*self.finest.get(row.method, []), (row, motion)]
         self.finest[row.method] = sorted(kept, key=lambda each: each[0].fineness)[:2]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.fast_beams import too_fast
+from nivel.analysis.growth import grown_motion
 from nivel.analysis.unknowns import unknown_name
 from nivel.kernels.status import (
     BRISTLE_TOO_FAST,
@@ -34,6 +35,7 @@ NEAR_SINGULAR = 1e-6
 DRIFTED = 1e-2
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a state that may be beyond all bounds
 def failure(
     motion: MotionEquations,
     status: int,
@@ -76,6 +78,9 @@ def failure(
             told = _no_solution(motion, number, time, step, y)
         elif told is None:
             told = (_not_converged if status == NOT_CONVERGED else _not_a_number)(motion, time, step, y)
+    if not chosen and (grown := grown_motion(motion, time, step, y)):
+        # what failed in the end failed because of that
+        told = too_fast(beams, step) or grown
     return f"stopped at t = {time:.6g} s: {told[0]}", told[1]
 
 
@@ -161,7 +166,8 @@ def _jammed(name: str) -> tuple[str, str]:
     )
     advice = (
         f"Look at {name}: a smaller coefficient, a longer bearing_length or a smaller radius; or give its normal_load. "
-        f"With Coulomb friction and rigid bodies some positions have no solution (Painlevé)."
+        f"With Coulomb friction and rigid bodies some positions have no solution (Painlevé). Within a step that is far too long for a "
+        f"stiff spring it looks the same: then try a shorter --step."
     )
     return message, advice
 

@@ -23,7 +23,7 @@ from nivel.results.comparison import Reference
 from nivel.results.comparison_table import seconds
 from nivel.results.motion import Motion, common_frames, distance
 from nivel.results.result import Result
-from nivel.results.scales import machine_size
+from nivel.results.scales import largest_kinetic_energy, machine_size
 
 TIGHT, EXTRAPOLATED = REFERENCES
 TOLERANCE: Final = 1e-12
@@ -74,7 +74,7 @@ def _tight(machine: MachineRecord, grid: Grid, listener: Listener) -> Solution |
     error = distance(motions[0], motions[1], size).value
     how = f"its distance from a run at tolerance {LOOSER * TOLERANCE:.0e}"
     facts = Reference(f"{TIGHT} at tolerance {TOLERANCE:.0e}", TIGHT, error, how)
-    return Solution(facts, motions[1], size, _kinetic(runs[-1]))
+    return Solution(facts, motions[1], size, largest_kinetic_energy(runs[-1], size))
 
 
 def _extrapolated(machine: MachineRecord, grid: Grid, listener: Listener) -> Solution | None:
@@ -94,7 +94,7 @@ def _extrapolated(machine: MachineRecord, grid: Grid, listener: Listener) -> Sol
             if best is None or error < best.facts.error:
                 name = f"{EXTRAPOLATED} extrapolated from steps of {seconds(2.0 * step)} and {seconds(step)}"
                 facts = Reference(name, EXTRAPOLATED, error, "its distance from the extrapolation of twice these steps")
-                best = Solution(facts, finer, size, _kinetic(result))
+                best = Solution(facts, finer, size, largest_kinetic_energy(result, size))
             if ends:
                 break
         plain, former = motion, finer
@@ -146,7 +146,3 @@ def _run(machine: MachineRecord, grid: Grid, listener: Listener, **settings: obj
     listener.say(f"reference: {settings['integrator']}, {what}", own.duration)
     machine = machine.replace(simulation=own)
     return run_in_memory(machine, complete(own), listener.progress)
-
-
-def _kinetic(result: Result) -> float:
-    return float(np.max(np.abs(result.array("kinetic_energy")), initial=0.0))

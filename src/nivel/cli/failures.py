@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Final
 
+import click
+
 from nivel.errors import Fault, ModelError, SolveError
 
 if TYPE_CHECKING:
@@ -52,9 +54,22 @@ def fault_line(fault: Fault) -> Text:
     if fault.line:
         parts.append(Text(f"{fault.file}:{fault.line}:{fault.column}", style="cyan"))
     if fault.path:
-        parts.append(Text(fault.path, style="bold"))
+        parts.append(Text(fault.path if fault.line else option_of(fault.path), style="bold"))
     parts.append(Text(fault.message, style="" if parts else "red"))
     return Text("  ").join(parts)
+
+
+def option_of(path: str) -> str:
+    """The option of the command that runs by which what is at fault came, `--step` for `step` and `statics.step`; else the path."""
+    context = click.get_current_context(silent=True)
+    if context is None or not isinstance(context.command, click.Group) or context.invoked_subcommand is None:
+        return path
+    command = context.command.get_command(context, context.invoked_subcommand)
+    name = path.removeprefix(f"{context.invoked_subcommand}.").split(".")[0]
+    options = (
+        [each for each in command.params if isinstance(each, click.Option) and each.name == name] if command else []
+    )
+    return options[0].opts[-1] if options else path
 
 
 def say_failure(error: SolveError) -> None:

@@ -57,8 +57,14 @@ class Tree:
         for end in range(len(path), -1, -1):
             place = (self.keys if at_key else self.places).get(path[:end]) or self.places.get(path[:end])
             if place is not None:
-                return Fault(self.file_of(path[:end]), *place, words, message)
+                return Fault(self.file_of(path[:end]), *place, words, message + self._outside_of(path))
         return Fault(self.file, 1, 1, words, message)
+
+    def _outside_of(self, path: Path) -> str:
+        """What of the element at `path` was set from outside the file, to be said after a message on it."""
+        inner = sorted({".".join(map(str, each[len(path) :])) for each in self.outside if each[: len(path)] == path})
+        names = ", ".join(f"`{each}`" for each in inner)
+        return f" ({names} set from outside the file)" if names and path else ""
 
     def report(self, path: Path, message: str, *, at_key: bool = False) -> None:
         """Collect the fault, and let nothing that follows from it be reported."""

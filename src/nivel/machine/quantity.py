@@ -40,6 +40,7 @@ REPORTED = "nivel_reported"  # type of those that follow from a fault reported e
 
 Kind = str | tuple[str, ...]  # a key of KINDS, or several of which one must fit
 ANY: Kind = ()  # whatever it measures
+LARGEST = 1e100  # squares of such numbers, and products of three, can be held
 
 
 def fault(message: str, *, at_key: bool = False) -> PydanticCustomError:
@@ -112,10 +113,17 @@ def _clash(its: Dimension | None, wanted: Dimension) -> Literal["", "other", "tu
 
 
 def read_quantity(value: object, kind: Kind, parameters: Parameters) -> float:
-    """`value` as a finite SI number of `kind`.
+    """`value` as a finite SI number of `kind`, of no more than LARGEST but for times and lengths, of which others judge.
 
     Raises ExpressionError, FaultyParameterError.
     """
+    number = _read_number(value, kind, parameters)
+    if abs(number) > LARGEST and kind != ANY and not {"time", "length"} & set(kinds_of(kind)):
+        raise ExpressionError(f"{number:.3g} is more than the limit of {LARGEST:.0e}, in SI units: a slip of a unit?")
+    return number
+
+
+def _read_number(value: object, kind: Kind, parameters: Parameters) -> float:
     if isinstance(value, str):
         tree = constant_tree(value, parameters)
         its = measure(tree)
@@ -125,7 +133,7 @@ def read_quantity(value: object, kind: Kind, parameters: Parameters) -> float:
     if isinstance(value, Real) and not isinstance(value, bool):
         return given(value)
     if hasattr(value, "item") and getattr(value, "shape", None) == ():  # a NumPy scalar or array without axes
-        return read_quantity(value.item(), kind, parameters)  # type: ignore[attr-defined]
+        return _read_number(value.item(), kind, parameters)  # type: ignore[attr-defined]
     raise ExpressionError(f"{expected_kind(kind)} was expected, got {shown(value)}")
 
 

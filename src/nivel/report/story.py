@@ -37,6 +37,7 @@ NAMES = {
     "rate_violation": "Joint rates",
     "degrees_of_freedom": "Freedom",
     "redundancy": "Redundancy",
+    "shared_friction": "Friction",
     "accuracy": "Accuracy",
     "residual": "Equilibrium",
     "stability": "Stability",

@@ -56,6 +56,7 @@ class Cost:
     time: float
 
 
+@np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
 def cost(result: Readable, neglected: Sequence[Neglected]) -> Cost | None:
     """The largest one of a run; None where nothing is neglected."""
     found: Cost | None = None

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.verdicts import ENERGY_FLOOR, EXTENT_FLOOR, POINT_SIZE, REST
+from nivel.results.verdicts import CLOSED, ENERGY_FLOOR, EXTENT_FLOOR, OPENING_WORK, POINT_SIZE, REST
 
 Array = NDArray[np.float64]
 BLOCK = 16 * 1024  # frames read at once: a long run need not fit in memory
@@ -34,13 +34,16 @@ def machine_size(result: Readable) -> tuple[float, str]:
     extent = _extent(result, [slice(0, 1)])
     if extent > 0.0:
         return extent, "machine's size"
-    path = _extent(result, blocks(result))
-    return (path, "extent of its path") if path > 0.0 else (POINT_SIZE, "length taken for a single point at rest")
+    turning = 2.0 * max((_gyration(body) for body in bodies(result)), default=0.0)
+    path = _extent(result, blocks(result), round_off=ENERGY_FLOOR * _free_path(result))
+    if max(path, turning) > 0.0:
+        return (path, "extent of its path") if path >= turning else (turning, "largest diameter of gyration")
+    return POINT_SIZE, "length taken for a single point at rest"
 
 
-def _extent(result: Readable, parts: Iterable[slice]) -> float:
+def _extent(result: Readable, parts: Iterable[slice], round_off: float = 0.0) -> float:
     """Diagonal of the box around all joint points, centres of mass and body origins in these frames [m]; 0 where all
-    of them are one point.
+    of them are one point, or no further apart than `round_off` [m].
     """
     least, largest = np.full(3, np.inf), np.full(3, -np.inf)
     ground = np.array(_scene(result).get("ground_points", []), dtype=float).reshape(-1, 3)
@@ -54,21 +57,36 @@ def _extent(result: Readable, parts: Iterable[slice]) -> float:
         return 0.0
     extent = float(np.linalg.norm(largest - least))
     away = float(np.linalg.norm(np.maximum(np.abs(least), np.abs(largest))))
-    return extent if np.isfinite(extent) and extent > EXTENT_FLOOR * away else 0.0
+    return extent if np.isfinite(extent) and extent > max(EXTENT_FLOOR * away, round_off) else 0.0
+
+
+def _free_path(result: Readable) -> float:
+    """How far the loads would move the whole machine in the run if nothing balanced them [m]; 0 where its mass is not known."""
+    mass = _mass(result)
+    force = _weight(result) + _largest_load(result, 0.0)
+    return 0.5 * force / mass * span(result) ** 2 if mass > 0.0 else 0.0
 
 
 def speed_of_rest(result: Readable, size: float) -> float:
     """Largest speed [m/s] of a machine that counts as at rest during the run; one frame alone counts as a second."""
+    return REST * size / span(result)
+
+
+def span(result: Readable) -> float:
+    """Time between the first and the last frame [s]; a second for one frame alone."""
     time = result.time
     span = float(time[-1] - time[0]) if len(time) else 0.0
-    return REST * size / (span if span > 0.0 else 1.0)
+    return span if span > 0.0 else 1.0
 
 
 def largest_speed(result: Readable) -> float:
-    """Upper bound |v| + |ω| r of the speed of every joint point, centre of mass and body origin, over the run [m/s]."""
+    """Upper bound |v| + |ω| r of the speed of every joint point, centre of mass and body origin, over the run [m/s].
+
+    Of a body that has no other point than its origin, r is its radius of gyration.
+    """
     if "velocity" not in result.variables:
         return 0.0
-    reach = np.array([_reach(body) for body in bodies(result)])
+    reach = np.array([_reach(body) or _gyration(body) for body in bodies(result)])
     largest = 0.0
     for frames in blocks(result):
         v = np.linalg.norm(result.array("velocity", frames), axis=-1)
@@ -78,23 +96,45 @@ def largest_speed(result: Readable) -> float:
     return largest
 
 
-def largest_energy(result: Readable, size: float) -> tuple[float, str]:
+def largest_kinetic_energy(result: Readable, size: float) -> float:
+    """Largest kinetic energy of the run [J]; 0 of a machine at rest, whose speeds are round-off. size : of the machine [m]."""
+    at_rest = largest_speed(result) < speed_of_rest(result, size)
+    return 0.0 if at_rest else _largest(result, "kinetic_energy", lambda e: e)
+
+
+def largest_energy(result: Readable, size: float, opening: float = 0.0, at_rest: bool = False) -> tuple[float, str]:
     """The energy [J] that the energy error is compared with, and what it is: see `verdicts.RULES`. It may be zero.
 
-    size : of the machine [m]. A run without frames has no energy: 0 J of no kind.
+    size : of the machine [m]. opening : by how much of it (of 1 for cosines) joints are open at most. at_rest : it is slower than
+    `speed_of_rest`. A run without frames has no energy: 0 J of no kind.
     """
     if not len(result.time):
         return 0.0, ""
-    at_rest = max(_largest(result, "potential_energy", lambda e: e), _largest_load(result, size))
     candidates = [
         ("largest kinetic energy", _largest(result, "kinetic_energy", lambda e: e)),
         ("largest change of potential energy", _largest(result, "potential_energy", lambda e: e - e[0])),
         ("largest work of external forces", _largest(result, "external_work", lambda e: e)),
         ("largest dissipated energy", _largest(result, "dissipated_energy", lambda e: e)),
-        ("smallest energy that counts", ENERGY_FLOOR * at_rest),
+        ("smallest energy that counts", _energy_of_rest(result, size, opening, at_rest)),
     ]
     kind, value = max(candidates, key=lambda each: each[1])
     return value, kind
+
+
+def _energy_of_rest(result: Readable, size: float, opening: float, at_rest: bool) -> float:
+    """The energy [J] of which round-off, and what a run at rest is not solved for any more, are below green: see `verdicts.RULES`."""
+    settings = json.loads(str(result.attributes.get("settings", "{}")))
+    # loads of a machine that moves may be impacts, whose work is no measure of what it is solved for
+    share = max(ENERGY_FLOOR, float(settings.get("tolerance", 0.0))) if at_rest else ENERGY_FLOOR
+    work = size * _weight(result) + _largest_load(result, size)
+    travelling = 0.5 * _mass(result) * (size / span(result)) ** 2
+    # the solver closes joints to a share of a metre where all is one point
+    closed = CLOSED * max(1.0, POINT_SIZE / size) if _extent(result, [slice(0, 1)]) == 0.0 else CLOSED
+    return max(
+        ENERGY_FLOOR * _largest(result, "potential_energy", lambda e: e),
+        share * max(work, travelling),
+        OPENING_WORK * min(opening, closed) * work if opening > 0.0 else 0.0,
+    )
 
 
 def blocks(result: Readable) -> Iterator[slice]:
@@ -105,18 +145,29 @@ def blocks(result: Readable) -> Iterator[slice]:
 
 
 def _largest_load(result: Readable, size: float) -> float:
-    """Largest reaction or applied force times the size, or torque [J]."""
+    """Largest reaction, applied force or effort of a driver times the size, or torque [J]; for a size of 0, the largest force [N]."""
     largest = 0.0
     for name, variable in result.variables.items():
-        if name not in ("joint_force", "joint_torque") and not (
-            name.startswith("force.") and name.endswith(".magnitude")
+        if name not in ("joint_force", "joint_torque") and (
+            "." not in name or name.startswith("sensor.") or variable.units not in ("N", "N m")
         ):
             continue
-        arm = size if variable.units == "N" else 1.0
+        arm = (size or 1.0) if variable.units == "N" else float(size > 0.0)
         for frames in blocks(result):
             values = np.abs(result.array(name, frames))
             largest = max(largest, arm * float(np.max(values, initial=0.0, where=np.isfinite(values))))
     return largest
+
+
+def _mass(result: Readable) -> float:
+    """Of all bodies [kg], as far as the scene knows it."""
+    return sum(float(body.get("mass", 0.0)) for body in bodies(result))
+
+
+def _weight(result: Readable) -> float:
+    """Of all bodies [N], as far as the scene knows their mass."""
+    gravity = json.loads(str(result.attributes.get("machine_record", "{}"))).get("gravity", (0.0, 0.0, 0.0))
+    return _mass(result) * float(np.linalg.norm(np.array(gravity, dtype=float)))
 
 
 def _largest(result: Readable, name: str, change: Callable[[Array], Array]) -> float:
@@ -146,6 +197,11 @@ def _body_points(body: dict[str, Any]) -> Array:
 def _reach(body: dict[str, Any]) -> float:
     """Largest distance of a point of the body from its origin [m]."""
     return float(np.linalg.norm(_body_points(body), axis=1).max())
+
+
+def _gyration(body: dict[str, Any]) -> float:
+    """Its largest radius of gyration about the centre of mass [m]; 0 of a point mass, or where the scene does not know it."""
+    return float(body.get("radius_of_gyration", 0.0))
 
 
 def _points_in_space(result: Readable, frames: slice) -> Iterator[Array]:

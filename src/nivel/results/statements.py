@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from nivel.results.held import Shared, in_words
 from nivel.results.verdicts import THRESHOLDS, Item, Threshold, Trust, Verdict
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
@@ -15,8 +16,9 @@ OUTCOMES: dict[str, tuple[Verdict, str]] = {
 }
 
 
-def statements(trust: Trust, failure: str, stopped_by: str = "") -> Iterator[Item]:
-    """The items of the report; `failure` says what stopped the run, `stopped_by` which event ended it."""
+def statements(trust: Trust, failure: str, stopped_by: str = "", shared: Sequence[Shared] = ()) -> Iterator[Item]:
+    """The items of the report; `failure` says what stopped the run, `stopped_by` which event ended it, `shared` which frictions rest on
+    prescribed motions."""
     verdict, text = OUTCOMES.get(trust.outcome, ("red", f"Outcome: {trust.outcome}"))
     if stopped_by:
         text = f"Outcome: the event {stopped_by} ended the run, as it was to do"
@@ -28,6 +30,8 @@ def statements(trust: Trust, failure: str, stopped_by: str = "") -> Iterator[Ite
     if trust.degrees_of_freedom is not None:
         yield freedom_item(trust)
     yield redundancy_item(trust)
+    if shared:
+        yield _shared_item(shared)
     if trust.accuracy_estimate is not None:
         yield _accuracy_item(trust, trust.accuracy_estimate)
     if trust.neglected_share is not None:
@@ -125,6 +129,15 @@ def redundancy_item(trust: Trust) -> Item:
     )
     text = f"Redundancy: {repeats} ({rows}). The motion is unique; {unsure} (green when none, amber otherwise)"
     return Item("redundancy", "amber", text)
+
+
+def _shared_item(shared: Sequence[Shared]) -> Item:
+    """Frictions that hold a joint at rest together with what prescribes its motion."""
+    text = (
+        f"Friction: at rest {'; '.join(map(in_words, shared))} hold a motion together. It is unique; how they share the load is not "
+        f"(green when none, amber otherwise)"
+    )
+    return Item("shared_friction", "amber", text, time=min(each.spans[0][0] for each in shared))
 
 
 def _size(trust: Trust) -> str:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from nivel.results.held import Shared, efforts
 from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
 from nivel.results.statements import statements
@@ -34,7 +35,8 @@ class Facts:
     degrees_of_freedom : None where unknown; modes : of flexible bodies. drivers : motions that are prescribed.
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
     accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
-    neglected : what it cost that flexible bodies moved without some of their inertia invariants.
+    neglected : what it cost that flexible bodies moved without some of their inertia invariants. shared : frictions at rest on motions
+    that are prescribed.
     failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
     """
 
@@ -49,6 +51,7 @@ class Facts:
     stopped_by: str = ""
     modes: int = 0
     neglected: Cost | None = None
+    shared: tuple[Shared, ...] = ()
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -58,9 +61,10 @@ def assess(result: Readable, facts: Facts) -> Trust:
     speed, slowest = largest_speed(result), speed_of_rest(result, size)
     at_rest = speed < slowest
     speed = max(speed, slowest)
-    energy_scale, energy_scale_kind = largest_energy(result, size)
     energy = peak(result, "energy_error")
     violation, violation_units = worst_row(result, "constraint_violation", {"m": 1.0 / size, "1": 1.0})
+    opening = violation.value / size if violation_units == "m" else violation.value
+    energy_scale, energy_scale_kind = largest_energy(result, size, opening, at_rest)
     rate, rate_units = worst_row(result, "constraint_rate_violation", {"m": 1.0 / speed, "1": size / speed})
     lacking = facts.neglected
     trust = Trust(
@@ -95,8 +99,9 @@ def assess(result: Readable, facts: Facts) -> Trust:
         neglected_body=lacking.body if lacking else "",
         neglected_names=lacking.names if lacking else (),
         neglected_time=lacking.time if lacking else None,
+        undetermined_efforts=tuple(dict.fromkeys(name for each in facts.shared for name in efforts(each.held))),
     )
-    items = tuple(statements(trust, facts.failure, facts.stopped_by))
+    items = tuple(statements(trust, facts.failure, facts.stopped_by, facts.shared))
     return replace(trust, items=items, verdict=worst(items))
 
 

@@ -71,20 +71,26 @@ RESIDUAL = Threshold(
 
 EXTENT_FLOOR = 1e-12  # of the distance from the global origin: round-off of points that are one
 REST = 1e-3  # of the size, travelled in the time of the run: a machine that stays below it is at rest
-ENERGY_FLOOR = (
-    1e-9  # of the potential energy, or of a load times the size: round-off of a machine at rest is below green
-)
+# of the potential energy, of a load times the size, of the energy of travelling by the size in the run: round-off of a machine at rest
+# is below green
+ENERGY_FLOOR = 1e-9
+CLOSED = 1e-12  # of the size: joints that are open by less are closed as well as a run closes them
+OPENING_WORK = 1e5  # times the work of the loads over what closed joints are open by: it is a decade below green
 POINT_SIZE = 1.0  # m: a single point that never moves has no size; said wherever it is used
 
 RULES = {
     "energy_scale": "the largest kinetic energy, or the largest change of potential energy, work of external forces or "
-    "dissipated energy where one of these is larger; at least 1e-9 of the largest potential energy or of the largest load "
-    "times the size: the round-off of a machine at rest. There is no fixed number of joules: where all energies are zero, "
-    "an error of zero is a fraction of zero",
+    "dissipated energy where one of these is larger; at least what a machine at rest is made of: 1e-9 of the largest potential energy; "
+    "1e-9, or of a machine at rest whose steps are chosen the tolerance, of the largest load and the weight times the size, and of the "
+    "kinetic energy of travelling by the size in the time of the run; 1e5 times the work of these loads over what joints are open by, as "
+    "far as that is 1e-12 of the size at most. There is no fixed number of joules: where all energies are zero, an error of zero is a "
+    "fraction of zero",
     "size": "the diagonal of the box around all joint points, centres of mass and body origins in the first frame. "
-    "Where all of them are one point: of the box around its path; where it never moves, 1 m by convention. Constraint rows "
-    "that are cosines of angles are compared with 1",
-    "speed": "the largest speed of any joint point, centre of mass or body origin (upper bound |v| + |ω| r). A "
+    "Where all of them are one point: of the box around its path, or twice the largest radius of gyration where that is larger; where it "
+    "has neither, because it is a point mass or moves by less than 1e-9 of what its loads would move it, 1 m by convention. Constraint "
+    "rows that are cosines of angles are compared with 1",
+    "speed": "the largest speed of any joint point, centre of mass or body origin (upper bound |v| + |ω| r, r the radius of gyration of "
+    "a body that has no other point than its origin). A "
     "machine that travels less than 1e-3 of its size in the time of the run at this speed is at rest, and compared with the "
     "speed that would. Rates of cosines of angles are compared with speed / size",
 }
@@ -120,6 +126,7 @@ class Trust:
     live to tell. modes : of flexible bodies, whose coordinates
     are freedoms that joints may take. neglected_share : the largest share of the mass matrix of a flexible body that is lacking because it
     moves without the inertia invariants `neglected_names`; None where none does. drivers : motions that are prescribed.
+    undetermined_efforts : results that are not unique while a friction and a driver hold a joint at rest together.
     """
 
     verdict: Verdict
@@ -153,6 +160,7 @@ class Trust:
     neglected_body: str = ""
     neglected_names: tuple[str, ...] = ()
     neglected_time: float | None = None
+    undetermined_efforts: tuple[str, ...] = ()
     items: tuple[Item, ...] = ()
 
     def to_json(self) -> str:
@@ -164,7 +172,7 @@ class Trust:
         """Read what `to_json` wrote; keys of later versions are passed over."""
         data = json.loads(text)
         data["items"] = tuple(Item(**_known(Item, each)) for each in data["items"])
-        for name in ("redundant_rows", "non_unique_joints", "neglected_names"):
+        for name in ("redundant_rows", "non_unique_joints", "neglected_names", "undetermined_efforts"):
             data[name] = tuple(data.get(name, ()))
         return cls(**_known(cls, data))
 

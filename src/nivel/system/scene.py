@@ -4,7 +4,8 @@ The scene is stored as JSON in the result; the report and the viewer read it. Le
 a body (`ground` among them) is in that body's frame, which `position` and `orientation` of the result place in space.
 
 =================  ====================================================================================================
-``bodies``         list of ``name``, ``shape`` (null without one), ``centre_of_mass``, ``points`` (where joints hold it), ``mass``;
+``bodies``         list of ``name``, ``shape`` (null without one), ``centre_of_mass``, ``points`` (where joints hold it), ``mass``,
+                   ``radius_of_gyration`` about the centre of mass, the largest, 0 of a point mass;
                    of a flexible one ``flexible``: ``surface`` packed, ``modes`` (modes, vertices, 3) as packed 32-bit numbers,
                    ``first`` of them among the modal coordinates
 ``ground_points``  where joints hold the ground
@@ -64,6 +65,7 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
             "centre_of_mass": system.record.bodies.centre_b[k].tolist(),
             "points": held[body.name],
             "mass": float(system.record.bodies.mass[k]),
+            "radius_of_gyration": _gyration(body, system, k),
         }
         for k, body in enumerate(machine.bodies)
     ]
@@ -89,6 +91,14 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
         "forces": list(_forces(machine)),
         "markers": markers,
     } | ({"sweeps": sweeps} if sweeps else {})
+
+
+def _gyration(body: Body, system: System, k: int) -> float:
+    """The largest radius of gyration of body k about its centre of mass [m]."""
+    if body.point_mass:
+        return 0.0
+    bodies = system.record.bodies
+    return float(np.sqrt(np.linalg.eigvalsh(bodies.inertia_b[k])[-1] / bodies.mass[k]))
 
 
 def _sweep(beam: Beam) -> dict[str, Any]:

@@ -1,0 +1,99 @@
+"""What is wrong with a value names the option by which it came, and no line of the file."""
+
+import pytest
+from click.testing import CliRunner
+
+from nivel.api import load
+from nivel.cli import main
+from nivel.errors import ModelError
+
+MACHINE = """\
+format: 1
+gravity: [0, -9.81, 0]
+bodies:
+  bar: {mass: 1, inertia: [0.001, 0.0833, 0.0833], position: [0.5, 0, 0]}
+joints:
+  hinge: {type: revolute, bodies: [ground, bar], point: [0, 0, 0], axis: [0, 0, 1]}
+simulation:
+  duration: 1
+  step: 1 ms
+  output_interval: 10 ms
+"""
+
+
+@pytest.fixture
+def machine(tmp_path):
+    (tmp_path / "machine.yaml").write_text(MACHINE)
+    return str(tmp_path / "machine.yaml")
+
+
+def said(*arguments):
+    done = CliRunner().invoke(main, [*arguments])
+    assert done.exit_code == 2, done.output
+    return done.stderr
+
+
+@pytest.mark.parametrize(
+    ("command", "options", "named", "message"),
+    [
+        ("run", ["--output-interval", "1.5 ms"], "--output-interval", "0.0015 s is not a multiple of the step 0.001 s"),
+        ("run", ["--duration", "soon"], "--duration", "`soon` is neither a parameter nor a unit"),
+        ("run", ["--step", "1e-18"], "--step", "would take more than"),
+        ("run", ["--output-interval", "1e-5"], "--output-interval", "1e-05 s is shorter than `step` 0.001 s ("),
+        ("run", ["--step", "5"], "--step", "`step` 5 s is longer than `duration` 1 s ("),
+        ("run", ["--step", "5", "--duration", "2"], "--step", "`step` 5 s is longer than `duration` 2 s"),
+        ("run", ["--integrator", "rkx"], "--integrator", "the word `rkx` is not known"),
+        ("run", ["--tolerance", "1e-3"], "--tolerance", "`tolerance` has no effect here"),
+        ("run", ["--integrator", "dopri5", "--tolerance", "1e-14"], "--tolerance", "1e-14 is below 1e-12"),
+        ("run", ["--coordinates", "relative", "--cut", "pin"], "--cut", "there is no joint `pin`"),
+        (
+            "run",
+            ["--integrator", "energy-momentum", "--coordinates", "relative"],
+            "--coordinates",
+            "'relative' does not go",
+        ),
+        ("compare", ["--duration", "-1"], "--duration", "a time greater than zero was expected"),
+        ("compare", ["--steps", "1ms,soon"], "--steps", "`soon` is neither a parameter nor a unit"),
+        ("compare", ["--integrators", "rkx"], "--integrators", "the word `rkx` is not known"),
+        ("statics", ["--step", "-1"], "--step", "a time greater than zero was expected"),
+        ("statics", ["--most-iterations", "0"], "--most-iterations", "a whole number from 2 to 1000"),
+    ],
+)
+def test_an_option_at_fault_is_named(machine, command, options, named, message):
+    lines = [line for line in said(command, machine, *options).splitlines() if message in line]
+    assert lines
+    assert lines[0].startswith(f"{named}  ")
+
+
+def test_what_the_file_says_keeps_its_line(machine):
+    """The interval of the file does not go with the step of the command line: it stands where it stands."""
+    line = f"{machine}:10:20  simulation.output_interval  0.01 s is not a multiple of the step 0.003 s"
+    assert line in said("run", machine, "--step", "3 ms")
+
+
+def test_where_the_other_half_of_a_contradiction_stands_is_said(machine):
+    assert f"`duration` 1 s ({machine}:8:13)" in said("run", machine, "--step", "5")
+    message = "`step` 5 s is longer than `duration` 1 s (`step` set from outside the file)"
+    assert message in said("run", machine, "--set", "simulation.step=5")
+
+
+@pytest.mark.parametrize("command", ["run", "check"])
+@pytest.mark.parametrize(
+    ("setting", "message"),
+    [
+        ("simulation.output_interval=1.5 ms", "0.0015 s is not a multiple of the step 0.001 s"),
+        ("simulation.tolerance=1e-3", "`tolerance` has no effect here"),
+        ("simulation.cut=[pin]", "there is no joint `pin`"),
+    ],
+)
+def test_what_was_set_is_said_to_come_from_outside(machine, command, setting, message):
+    (line,) = [line for line in said(command, machine, "--set", setting).splitlines() if message in line]
+    assert line.startswith("simulation.")
+    assert line.endswith("(set from outside the file)")
+
+
+def test_in_python_the_argument_is_named(machine):
+    with pytest.raises(ModelError) as caught:
+        load(machine).simulate(output_interval="1.5 ms")
+    (fault,) = caught.value.faults
+    assert (fault.path, fault.line) == ("output_interval", 0)

@@ -41,10 +41,11 @@ def read_flexible_state(machine, t, y):
 
 
 @stage
-def whiten_all_rows(machine):
-    """W = C_q L⁻ᵀ of rigid and flexible bodies. Returns a status."""
+def factorise(machine, y):
+    """W = C_q L⁻ᵀ of rigid and flexible bodies, and the factor of S; y is not needed for them here. Returns a status."""
     whiten_rows(machine)
-    return whiten_flexible_rows(machine)
+    status = whiten_flexible_rows(machine)
+    return factorise_rows(machine, WIDTH) if status == OK else status
 
 
 @stage
@@ -66,9 +67,7 @@ def accelerate(machine, t, y, ydot):
     if status != OK:
         return status
     gather(machine)
-    status = whiten_all_rows(machine)
-    if status == OK:
-        status = factorise_rows(machine, WIDTH)
+    status = factorise(machine, y)
     if status != OK:
         return status
     whiten_forces(machine)

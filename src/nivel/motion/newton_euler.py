@@ -149,6 +149,31 @@ def write_rates(machine, ydot):
 
 
 @stage
+def change_body(record, y, b, first, at_positions):
+    """Add the change left in `Rddot` and `alpha_b` of body b to its (R, θ), or to its (Ṙ, ω̄), which stand from `first` on."""
+    bodies = record.bodies
+    if at_positions:
+        turn = record.saddle.z[b]
+        rates_of_parameters(bodies.theta[b], bodies.alpha_b[b], turn)
+        for i in range(3):
+            y[7 * b + i] += bodies.Rddot[b, i]
+        for i in range(4):
+            y[7 * b + 3 + i] += turn[i]
+    else:
+        v = first + 6 * b
+        for i in range(3):
+            y[v + i] += bodies.Rddot[b, i]
+            y[v + 3 + i] += bodies.alpha_b[b, i]
+
+
+@stage
+def factorise(machine, y):
+    """W of all rows, and the factor of S; y is not needed for them here. Returns a status."""
+    whiten_rows(machine)
+    return factorise_rows(machine, WIDTH)
+
+
+@stage
 def accelerate(machine, t, y, ydot):
     """Multipliers, whitened accelerations in `saddle.z`, and the rates of the states of forces and energies, from the state read before.
 
@@ -159,8 +184,7 @@ def accelerate(machine, t, y, ydot):
     status = apply_forces(machine, t, y)
     if status != OK:
         return status
-    whiten_rows(machine)
-    status = factorise_rows(machine, WIDTH)
+    status = factorise(machine, y)
     if status != OK:
         return status
     whiten_forces(machine)

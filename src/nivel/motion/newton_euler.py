@@ -34,18 +34,22 @@ def normalise(machine, y):
 
 
 @stage
-def read_state(machine, t, y):
-    """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
-    record = record_at(machine)
-    bodies = record.bodies
-    nb = bodies.mass.shape[0]
-    for b in range(nb):
+def read_bodies(bodies, y, first):
+    """Poses and velocities of bodies; the latter stand from `first` on."""
+    for b in range(bodies.mass.shape[0]):
         place_body(bodies, b, y[7 * b : 7 * b + 7])
-        v = 7 * nb + 6 * b
+        v = first + 6 * b
         for i in range(3):
             bodies.Rdot[b, i] = y[v + i]
             bodies.omega_b[b, i] = y[v + 3 + i]
         multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
+
+
+@stage
+def read_state(machine, t, y):
+    """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
+    bodies = record_at(machine).bodies
+    read_bodies(bodies, y, 7 * bodies.mass.shape[0])
     return read_markers(machine, t)
 
 
@@ -133,19 +137,25 @@ def unwhiten(bodies, saddle, b):
 
 
 @stage
+def write_rate(bodies, ydot, b, first):
+    """(Ṙ, θ̇, R̈, ᾱ) of body b in ẏ; the latter two stand from `first` on for all bodies."""
+    q, v = 7 * b, first + 6 * b
+    rates_of_parameters(bodies.theta[b], bodies.omega_b[b], ydot[q + 3 : q + 7])
+    for i in range(3):
+        ydot[q + i] = bodies.Rdot[b, i]
+        ydot[v + i] = bodies.Rddot[b, i]
+        ydot[v + 3 + i] = bodies.alpha_b[b, i]
+
+
+@stage
 def write_rates(machine, ydot):
-    """(Ṙ, θ̇, R̈, ᾱ) of ẏ."""
+    """(Ṙ, θ̇, R̈, ᾱ) of ẏ, from z."""
     record = record_at(machine)
     bodies = record.bodies
     nb = bodies.mass.shape[0]
     for b in range(nb):
         unwhiten(bodies, record.saddle, b)
-        q, v = 7 * b, 7 * nb + 6 * b
-        rates_of_parameters(bodies.theta[b], bodies.omega_b[b], ydot[q + 3 : q + 7])
-        for i in range(3):
-            ydot[q + i] = bodies.Rdot[b, i]
-            ydot[v + i] = bodies.Rddot[b, i]
-            ydot[v + 3 + i] = bodies.alpha_b[b, i]
+        write_rate(bodies, ydot, b, 7 * nb)
 
 
 @stage

@@ -9,10 +9,9 @@ import numpy as np
 from nivel.kernels.balance import find_matrix
 from nivel.kernels.compile import entry, stage
 from nivel.kernels.hook import call_hook
-from nivel.kernels.lu import solve_lu
+from nivel.kernels.newton_matrix import solve_entries
 from nivel.kernels.record import NONE, RESIDUAL, correct_signature, record_at
 from nivel.kernels.rotation import rates_of_parameters
-from nivel.kernels.sparse_lu import solve_sparse_lu
 from nivel.kernels.status import OK
 from nivel.motion.balanced import normalise
 from nivel.motion.direct import MAX_CORRECTIONS, NOTHING, POSITIONS, VELOCITIES, open_level
@@ -29,10 +28,7 @@ def find_change(machine, violation):
         f.b[i] = 0.0
     for k in range(own.row.shape[0]):
         f.b[first + k] = -violation[own.row[k]]
-    if f.matrix.shape[0] == 0:
-        solve_sparse_lu(newton.lu, f.L, f.U, f.Dinv, f.b, f.work)
-    else:
-        solve_lu(f.matrix, f.pivot, f.b)
+    solve_entries(newton, f)
 
 
 @stage

@@ -12,7 +12,7 @@ from nivel.kernels.hook import apply_forces, finish_forces, measure_active
 from nivel.kernels.marker import move_markers, place_markers
 from nivel.kernels.record import correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight, place_body
-from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.rotation import normalise_parameters, rates_of_parameters
 from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.kernels.spatial import dot, multiply
 from nivel.kernels.status import OK
@@ -25,12 +25,7 @@ def normalise(machine, y):
     """θ := θ/|θ| for every body."""
     record = record_at(machine)
     for b in range(record.bodies.mass.shape[0]):
-        k = 7 * b + 3
-        square = y[k] * y[k] + y[k + 1] * y[k + 1] + y[k + 2] * y[k + 2] + y[k + 3] * y[k + 3]
-        # 1/√s for s near 1; exact to round-off after one step's drift
-        scale = 1.0 / square**0.5
-        for i in range(4):
-            y[k + i] *= scale
+        normalise_parameters(y[7 * b + 3 : 7 * b + 7])
 
 
 @stage

@@ -8,7 +8,7 @@ import numpy as np
 from nivel.kernels.compile import stage
 from nivel.kernels.hook import finish_forces
 from nivel.kernels.record import FREE, SPHERICAL, record_at
-from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.rotation import normalise_parameters, rates_of_parameters
 from nivel.kernels.saddle import multipliers
 from nivel.kernels.status import OK
 
@@ -30,10 +30,7 @@ def normalise(machine, y):
     for n in range(tree.node.shape[0]):
         k = parameters_of(tree.node[n, 2], np.int64(tree.place[n, 0]))
         if k >= 0:
-            square = y[k] * y[k] + y[k + 1] * y[k + 1] + y[k + 2] * y[k + 2] + y[k + 3] * y[k + 3]
-            scale = 1.0 / square**0.5
-            for i in range(4):
-                y[k + i] *= scale
+            normalise_parameters(y[k : k + 4])
 
 
 @stage

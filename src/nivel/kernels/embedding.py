@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf, shared
 from nivel.kernels.flexible_partition import flexible_forces, moves_with_modes, times_flexible_mass
 from nivel.kernels.partition import solve_dependent
 from nivel.kernels.record import record_at
@@ -136,7 +136,7 @@ def solve_definite(H, x):
         x[k] /= H[k, k]
 
 
-@stage
+@shared
 def depend_on(machine, t, keep, read):
     """Dependent positions, velocities and accelerations of `residual.y` and `vdot` from C = 0, Ċ = 0 and C̈ = 0; the independent ones stay.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf, shared
 from nivel.kernels.status import OK
 from nivel.march.run import EVALUATIONS, RESTART, STEP, TIME, run_at
 from nivel.march.step_control import (
@@ -90,7 +90,7 @@ def is_accepted(machine, history, h, order, status, error):
     return True
 
 
-@stage
+@shared
 def take_step(evaluate, machine, history, order, share, attempt):
     """Tries until a step is accepted: its status, and its size h [s], 0 where steps become too small. The error falls with h^order.
 

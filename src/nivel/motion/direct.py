@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import shared, stage
 from nivel.kernels.record import record_at
 from nivel.kernels.saddle import correction, exceeds
 from nivel.kernels.status import OK
@@ -42,7 +42,7 @@ def find_correction(machine, what, width):
     correction(machine, constraints.C if what == POSITIONS else constraints.Cdot, width)
 
 
-@stage
+@shared
 def correct_levels(machine, t, y, width, read, factorise, change):
     """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137). Returns a status.
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import entry, leaf, stage
+from nivel.kernels.compile import entry, leaf, shared, stage
 from nivel.kernels.embedding import embed, generalised_forces
 from nivel.kernels.hook import apply_forces, finish_forces
 from nivel.kernels.partition import divide, solve_dependent, solve_multipliers
@@ -38,7 +38,7 @@ def take_accelerations(record):
             bodies.Rddot[b, i], bodies.alpha_b[b, i] = acceleration[6 * b + i], acceleration[6 * b + 3 + i]
 
 
-@stage
+@shared
 def embedded_accelerations(machine):
     """Accelerations of the partition, and multipliers, for the state read and its forces. Returns a status."""
     record = record_at(machine)
@@ -143,7 +143,7 @@ def close(machine, y, attempt, factorised, before):
     return OK, closed, share <= NEAR, share
 
 
-@stage
+@shared
 def keep_independent(machine, t, y, read):
     """Dependent positions from C = 0 by Newton's method with the independent ones held, then dependent velocities from Ċ = 0.
 

@@ -10,7 +10,7 @@ derivatives. Coordinates add only how accelerations of bodies come from v̇, and
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import shared, stage
 from nivel.kernels.hook import apply_forces, call_hook
 from nivel.kernels.record import GIVEN_FRICTION, record_at
 from nivel.kernels.rigid import load_weight
@@ -104,7 +104,7 @@ def inertial_wrenches(machine):
     add_shared_inertia(machine)
 
 
-@stage
+@shared
 def find_wrenches(machine, t):
     """`residual.wrench` of all bodies for the state read and `residual.acceleration`; flexible bodies have
     `nivel.kernels.floating_residual`. Returns a status."""

@@ -5,7 +5,7 @@ State y = (R, θ of every body; p; Ṙ, ω̄ of every body; ṗ; states of force
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, stage
+from nivel.kernels.compile import entry, shared, stage
 from nivel.kernels.floating_dynamics import gather, unwhiten_flexible, whiten_flexible_forces, whiten_flexible_rows
 from nivel.kernels.floating_frame import accelerate_frames, add_bias, bend
 from nivel.kernels.hook import apply_forces, finish_forces
@@ -59,7 +59,7 @@ def unwhiten_all(machine):
     unwhiten_flexible(machine)
 
 
-@stage
+@shared
 def accelerate(machine, t, y, ydot):
     """Multipliers, accelerations of all bodies, modes and frames, and the rates of the states of forces and energies, from the state read
     before. Returns a status."""

@@ -6,7 +6,7 @@ diag(m, J̄_c): the same equations, and its factor costs nothing.
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, stage
+from nivel.kernels.compile import entry, shared, stage
 from nivel.kernels.constraint import constraint_rows
 from nivel.kernels.hook import apply_forces, finish_forces, measure_active
 from nivel.kernels.marker import move_markers, place_markers
@@ -178,7 +178,7 @@ def factorise(machine, y):
     return factorise_rows(machine, WIDTH)
 
 
-@stage
+@shared
 def accelerate(machine, t, y, ydot):
     """Multipliers, whitened accelerations in `saddle.z`, and the rates of the states of forces and energies, from the state read before.
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import shared
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 from nivel.motion.direct import MAX_CORRECTIONS, NOTHING, VELOCITIES, find_correction, is_near, open_level
 from nivel.motion.tree_motion import WIDTH, normalise, write_positions
 
 
-@stage
+@shared
 def correct_tree(machine, t, y, read, factorise, accelerate):
     """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137), least in the mass metric.
 

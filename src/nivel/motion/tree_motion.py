@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import shared, stage
 from nivel.kernels.hook import finish_forces
 from nivel.kernels.record import FREE, SPHERICAL, record_at
 from nivel.kernels.rotation import normalise_parameters, rates_of_parameters
@@ -49,7 +49,7 @@ def write_positions(machine, y, change, out, n, first):
     rates_of_parameters(y[k : k + 4], change[first + count - 3 : first + count], out[k : k + 4])
 
 
-@stage
+@shared
 def evaluate_tree(machine, t, y, ydot, read, load, factorise, whiten, accelerate):
     """ẏ of y = (q, v, x): x are the states of forces, the work of external forces and the dissipated energy [J]. Returns a status.
 

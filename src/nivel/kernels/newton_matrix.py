@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import shared, stage
 from nivel.kernels.lu import factorise_lu, solve_lu
 from nivel.kernels.record import record_at
 from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.kernels.status import NOT_CONVERGED, OK
 
 
-@stage
+@shared
 def factorise_entries(pattern, factors, failure):
     """Factors of the matrix with the entries `factors.value`.
 
@@ -29,7 +29,7 @@ def factorise_entries(pattern, factors, failure):
     return OK if factorise_lu(factors.matrix, factors.pivot) else NOT_CONVERGED
 
 
-@stage
+@shared
 def solve_entries(pattern, factors):
     """Overwrite factors.b with the solution, for factors of `factorise_entries`."""
     if factors.matrix.shape[0] == 0:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import shared
+from nivel.kernels.compile import stage
 from nivel.kernels.floating_dynamics import flexible_wrench, gather
 from nivel.kernels.floating_frame import move_frames
 from nivel.kernels.hook import apply_forces, call_hook
@@ -12,7 +12,7 @@ from nivel.kernels.rigid import load_weight
 from nivel.kernels.status import OK
 
 
-@shared
+@stage
 def find_flexible_wrenches(machine, t, first):
     """`residual.wrench` of all bodies for the state read and `residual.acceleration`, and the rows of the modes, which stand from `first`
     on as their accelerations do in `residual.vdot`. Returns a status."""

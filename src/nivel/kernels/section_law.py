@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import shared
 
 
-@stage
+@shared
 def resist(C, damping, weight, e, r, control):
     """Resultants (6,) of a section for strains e (6,) and their rates r (6,), times the length `weight` [m] that it stands for.
 

@@ -19,7 +19,6 @@ from nivel.kernels.analytic import real
 from nivel.kernels.compile import stage
 from nivel.kernels.floating_frame import turn_factors
 from nivel.kernels.relative_rotation import rotation_vector
-from nivel.kernels.section_law import resist
 from nivel.kernels.shared_mass import less, product, transposed_product
 from nivel.kernels.spatial import cross, dot
 
@@ -137,7 +136,7 @@ def point_of_element(bodies, markers, index, n, q, control):
     kappa = tangent_product(a, b, c, psi, bend)
     e0, e1, e2 = stretch[0] - unstrained[0], stretch[1] - unstrained[1], stretch[2] - unstrained[2]
     e3, e4, e5 = kappa[0] - unstrained[3], kappa[1] - unstrained[4], kappa[2] - unstrained[5]
-    damping = n[DAMPING]
+    weight, damping = q[WEIGHT], n[DAMPING]
     r0, r1, r2, r3, r4, r5 = 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0
     if real(damping) > 0.0:
         turning, bending = interpolated(n, shape, RATE, count), interpolated(n, slope, RATE, count)
@@ -153,9 +152,32 @@ def point_of_element(bodies, markers, index, n, q, control):
         f = sum_of(c * both, turning, c * dot(turning, bend) + dc * along * both, psi, 1.0, d)
         r0, r1, r2 = moved[0] + g[0], moved[1] + g[1], moved[2] + g[2]
         r3, r4, r5 = k[0] + f[0], k[1] + f[1], k[2] + f[2]
-    C, strain, rate = n[STIFFNESS : STIFFNESS + 36], (e0, e1, e2, e3, e4, e5), (r0, r1, r2, r3, r4, r5)
-    s = resist(C, damping, q[WEIGHT], strain, rate, control)
-    N, M = (s[0], s[1], s[2]), (s[3], s[4], s[5])
+    s0, s1, s2, s3, s4, s5 = 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0
+    stored, lost = 0.0 * e0, 0.0 * e0
+    for i in range(6):
+        C = n[STIFFNESS + 6 * i : STIFFNESS + 6 * i + 6]
+        elastic = C[0] * e0 + C[1] * e1 + C[2] * e2 + C[3] * e3 + C[4] * e4 + C[5] * e5
+        viscous = damping * (C[0] * r0 + C[1] * r1 + C[2] * r2 + C[3] * r3 + C[4] * r4 + C[5] * r5)
+        strain = e0 if i == 0 else e1 if i == 1 else e2 if i == 2 else e3 if i == 3 else e4 if i == 4 else e5
+        rate = r0 if i == 0 else r1 if i == 1 else r2 if i == 2 else r3 if i == 3 else r4 if i == 4 else r5
+        stored += 0.5 * elastic * strain
+        lost += viscous * rate
+        total = weight * (elastic + viscous)
+        if i == 0:
+            s0 = total
+        elif i == 1:
+            s1 = total
+        elif i == 2:
+            s2 = total
+        elif i == 3:
+            s3 = total
+        elif i == 4:
+            s4 = total
+        else:
+            s5 = total
+    control.stored[0] += weight * stored
+    control.power[1] += weight * lost
+    N, M = (s0, s1, s2), (s3, s4, s5)
     force = product(Ar, turned(a, b, psi, N))
     moment = cross(N, stretch)
     # what δψ and δψ' ask for: Tᵀ m + D(T ψ')ᵀ M and Tᵀ M

@@ -26,7 +26,6 @@ from nivel.kernels.gradients import (
 )
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
-from nivel.kernels.section_law import resist
 from nivel.kernels.spatial import dot
 from nivel.kernels.status import OK
 
@@ -88,8 +87,31 @@ def point_of_section(n, q, control):
     r3 = 0.5 * (dot(ys, Z) + dot(Ys, z) - dot(zs, Y) - dot(Zs, y))
     e4, r4 = dot(d, Zs) - unstrained[4], dot(v, Zs) + dot(d, zs)
     e5, r5 = -dot(d, Ys) - unstrained[5], -dot(v, Ys) - dot(d, ys)
-    C, e, r = n[STIFFNESS : STIFFNESS + 36], (e0, e1, e2, e3, e4, e5), (r0, r1, r2, r3, r4, r5)
-    s0, s1, s2, s3, s4, s5 = resist(C, n[DAMPING], q[0], e, r, control)
+    lag, stored, lost = n[DAMPING], 0.0 * e0, 0.0 * e0
+    s0, s1, s2, s3, s4, s5 = 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0, 0.0 * e0
+    for i in range(6):
+        C = n[STIFFNESS + 6 * i : STIFFNESS + 6 * i + 6]
+        elastic = C[0] * e0 + C[1] * e1 + C[2] * e2 + C[3] * e3 + C[4] * e4 + C[5] * e5
+        viscous = lag * (C[0] * r0 + C[1] * r1 + C[2] * r2 + C[3] * r3 + C[4] * r4 + C[5] * r5)
+        e = e0 if i == 0 else e1 if i == 1 else e2 if i == 2 else e3 if i == 3 else e4 if i == 4 else e5
+        r = r0 if i == 0 else r1 if i == 1 else r2 if i == 2 else r3 if i == 3 else r4 if i == 4 else r5
+        stored += 0.5 * elastic * e
+        lost += viscous * r
+        total = q[0] * (elastic + viscous)
+        if i == 0:
+            s0 = total
+        elif i == 1:
+            s1 = total
+        elif i == 2:
+            s2 = total
+        elif i == 3:
+            s3 = total
+        elif i == 4:
+            s4 = total
+        else:
+            s5 = total
+    control.stored[0] += q[0] * stored
+    control.power[1] += q[0] * lost
     on_d, across = weighed(s1, Y, s2, Z), weighed(s4, Zs, -s5, Ys)
     add_along_line(
         n,

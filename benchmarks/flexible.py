@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 
 import nivel
-from nivel.analysis.dynamics import march, prepare
+from nivel.analysis.dynamics import march
+from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
 from nivel.flexible.body_file import write_body
 from nivel.flexible.model_file import parse_model

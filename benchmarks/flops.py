@@ -27,7 +27,7 @@ from numba.core.registry import CPUDispatcher
 
 import nivel
 from chain import chain
-from nivel.analysis.dynamics import Prepared, prepare
+from nivel.analysis.preparation import Prepared, prepare
 from part import measure
 
 SIZE, ROUNDS = 1000, 15

@@ -14,7 +14,8 @@ import time
 import numpy as np
 
 import nivel
-from nivel.analysis.dynamics import march, prepare
+from nivel.analysis.dynamics import march
+from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
 from nivel.machine import Body, MachineRecord, SimulationSettings, SpringDamper
 from nivel.machine.marker import Marker

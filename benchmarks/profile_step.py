@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import nivel
-from nivel.analysis.dynamics import prepare
+from nivel.analysis.preparation import prepare
 from nivel.kernels.observe import accept, observe
 from part import REPEATS, measure, part
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.dynamics import prepare
+from nivel.analysis.preparation import prepare
 from running import run
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 import machines
-from nivel.analysis.dynamics import prepare
+from nivel.analysis.preparation import prepare
 from nivel.analysis.unknowns import unknown_name
 from nivel.machine import Friction
 from running import run

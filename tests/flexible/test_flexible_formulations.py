@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from nivel.analysis.dynamics import prepare
+from nivel.analysis.preparation import prepare
 from nivel.errors import ModelError
 from nivel.flexible import reference
 from nivel.kernels.status import OK

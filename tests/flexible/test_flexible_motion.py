@@ -5,8 +5,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from models import bar, reduced
-from nivel.analysis.dynamics import prepare
 from nivel.analysis.implicit import evaluate_residual, find_tangent
+from nivel.analysis.preparation import prepare
 from nivel.errors import ModelError
 from nivel.flexible import reference
 from nivel.flexible.body_file import write_body

@@ -9,8 +9,8 @@ import pytest
 
 import simulating
 from nivel.analysis.choice import choose_coordinates
-from nivel.analysis.dynamics import prepare
 from nivel.analysis.implicit import evaluate_residual
+from nivel.analysis.preparation import prepare
 from nivel.analysis.simulate import simulate
 from nivel.analysis.statics.newton import Iteration
 from nivel.analysis.statics.run import prepare_statics

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 import gradient_beams
 import simulating
 from mixed_machines import mixed, sprung
-from nivel.analysis.dynamics import prepare
+from nivel.analysis.preparation import prepare
 from nivel.kernels.record import TANGENT
 from observing import assert_same_frame, observed, of_absolute
 from test_rails import KINDS

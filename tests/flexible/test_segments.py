@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from beams import flying, general
 from nivel.analysis.beam_facts import beam_facts
 from nivel.analysis.check import check
-from nivel.analysis.dynamics import prepare
+from nivel.analysis.preparation import prepare
 from nivel.errors import ModelError
 from nivel.machine import Beam
 from nivel.system.beam_elements import skew

@@ -14,14 +14,14 @@ NEWTON = {"corrector": {"iteration": "newton"}}
 
 @CHOOSING
 def test_result_is_bit_identical_for_every_chunk_and_buffer(integrator, monkeypatch):
-    from nivel.analysis import dynamics
+    from nivel.analysis import history
 
     settings = {"duration": 0.5, "integrator": integrator, "tolerance": 1e-5, "output_interval": 7e-3}
     whole = run(machines.slider_crank(), chunk_steps=10_000, **settings)
     for chunk in (1, 7):
         parts = run(machines.slider_crank(), chunk_steps=chunk, **settings)
         assert np.array_equal(whole.frames, parts.frames)
-    monkeypatch.setattr(dynamics, "BUFFER_BYTES", 1)
+    monkeypatch.setattr(history, "BUFFER_BYTES", 1)
     small = run(machines.slider_crank(), chunk_steps=3, **settings)
     assert np.array_equal(whole.frames, small.frames)
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.dynamics import _start, prepare
+from nivel.analysis.history import start_history
+from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
 from nivel.kernels.handle import Handle
 from nivel.machine import Body, Joint, MachineRecord, SpringDamper
@@ -52,7 +53,7 @@ def test_newtons_and_functional_iteration_give_the_same_motion(name, formulation
 
 def test_an_event_makes_the_history_forgotten_with_its_matrix():
     settings = complete(machines.slider_crank(integrator="gear3").simulation)
-    history = _start(prepare(machines.slider_crank()), settings, INTEGRATORS["gear3"])
+    history = start_history(prepare(machines.slider_crank()), settings, INTEGRATORS["gear3"])
     handle = Handle(history)
     kept = [remember(handle.address, 2, 3) for _ in range(4)]
     assert kept == [1, 2, 3, 4]

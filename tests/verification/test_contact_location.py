@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from nivel.analysis import dynamics
+from nivel.analysis import history
 from references import impact
 from simulating import G, simulate, slide, solid
 
@@ -70,14 +70,14 @@ def test_location_needs_far_fewer_evaluations_for_the_same_error(integrator, mon
         return r.timing["evaluations"], np.abs(np.array([event.time for event in r.events]) - expected).max()
 
     evaluations, error = run(1e-8)
-    watch = dynamics._watch
+    watch = history._watch
 
     def unfollowed(system, *, chosen):
         watch(system, chosen=chosen)
         system.record.watched.followed[:] = 0
         return len(system.record.watched.event)
 
-    monkeypatch.setattr(dynamics, "_watch", unfollowed)
+    monkeypatch.setattr(history, "_watch", unfollowed)
     without = [run(tolerance) for tolerance in (1e-8, 1e-9, 1e-10, 1e-11)]
     as_exact = [spent for spent, its in without if its <= error]
     assert not as_exact or min(as_exact) > 1.5 * evaluations, (evaluations, error, without)

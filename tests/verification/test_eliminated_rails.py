@@ -7,9 +7,9 @@ from numpy.testing import assert_allclose
 import beams
 from assembled import TIME, random_states
 from nivel.analysis.choice import choose_coordinates
-from nivel.analysis.dynamics import prepare
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.implicit import Wanted, equip
+from nivel.analysis.preparation import prepare
 from nivel.errors import SolveError
 from nivel.kernels.observe import observe
 from nivel.system.beam_nodes import with_nodes

@@ -7,7 +7,7 @@ import pytest
 from scipy.special import ellipj, ellipk, ellipkinc
 
 import machines
-from nivel.analysis import dynamics
+from nivel.analysis import history
 from nivel.errors import SolveError
 from nivel.machine import Event
 from running import run
@@ -180,8 +180,8 @@ def test_events_are_the_same_for_every_chunk_and_buffer(coordinates, stabilisati
     record = crossings().replace(simulation=machines.slider_crank().simulation.replace(coordinates=coordinates))
     whole = run(record, chunk_steps=10_000, **settings)
     assert len(whole.finished.events) >= 20
-    monkeypatch.setattr(dynamics, "EVENT_ROWS", 1)
-    monkeypatch.setattr(dynamics, "BUFFER_BYTES", 1)
+    monkeypatch.setattr(history, "EVENT_ROWS", 1)
+    monkeypatch.setattr(history, "BUFFER_BYTES", 1)
     for chunk in (1, 7):
         parts = run(record, chunk_steps=chunk, **settings)
         assert np.array_equal(whole.frames, parts.frames)

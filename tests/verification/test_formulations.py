@@ -5,8 +5,8 @@ import pytest
 
 import machines
 from nivel.analysis.assemble import assemble
-from nivel.analysis.dynamics import prepare
 from nivel.analysis.equations import equations
+from nivel.analysis.preparation import prepare
 
 MACHINES = {
     "slider-crank": machines.slider_crank,

@@ -10,9 +10,10 @@ from scipy.spatial.transform import Rotation
 
 import machines
 from assembled import TIME, random_states
-from nivel.analysis.dynamics import march, prepare
+from nivel.analysis.dynamics import march
 from nivel.analysis.equations import moved
 from nivel.analysis.implicit import evaluate_residual, find_tangent
+from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
 from nivel.errors import ModelError, SolveError
 from nivel.kernels.record import DEPENDENT

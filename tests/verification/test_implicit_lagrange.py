@@ -7,8 +7,8 @@ from scipy.spatial.transform import Rotation
 
 import machines
 from assembled import TIME, random_states
-from nivel.analysis.dynamics import prepare
 from nivel.analysis.implicit import find_tangent
+from nivel.analysis.preparation import prepare
 from nivel.errors import ModelError
 from nivel.kernels.status import OK
 from references import heavy_top, slider_crank

@@ -11,8 +11,9 @@ import pytest
 import machines
 import nivel
 from assembled import TIME, mass_matrix, random_states
-from nivel.analysis.dynamics import march, prepare
+from nivel.analysis.dynamics import march
 from nivel.analysis.equations import change_between, moved
+from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
 from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine

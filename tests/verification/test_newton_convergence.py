@@ -5,8 +5,8 @@ from itertools import pairwise
 import numpy as np
 
 import machines
-from nivel.analysis.dynamics import prepare
 from nivel.analysis.implicit import equip, evaluate_residual, find_tangent
+from nivel.analysis.preparation import prepare
 
 
 def defect(motion, start, unknowns, cq, cv):

@@ -9,8 +9,8 @@ import linked
 import machines
 import nivel
 from assembled import TIME, mass_matrix, random_states
-from nivel.analysis.dynamics import prepare
 from nivel.analysis.equations import MotionEquations
+from nivel.analysis.preparation import prepare
 from nivel.kernels.observe import observe
 from nivel.kernels.status import OK
 from nivel.motion import relative as equations_in_relative

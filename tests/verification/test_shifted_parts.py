@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.dynamics import prepare
+from nivel.analysis.preparation import prepare
 from nivel.kernels.status import OK
 from nivel.machine import Body, Bushing, Friction, Joint, MachineRecord, Marker, SpringDamper
 from unknowns import ROTATIONS

@@ -8,9 +8,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from assembled import TIME, random_states
-from nivel.analysis.dynamics import prepare
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.implicit import Wanted, equip, evaluate_residual, find_tangent
+from nivel.analysis.preparation import prepare
 from nivel.kernels.record import EULER_ANGLES, NONE, ROTATION_VECTOR
 from nivel.kernels.status import OK
 from nivel.motion.catalogue import path_of

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 import nivel
-from nivel.analysis.dynamics import Prepared
+from nivel.analysis.preparation import Prepared
 from nivel.analysis.settings import RunSettings
 from nivel.flexible.identity import fingerprint
 from nivel.machine.machine_record import MachineRecord

@@ -9,8 +9,8 @@ import numpy as np
 
 from nivel.analysis.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.choice import choose_coordinates, choose_cut
-from nivel.analysis.dynamics import prepare
 from nivel.analysis.elements import coupling_in_words, driver_in_words, event_in_words, force_in_words, sensor_in_words
+from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import RunSettings, complete
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord

@@ -14,7 +14,8 @@ from nivel.analysis.equations import MotionEquations
 from nivel.analysis.unknown_groups import frictions_with_stiction, unknown_groups
 from nivel.kernels.arrays import complex_twin
 from nivel.kernels.handle import Handle
-from nivel.kernels.hook import FAMILIES
+from nivel.kernels.hook import FAMILIES, Family
+from nivel.kernels.implicit_record import Newton, Residual
 from nivel.kernels.record import (
     DEPENDENT,
     GIVEN_FRICTION,
@@ -43,8 +44,8 @@ from nivel.system.beam_tangent import (
 from nivel.system.beams import nodes_of_elements
 from nivel.system.implicit import newton_tables, parts_of, places, residual_tables
 from nivel.system.laws import complex_address
-from nivel.system.system import Array
-from nivel.system.tangent_plan import plan_tangent
+from nivel.system.system import Array, System
+from nivel.system.tangent_plan import TangentPlan, plan_tangent
 
 Index = NDArray[np.integer]
 # Units in the last place by which the position of a point may be wrong for every body on the way to it: a product of two rotations (3
@@ -128,75 +129,113 @@ def _with_rows(
 ) -> MotionEquations:
     """With the rows `kept` of those of the saddle."""
     system = motion.system
-    record, positions = system.record, system.positions
-    states = len(record.elements.state)
-    velocities = len(y) - positions - states - 2
-    part = parts_of(record, coordinates == "relative")
-    renumbered = np.full(len(record.saddle.row), NONE, dtype=np.uint32)
-    renumbered[kept] = np.arange(len(kept))
-    part[:, 0] = renumbered[part[:, 0]]
-    part = np.ascontiguousarray(part[part[:, 0] != NONE])
-    row = np.ascontiguousarray(record.saddle.row[kept])
-    own = record.flexible
-    counts = (len(own.p), len(own.frame), len(own.body)) if wanted.free is not None else (0, 0, 0)
-    nodes = nodes_of_elements(record) if wanted.free is not None else []
-    stiction = frictions_with_stiction(system)
-    residual = residual_tables(
-        len(record.bodies.wrench) - 1,
-        len(y),
-        velocities,
-        states,
-        row,
-        part,
-        stiction=stiction,
-        free=wanted.free,
-        flexible=counts,
-        nodes=nodes,
-    )
-    if wanted.free is not None:
-        solid = np.flatnonzero(~system.point_masses)
-        residual.interval.inertia[solid] = record.bodies.inertia_b[solid]
-    # over a whole step the forces of joints act at the mean place, C is that of the end
-    mirrored = wanted.free is None and not len(system.frictions)
-    groups = unknown_groups(system, velocities, row, part, coordinates)
+    record = system.record
+    row, part = np.ascontiguousarray(record.saddle.row[kept]), _parts(record, coordinates, kept)
+    velocities = len(y) - system.positions - len(record.elements.state) - 2
     # residuals over a whole step have elements of beams act at the mean place too
     # and by hand nothing is known of rotation coordinates, of modes that move nodes of beams, nor of beams that move nodes of others
     by_rates = coordinates == "absolute" and len(system.map.turns) == 0
     unknown = wanted.whole or wanted.along or by_rates or has_carried_nodes(record)
     by_hand = not unknown and has_elastic_beams(record)
     plain = plain_nodes(system, part) if by_hand else {}
+    # over a whole step the forces of joints act at the mean place, C is that of the end
+    mirrored = wanted.free is None and not len(system.frictions)
+    groups = unknown_groups(system, velocities, row, part, coordinates)
     plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values(), stages=3 if wanted.shifted else 0)
-    place = places(system.map, velocities, positions)
-    room = {
-        "shifted": wanted.shifted,
-        "balance": wanted.balance,
-        "filtered": wanted.filtered,
-        "compliance": wanted.compliance,
-    }
-    newton = newton_tables(
-        place, len(y), states, len(row) + len(stiction), plan, wanted.corners, length=system.size, **room
+    record = record._replace(
+        residual=_residual(system, y, velocities, row, part, wanted),
+        newton=_newton(system, y, velocities, len(row), plan, wanted),
+        hooks=_hooks(system, path, wanted, by_hand=by_hand),
     )
-    newton.settings[3] = ROUNDINGS * _longest_chain(record)
-    family = import_module(wanted.whole or path.residual).residual
-    instant = import_module(path.residual).residual if wanted.balance else family
-    hooks = record.hooks._replace(address=record.hooks.address.copy())
-    record = record._replace(residual=residual, newton=newton, hooks=hooks)
-    hooks.address[RESIDUAL], hooks.address[MOMENTARY] = family.address, instant.address
     if by_hand:
         record = record._replace(beams=tangent_tables(record, plan, plain))
-        hooks.address[TANGENT] = import_module("nivel.kernels.beam_tangent").tangent.address
-    if len(record.modal.carrier):
-        hooks.address[MODES] = import_module("nivel.kernels.modal_nodes").pass_modes.address
-    if len(record.tree.slider):
-        hooks.address[PASS] = import_module("nivel.kernels.slider_pass").pass_nodes.address
-        hooks.address[SLIDERS] = import_module("nivel.kernels.slider_nodes").pass_sliders.address
-    if wanted.accelerations and path.dependent:
-        hooks.address[DEPENDENT] = import_module(path.dependent).depend.address
-    if len(system.frictions):
-        hooks.address[GIVEN_FRICTION] = import_module("nivel.kernels.friction_residual").rub.address
     twin = _twin(record, held=by_hand)
-    newton.address[:] = twin.address, family.complex_address, instant.complex_address
+    family, instant = _families(path, wanted)
+    record.newton.address[:] = twin.address, family.complex_address, instant.complex_address
     return MotionEquations(replace(system, record=record), motion.kernels, twin)
+
+
+def _parts(record: Record, coordinates: str, kept: Index) -> NDArray[np.uint32]:
+    """Parts of the rows `kept`, with their numbers among these: `Residual.part`."""
+    part = parts_of(record, coordinates == "relative")
+    renumbered = np.full(len(record.saddle.row), NONE, dtype=np.uint32)
+    renumbered[kept] = np.arange(len(kept))
+    part[:, 0] = renumbered[part[:, 0]]
+    return np.ascontiguousarray(part[part[:, 0] != NONE])
+
+
+def _residual(
+    system: System,
+    y: Array,
+    velocities: int,
+    row: NDArray[np.uint32],
+    part: NDArray[np.uint32],
+    wanted: Wanted,
+) -> Residual:
+    """Its tables, with what is known of the inertia of bodies where it is one over a whole step."""
+    record, own = system.record, system.record.flexible
+    whole = wanted.free is not None
+    residual = residual_tables(
+        len(record.bodies.wrench) - 1,
+        len(y),
+        velocities,
+        len(record.elements.state),
+        row,
+        part,
+        stiction=frictions_with_stiction(system),
+        free=wanted.free,
+        flexible=(len(own.p), len(own.frame), len(own.body)) if whole else (0, 0, 0),
+        nodes=nodes_of_elements(record) if whole else [],
+    )
+    if whole:
+        solid = np.flatnonzero(~system.point_masses)
+        residual.interval.inertia[solid] = record.bodies.inertia_b[solid]
+    return residual
+
+
+def _newton(system: System, y: Array, velocities: int, rows: int, plan: TangentPlan, wanted: Wanted) -> Newton:
+    """Tables of Newton's iteration for so many rows of constraints."""
+    newton = newton_tables(
+        places(system.map, velocities, system.positions),
+        len(y),
+        len(system.record.elements.state),
+        rows + len(frictions_with_stiction(system)),
+        plan,
+        wanted.corners,
+        length=system.size,
+        shifted=wanted.shifted,
+        balance=wanted.balance,
+        filtered=wanted.filtered,
+        compliance=wanted.compliance,
+    )
+    newton.settings[3] = ROUNDINGS * _longest_chain(system.record)
+    return newton
+
+
+def _families(path: PathFacts, wanted: Wanted) -> tuple[Family, Family]:
+    """The residual, and the one at an instant where accelerations are found by it."""
+    family = import_module(wanted.whole or path.residual).residual
+    return family, import_module(path.residual).residual if wanted.balance else family
+
+
+def _hooks(system: System, path: PathFacts, wanted: Wanted, *, by_hand: bool) -> Hooks:
+    """Those of the system, with what the residual of this machine calls. by_hand : derivatives of elements of beams are."""
+    record = system.record
+    address = record.hooks.address.copy()
+    family, instant = _families(path, wanted)
+    address[RESIDUAL], address[MOMENTARY] = family.address, instant.address
+    if by_hand:
+        address[TANGENT] = import_module("nivel.kernels.beam_tangent").tangent.address
+    if len(record.modal.carrier):
+        address[MODES] = import_module("nivel.kernels.modal_nodes").pass_modes.address
+    if len(record.tree.slider):
+        address[PASS] = import_module("nivel.kernels.slider_pass").pass_nodes.address
+        address[SLIDERS] = import_module("nivel.kernels.slider_nodes").pass_sliders.address
+    if wanted.accelerations and path.dependent:
+        address[DEPENDENT] = import_module(path.dependent).depend.address
+    if len(system.frictions):
+        address[GIVEN_FRICTION] = import_module("nivel.kernels.friction_residual").rub.address
+    return record.hooks._replace(address=address)
 
 
 def _longest_chain(record: Record) -> int:

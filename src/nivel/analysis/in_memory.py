@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from nivel.analysis.attributes import run_attributes
-from nivel.analysis.dynamics import Finished, march, prepare
+from nivel.analysis.dynamics import Finished, march
 from nivel.analysis.listener import Progress
+from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import RunSettings
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.sink import Header

@@ -9,9 +9,10 @@ from os import PathLike
 
 from nivel.analysis.attributes import run_attributes
 from nivel.analysis.choice import choose_coordinates
-from nivel.analysis.dynamics import Finished, Prepared, march, prepare
+from nivel.analysis.dynamics import Finished, march
 from nivel.analysis.held_friction import held_frictions
 from nivel.analysis.listener import Listener
+from nivel.analysis.preparation import Prepared, prepare
 from nivel.analysis.settings import RunSettings, complete
 from nivel.errors import SolveError
 from nivel.machine.machine_record import MachineRecord

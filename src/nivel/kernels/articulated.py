@@ -56,6 +56,32 @@ def set_inertia(A, J, m, c, P):
     P[15], P[16], P[17], P[18], P[19], P[20] = m, 0.0, 0.0, m, 0.0, m
 
 
+@stage
+def subtract_outer(P, d, u):
+    """P -= d uᵀ for 6-vectors whose product is symmetric."""
+    P[0] -= d[0] * u[0]
+    P[1] -= d[0] * u[1]
+    P[2] -= d[0] * u[2]
+    P[3] -= d[1] * u[1]
+    P[4] -= d[1] * u[2]
+    P[5] -= d[2] * u[2]
+    P[6] -= d[0] * u[3]
+    P[7] -= d[0] * u[4]
+    P[8] -= d[0] * u[5]
+    P[9] -= d[1] * u[3]
+    P[10] -= d[1] * u[4]
+    P[11] -= d[1] * u[5]
+    P[12] -= d[2] * u[3]
+    P[13] -= d[2] * u[4]
+    P[14] -= d[2] * u[5]
+    P[15] -= d[3] * u[3]
+    P[16] -= d[3] * u[4]
+    P[17] -= d[3] * u[5]
+    P[18] -= d[4] * u[4]
+    P[19] -= d[4] * u[5]
+    P[20] -= d[5] * u[5]
+
+
 @leaf
 def eliminate(P, s, U):
     """U = P s, 1/(sᵀ U) returned, P := P - U Uᵀ/(sᵀ U)."""
@@ -69,28 +95,18 @@ def eliminate(P, s, U):
     Dinv = 1.0 / ((U0 * w0 + U1 * w1 + U2 * w2) + (U3 * v0 + U4 * v1 + U5 * v2))
     U[0], U[1], U[2], U[3], U[4], U[5] = U0, U1, U2, U3, U4, U5
     d0, d1, d2, d3, d4, d5 = Dinv * U0, Dinv * U1, Dinv * U2, Dinv * U3, Dinv * U4, Dinv * U5
-    P[0] -= d0 * U0
-    P[1] -= d0 * U1
-    P[2] -= d0 * U2
-    P[3] -= d1 * U1
-    P[4] -= d1 * U2
-    P[5] -= d2 * U2
-    P[6] -= d0 * U3
-    P[7] -= d0 * U4
-    P[8] -= d0 * U5
-    P[9] -= d1 * U3
-    P[10] -= d1 * U4
-    P[11] -= d1 * U5
-    P[12] -= d2 * U3
-    P[13] -= d2 * U4
-    P[14] -= d2 * U5
-    P[15] -= d3 * U3
-    P[16] -= d3 * U4
-    P[17] -= d3 * U5
-    P[18] -= d4 * U4
-    P[19] -= d4 * U5
-    P[20] -= d5 * U5
+    subtract_outer(P, (d0, d1, d2, d3, d4, d5), (U0, U1, U2, U3, U4, U5))
     return Dinv
+
+
+@stage
+def eliminate_columns(tree, P, first, last):
+    """Eliminate columns first to last - 1 of a joint, the last one first; P, the inertia outside of it, becomes what its parent feels."""
+    for c in range(last - first):
+        k = last - 1 - c
+        Dinv = eliminate(P, tree.column[k], tree.U[k])
+        tree.Dinv[k] = Dinv
+        tree.root[k] = np.sqrt(Dinv)
 
 
 @leaf
@@ -143,11 +159,7 @@ def factorise_tree(bodies, tree):
         node = tree.node[count - 1 - m]
         child, parent, first, last = node[0], node[1], np.int64(node[4]), np.int64(node[5])
         P = tree.inertia[child]
-        for c in range(last - first):
-            k = last - 1 - c
-            Dinv = eliminate(P, tree.column[k], tree.U[k])
-            tree.Dinv[k] = Dinv
-            tree.root[k] = np.sqrt(Dinv)
+        eliminate_columns(tree, P, first, last)
         if parent != ground:
             hand_inertia(P, tree.arm[child], tree.inertia[parent])
 
@@ -280,10 +292,10 @@ def whiten_bundle(machine, first, last):
 
 
 @stage
-def whiten_tree_rows(machine):
+def whiten_bundles(machine, whiten):
     """W of all rows that are left, and of friction; their γ becomes the right-hand side for joint accelerations.
 
-    `load` is zero before and after.
+    whiten(machine, first, last) : W of rows first to last - 1, loaded, compiled into this one. `load` is zero before and after.
     """
     record = record_at(machine)
     tree, saddle, gamma = record.tree, record.saddle, record.constraints.gamma
@@ -293,7 +305,24 @@ def whiten_tree_rows(machine):
         for k in range(first, last):
             bias = load_row(machine, k, k - first)
             gamma[saddle.row[k] if k < rows else all_rows + k - rows] -= bias
-        whiten_bundle(machine, first, last)
+        whiten(machine, first, last)
+
+
+@stage
+def whiten_tree_rows(machine):
+    """W of all rows in a tree of rigid bodies, see `whiten_bundles`."""
+    whiten_bundles(machine, whiten_bundle)
+
+
+@stage
+def accelerate_column(tree, z, k, a, change):
+    """Acceleration of column k of a joint, in `change`, and what it adds to `a`, that of its body."""
+    s, U = tree.column[k], tree.U[k]
+    felt = (U[0] * a[0] + U[1] * a[1] + U[2] * a[2]) + (U[3] * a[3] + U[4] * a[4] + U[5] * a[5])
+    x = z[k, 0] * tree.root[k] - tree.Dinv[k] * felt
+    change[k] = x
+    for i in range(6):
+        a[i] += x * s[i]
 
 
 @stage
@@ -307,9 +336,4 @@ def accelerate(machine, change):
         a = tree.delta[child]
         carry_motion(tree.delta[parent], tree.arm[child], a)
         for k in range(np.int64(node[4]), np.int64(node[5])):
-            s, U = tree.column[k], tree.U[k]
-            felt = (U[0] * a[0] + U[1] * a[1] + U[2] * a[2]) + (U[3] * a[3] + U[4] * a[4] + U[5] * a[5])
-            x = z[k, 0] * tree.root[k] - tree.Dinv[k] * felt
-            change[k] = x
-            for i in range(6):
-                a[i] += x * s[i]
+            accelerate_column(tree, z, k, a, change)

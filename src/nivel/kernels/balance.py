@@ -10,10 +10,10 @@ import numpy as np
 
 from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_hook
+from nivel.kernels.newton_matrix import factorise_entries, solve_entries
 from nivel.kernels.record import MOMENTARY, NONE, record_at
 from nivel.kernels.residual import acceleration_of
 from nivel.kernels.rotation import rates_of_parameters
-from nivel.kernels.shifted_parts import factorise_entries, solve_entries
 from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.tangent_parts import ACCELERATION, differentiate_part, own_rates
 
@@ -26,11 +26,12 @@ GROWN = 10.0
 @stage
 def find_matrix(machine, t):
     """The factors at the state, accelerations and multipliers in `residual`. Returns a status."""
-    newton = record_at(machine).newton
+    record = record_at(machine)
+    newton = record.newton
     newton.asked[2] = 1.0
     own_rates(newton, np.int64(newton.place.shape[0]), newton.balance.value)
     status = differentiate_part(machine, t, ACCELERATION, newton.balance.value)
-    return factorise_entries(machine, newton.balance) if status == OK else status
+    return factorise_entries(newton, newton.balance, record.control.failure) if status == OK else status
 
 
 @stage
@@ -48,7 +49,7 @@ def change_accelerations(machine):
         b[n + i] = 0.0
     for k in range(rows):
         b[first + k] = -value[first + 2 * rows + k]
-    solve_entries(machine, f)
+    solve_entries(newton, f)
     largest, of_largest = 0.0, 1e-300
     for k in range(n):
         own.vdot[k] += b[k]

@@ -1,7 +1,9 @@
-"""The four ways a function of nivel is compiled.
+"""The five ways a function of nivel is compiled.
 
 leaf     small arithmetic; LLVM decides about inlining.
 stage    a part of one evaluation; always inlined, so that what one part has read of the record serves the next (a quarter of a step).
+shared   what several entries have in common: put into each of them before that is compiled. A stage would be compiled once by itself and
+         again within the entry, which a body of half an evaluation makes felt; such functions may take the parts that differ as arguments.
 entry    what Python or another entry calls: an explicit signature, cached on disk, without the interpreter lock.
 family   what is called by its address: forces, and hooks that only some machines have.
 
@@ -30,6 +32,7 @@ OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "_nrt": False}
 
 leaf: Callable[..., Any] = _compile(**OPTIONS)
 stage: Callable[..., Any] = _compile(forceinline=True, **OPTIONS)
+shared: Callable[..., Any] = _compile(inline="always", **OPTIONS)
 
 
 def entry(signature: types.abstract.Type | Any) -> Callable[..., Any]:

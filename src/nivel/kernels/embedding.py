@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.compile import leaf, shared
 from nivel.kernels.flexible_partition import flexible_forces, moves_with_modes, times_flexible_mass
 from nivel.kernels.partition import solve_dependent
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import dot
+from nivel.kernels.status import OK
 
 
 @leaf
@@ -133,3 +134,19 @@ def solve_definite(H, x):
         for j in range(k + 1, n):
             x[k] -= H[j, k] * x[j]
         x[k] /= H[k, k]
+
+
+@shared
+def depend_on(machine, t, keep, read):
+    """Dependent positions, velocities and accelerations of `residual.y` and `vdot` from C = 0, Ċ = 0 and C̈ = 0; the independent ones stay.
+
+    keep(machine, t, y), read(machine, t, y) : the former two, and the state, compiled into this one. Returns a status: SINGULAR where the
+    positions cannot be found; control.failure is the row that is farthest open.
+    """
+    own = record_at(machine).residual
+    status = keep(machine, t, own.y)
+    if status == OK:
+        status = read(machine, t, own.y)
+    if status == OK:
+        follow_independent(machine, own.vdot)
+    return status

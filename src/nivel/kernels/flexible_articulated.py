@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.articulated import eliminate, hand_inertia, own_inertia, set_inertia
+from nivel.kernels.articulated import eliminate_columns, hand_inertia, own_inertia, set_inertia, subtract_outer
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.floating_frame import modes_of
 from nivel.kernels.record import MODAL, OUTWARD, record_at
@@ -133,28 +133,8 @@ def eliminate_modes(bodies, tree, own, modal, f):
             share, below = row[i], M[i]
             for j in range(i, width):
                 below[j] -= share * row[j]
-        y0, y1, y2, y3, y4, y5 = row[n], row[n + 1], row[n + 2], row[n + 3], row[n + 4], row[n + 5]
-        P[0] -= y0 * y0
-        P[1] -= y0 * y1
-        P[2] -= y0 * y2
-        P[3] -= y1 * y1
-        P[4] -= y1 * y2
-        P[5] -= y2 * y2
-        P[6] -= y0 * y3
-        P[7] -= y0 * y4
-        P[8] -= y0 * y5
-        P[9] -= y1 * y3
-        P[10] -= y1 * y4
-        P[11] -= y1 * y5
-        P[12] -= y2 * y3
-        P[13] -= y2 * y4
-        P[14] -= y2 * y5
-        P[15] -= y3 * y3
-        P[16] -= y3 * y4
-        P[17] -= y3 * y5
-        P[18] -= y4 * y4
-        P[19] -= y4 * y5
-        P[20] -= y5 * y5
+        y = row[n], row[n + 1], row[n + 2], row[n + 3], row[n + 4], row[n + 5]
+        subtract_outer(P, y, y)
     return True
 
 
@@ -186,11 +166,7 @@ def factorise_flexible_tree(machine):
                 record.control.failure[0] = child
                 return NO_MASS_LEFT
         else:
-            for c in range(last - first):
-                k = last - 1 - c
-                Dinv = eliminate(P, tree.column[k], tree.U[k])
-                tree.Dinv[k] = Dinv
-                tree.root[k] = np.sqrt(Dinv)
+            eliminate_columns(tree, P, first, last)
         if parent != ground:
             hand_inertia(P, tree.arm[child], tree.inertia[parent])
     return OK

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.articulated import applied, carry_motion, hand_wrench, load_row, transmit
+from nivel.kernels.articulated import accelerate_column, applied, carry_motion, hand_wrench, transmit, whiten_bundles
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.floating_dynamics import velocity_forces
 from nivel.kernels.floating_frame import modes_of
@@ -168,19 +168,11 @@ def whiten_flexible_bundle(machine, first, last):
 
 @stage
 def whiten_flexible_tree_rows(machine):
-    """W of all rows that are left, and of friction; their γ becomes the right-hand side for joint and modal accelerations.
+    """W of all rows in a tree with flexible bodies, see `nivel.kernels.articulated.whiten_bundles`.
 
-    `tree.load` and `modal.load` are zero before and after.
+    `modal.load` is zero before and after.
     """
-    record = record_at(machine)
-    tree, saddle, gamma = record.tree, record.saddle, record.constraints.gamma
-    rows, all_rows = saddle.row.shape[0], record.constraints.C.shape[0]
-    for n in range(tree.bundle.shape[0] - 1):
-        first, last = np.int64(tree.bundle[n]), np.int64(tree.bundle[n + 1])
-        for k in range(first, last):
-            bias = load_row(machine, k, k - first)
-            gamma[saddle.row[k] if k < rows else all_rows + k - rows] -= bias
-        whiten_flexible_bundle(machine, first, last)
+    whiten_bundles(machine, whiten_flexible_bundle)
 
 
 @stage
@@ -222,9 +214,4 @@ def accelerate_flexible(machine, change):
                         a[i] += motion[i, j] * own.pddot[first + j]
         else:
             for k in range(low, np.int64(node[5])):
-                s, U = tree.column[k], tree.U[k]
-                felt = (U[0] * a[0] + U[1] * a[1] + U[2] * a[2]) + (U[3] * a[3] + U[4] * a[4] + U[5] * a[5])
-                x = z[k, 0] * tree.root[k] - tree.Dinv[k] * felt
-                change[k] = x
-                for i in range(6):
-                    a[i] += x * s[i]
+                accelerate_column(tree, z, k, a, change)

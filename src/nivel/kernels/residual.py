@@ -10,11 +10,13 @@ derivatives. Coordinates add only how accelerations of bodies come from v̇, and
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
-from nivel.kernels.hook import call_hook
+from nivel.kernels.compile import shared, stage
+from nivel.kernels.hook import apply_forces, call_hook
 from nivel.kernels.record import GIVEN_FRICTION, record_at
+from nivel.kernels.rigid import load_weight
 from nivel.kernels.shared_mass import add_shared_inertia
 from nivel.kernels.spatial import cross, dot
+from nivel.kernels.status import OK
 
 
 @stage
@@ -100,6 +102,20 @@ def inertial_wrenches(machine):
         for i in range(3):
             out[i] = A[i, 0] * n0 + A[i, 1] * n1 + A[i, 2] * n2 + m * lever[i] - F[3 + i]
     add_shared_inertia(machine)
+
+
+@shared
+def find_wrenches(machine, t):
+    """`residual.wrench` of all bodies for the state read and `residual.acceleration`; flexible bodies have
+    `nivel.kernels.floating_residual`. Returns a status."""
+    record = record_at(machine)
+    load_weight(record.bodies)
+    status = apply_forces(machine, t, record.residual.y)
+    if status == OK:
+        status = load_multipliers(machine, t)
+    if status == OK:
+        inertial_wrenches(machine)
+    return status
 
 
 @stage

@@ -6,7 +6,7 @@ velocity is ω̄ = Ḡ θ̇ with Ḡ = 2 Ē/|θ|² exactly, on and off the unit 
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.compile import leaf, stage
 
 
 @leaf
@@ -23,6 +23,16 @@ def rotation_matrix(theta, A):
     A[2, 0] = scale * (e1 * e3 - e0 * e2)
     A[2, 1] = scale * (e2 * e3 + e0 * e1)
     A[2, 2] = 1.0 - scale * (e1 * e1 + e2 * e2)
+
+
+@stage
+def normalise_parameters(theta):
+    """θ := θ/|θ|."""
+    square = theta[0] * theta[0] + theta[1] * theta[1] + theta[2] * theta[2] + theta[3] * theta[3]
+    # 1/√s for s near 1; exact to round-off after one step's drift
+    scale = 1.0 / square**0.5
+    for i in range(4):
+        theta[i] *= scale
 
 
 @leaf

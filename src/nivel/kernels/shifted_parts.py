@@ -14,12 +14,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf, stage
-from nivel.kernels.lu import factorise_lu, solve_lu
+from nivel.kernels.newton_matrix import factorise_entries, solve_entries
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.residual import known_multiplier
 from nivel.kernels.rotation import angular_velocity
-from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
-from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.kernels.tangent_parts import differentiate_parts
 
 
@@ -95,35 +93,9 @@ def combine(machine, factors, s):
 @stage
 def factorise_shifted(machine, factors, s):
     """Factors for this s. Returns a status; the unknown without a pivot is left in control.failure."""
-    combine(machine, factors, s)
-    return factorise_entries(machine, factors)
-
-
-@stage
-def factorise_entries(machine, factors):
-    """Factors of factors.value. Returns a status; the unknown without a pivot is left in control.failure."""
     record = record_at(machine)
-    newton = record.newton
-    size = factors.matrix.shape[0]
-    if size == 0 and factors.b.shape[0] > 0:
-        failed = factorise_sparse_lu(newton.lu, factors.value, factors.L, factors.U, factors.Dinv, factors.work)
-        if failed >= 0:
-            record.control.failure[0] = failed
-        return OK if failed < 0 else NOT_CONVERGED
-    factors.matrix[:, :] = 0.0
-    for i in range(size):
-        for p in range(newton.row_start[i], newton.row_start[i + 1]):
-            factors.matrix[i, newton.column[p]] = factors.value[p]
-    return OK if factorise_lu(factors.matrix, factors.pivot) else NOT_CONVERGED
-
-
-@stage
-def solve_entries(machine, factors):
-    """Overwrite factors.b with the solution."""
-    if factors.matrix.shape[0] == 0:
-        solve_sparse_lu(record_at(machine).newton.lu, factors.L, factors.U, factors.Dinv, factors.b, factors.work)
-    else:
-        solve_lu(factors.matrix, factors.pivot, factors.b)
+    combine(machine, factors, s)
+    return factorise_entries(record.newton, factors, record.control.failure)
 
 
 @stage
@@ -167,7 +139,7 @@ def solve_shifted_parts(machine, factors, s):
     positions = np.int64(y.shape[0]) - n - states - 2
     move_by_right_side(newton, y, factors, s)
     load_right_side(newton, factors, positions)
-    solve_entries(machine, factors)
+    solve_entries(newton, factors)
     for k in range(n + states):
         b[k] *= s
     for k in range(n):

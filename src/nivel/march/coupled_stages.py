@@ -21,10 +21,10 @@ import numpy as np
 
 from nivel.kernels.compile import leaf
 from nivel.kernels.lu import factorise_lu, solve_lu
+from nivel.kernels.newton_matrix import factorise_entries, solve_entries
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.rotation import angular_velocity
 from nivel.kernels.shifted_parts import find_parts, keep_multipliers
-from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.radau_constants import AA, A
 
@@ -172,22 +172,15 @@ def factorise_stages(machine, positions, h):
     record = record_at(machine)
     newton = record.newton
     own = newton.shifted.coupled
-    factors = own.factors
     if find_reach(machine, positions, h) != OK:
         return NOT_CONVERGED
     for u in range(newton.row_start.shape[0] - 1):
         fill_row(newton, u, h)
-    size = factors.matrix.shape[0]
-    if size == 0:
-        failed = factorise_sparse_lu(own.lu, factors.value, factors.L, factors.U, factors.Dinv, factors.work)
-        if failed >= 0:
-            record.control.failure[0] = failed // 3
-        return OK if failed < 0 else NOT_CONVERGED
-    factors.matrix[:, :] = 0.0
-    for i in range(size):
-        for p in range(own.row_start[i], own.row_start[i + 1]):
-            factors.matrix[i, own.column[p]] = factors.value[p]
-    return OK if factorise_lu(factors.matrix, factors.pivot) else NOT_CONVERGED
+    status = factorise_entries(own, own.factors, record.control.failure)
+    if status != OK and own.factors.matrix.shape[0] == 0:
+        # the system has three places for an unknown
+        record.control.failure[0] //= 3
+    return status
 
 
 @leaf
@@ -257,10 +250,6 @@ def solve_stages(machine, positions, h):
     """Overwrite `r`, what the stages of a step h miss, by their changes."""
     newton = record_at(machine).newton
     own = newton.shifted.coupled
-    factors = own.factors
     load_right_side(newton, positions, h)
-    if factors.matrix.shape[0] == 0:
-        solve_sparse_lu(own.lu, factors.L, factors.U, factors.Dinv, factors.b, factors.work)
-    else:
-        solve_lu(factors.matrix, factors.pivot, factors.b)
+    solve_entries(own, own.factors)
     take_accelerations(newton, positions, h)

@@ -11,9 +11,9 @@ from nivel.kernels.compile import entry, leaf
 from nivel.kernels.status import OK
 from nivel.march.dense import wanted
 from nivel.march.dop853_coefficients import ALL_STAGES, E3, E5, STAGES, A, C, D
-from nivel.march.embedded import add_stages, begin, evaluate_stages, is_accepted, sum_stages
+from nivel.march.embedded import add_stages, evaluate_stages, fill_cubic, sum_stages, take_step
 from nivel.march.run import DENSE, POWERS, run_at, step_signature
-from nivel.march.step_control import allowed, reach, size, too_small
+from nivel.march.step_control import size
 
 ORDER = 8.0  # of the error of one step with its estimate
 SHARE = 0.3
@@ -43,14 +43,9 @@ def _fill_dense(evaluate, machine, history, h):
     status = evaluate_stages(evaluate, machine, history, h, A, C, NEW, ALL_STAGES)
     if status != OK:
         return status
-    dense = run.dense
-    for i in range(run.y.shape[0]):
-        change = run.y[i] - run.previous[i]
-        dense[0, i] = change
-        dense[1, i] = h * run.stages[0, i] - change
-        dense[2, i] = change - h * run.stages[NEW, i] - dense[1, i]
+    fill_cubic(run, h, NEW)
     for k in range(D.shape[0]):
-        sum_stages(run, h, D[k], ALL_STAGES, dense[3 + k])
+        sum_stages(run, h, D[k], ALL_STAGES, run.dense[3 + k])
     run.counter[DENSE], run.counter[POWERS] = 3 + D.shape[0], 0
     return OK
 
@@ -59,16 +54,7 @@ def _fill_dense(evaluate, machine, history, h):
 def dop853(evaluate, machine, history):
     """One accepted step."""
     run = run_at(history)
-    tolerance = allowed(run, SHARE)
-    begin(evaluate, machine, history, ORDER, tolerance)
-    status, error = OK, 0.0
-    while True:
-        h = reach(run)
-        if h == 0.0:
-            return too_small(run, status, error)
-        status, error = _attempt(evaluate, machine, history, h)
-        if is_accepted(machine, history, h, ORDER, status, error / tolerance):
-            break
-    if wanted(run):
+    status, h = take_step(evaluate, machine, history, ORDER, SHARE, _attempt)
+    if h > 0.0 and wanted(run):
         status = _fill_dense(evaluate, machine, history, h)
     return status

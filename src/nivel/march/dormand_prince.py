@@ -11,9 +11,9 @@ import numpy as np
 from nivel.kernels.compile import entry, leaf
 from nivel.kernels.status import OK
 from nivel.march.dense import wanted
-from nivel.march.embedded import begin, evaluate_stages, is_accepted, sum_stages
+from nivel.march.embedded import evaluate_stages, fill_cubic, sum_stages, take_step
 from nivel.march.run import DENSE, POWERS, run_at, step_signature
-from nivel.march.step_control import allowed, reach, size, too_small
+from nivel.march.step_control import size
 
 STAGES = 7
 ORDER = 5.0  # of the error of one step with its estimate
@@ -59,13 +59,8 @@ def _attempt(evaluate, machine, history, h):
 
 @leaf
 def _fill_dense(run, h):
-    dense = run.dense
-    sum_stages(run, h, D, STAGES, dense[3])
-    for i in range(run.y.shape[0]):
-        change = run.y[i] - run.previous[i]
-        dense[0, i] = change
-        dense[1, i] = h * run.stages[0, i] - change
-        dense[2, i] = change - h * run.stages[6, i] - dense[1, i]
+    fill_cubic(run, h, STAGES - 1)
+    sum_stages(run, h, D, STAGES, run.dense[3])
     run.counter[DENSE], run.counter[POWERS] = 4, 0
 
 
@@ -73,16 +68,7 @@ def _fill_dense(run, h):
 def dopri5(evaluate, machine, history):
     """One accepted step."""
     run = run_at(history)
-    tolerance = allowed(run, SHARE)
-    begin(evaluate, machine, history, ORDER, tolerance)
-    status, error = OK, 0.0
-    while True:
-        h = reach(run)
-        if h == 0.0:
-            return too_small(run, status, error)
-        status, error = _attempt(evaluate, machine, history, h)
-        if is_accepted(machine, history, h, ORDER, status, error / tolerance):
-            break
-    if wanted(run):
+    status, h = take_step(evaluate, machine, history, ORDER, SHARE, _attempt)
+    if h > 0.0 and wanted(run):
         _fill_dense(run, h)
     return status

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.compile import leaf, shared
 from nivel.kernels.status import OK
 from nivel.march.run import EVALUATIONS, RESTART, STEP, TIME, run_at
 from nivel.march.step_control import (
+    allowed,
     enter,
     factor_after_rejection,
     factor_after_success,
     is_fresh,
+    reach,
     reject,
+    too_small,
     turned_too_far,
 )
 
@@ -85,3 +88,34 @@ def is_accepted(machine, history, h, order, status, error):
     for i in range(run.y.shape[0]):
         run.y[i] = run.trial[i]
     return True
+
+
+@shared
+def take_step(evaluate, machine, history, order, share, attempt):
+    """Tries until a step is accepted: its status, and its size h [s], 0 where steps become too small. The error falls with h^order.
+
+    share : of the tolerance that an error may have. attempt(evaluate, machine, history, h) : status and error of one try, compiled into
+    this one.
+    """
+    run = run_at(history)
+    tolerance = allowed(run, share)
+    begin(evaluate, machine, history, order, tolerance)
+    status, error = OK, 0.0
+    while True:
+        h = reach(run)
+        if h == 0.0:
+            return too_small(run, status, error), 0.0
+        status, error = attempt(evaluate, machine, history, h)
+        if is_accepted(machine, history, h, order, status, error / tolerance):
+            return status, h
+
+
+@leaf
+def fill_cubic(run, h, last):
+    """The first three rows of the dense output, those of the cubic through both ends. last : the stage at the new state."""
+    dense = run.dense
+    for i in range(run.y.shape[0]):
+        change = run.y[i] - run.previous[i]
+        dense[0, i] = change
+        dense[1, i] = h * run.stages[0, i] - change
+        dense[2, i] = change - h * run.stages[last, i] - dense[1, i]

@@ -10,8 +10,8 @@ import numpy as np
 
 from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_family
+from nivel.kernels.newton_matrix import factorise_entries, solve_entries
 from nivel.kernels.record import record_at
-from nivel.kernels.shifted_parts import factorise_entries, solve_entries
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import EPSILON, POSITIONS, differentiate, load_twin
 from nivel.march.residual_newton import apply_turns
@@ -21,13 +21,14 @@ from nivel.march.residual_newton import apply_turns
 def find_filter(machine, t, cq, cv, cx):
     """The factors at the state, accelerations and multipliers in `residual`, frictions with stiction neither holding nor braking what they
     hold: an error of that is one of its place for ever. Returns a status."""
-    newton, stick = record_at(machine).newton, record_at(machine).control.stick
+    record = record_at(machine)
+    newton, stick = record.newton, record.control.stick
     tau, stick[0] = stick[0], np.inf
     status = differentiate(machine, t, cq, cv, cx, POSITIONS)
     stick[0] = tau
     for p in range(newton.value.shape[0]):
         newton.filter.value[p] = newton.value[p]
-    return factorise_entries(machine, newton.filter) if status == OK else status
+    return factorise_entries(newton, newton.filter, record.control.failure) if status == OK else status
 
 
 @stage
@@ -48,7 +49,7 @@ def keep_slow(machine, t, x):
         b[n + k] = x[n + k]
     for k in range(n + states, b.shape[0]):
         b[k] = 0.0
-    solve_entries(machine, newton.filter)
+    solve_entries(newton, newton.filter)
     apply_turns(newton, b)
     for k in range(n + states):
         x[k] = b[k]

@@ -90,8 +90,8 @@ def write_omega(run):
 
 
 @leaf
-def evaluate_rates(evaluate, machine, history, h, end):
-    """Rates at the stages, the last of them at the time `end`. Returns a status."""
+def evaluate_stages(evaluate, machine, history, h, end, renewed):
+    """Rates at the stages, the last of them at the time `end`, with the derivatives there where they are `renewed`. Returns a status."""
     run = run_at(history)
     for m in range(3):
         for i in range(run.y.shape[0]):
@@ -99,6 +99,8 @@ def evaluate_rates(evaluate, machine, history, h, end):
         t = run.clock[TIME] + C[m] * h if m < 2 else end
         status = evaluate(machine, t, run.trial, run.stages[RATES + m])
         run.counter[EVALUATIONS] += 1
+        if status == OK and renewed:
+            status = find_stage_parts(machine, m, t, run.trial, run.stages[RATES + m])
         if status != OK:
             return status
     return OK
@@ -180,7 +182,7 @@ def iterate(evaluate, machine, history, h, end, close):
     # what was seen steps ago counts less and less: towards 1, which asks for a second iteration
     left = numbers[LEFT_OVER] ** FORGET
     for k in range(MOST):
-        status = evaluate_rates(evaluate, machine, history, h, end)
+        status = evaluate_stages(evaluate, machine, history, h, end, False)
         run.counter[ITERATIONS] += 1
         if status != OK:
             return status
@@ -211,23 +213,6 @@ def no_convergence(machine, history, worst):
     positions = np.int64(run.y.shape[0]) - record.newton.place.shape[0] - record.newton.state.shape[0] - 2
     record.control.failure[0] = unknown_at(record.newton, worst, positions)
     return NOT_CONVERGED
-
-
-@leaf
-def evaluate_stages(evaluate, machine, history, h, end, renewed):
-    """As `evaluate_rates`, with the derivatives at the stages where they are `renewed`. Returns a status."""
-    run = run_at(history)
-    for m in range(3):
-        for i in range(run.y.shape[0]):
-            run.trial[i] = run.y[i] + run.stages[Z + m, i]
-        t = run.clock[TIME] + C[m] * h if m < 2 else end
-        status = evaluate(machine, t, run.trial, run.stages[RATES + m])
-        run.counter[EVALUATIONS] += 1
-        if status == OK and renewed:
-            status = find_stage_parts(machine, m, t, run.trial, run.stages[RATES + m])
-        if status != OK:
-            return status
-    return OK
 
 
 @leaf

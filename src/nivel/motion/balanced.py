@@ -5,9 +5,21 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.balance import balance, write_balanced_rates
-from nivel.kernels.compile import entry
+from nivel.kernels.compile import entry, stage
 from nivel.kernels.record import correct_signature, evaluate_signature, record_at
 from nivel.kernels.status import OK
+
+
+@stage
+def normalise(machine, y):
+    """θ := θ/|θ| for all Euler parameters."""
+    newton = record_at(machine).newton
+    for k in range(newton.place.shape[0]):
+        if newton.place[k, 1] == 0:
+            p = np.int64(newton.place[k, 0])
+            square = y[p] * y[p] + y[p + 1] * y[p + 1] + y[p + 2] * y[p + 2] + y[p + 3] * y[p + 3]
+            for i in range(4):
+                y[p + i] /= np.sqrt(square)
 
 
 @entry(evaluate_signature)
@@ -25,11 +37,5 @@ def evaluate(machine, t, y, ydot):
 @entry(correct_signature)
 def keep(machine, t, y):
     """No correction; Euler parameters are brought back to length one, which moves nothing."""
-    newton = record_at(machine).newton
-    for k in range(newton.place.shape[0]):
-        if newton.place[k, 1] == 0:
-            p = np.int64(newton.place[k, 0])
-            square = y[p] * y[p] + y[p + 1] * y[p + 1] + y[p + 2] * y[p + 2] + y[p + 3] * y[p + 3]
-            for i in range(4):
-                y[p + i] /= np.sqrt(square)
+    normalise(machine, y)
     return OK

@@ -9,26 +9,12 @@ import numpy as np
 from nivel.kernels.balance import find_matrix
 from nivel.kernels.compile import entry, stage
 from nivel.kernels.hook import call_hook
-from nivel.kernels.lu import solve_lu
+from nivel.kernels.newton_matrix import solve_entries
 from nivel.kernels.record import NONE, RESIDUAL, correct_signature, record_at
 from nivel.kernels.rotation import rates_of_parameters
-from nivel.kernels.saddle import exceeds
-from nivel.kernels.sparse_lu import solve_sparse_lu
 from nivel.kernels.status import OK
-
-MAX_CORRECTIONS = 3
-
-
-@stage
-def normalise(machine, y):
-    """θ := θ/|θ| for all Euler parameters."""
-    newton = record_at(machine).newton
-    for k in range(newton.place.shape[0]):
-        if newton.place[k, 1] == 0:
-            p = np.int64(newton.place[k, 0])
-            square = y[p] * y[p] + y[p + 1] * y[p + 1] + y[p + 2] * y[p + 2] + y[p + 3] * y[p + 3]
-            for i in range(4):
-                y[p + i] /= np.sqrt(square)
+from nivel.motion.balanced import normalise
+from nivel.motion.direct import MAX_CORRECTIONS, NOTHING, POSITIONS, VELOCITIES, open_level
 
 
 @stage
@@ -42,10 +28,7 @@ def find_change(machine, violation):
         f.b[i] = 0.0
     for k in range(own.row.shape[0]):
         f.b[first + k] = -violation[own.row[k]]
-    if f.matrix.shape[0] == 0:
-        solve_sparse_lu(newton.lu, f.L, f.U, f.Dinv, f.b, f.work)
-    else:
-        solve_lu(f.matrix, f.pivot, f.b)
+    solve_entries(newton, f)
 
 
 @stage
@@ -63,13 +46,10 @@ def move_positions(newton, y, change, theta):
 
 @entry(correct_signature)
 def correct(machine, t, y):
-    """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137).
-
-    A level within its tolerance (control.stabilise[2:4], as a share of the row's scale) is left alone.
-    """
+    """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137)."""
     record = record_at(machine)
     newton, own, saddle, constraints = record.newton, record.residual, record.saddle, record.constraints
-    tolerance, n = record.control.stabilise, own.vdot.shape[0]
+    n = own.vdot.shape[0]
     positions = np.int64(y.shape[0]) - n - newton.state.shape[0] - 2
     normalise(machine, y)
     if saddle.row.shape[0] == 0:
@@ -81,16 +61,16 @@ def correct(machine, t, y):
         status = call_hook(machine, RESIDUAL, 0, t)
         if status != OK:
             return status
-        at_positions = attempt < MAX_CORRECTIONS and exceeds(saddle, constraints.C, constraints.scale, tolerance[2])
-        if not at_positions and not exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]):
+        what = open_level(machine, attempt)
+        if what == NOTHING:
             return OK
         if not factorised:
             status = find_matrix(machine, t)
             if status != OK:
                 return status
             newton.balanced[0], factorised = 1.0, True
-        find_change(machine, constraints.C if at_positions else constraints.Cdot)
-        if not at_positions:
+        find_change(machine, constraints.C if what == POSITIONS else constraints.Cdot)
+        if what == VELOCITIES:
             for k in range(n):
                 y[positions + k] += newton.balance.b[k]
             return OK

@@ -5,17 +5,24 @@ State y = (R, θ of every body; p; Ṙ, ω̄ of every body; ṗ; states of force
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, stage
+from nivel.kernels.compile import entry, shared, stage
 from nivel.kernels.floating_dynamics import gather, unwhiten_flexible, whiten_flexible_forces, whiten_flexible_rows
 from nivel.kernels.floating_frame import accelerate_frames, add_bias, bend
 from nivel.kernels.hook import apply_forces, finish_forces
 from nivel.kernels.record import correct_signature, evaluate_signature, record_at
-from nivel.kernels.rigid import load_weight, place_body
-from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.rigid import load_weight
 from nivel.kernels.saddle import factorise_rows, multipliers
-from nivel.kernels.spatial import multiply
 from nivel.kernels.status import OK
-from nivel.motion.newton_euler import WIDTH, normalise, read_markers, unwhiten, whiten_forces, whiten_rows
+from nivel.motion.newton_euler import (
+    WIDTH,
+    normalise,
+    read_bodies,
+    read_markers,
+    unwhiten,
+    whiten_forces,
+    whiten_rows,
+    write_rate,
+)
 
 
 @stage
@@ -25,13 +32,7 @@ def read_flexible_state(machine, t, y):
     bodies, own = record.bodies, record.flexible
     nb, modes = bodies.mass.shape[0], own.p.shape[0]
     first = 7 * nb + modes
-    for b in range(nb):
-        place_body(bodies, b, y[7 * b : 7 * b + 7])
-        v = first + 6 * b
-        for i in range(3):
-            bodies.Rdot[b, i] = y[v + i]
-            bodies.omega_b[b, i] = y[v + 3 + i]
-        multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
+    read_bodies(bodies, y, first)
     for j in range(modes):
         own.p[j], own.pdot[j] = y[7 * nb + j], y[first + 6 * nb + j]
     bend(machine)
@@ -41,10 +42,11 @@ def read_flexible_state(machine, t, y):
 
 
 @stage
-def whiten_all_rows(machine):
-    """W = C_q L⁻ᵀ of rigid and flexible bodies. Returns a status."""
+def factorise(machine, y):
+    """W = C_q L⁻ᵀ of rigid and flexible bodies, and the factor of S; y is not needed for them here. Returns a status."""
     whiten_rows(machine)
-    return whiten_flexible_rows(machine)
+    status = whiten_flexible_rows(machine)
+    return factorise_rows(machine, WIDTH) if status == OK else status
 
 
 @stage
@@ -57,7 +59,7 @@ def unwhiten_all(machine):
     unwhiten_flexible(machine)
 
 
-@stage
+@shared
 def accelerate(machine, t, y, ydot):
     """Multipliers, accelerations of all bodies, modes and frames, and the rates of the states of forces and energies, from the state read
     before. Returns a status."""
@@ -66,9 +68,7 @@ def accelerate(machine, t, y, ydot):
     if status != OK:
         return status
     gather(machine)
-    status = whiten_all_rows(machine)
-    if status == OK:
-        status = factorise_rows(machine, WIDTH)
+    status = factorise(machine, y)
     if status != OK:
         return status
     whiten_forces(machine)
@@ -91,12 +91,7 @@ def write_rates(machine, ydot):
     nb, modes = bodies.mass.shape[0], own.p.shape[0]
     first = 7 * nb + modes
     for b in range(nb):
-        q, v = 7 * b, first + 6 * b
-        rates_of_parameters(bodies.theta[b], bodies.omega_b[b], ydot[q + 3 : q + 7])
-        for i in range(3):
-            ydot[q + i] = bodies.Rdot[b, i]
-            ydot[v + i] = bodies.Rddot[b, i]
-            ydot[v + 3 + i] = bodies.alpha_b[b, i]
+        write_rate(bodies, ydot, b, first)
     for j in range(modes):
         ydot[7 * nb + j], ydot[first + 6 * nb + j] = own.pdot[j], own.pddot[j]
 

@@ -153,6 +153,16 @@ def whiten_all_rows(machine, y):
 
 
 @stage
+def factorise(machine, y):
+    """The factors of all bodies, W of all blocks, and the factor of S. Returns a status."""
+    status = factorise_masses(machine)
+    if status != OK:
+        return status
+    whiten_all_rows(machine, y)
+    return factorise_rows(machine, WIDTH)
+
+
+@stage
 def load_radial(machine, y, f, z):
     """Take from the forces on the frame, z (6,) in axes of the body, and on the modes of flexible body f what κ ω̄ asks for."""
     record = record_at(machine)
@@ -229,11 +239,7 @@ def evaluate(machine, t, y, ydot):
     if status != OK:
         return status
     gather(machine)
-    status = factorise_masses(machine)
-    if status != OK:
-        return status
-    whiten_all_rows(machine, y)
-    status = factorise_rows(machine, WIDTH)
+    status = factorise(machine, y)
     if status != OK:
         return status
     whiten_all_forces(machine, y)

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import entry, leaf
+from nivel.kernels.compile import entry, leaf, shared, stage
 from nivel.kernels.embedding import embed, generalised_forces
 from nivel.kernels.hook import apply_forces, finish_forces
 from nivel.kernels.partition import divide, solve_dependent, solve_multipliers
@@ -22,27 +22,35 @@ from nivel.kernels.rigid import load_weight
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.status import OK, SINGULAR
 from nivel.motion.newton_euler import evaluate as evaluate_newton_euler
-from nivel.motion.newton_euler import normalise, read_state
+from nivel.motion.newton_euler import normalise, read_state, write_rate
 
 # Positions: passes at most, and shares of the scales of the rows: closed; near enough that the factor serves for the next pass; lost.
 MOST_PASSES = 10
 CLOSED, NEAR, LOST = 1e-13, 1e-6, 1e-6
 
 
-@leaf
-def write_rates(machine, ydot):
-    """(Ṙ, θ̇, R̈, ᾱ) of ẏ, and the accelerations of the bodies."""
-    record = record_at(machine)
+@stage
+def take_accelerations(record):
+    """Accelerations of bodies from those of the partition."""
     bodies, acceleration = record.bodies, record.partition.v
-    nb = bodies.mass.shape[0]
-    for b in range(nb):
-        q, v = 7 * b, 7 * nb + 6 * b
-        rates_of_parameters(bodies.theta[b], bodies.omega_b[b], ydot[q + 3 : q + 7])
+    for b in range(bodies.mass.shape[0]):
         for i in range(3):
             bodies.Rddot[b, i], bodies.alpha_b[b, i] = acceleration[6 * b + i], acceleration[6 * b + 3 + i]
-            ydot[q + i] = bodies.Rdot[b, i]
-            ydot[v + i] = bodies.Rddot[b, i]
-            ydot[v + 3 + i] = bodies.alpha_b[b, i]
+
+
+@shared
+def embedded_accelerations(machine):
+    """Accelerations of the partition, and multipliers, for the state read and its forces. Returns a status."""
+    record = record_at(machine)
+    rank = np.int64(record.control.rank[0])
+    status = divide(machine)
+    if status != OK:
+        return status
+    generalised_forces(machine)
+    solve_dependent(record.partition, rank, record.constraints.gamma)
+    embed(machine)
+    solve_multipliers(record.partition, rank, record.partition.Q, record.constraints.lam)
+    return OK
 
 
 @entry(evaluate_signature)
@@ -54,23 +62,21 @@ def evaluate(machine, t, y, ydot):
     record = record_at(machine)
     if record.friction.columns.shape[0] > 0:
         return evaluate_newton_euler(machine, t, y, ydot)
-    rank = np.int64(record.control.rank[0])
+    bodies = record.bodies
+    nb = bodies.mass.shape[0]
     status = read_state(machine, t, y)
     if status != OK:
         return status
-    load_weight(record.bodies)
+    load_weight(bodies)
     status = apply_forces(machine, t, y)
+    if status == OK:
+        status = embedded_accelerations(machine)
     if status != OK:
         return status
-    status = divide(machine)
-    if status != OK:
-        return status
-    generalised_forces(machine)
-    solve_dependent(record.partition, rank, record.constraints.gamma)
-    embed(machine)
-    solve_multipliers(record.partition, rank, record.partition.Q, record.constraints.lam)
     status = finish_forces(machine, t, ydot)
-    write_rates(machine, ydot)
+    take_accelerations(record)
+    for b in range(nb):
+        write_rate(bodies, ydot, b, 7 * nb)
     return status
 
 
@@ -137,21 +143,28 @@ def close(machine, y, attempt, factorised, before):
     return OK, closed, share <= NEAR, share
 
 
-@entry(correct_signature)
-def keep(machine, t, y):
+@shared
+def keep_independent(machine, t, y, read):
     """Dependent positions from C = 0 by Newton's method with the independent ones held, then dependent velocities from Ċ = 0.
 
-    SINGULAR where the positions cannot be found: control.failure is the row that is farthest open.
+    read(machine, t, y) : the state, compiled into this one. Returns a status: SINGULAR where the positions cannot be found; control.failure
+    is the row that is farthest open.
     """
     status, done, factorised, before = OK, False, False, np.inf
     for attempt in range(MOST_PASSES + 1):
         normalise(machine, y)
-        status = read_state(machine, t, y)
+        status = read(machine, t, y)
         if status == OK:
             status, done, factorised, before = close(machine, y, attempt, factorised, before)
         if status != OK or done:
             break
     return status
+
+
+@entry(correct_signature)
+def keep(machine, t, y):
+    """What depends on the independent coordinates, see `keep_independent`."""
+    return keep_independent(machine, t, y, read_state)
 
 
 # the dependent coordinates are solved for with every stabilisation, so there is nothing left to correct directly

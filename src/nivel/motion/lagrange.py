@@ -127,14 +127,6 @@ def factorise_body(bodies, G, b):
 
 
 @stage
-def factorise_mass(machine):
-    """The factors of all bodies."""
-    record = record_at(machine)
-    for b in range(record.bodies.mass.shape[0]):
-        factorise_body(record.bodies, record.saddle.G[b], b)
-
-
-@stage
 def forward(G, z):
     """z := L⁻¹ z for the factor in G."""
     for i in range(3):
@@ -172,10 +164,14 @@ def whiten_row(machine, y, k):
 
 
 @stage
-def whiten_rows(machine, y):
-    """W of all blocks."""
-    for k in range(record_at(machine).saddle.block.shape[0]):
+def factorise(machine, y):
+    """The factors of all bodies, W of all blocks, and the factor of S. Returns a status."""
+    record = record_at(machine)
+    for b in range(record.bodies.mass.shape[0]):
+        factorise_body(record.bodies, record.saddle.G[b], b)
+    for k in range(record.saddle.block.shape[0]):
         whiten_row(machine, y, k)
+    return factorise_rows(machine, WIDTH)
 
 
 @stage
@@ -272,9 +268,7 @@ def evaluate(machine, t, y, ydot):
     status = apply_forces(machine, t, y)
     if status != OK:
         return status
-    factorise_mass(machine)
-    whiten_rows(machine, y)
-    status = factorise_rows(machine, WIDTH)
+    status = factorise(machine, y)
     if status != OK:
         return status
     whiten_forces(machine, y)

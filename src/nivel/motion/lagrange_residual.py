@@ -10,10 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.compile import leaf, stage
-from nivel.kernels.hook import apply_forces, family
+from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
-from nivel.kernels.residual import inertial_wrenches, load_multipliers, write_rows
-from nivel.kernels.rigid import load_weight
+from nivel.kernels.residual import find_wrenches, write_rows
 from nivel.kernels.rotation import angular_velocity, rates_of_parameters
 from nivel.kernels.spatial import multiply
 from nivel.kernels.status import OK
@@ -91,12 +90,8 @@ def residual(machine, job, t):
     record = record_at(machine)
     status = read_state(machine, t, record.residual.y)
     if status == OK:
-        load_weight(record.bodies)
-        status = apply_forces(machine, t, record.residual.y)
-    if status == OK:
         accelerate_bodies(machine)
-        status = load_multipliers(machine, t)
+        status = find_wrenches(machine, t)
     if status == OK:
-        inertial_wrenches(machine)
         write_bodies(machine, WIDTH * record.bodies.mass.shape[0])
     return status

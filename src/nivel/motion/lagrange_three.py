@@ -85,6 +85,16 @@ def read_state(machine, t, y):
 
 
 @stage
+def change_body(record, y, b, first):
+    """Add the change left in `Rddot` and `alpha_b` of body b to its (R, φ) or (Ṙ, φ̇), which stand from `first` on for all bodies."""
+    k, turn = first + 6 * b, record.saddle.z[b]
+    solve(record.rotations.G[b], record.bodies.alpha_b[b], turn)
+    for i in range(3):
+        y[k + i] += record.bodies.Rddot[b, i]
+        y[k + 3 + i] += turn[i]
+
+
+@stage
 def write_rate(machine, y, ydot, b):
     """(q̇, q̈) of body b in ẏ, from its accelerations."""
     record = record_at(machine)

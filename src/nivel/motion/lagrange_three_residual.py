@@ -6,10 +6,9 @@
 from __future__ import annotations
 
 from nivel.kernels.compile import stage
-from nivel.kernels.hook import apply_forces, family
+from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
-from nivel.kernels.residual import inertial_wrenches, load_multipliers, write_rows
-from nivel.kernels.rigid import load_weight
+from nivel.kernels.residual import find_wrenches, write_rows
 from nivel.kernels.spatial import multiply
 from nivel.kernels.status import OK
 from nivel.motion.lagrange_three import read_state
@@ -51,12 +50,8 @@ def residual(machine, job, t):
     record = record_at(machine)
     status = read_state(machine, t, record.residual.y)
     if status == OK:
-        load_weight(record.bodies)
-        status = apply_forces(machine, t, record.residual.y)
-    if status == OK:
         accelerate_bodies(machine)
-        status = load_multipliers(machine, t)
+        status = find_wrenches(machine, t)
     if status == OK:
-        inertial_wrenches(machine)
         write_bodies(machine, 6 * record.bodies.mass.shape[0])
     return status

@@ -6,13 +6,13 @@ diag(m, J̄_c): the same equations, and its factor costs nothing.
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, stage
+from nivel.kernels.compile import entry, shared, stage
 from nivel.kernels.constraint import constraint_rows
 from nivel.kernels.hook import apply_forces, finish_forces, measure_active
 from nivel.kernels.marker import move_markers, place_markers
 from nivel.kernels.record import correct_signature, evaluate_signature, record_at
 from nivel.kernels.rigid import load_weight, place_body
-from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.rotation import normalise_parameters, rates_of_parameters
 from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.kernels.spatial import dot, multiply
 from nivel.kernels.status import OK
@@ -25,27 +25,26 @@ def normalise(machine, y):
     """θ := θ/|θ| for every body."""
     record = record_at(machine)
     for b in range(record.bodies.mass.shape[0]):
-        k = 7 * b + 3
-        square = y[k] * y[k] + y[k + 1] * y[k + 1] + y[k + 2] * y[k + 2] + y[k + 3] * y[k + 3]
-        # 1/√s for s near 1; exact to round-off after one step's drift
-        scale = 1.0 / square**0.5
-        for i in range(4):
-            y[k + i] *= scale
+        normalise_parameters(y[7 * b + 3 : 7 * b + 7])
+
+
+@stage
+def read_bodies(bodies, y, first):
+    """Poses and velocities of bodies; the latter stand from `first` on."""
+    for b in range(bodies.mass.shape[0]):
+        place_body(bodies, b, y[7 * b : 7 * b + 7])
+        v = first + 6 * b
+        for i in range(3):
+            bodies.Rdot[b, i] = y[v + i]
+            bodies.omega_b[b, i] = y[v + 3 + i]
+        multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
 
 
 @stage
 def read_state(machine, t, y):
     """Poses and velocities of bodies and markers, and all constraint rows. Returns a status."""
-    record = record_at(machine)
-    bodies = record.bodies
-    nb = bodies.mass.shape[0]
-    for b in range(nb):
-        place_body(bodies, b, y[7 * b : 7 * b + 7])
-        v = 7 * nb + 6 * b
-        for i in range(3):
-            bodies.Rdot[b, i] = y[v + i]
-            bodies.omega_b[b, i] = y[v + 3 + i]
-        multiply(bodies.A[b], bodies.omega_b[b], bodies.omega[b])
+    bodies = record_at(machine).bodies
+    read_bodies(bodies, y, 7 * bodies.mass.shape[0])
     return read_markers(machine, t)
 
 
@@ -133,22 +132,53 @@ def unwhiten(bodies, saddle, b):
 
 
 @stage
+def write_rate(bodies, ydot, b, first):
+    """(Ṙ, θ̇, R̈, ᾱ) of body b in ẏ; the latter two stand from `first` on for all bodies."""
+    q, v = 7 * b, first + 6 * b
+    rates_of_parameters(bodies.theta[b], bodies.omega_b[b], ydot[q + 3 : q + 7])
+    for i in range(3):
+        ydot[q + i] = bodies.Rdot[b, i]
+        ydot[v + i] = bodies.Rddot[b, i]
+        ydot[v + 3 + i] = bodies.alpha_b[b, i]
+
+
+@stage
 def write_rates(machine, ydot):
-    """(Ṙ, θ̇, R̈, ᾱ) of ẏ."""
+    """(Ṙ, θ̇, R̈, ᾱ) of ẏ, from z."""
     record = record_at(machine)
     bodies = record.bodies
     nb = bodies.mass.shape[0]
     for b in range(nb):
         unwhiten(bodies, record.saddle, b)
-        q, v = 7 * b, 7 * nb + 6 * b
-        rates_of_parameters(bodies.theta[b], bodies.omega_b[b], ydot[q + 3 : q + 7])
-        for i in range(3):
-            ydot[q + i] = bodies.Rdot[b, i]
-            ydot[v + i] = bodies.Rddot[b, i]
-            ydot[v + 3 + i] = bodies.alpha_b[b, i]
+        write_rate(bodies, ydot, b, 7 * nb)
 
 
 @stage
+def change_body(record, y, b, first, at_positions):
+    """Add the change left in `Rddot` and `alpha_b` of body b to its (R, θ), or to its (Ṙ, ω̄), which stand from `first` on."""
+    bodies = record.bodies
+    if at_positions:
+        turn = record.saddle.z[b]
+        rates_of_parameters(bodies.theta[b], bodies.alpha_b[b], turn)
+        for i in range(3):
+            y[7 * b + i] += bodies.Rddot[b, i]
+        for i in range(4):
+            y[7 * b + 3 + i] += turn[i]
+    else:
+        v = first + 6 * b
+        for i in range(3):
+            y[v + i] += bodies.Rddot[b, i]
+            y[v + 3 + i] += bodies.alpha_b[b, i]
+
+
+@stage
+def factorise(machine, y):
+    """W of all rows, and the factor of S; y is not needed for them here. Returns a status."""
+    whiten_rows(machine)
+    return factorise_rows(machine, WIDTH)
+
+
+@shared
 def accelerate(machine, t, y, ydot):
     """Multipliers, whitened accelerations in `saddle.z`, and the rates of the states of forces and energies, from the state read before.
 
@@ -159,8 +189,7 @@ def accelerate(machine, t, y, ydot):
     status = apply_forces(machine, t, y)
     if status != OK:
         return status
-    whiten_rows(machine)
-    status = factorise_rows(machine, WIDTH)
+    status = factorise(machine, y)
     if status != OK:
         return status
     whiten_forces(machine)

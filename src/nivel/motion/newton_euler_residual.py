@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from nivel.kernels.hook import apply_forces, family
+from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
-from nivel.kernels.residual import inertial_wrenches, load_multipliers, write_rows
-from nivel.kernels.rigid import load_weight
+from nivel.kernels.residual import find_wrenches, write_rows
 from nivel.kernels.status import OK
 from nivel.motion.newton_euler import read_state
 
@@ -15,23 +14,18 @@ def residual(machine, job, t):
     """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual`."""
     record = record_at(machine)
     bodies, own = record.bodies, record.residual
+    count = bodies.mass.shape[0]
     status = read_state(machine, t, own.y)
     if status != OK:
         return status
-    load_weight(bodies)
-    status = apply_forces(machine, t, own.y)
-    if status != OK:
-        return status
-    count = bodies.mass.shape[0]
     for b in range(count):
         A, x, v = bodies.A[b], own.acceleration[b], own.vdot[6 * b : 6 * b + 6]
         for i in range(3):
             x[i] = A[i, 0] * v[3] + A[i, 1] * v[4] + A[i, 2] * v[5]
             x[3 + i] = v[i]
-    status = load_multipliers(machine, t)
+    status = find_wrenches(machine, t)
     if status != OK:
         return status
-    inertial_wrenches(machine)
     for b in range(count):
         A, F = bodies.A[b], own.wrench[b]
         for i in range(3):

@@ -4,47 +4,41 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import shared
 from nivel.kernels.record import record_at
-from nivel.kernels.saddle import correction, exceeds
 from nivel.kernels.status import OK
+from nivel.motion.direct import MAX_CORRECTIONS, NOTHING, VELOCITIES, find_correction, is_near, open_level
 from nivel.motion.tree_motion import WIDTH, normalise, write_positions
 
-MAX_CORRECTIONS = 3
-# Violations up to this many times the tolerance leave the factor of S good enough for the next pass.
-NEAR = 1e7
 
-
-@stage
+@shared
 def correct_tree(machine, t, y, read, factorise, accelerate):
     """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137), least in the mass metric.
 
-    read, factorise, accelerate : the recursion of a tree, compiled into this one. A level within its tolerance (control.stabilise[2:4], as
-    a share of the row's scale) is left alone. Returns a status.
+    read, factorise, accelerate : the recursion of a tree, compiled into this one. Returns a status.
     """
     record = record_at(machine)
-    tree, saddle, constraints = record.tree, record.saddle, record.constraints
-    tolerance, change = record.control.stabilise, tree.change
+    tree, change = record.tree, record.tree.change
     positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
     normalise(machine, y)
-    if saddle.row.shape[0] == 0:
+    if record.saddle.row.shape[0] == 0:
         return OK
     factorised = False
     for attempt in range(MAX_CORRECTIONS + 1):
         status = read(machine, t, y)
         if status != OK:
             return status
-        at_positions = attempt < MAX_CORRECTIONS and exceeds(saddle, constraints.C, constraints.scale, tolerance[2])
-        if not at_positions and not exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]):
+        what = open_level(machine, attempt)
+        if what == NOTHING:
             return OK
         if not factorised:
             status = factorise(machine)
             if status != OK:
                 return status
-        factorised = not exceeds(saddle, constraints.C, constraints.scale, NEAR * tolerance[2])
-        correction(machine, constraints.C if at_positions else constraints.Cdot, WIDTH)
+        factorised = is_near(machine)
+        find_correction(machine, what, WIDTH)
         accelerate(machine, change)
-        if not at_positions:
+        if what == VELOCITIES:
             for k in range(columns):
                 y[positions + k] += change[k]
             return OK

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import shared, stage
 from nivel.kernels.hook import finish_forces
 from nivel.kernels.record import FREE, SPHERICAL, record_at
-from nivel.kernels.rotation import rates_of_parameters
+from nivel.kernels.rotation import normalise_parameters, rates_of_parameters
 from nivel.kernels.saddle import multipliers
 from nivel.kernels.status import OK
 
@@ -30,10 +30,7 @@ def normalise(machine, y):
     for n in range(tree.node.shape[0]):
         k = parameters_of(tree.node[n, 2], np.int64(tree.place[n, 0]))
         if k >= 0:
-            square = y[k] * y[k] + y[k + 1] * y[k + 1] + y[k + 2] * y[k + 2] + y[k + 3] * y[k + 3]
-            scale = 1.0 / square**0.5
-            for i in range(4):
-                y[k + i] *= scale
+            normalise_parameters(y[k : k + 4])
 
 
 @stage
@@ -52,7 +49,7 @@ def write_positions(machine, y, change, out, n, first):
     rates_of_parameters(y[k : k + 4], change[first + count - 3 : first + count], out[k : k + 4])
 
 
-@stage
+@shared
 def evaluate_tree(machine, t, y, ydot, read, load, factorise, whiten, accelerate):
     """ẏ of y = (q, v, x): x are the states of forces, the work of external forces and the dissipated energy [J]. Returns a status.
 

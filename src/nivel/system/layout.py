@@ -40,8 +40,11 @@ XYZ = ("x", "y", "z")
 VECTOR = ("time", "body", "xyz")
 REACTION = ("time", "joint", "xyz")
 
-# name, dimensions, units, long name; units of rows and joint coordinates differ and stand in the result's attributes
-VARIABLES: tuple[tuple[str, tuple[str, ...], str, str], ...] = (
+# name, dimensions, units, long name
+Entry = tuple[str, tuple[str, ...], str, str]
+
+# units of rows and joint coordinates differ and stand in the result's attributes
+VARIABLES: tuple[Entry, ...] = (
     ("position", VECTOR, "m", "position of the body frame, global axes"),
     ("orientation", ("time", "body", "euler_parameter"), "1", "Euler parameters of the body frame, scalar first"),
     ("velocity", VECTOR, "m/s", "velocity of the body frame's origin, global axes"),
@@ -83,8 +86,12 @@ def frame_layout(
     }
     entries = list(VARIABLES)
     entries += [(name, ("time",), units, long_name) for name, units, long_name in outputs]
-    variables = []
-    start = 1
+    return laid_out(entries, coordinates)
+
+
+def laid_out(entries: Sequence[Entry], coordinates: dict[str, tuple[str, ...]]) -> FrameLayout:
+    """Layout of the frames of these variables, (name, dimensions, units, long name), one after the other behind the time."""
+    variables, start = [], 1
     for name, dims, units, long_name in entries:
         stop = start + prod(len(coordinates[dim]) for dim in dims[1:])
         variables.append(Variable(name, dims, units, long_name, slice(start, stop)))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
-from math import prod
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,7 @@ import numpy as np
 from nivel.analysis.statics.equations import Rest, StaticEquations
 from nivel.analysis.statics.vibrations import Vibrations
 from nivel.motion.catalogue import BALANCED
-from nivel.system.layout import FrameLayout, Variable
+from nivel.system.layout import Entry, FrameLayout, Variable, laid_out
 from nivel.system.system import Array
 
 MOVING = frozenset(
@@ -26,14 +25,14 @@ RATES = (".rate", ".power")
 ELEMENTS = ("force.", "driver.", "coupling.")
 
 # name, dimensions, units, long name of what comes behind
-OWN: tuple[tuple[str, tuple[str, ...], str, str], ...] = (
+OWN: tuple[Entry, ...] = (
     ("path", ("time",), "s", "place along the path of equilibria: ascending also where time turns back"),
     ("residual", ("time",), "1", "largest unbalanced force, over the largest load of the state"),
     ("residual_round_off", ("time",), "1", "what round-off of the positions makes of the stiffest forces, likewise"),
     ("unstable_directions", ("time",), "1", "directions of negative stiffness; 0: the equilibrium is stable"),
     ("iterations", ("time",), "1", "iterations of Newton's method"),
 )
-VIBRATION: tuple[tuple[str, tuple[str, ...], str, str], ...] = (
+VIBRATION: tuple[Entry, ...] = (
     ("vibration_stiffness", ("time", "vibration"), "1/s^2", "square of the natural angular frequency; negative: unstable"),
     ("natural_frequency", ("time", "vibration"), "Hz", "undamped natural frequency; not a number: unstable"),
     ("damped_frequency", ("time", "vibration"), "Hz", "frequency of the damped vibration; ordered by their magnitudes on their own"),
@@ -140,9 +139,4 @@ def _layout(full: FrameLayout, kept: Sequence[Variable], modes: int) -> FrameLay
     if modes:
         coordinates["vibration"] = tuple(f"vibration_{k + 1}" for k in range(modes))
         entries += [*VIBRATION, BENDING] if "mode" in coordinates else VIBRATION
-    variables, start = [], 1
-    for name, dims, units, long_name in entries:
-        stop = start + prod(len(coordinates[dim]) for dim in dims[1:])
-        variables.append(Variable(name, dims, units, long_name, slice(start, stop)))
-        start = stop
-    return FrameLayout(start, tuple(variables), coordinates)
+    return laid_out(entries, coordinates)

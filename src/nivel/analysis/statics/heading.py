@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from nivel.analysis.attributes import run_attributes
-from nivel.analysis.dynamics import Prepared
+from nivel.analysis.preparation import Prepared
 from nivel.analysis.statics.settings import StaticsSettings
 from nivel.machine.machine_record import MachineRecord
 

@@ -10,11 +10,11 @@ from os import PathLike
 
 import numpy as np
 
-from nivel.analysis.dynamics import Prepared, prepare
 from nivel.analysis.implicit import Wanted, equip
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Listener
 from nivel.analysis.outcome import broken_function
+from nivel.analysis.preparation import Prepared, prepare
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations

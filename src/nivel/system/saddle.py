@@ -1,0 +1,96 @@
+"""Pattern and work arrays of the saddle-point system, with the rows of frictions behind those of constraints."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from nivel.kernels.record import NONE, Friction, Saddle
+from nivel.system.draft import Draft
+from nivel.system.elimination import plan
+from nivel.system.rows import RowTable
+from nivel.system.system import Equations
+from nivel.system.tables import index_array, padded
+
+
+def friction_parts(draft: Draft, rows: RowTable, row_count: int) -> list[tuple[int, int, int]]:
+    """(row, part, marker) of the parts of the extra rows of friction, behind all others."""
+    parts: list[tuple[int, int, int]] = []
+    for k, (index, _) in enumerate(draft.frictions):
+        for marker in draft.coordinates.markers(index[0]):
+            parts.append((row_count + k, len(rows.part_row) + len(parts), marker))
+    return parts
+
+
+def saddle_tables(
+    rows: RowTable,
+    draft: Draft,
+    extra: list[tuple[int, int, int]],
+    bodies: int,
+    row_count: int,
+    equations: Equations,
+) -> Saddle:
+    """Pattern and work arrays of the saddle-point system. The ground has no blocks; a normalisation block has no part."""
+    own = list(zip(rows.part_row, range(len(rows.part_row)), rows.part_marker, strict=True))
+    body_of = draft.markers.body
+    blocks = [(row, part, marker, body_of[marker]) for row, part, marker in own if body_of[marker] != bodies]
+    if equations.normalisation:
+        blocks += [(len(rows.names) + body, NONE, 0, body) for body in range(bodies)]
+    count = len(blocks)
+    blocks += [(row, part, marker, body_of[marker]) for row, part, marker in extra if body_of[marker] != bodies]
+    block = index_array(blocks, 4)
+    elimination = plan(_groups(rows, row_count), block[:count, 0].tolist(), block[:count, 3].tolist())
+    width = equations.velocities
+    return Saddle(
+        row=np.arange(row_count, dtype=np.uint32),
+        block=block,
+        blocks=np.array([count], dtype=np.uint32),
+        **vars(elimination),
+        shift=np.zeros(row_count),
+        least=np.zeros(row_count),
+        W=np.zeros((len(block), width)),
+        G=np.zeros((bodies, width, width)),
+        z=np.zeros((bodies, width)),
+        S=np.zeros(len(elimination.S_row)),
+        L=np.zeros(len(elimination.L_row)),
+        Dinv=np.zeros(row_count),
+        y=np.zeros(row_count),
+        b=np.zeros(row_count),
+        dense=np.zeros((0, 0)),
+        null=np.zeros((0, 0)),
+        pivot=np.zeros(0, dtype=np.uint32),
+        target=np.zeros(row_count),
+        before=np.zeros(row_count),
+    )
+
+
+def _groups(rows: RowTable, row_count: int) -> list[list[int]]:
+    """Rows that are eliminated together: those of a joint; all others one by one."""
+    groups = [list(range(a, b)) for a, b in rows.spans if b > a]
+    last = rows.spans[-1][1] if rows.spans else 0
+    return groups + [[row] for row in range(last, row_count)]
+
+
+def friction_tables(draft: Draft, saddle: Saddle, extra: list[tuple[int, int, int]], row_count: int) -> Friction:
+    count = len(draft.frictions)
+    of_row = saddle.block[:, 0]
+    first = [
+        int(np.searchsorted(of_row[saddle.blocks[0] :], row_count + k) + saddle.blocks[0]) for k in range(count + 1)
+    ]
+    return Friction(
+        columns=padded([index for index, _ in draft.frictions], NONE).astype(np.uint32),
+        number=padded([numbers for _, numbers in draft.frictions], 0.0),
+        part=index_array([min(part for row, part, _ in extra if row == row_count + k) for k in range(count)], 1),
+        block=index_array(list(pairwise(first)), 2),
+        force=np.zeros(count),
+        mass=np.ones(count),
+        S=np.zeros((count, count)),
+        response=np.zeros((count, row_count)),
+        change=np.zeros((count, *saddle.z.shape)),
+        free=np.zeros(count),
+        lam=np.zeros(row_count),
+        anchor=np.zeros(count),
+        jacobian=np.zeros((count, count)),
+        work=np.zeros((3, count)),
+    )

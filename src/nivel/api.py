@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from html import escape
 from numbers import Integral
 from os import PathLike, fspath
@@ -18,8 +16,9 @@ from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import compile_path, compile_statics
 from nivel.analysis.idle import idle_settings
 from nivel.analysis.listener import Listener
-from nivel.errors import Fault, ModelError
-from nivel.files.reader import locate, parse_machine, read_text
+from nivel.errors import ModelError
+from nivel.files.origin import Origin
+from nivel.files.reader import parse_machine, read_text
 from nivel.files.writer import write_machine
 from nivel.machine import (
     AssemblySettings,
@@ -41,8 +40,6 @@ if TYPE_CHECKING:
     from nivel.results.comparison import Comparison
     from nivel.results.result import Result
     from nivel.view.sources import Hand
-
-SETTING = re.compile(r"`(\w+)[:`]")  # in messages
 
 
 class Machine:
@@ -89,34 +86,15 @@ class Machine:
             assembly=assembly or AssemblySettings(),
             simulation=simulation or SimulationSettings(),
         )
-        self.source = ""
-        self.file = ""
-        self.outside: frozenset[str] = frozenset()
-        self.given: frozenset[str] = frozenset()
+        self.origin = Origin()
 
     @classmethod
-    def from_record(
-        cls,
-        record: MachineRecord,
-        source: str = "",
-        file: str = "",
-        outside: frozenset[str] = frozenset(),
-        given: frozenset[str] = frozenset(),
-    ) -> Machine:
-        """Wrap a record; `source` is the text of the `file` it came from, `outside` the paths of what was set from outside of it, `given`
-        the simulation settings that are arguments of a run."""
+    def from_record(cls, record: MachineRecord, origin: Origin | None = None) -> Machine:
+        """Wrap a record; `origin` says where its values were set."""
         machine = cls.__new__(cls)
         machine.record = record
-        machine.source = source
-        machine.file = file
-        machine.outside = outside
-        machine.given = given
+        machine.origin = origin or Origin()
         return machine
-
-    @property
-    def asked(self) -> frozenset[str]:
-        """Names of the simulation settings that were set from outside of the file."""
-        return frozenset(path.split(".")[1] for path in self.outside if path.startswith("simulation."))
 
     @property
     def name(self) -> str:
@@ -126,7 +104,7 @@ class Machine:
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         settings, coordinates = self.record.simulation, self._coordinates()
-        self._refuse_settings(self.asked)
+        self._refuse_settings(self.origin.settings_outside)
         path = (coordinates, settings.formulation, settings.rotations)
         compile_path(self.record, path, listener or Listener())
         from nivel.analysis.check import check
@@ -219,7 +197,7 @@ class Machine:
         given = {key: value for key, value in given.items() if value is not None}
         chosen = self.with_settings(given)
         settings = chosen.record.simulation
-        chosen._refuse_settings({*given, *self.asked})
+        chosen._refuse_settings({*given, *self.origin.settings_outside})
         compile_seconds = compile_path(
             chosen.record,
             (chosen._coordinates(), settings.formulation, settings.rotations),
@@ -233,12 +211,12 @@ class Machine:
         from nivel.analysis.simulate import simulate
         from nivel.results.target import keep_sources
 
-        if out is not None and self.file:
-            keep_sources(Path(fspath(out)), "result file", [Path(self.file)])
+        if out is not None and self.origin.file:
+            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
         with self._faults_in_file():
             return simulate(
                 chosen.record,
-                source=self.source,
+                source=self.origin.source,
                 out=out,
                 force=force,
                 verify=verify,
@@ -295,14 +273,14 @@ class Machine:
         from nivel.analysis.statics.run import statics
         from nivel.results.target import keep_sources
 
-        if out is not None and self.file:
-            keep_sources(Path(fspath(out)), "result file", [Path(self.file)])
+        if out is not None and self.origin.file:
+            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
         with self._faults_in_file():
             return statics(
                 self.record,
                 settings,
                 chosen_duration=duration is not None,
-                source=self.source,
+                source=self.origin.source,
                 out=out,
                 force=force,
                 listener=listener,
@@ -363,7 +341,7 @@ class Machine:
         coordinates = self._coordinates()
         faults = [*idle_settings(given, self.record.simulation, coordinates), *disagreements(self.record)]
         if faults:
-            raise ModelError(self._placed(faults))
+            raise ModelError(self.origin.placed(faults))
 
     def _coordinates(self) -> str:
         """The coordinates of a run. Raises ModelError where joints do not meet the beams that they slide along."""
@@ -376,59 +354,23 @@ class Machine:
         try:
             yield
         except ModelError as error:
-            raise ModelError(self._placed(error.faults)) from error
-
-    def _placed(self, faults: Iterable[Fault]) -> list[Fault]:
-        """`faults` with the places of their elements in the machine's file, if it has one, or how they came from outside of it."""
-        return [self._in_place(fault) for fault in faults]
-
-    def _in_place(self, fault: Fault) -> Fault:
-        if fault.line or not fault.path:
-            return fault
-        words = fault.path.split(".")
-        if words[0] == "simulation" and words[1:2] and words[1] in self.given:
-            return replace(fault, path=".".join(words[1:]))
-        if any(".".join(words[:end]) in self.outside for end in range(1, len(words) + 1)):
-            return replace(fault, message=f"{fault.message} (set from outside the file)")
-        return replace(fault, file=self.file, **_place(self.source, fault.path)) if self.source else fault
+            raise ModelError(self.origin.placed(error.faults)) from error
 
     def with_settings(self, settings: Mapping[str, Any]) -> Machine:
         """The same machine with some simulation settings replaced."""
         if not settings:
             return self
         # what was set from outside of the file is asked for as well, and never left behind
-        asked = {
-            name: getattr(self.record.simulation, name) for name in self.asked if name in ("rotations", "baumgarte")
-        }
+        outside, origin = self.origin.settings_outside, self.origin.with_settings(settings)
+        asked = {name: getattr(self.record.simulation, name) for name in outside if name in ("rotations", "baumgarte")}
         try:
             simulation = changed(self.record.simulation, {**asked, **settings})
         except ModelError as error:
-            faults = [self._of_settings(fault, settings) for fault in error.faults]
-            raise ModelError(self._with(self.record, settings)._placed(faults)) from None
+            raise ModelError(origin.placed(origin.of_settings(fault, settings) for fault in error.faults)) from None
         try:
-            record = self.record.replace(simulation=simulation)
+            return Machine.from_record(self.record.replace(simulation=simulation), origin)
         except ModelError as error:
-            raise ModelError(self._with(self.record, settings)._placed(error.faults)) from None
-        return self._with(record, settings)
-
-    def _of_settings(self, fault: Fault, given: Collection[str]) -> Fault:
-        """A fault of the simulation settings; one of several settings that do not go together is that of the one that was `given`, and
-        says where the file has the other."""
-        if fault.path:
-            return replace(fault, path=f"simulation.{fault.path}")
-        named = [word for word in SETTING.findall(fault.message) if word in SimulationSettings.model_fields]
-        mine, others = [word for word in named if word in given], [word for word in named if word not in given]
-        if not mine:
-            return replace(fault, path="simulation")
-        message = fault.message
-        if others and self.source and f"simulation.{others[0]}" not in self.outside:
-            line, column = locate(self.source, f"simulation.{others[0]}")
-            message += f" ({self.file}:{line}:{column})"
-        return replace(fault, path=f"simulation.{mine[0]}", message=message)
-
-    def _with(self, record: MachineRecord, settings: Collection[str]) -> Machine:
-        """`record` from the same file, with these settings given for a run."""
-        return Machine.from_record(record, self.source, self.file, self.outside, self.given | frozenset(settings))
+            raise ModelError(origin.placed(error.faults)) from None
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the machine as a YAML file."""
@@ -470,12 +412,7 @@ def load(path: str | PathLike[str], overrides: Mapping[str, str] | None = None, 
     text, file = read_text(fspath(path)), fspath(path)
     record = parse_machine(text, file, overrides=dict(overrides or {}), allow_code=allow_code)
     outside = frozenset(".".join(step.strip() for step in path.split(".")) for path in overrides or ())
-    return Machine.from_record(record, text, file, outside)
-
-
-def _place(source: str, path: str) -> dict[str, int]:
-    line, column = locate(source, path)
-    return {"line": line, "column": column}
+    return Machine.from_record(record, Origin(text, file, outside))
 
 
 def open_result(path: str | PathLike[str]) -> Result:

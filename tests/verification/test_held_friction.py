@@ -75,7 +75,7 @@ def test_the_report_names_who_shares_the_load_and_when(integrator, coordinates):
     r = simulate(arms(STOPS), duration=1.0, **settings)
     (item,) = found(r)
     assert (item.verdict, r.trust.verdict, item.time) == ("amber", "amber", 0.0)
-    assert "rub with the driver turn at pin.angle (t = 0 to 0.05 s, 0.55 to 1 s)" in item.text
+    assert "rub and driver turn hold pin.angle at rest together (t = 0 to 0.05 s, 0.55 to 1 s)" in item.text
     assert r.trust.undetermined_efforts == ("force.rub.magnitude", "driver.turn.effort")
     turning = np.abs(r.time - 0.3) < 0.06
     np.testing.assert_allclose(r.array("force.rub.magnitude")[turning], -MU * LOAD * RADIUS, rtol=1e-9)
@@ -86,7 +86,7 @@ def test_the_report_names_who_shares_the_load_and_when(integrator, coordinates):
 def test_what_joints_tie_to_a_driver_is_prescribed_too(coordinates):
     r = simulate(crank(0.0), coordinates=coordinates, duration=0.1, step=1e-3)
     (item,) = found(r)
-    assert "rub with the driver turn at slide.displacement" in item.text
+    assert "rub and driver turn hold slide.displacement at rest together" in item.text
 
 
 def test_a_coordinate_that_joints_hold_shares_its_load_with_them():
@@ -107,7 +107,7 @@ def test_a_coordinate_that_joints_hold_shares_its_load_with_them():
         "forces": rubbing("left"),
     }
     (item,) = found(simulate(sections, duration=0.1, step=1e-3))
-    assert "rub with left, top, right at left.angle" in item.text
+    assert "rub and left, top, right hold left.angle at rest together" in item.text
 
 
 @pytest.mark.parametrize(

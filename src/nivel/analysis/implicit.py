@@ -76,6 +76,8 @@ class Wanted:
 
 
 INSTANT = Wanted()
+# A row this many times shorter than the longest one is round-off.
+NOTHING = 1e-9
 
 
 def constraint_index(formulation: str, stabilisation: str, path: PathFacts) -> int:
@@ -111,14 +113,15 @@ def equip(
     residual.y[:] = y
     _, tangent = find_tangent(whole, 0.0, 1.0, 1.0, 1.0)
     first = len(tangent) - len(residual.lam)
-    kept = _independent(tangent[first : first + rows, : len(residual.vdot)], rank)
+    scale = motion.system.record.constraints.scale[motion.system.record.saddle.row]
+    kept = _independent(tangent[first : first + rows, : len(residual.vdot)] / scale[:, None], rank)
     return _with_rows(motion, y, coordinates, wanted, path, kept)
 
 
 def _independent(C_q: Array, rank: int) -> Index:
-    """Numbers of `rank` independent rows."""
+    """Numbers of `rank` independent rows, in units of their scales. Of a row that joints of a tree hold already round-off is left."""
     lengths = np.linalg.norm(C_q, axis=1, keepdims=True)
-    unit = C_q / np.maximum(lengths, 1e-300)
+    unit = np.where(lengths > NOTHING * lengths.max(), C_q / np.maximum(lengths, 1e-300), 0.0)
     pivoted: Any = qr(unit.T, mode="economic", pivoting=True)
     order = pivoted[2]
     return np.sort(order[:rank])

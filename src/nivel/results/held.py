@@ -53,12 +53,10 @@ def efforts(held: Held) -> tuple[str, ...]:
 def in_words(shared: Shared) -> str:
     """Who holds which coordinate, and when."""
     its = shared.held
-    with_ = (
-        f"the driver{'s' * (len(its.drivers) > 1)} {', '.join(its.drivers)}" if its.drivers else ", ".join(its.others)
-    )
+    other = f"driver{'s' * (len(its.drivers) > 1)} {', '.join(its.drivers)}" if its.drivers else ", ".join(its.others)
     when = ", ".join(f"{first:.6g} to {last:.6g} s" for first, last in shared.spans[:SHOWN])
     more = f" and {len(shared.spans) - SHOWN} times more" if len(shared.spans) > SHOWN else ""
-    return f"{its.friction} with {with_} at {its.coordinate} (t = {when}{more})"
+    return f"{its.friction} and {other} hold {its.coordinate} at rest together (t = {when}{more})"
 
 
 def _still(result: Readable, coordinate: str) -> NDArray[np.bool_]:

@@ -134,7 +134,7 @@ def redundancy_item(trust: Trust) -> Item:
 def _shared_item(shared: Sequence[Shared]) -> Item:
     """Frictions that hold a joint at rest together with what prescribes its motion."""
     text = (
-        f"Friction: at rest {'; '.join(map(in_words, shared))} hold a motion together. It is unique; how they share the load is not "
+        f"Friction: {'; '.join(map(in_words, shared))}. The motion is unique; how they share the load is not "
         f"(green when none, amber otherwise)"
     )
     return Item("shared_friction", "amber", text, time=min(each.spans[0][0] for each in shared))

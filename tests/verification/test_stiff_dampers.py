@@ -35,6 +35,15 @@ def test_a_speed_that_a_damper_stops_at_once_is_stopped_in_a_step(integrator, co
     assert np.abs(r.position[:, 0, 0] - MASS / DAMPING).max() < 0.6 * STEP
 
 
+@pytest.mark.parametrize("radius", [0.0, 0.5, 1.0])
+def test_whatever_the_spectral_radius(radius):
+    r = run(
+        block(speed=1.0, damping=DAMPING), integrator="generalised-alpha", generalised_alpha={"spectral_radius": radius}
+    )
+    assert np.abs(r.velocity[1:, 0, 0]).max() < 2.5 * MASS / (DAMPING * STEP)
+    assert np.abs(r.position[:, 0, 0] - MASS / DAMPING).max() < 0.6 * STEP
+
+
 @METHODS
 @pytest.mark.parametrize("corner", [0.0102, 0.0108, 0.01])
 def test_a_load_on_a_damper_moves_it_at_once(integrator, corner):

@@ -59,14 +59,15 @@ def test_a_load_on_a_damper_moves_it_at_once(integrator, corner):
 
 @METHODS
 def test_what_is_resolved_keeps_its_order(integrator):
-    """v₀ exp(-800 t), steps of 3.2 to 0.2 times its time."""
-    rate, end = 800.0, 0.012
+    """v₀ exp(-800 t), steps of 6.4 to 0.2 times its time: what is left out of the longest ones costs no more than they do."""
+    rate, end = 800.0, 0.016
     machine = block(speed=1.0, damping=rate * MASS)
     errors = []
-    for step in (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4):
-        r = run(machine, integrator=integrator, step=step, output_interval=4e-3, duration=end)
+    for step in (8e-3, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4):
+        r = run(machine, integrator=integrator, step=step, output_interval=8e-3, duration=end)
         errors.append(np.abs(r.position[:, 0, 0] - (1.0 - np.exp(-rate * r.time)) / rate).max())
-    assert np.log2(np.divide(errors[:-1], errors[1:])).min() > 1.8
+    assert errors[0] < 0.6 * 8e-3
+    assert np.log2(np.divide(errors[:-1], errors[1:]))[-2:].min() > 1.8
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])

@@ -39,6 +39,8 @@ from nivel.march.run import ALL_STEPS, EVALUATIONS, FACTORISATIONS, RESTART, STE
 
 # a difference over this share of a step gives slopes to half the digits
 DIFFERENCE = 1e-4
+# With slopes up to so many times the accelerations a decay is followed well enough: what they leave of a speed is less than half of it.
+STEEP = 5.0
 # Corners nearer to each other than so many of it are one.
 NEXT = 10.0
 # rows of run.stages, which errors use after a step: what is added to accelerations and rates, and by what these go on to change in a step,
@@ -48,14 +50,14 @@ JUMP, SLOPE, FAST = 7, 8, 9
 
 @stage
 def is_steep(run, newton):
-    """Whether SLOPE is larger than JUMP, as shares of the scales."""
+    """Whether SLOPE is larger than STEEP times JUMP, as shares of the scales."""
     n, states, scale = newton.place.shape[0], newton.state.shape[0], run.scale
     positions = np.int64(scale.shape[0]) - n - states - 2
     jump, slope = 0.0, 0.0
     for k in range(n + states):
         jump = max(jump, np.abs(run.stages[JUMP, k]) / scale[positions + k])
         slope = max(slope, np.abs(run.stages[SLOPE, k]) / scale[positions + k])
-    return slope > jump
+    return slope > STEEP * jump
 
 
 @stage

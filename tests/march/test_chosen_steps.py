@@ -129,6 +129,8 @@ def test_motion_that_ends_in_infinity_says_that_no_step_is_small_enough():
         assert 0.99 < time < 1.01
         assert "no step from here" in message
         assert "jump" in advice
+        assert "`integrator: bdf`" in advice
+        assert ("`integrator: radau`" in advice) == (integrator != "radau")
         np.testing.assert_allclose(result.position[:50, 0, 0], 1 / (1 - result.time[:50]) ** 2, rtol=1e-4)
 
 

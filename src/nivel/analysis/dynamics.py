@@ -166,7 +166,7 @@ def _failure(prepared: Prepared, settings: RunSettings, run: Run, status: int) -
         time,
         float(run.clock[STEP]),
         run.previous,
-        chosen=settings.steps == 0,
+        chosen_by=settings.integrator if settings.steps == 0 else "",
         beams=prepared.beams if explicit else (),
     )
     return message, advice, time

@@ -31,6 +31,8 @@ from nivel.system.system import Array
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
 NEAR_SINGULAR = 1e-6
+# Integrators that choose long steps whatever the stiffness.
+FOR_STIFF = ("radau", "bdf")
 # A violation above this share of its scale is not round-off or truncation: the step was too large for the motion.
 DRIFTED = 1e-2
 
@@ -43,12 +45,13 @@ def failure(
     step: float,
     y: Array,
     *,
-    chosen: bool = False,
+    chosen_by: str = "",
     beams: Sequence[Beam] = (),
 ) -> tuple[str, str]:
     """(message, advice) for a run that failed in the step from `time` [s], whose last accepted state is y.
 
-    chosen : the integrator chose the step, and tried ever smaller ones. beams : that an explicit method had to follow.
+    chosen_by : the integrator that chose the step, and tried ever smaller ones; empty where steps are fixed. beams : that an explicit
+    method had to follow.
     """
     number = int(motion.system.record.control.failure[0])
     if status == CONTRADICTION:
@@ -70,21 +73,23 @@ def failure(
     else:
         # what is not a number spoils pivots as well, so look for it first
         told = broken_function(motion, time, step, y) or too_fast(beams, step)
-        if told is None and chosen:
-            told = _no_step(motion, status, time, step, y)
+        if told is None and chosen_by:
+            told = _no_step(motion, status, time, step, y, chosen_by)
         elif told is None and status == SINGULAR:
             told = _singular(motion, number, time, step, y)
         elif told is None and status == NOT_CONVERGED and len(motion.system.record.residual.vdot):
             told = _no_solution(motion, number, time, step, y)
         elif told is None:
             told = (_not_converged if status == NOT_CONVERGED else _not_a_number)(motion, time, step, y)
-    if not chosen and (grown := grown_motion(motion, time, step, y)):
+    if not chosen_by and (grown := grown_motion(motion, time, step, y)):
         # what failed in the end failed because of that
         told = too_fast(beams, step) or grown
     return f"stopped at t = {time:.6g} s: {told[0]}", told[1]
 
 
-def _no_step(motion: MotionEquations, status: int, time: float, step: float, y: Array) -> tuple[str, str]:
+def _no_step(
+    motion: MotionEquations, status: int, time: float, step: float, y: Array, integrator: str
+) -> tuple[str, str]:
     """Where an integrator that chooses its steps finds none that is small enough."""
     motion.evaluate(time, y)
     singular = status == SINGULAR or not _far_from_singular(motion)
@@ -99,9 +104,10 @@ def _no_step(motion: MotionEquations, status: int, time: float, step: float, y: 
             "The machine is in or near a singular position, where constraints depend on each other: two links in line, or a loop folded "
             "flat? Start the run elsewhere, or move a joint by a small amount so that the machine does not pass through it exactly."
         )
+    stiff = " or ".join(f"`integrator: {name}`" for name in FOR_STIFF if name != integrator)
     return message, (
-        "Does a force or a law jump here, or grow without bounds? Give it a smooth passage of finite length. A very stiff force asks for "
-        "`integrator: radau` or `bdf`. A larger `tolerance` may also help, or an integrator of fixed step."
+        f"Does a force or a law jump here, or grow without bounds? Give it a smooth passage of finite length. A very stiff force asks for "
+        f"{stiff}. A larger `tolerance` may also help, or an integrator of fixed step."
     )
 
 

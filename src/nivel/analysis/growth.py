@@ -15,8 +15,8 @@ GROWN, OF_WORK = 1e3, 0.1
 
 
 def grown_motion(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str] | None:
-    """(message, advice) where the last accepted state y has far more energy than anything gave it, in what is elastic too, and bodies that
-    move by more than the length of the machine in a step of fixed size; None where it has not."""
+    """(message, advice) where the last accepted state y has far more energy than anything gave it, in what is elastic too or in what
+    dampers take in a step, and bodies that move by more than the length of the machine in a step of fixed size; None where it has not."""
     system, control = motion.system, motion.system.record.control
     motion.evaluate(time, y)
     observe: Any = import_module("nivel.kernels.observe").observe
@@ -28,29 +28,47 @@ def grown_motion(motion: MotionEquations, time: float, step: float, y: Array) ->
     mass = float(bodies.mass.sum())
     known = max(abs(start), mass * float(np.linalg.norm(bodies.gravity)) * system.size)
     slow = kinetic <= 0.5 * mass * (system.size / step) ** 2
-    if slow or control.stored[0] <= GROWN * known or abs(gained) <= max(GROWN * known, OF_WORK * abs(work)):
+    stored, damped = float(control.stored[0]), step * _damping_power(system)
+    fast = max(stored, damped)
+    if slow or fast <= GROWN * known or abs(gained) <= max(GROWN * known, OF_WORK * abs(work)):
         return None
-    pulls = _strongest(system)
+    decays = damped > stored
+    kind, strongest = ("decay", "takes most power") if decays else ("vibration", "is largest")
+    pulls = _most(system, "power" if decays else "magnitude")
     gain = f"{abs(gained):.2g} J" if np.isfinite(gained) else "more energy than a number can hold,"
     message = (
         f"the motion has grown without bound: the machine has {gain} that no load gave it. A step of {step:.3g} s is too long for its "
-        f"fastest vibration{pulls and f', and {pulls} is the force that is largest'}"
+        f"fastest {kind}{pulls and f', and {pulls} is the force that {strongest}'}"
     )
+    stiff, over = ("damper", "decays") if decays else ("spring", "vibrations")
     advice = (
-        f"Try --step {step / 10:.3g}, or shorter the stiffer the spring or the lighter what it moves; or a method that steps over fast "
-        f"vibrations: radau, generalised-alpha, or ros2 with --coordinates relative."
+        f"Try --step {step / 10:.3g}, or shorter the stiffer the {stiff} or the lighter what it moves; or a method that steps over fast "
+        f"{over}: radau, generalised-alpha, or ros2 with --coordinates relative."
     )
     return message, advice
 
 
-def _strongest(system: System) -> str:
-    """The force with the largest magnitude in the state last evaluated; empty without any."""
-    values = np.abs(system.record.outputs.value)
-    names = [variable.name for variable in system.layout.variables if len(variable.dims) == 1]
-    names = names[len(names) - len(values) :] if len(values) else []
+def _damping_power(system: System) -> float:
+    """What dampers take from the machine in the state last evaluated, frictions not counted [W]; infinite beyond all numbers."""
+    frictions = [value for name, value in _outputs(system, "power") if name in system.frictions]
+    power = float(system.record.control.power[1]) + sum(frictions)
+    return power if np.isfinite(power) else np.inf
+
+
+def _most(system: System, output: str) -> str:
+    """The force with the largest `output` in the state last evaluated, frictions not counted; empty without any."""
     found = [
-        (float(np.nan_to_num(value, nan=np.inf, posinf=np.inf)), name.split(".")[1])
-        for name, value in zip(names, values, strict=True)
-        if name.startswith("force.") and name.endswith(".magnitude") and name.split(".")[1] not in system.frictions
+        (float(np.nan_to_num(abs(value), nan=np.inf, posinf=np.inf)), name)
+        for name, value in _outputs(system, output)
+        if name not in system.frictions
     ]
     return max(found)[1] if found else ""
+
+
+def _outputs(system: System, output: str) -> list[tuple[str, float]]:
+    """(name, value) of the forces that report `output`, in the state last evaluated."""
+    values = system.record.outputs.value
+    names = [variable.name for variable in system.layout.variables if len(variable.dims) == 1]
+    names = names[len(names) - len(values) :] if len(values) else []
+    parts = [(name.split("."), float(value)) for name, value in zip(names, values, strict=True)]
+    return [(part[1], value) for part, value in parts if part[0] == "force" and part[-1] == output]

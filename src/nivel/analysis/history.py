@@ -34,6 +34,7 @@ from nivel.march.run import (
     TOLERANCE,
     Run,
 )
+from nivel.results.held import STILL
 from nivel.system.partition import forget
 from nivel.system.system import Array, System
 
@@ -124,6 +125,12 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     # control makes steps as short as that takes. Bristles need no limit there, nor in implicit methods.
     follows = settings.steps == 0 or facts.residual
     record.control.stick[:] = STICK_STEPS * settings.step, 0.0 if follows else STICK_STEPS * settings.step
+    if len(record.friction.columns):
+        columns: Any = import_module("nivel.kernels.friction")
+        turns = record.friction.columns[:, columns.ROTATES] == 1
+        record.friction.number[:, columns.REST] = (
+            STILL * np.where(turns, 1.0, prepared.motion.system.size) / settings.duration
+        )
 
 
 def _refer_energies(prepared: Prepared, y: Array) -> None:

@@ -10,7 +10,7 @@ from os import PathLike
 from nivel.analysis.attributes import run_attributes
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.dynamics import Finished, march
-from nivel.analysis.held_friction import held_frictions
+from nivel.analysis.held_friction import resting_frictions
 from nivel.analysis.listener import Listener
 from nivel.analysis.preparation import Prepared, prepare
 from nivel.analysis.settings import RunSettings, complete
@@ -20,6 +20,7 @@ from nivel.march.catalogue import INTEGRATORS
 from nivel.march.sink import Header
 from nivel.results.accuracy import error_from_finer
 from nivel.results.held import Held, shared_loads
+from nivel.results.held_together import Sticking, loads_held_together
 from nivel.results.memory import Memory
 from nivel.results.neglected import Neglected, cost
 from nivel.results.occurrence import to_json
@@ -52,7 +53,7 @@ def simulate(
     listener.say("preparing")
     prepared = prepare(machine, settings.formulation, settings.coordinates)
     sink.begin(Header(prepared.motion.system.layout, run_attributes(machine, source, prepared, settings)))
-    held = held_frictions(machine, prepared.absolute, prepared.assembly.y)
+    resting = resting_frictions(machine, prepared.absolute, prepared.assembly.y)
     prepare_seconds = time.perf_counter() - begin
     listener.say("running", settings.duration)
     finished = march(prepared, settings, [sink], progress=listener.progress)
@@ -61,7 +62,7 @@ def simulate(
         listener.say(f"verifying with {_finer(settings)[1]}", settings.duration)
         accuracy = _estimate(machine, sink.result(), settings, listener)
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
-    return _close(sink, machine, prepared, finished, accuracy, _finer(settings)[1], held, seconds)
+    return _close(sink, machine, prepared, finished, accuracy, _finer(settings)[1], resting, seconds)
 
 
 def _close(
@@ -71,7 +72,7 @@ def _close(
     finished: Finished,
     accuracy: Peak | None,
     refinement: str,
-    held: tuple[Held, ...],
+    resting: tuple[tuple[Held, ...], tuple[Sticking, ...]],
     timing: dict[str, float],
 ) -> Result:
     redundancy = prepared.redundancy
@@ -88,7 +89,7 @@ def _close(
         failure=message,
         stopped_by=finished.stopped_by,
         neglected=cost(sink.result(), _neglected(machine)),
-        shared=shared_loads(sink.result(), held),
+        shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
     attributes: dict[str, str | float | int] = {
         "outcome": finished.outcome,

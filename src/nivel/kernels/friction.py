@@ -4,14 +4,15 @@ The efforts F on the joint coordinates change the reactions, and these the effor
 the coordinates, λ = λ₀ + R F, accelerations c̈ = c̈₀ + S F, S = C_f P M⁻¹ C_fᵀ (P projects onto the constraints). R and S come from one
 solution with the factor that is there already per element; then F is iterated, from where the last evaluation ended, without any
 solve. Coulomb's regularised law and LuGre give |F| from the load; with stiction F is what stops the coordinate within the time TAU,
-as long as it is no larger than static friction: the joint really stands still.
+as long as it is no larger than static friction: the joint really stands still. A motion that drivers prescribe no effort stops: while
+it goes on, F is all that the load gives, against it; while they hold it, F is left to them.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import absolute, tanh
+from nivel.kernels.analytic import absolute, real, tanh
 from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
@@ -23,10 +24,10 @@ from nivel.kernels.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
 # outputs: effort, power, normal load, the bristle
 COORDINATE, MODEL, JOINT, ROTATES, STATE, OUTPUT, FRAME, BEARING = 0, 1, 2, 3, 4, 5, 6, 7
 COULOMB, STICTION, LUGRE = 0, 1, 2
-# columns of `number`; ARM: a speed of the coordinate times it is the speed of the surfaces
+# columns of `number`; ARM: a speed of the coordinate times it is the speed of the surfaces; REST: a rate below it is none where drivers
+# prescribe it, known when a run starts
 KINETIC, STATIC, STRIBECK, TRANSITION, VISCOUS, STIFFNESS, DAMPING = 0, 1, 2, 3, 4, 5, 6
-ARM, COLLAR, MOMENT_ARM, SPIN_ARM, LOAD = 7, 8, 9, 10, 11
-NUMBERS = 12
+ARM, COLLAR, MOMENT_ARM, SPIN_ARM, LOAD, REST = 7, 8, 9, 10, 11, 12
 
 # Gauss–Seidel sweeps, then Newton steps, then anchored ones; efforts agree to TOLERANCE, and must to ENOUGH.
 SWEEPS, STEPS, ANCHORED_STEPS = 12, 12, 40
@@ -38,6 +39,8 @@ ANCHOR = 1e-3
 BOUND = 1e3
 # S_kk as this share of 1/m is round-off: the motion is prescribed.
 PRESCRIBED = 1e-7
+# A driver takes up less than this share of an effort that it does not prescribe the motion of [m/m, rad/m, …]: round-off.
+DRIVEN = 1e-12
 # Rate of relaxation of the bristles times two steps: beyond it RK4 is unstable (2.78 a step).
 FASTEST = 5.5
 
@@ -202,6 +205,29 @@ def yielding(friction, k):
 
 
 @stage
+def driven(machine, k):
+    """The way, ±1, in which drivers move coordinate k, or 0 while they hold it, where they and the joints leave it no freedom; else not a
+    number.
+
+    An effort of one on such a coordinate is taken up by the multipliers R of `respond` alone: C_f = Rᵀ C_q. So ċ = Σ R f'(t) over the
+    drivers, however far velocities are from closed.
+    """
+    record = record_at(machine)
+    friction, constraints = record.friction, record.constraints
+    if friction.S[k, k] * friction.mass[k] > PRESCRIBED:
+        return np.nan
+    rate, share = 0.0, 0.0
+    for i in range(constraints.combination.shape[0]):
+        if constraints.combination[i, 3] != NONE:
+            own = friction.response[k, constraints.combination[i, 0]]
+            rate += own * real(constraints.motion[i])
+            share = max(share, np.abs(own))
+    if not share > DRIVEN:
+        return np.nan
+    return np.sign(rate) if np.abs(rate) > friction.number[k, REST] else 0.0
+
+
+@stage
 def effort(machine, k, tau, anchor):
     """Effort of friction k for the present multipliers and efforts of the others."""
     record = record_at(machine)
@@ -211,13 +237,16 @@ def effort(machine, k, tau, anchor):
         return sliding_effort(machine, k)
     rate = coordinates.rate[q]
     viscous = n[VISCOUS] * rate
+    largest = coefficient(n, rate * n[ARM]) * normal_load(machine, k) * n[ARM]
+    way = driven(machine, k)
+    if not np.isnan(way):
+        return -way * largest - viscous
     # what makes c̈ = -ċ/τ, if it is within the cone
     acceleration = friction.free[k] + rate / tau
     for other in range(friction.columns.shape[0]):
         if other != k:
             acceleration += friction.S[k, other] * friction.force[other]
     wanted = (anchor * friction.anchor[k] - acceleration / yielding(friction, k)) / (1.0 + anchor) + viscous
-    largest = coefficient(n, rate * n[ARM]) * normal_load(machine, k) * n[ARM]
     return min(max(wanted, -largest), largest) - viscous
 
 

@@ -29,6 +29,7 @@ from nivel.kernels.friction import (
     STRIBECK,
     VISCOUS,
     coefficient,
+    driven,
     normal_load,
     report,
     sliding_effort,
@@ -95,11 +96,12 @@ def hold(machine, k, place):
     else:
         second, slowing = second_derivative(machine, q), rate
     missed = friction.mass[k] * (second + slowing / tau) + NEAR * change
-    branch = own.bidden[number]
+    way = driven(machine, k)
+    branch = own.bidden[number] if np.isnan(way) else -way
     if np.isnan(branch):
         wanted = real(dry - missed)
         branch = 1.0 if wanted > real(limit) else (-1.0 if wanted < -real(limit) else 0.0)
-    row = missed if branch == 0.0 else dry - branch * limit
+    row = missed if branch == 0.0 and np.isnan(way) else dry - branch * limit
     if tau == np.inf:
         # forces do not jump where speeds do, see `nivel.march.corners`
         row = change

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from nivel.results.held import Shared, in_words
+from nivel.results.unresolved import Unresolved
 from nivel.results.verdicts import THRESHOLDS, Item, Threshold, Trust, Verdict
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
@@ -16,14 +17,20 @@ OUTCOMES: dict[str, tuple[Verdict, str]] = {
 }
 
 
-def statements(trust: Trust, failure: str, stopped_by: str = "", shared: Sequence[Shared] = ()) -> Iterator[Item]:
-    """The items of the report; `failure` says what stopped the run, `stopped_by` which event ended it, `shared` which frictions rest on
-    prescribed motions."""
+def statements(
+    trust: Trust,
+    failure: str,
+    stopped_by: str = "",
+    shared: Sequence[Shared] = (),
+    unresolved: Unresolved | None = None,
+) -> Iterator[Item]:
+    """The items of the report; `failure` says what stopped the run, `stopped_by` which event ended it, `shared` which frictions share
+    a load in no certain way, `unresolved` the force that the energy error comes from."""
     verdict, text = OUTCOMES.get(trust.outcome, ("red", f"Outcome: {trust.outcome}"))
     if stopped_by:
         text = f"Outcome: the event {stopped_by} ended the run, as it was to do"
     yield Item("outcome", verdict, f"{text}: {failure}" if failure else text)
-    yield _energy_item(trust)
+    yield _energy_item(trust, unresolved)
     if trust.constraint_violation_row:
         yield violation_item(trust)
         yield _rate_item(trust)
@@ -38,7 +45,7 @@ def statements(trust: Trust, failure: str, stopped_by: str = "", shared: Sequenc
         yield _neglected_item(trust, trust.neglected_share)
 
 
-def _energy_item(trust: Trust) -> Item:
+def _energy_item(trust: Trust, unresolved: Unresolved | None) -> Item:
     error, scale = trust.energy_error_max, trust.energy_scale
     fraction = error / scale if scale > 0.0 else 0.0 if error == 0.0 else math.nan if math.isnan(error) else math.inf
     if not math.isfinite(error):
@@ -51,7 +58,20 @@ def _energy_item(trust: Trust) -> Item:
         said = (
             "no energy anywhere, and no error" if error == 0.0 else f"error {number(error)} J where there is no energy"
         )
-    return numeric("energy", f"Energy: {said}", fraction, trust.energy_error_time)
+    cause = _unresolved_words(unresolved) if unresolved else ""
+    row = unresolved.force if unresolved else ""
+    return numeric("energy", f"Energy: {said}{cause}", fraction, trust.energy_error_time, row)
+
+
+def _unresolved_words(unresolved: Unresolved) -> str:
+    """Which force is too fast for the step, by what that is seen, and what to do."""
+    its = unresolved
+    share = f"{number(its.work / its.kinetic)} times the largest kinetic energy" if its.kinetic else "and nothing moves"
+    return (
+        f"; {its.force} does {number(its.work)} J in one step of {number(its.step)} s at t = {its.time:.6g} s, {share}: what it does "
+        f"decays, or vibrates, within a step, and its work is not known. Take a shorter step, or an integrator that chooses "
+        f"its steps (radau)"
+    )
 
 
 def violation_item(trust: Trust) -> Item:
@@ -132,7 +152,7 @@ def redundancy_item(trust: Trust) -> Item:
 
 
 def _shared_item(shared: Sequence[Shared]) -> Item:
-    """Frictions that hold a joint at rest together with what prescribes its motion."""
+    """Frictions that hold a joint at rest together with what prescribes its motion, or with other frictions."""
     text = (
         f"Friction: {'; '.join(map(in_words, shared))}. The motion is unique; how they share the load is not "
         f"(green when none, amber otherwise)"

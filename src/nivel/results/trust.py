@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nivel.results.held import Shared, efforts
+from nivel.results.held import Shared
 from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
 from nivel.results.statements import statements
-from nivel.results.verdicts import Trust, worst
+from nivel.results.unresolved import unresolved_force
+from nivel.results.verdicts import THRESHOLDS, Trust, worst
 
 __all__ = ["Facts", "Peak", "Trust", "assess", "peak", "worst_row"]
 
@@ -36,7 +37,7 @@ class Facts:
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
     accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
     neglected : what it cost that flexible bodies moved without some of their inertia invariants. shared : frictions at rest on motions
-    that are prescribed.
+    that are prescribed, or that others hold too.
     failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
     """
 
@@ -67,6 +68,8 @@ def assess(result: Readable, facts: Facts) -> Trust:
     energy_scale, energy_scale_kind = largest_energy(result, size, opening, at_rest)
     rate, rate_units = worst_row(result, "constraint_rate_violation", {"m": 1.0 / speed, "1": size / speed})
     lacking = facts.neglected
+    is_green = energy.value < THRESHOLDS["energy"].green * energy_scale
+    unresolved = None if is_green else unresolved_force(result, energy.value)
     trust = Trust(
         verdict="green",
         outcome=facts.outcome,
@@ -99,9 +102,12 @@ def assess(result: Readable, facts: Facts) -> Trust:
         neglected_body=lacking.body if lacking else "",
         neglected_names=lacking.names if lacking else (),
         neglected_time=lacking.time if lacking else None,
-        undetermined_efforts=tuple(dict.fromkeys(name for each in facts.shared for name in efforts(each.held))),
+        undetermined_efforts=tuple(dict.fromkeys(name for each in facts.shared for name in each.efforts)),
+        unresolved_force=unresolved.force if unresolved else "",
+        unresolved_work=unresolved.work if unresolved else 0.0,
+        unresolved_time=unresolved.time if unresolved else 0.0,
     )
-    items = tuple(statements(trust, facts.failure, facts.stopped_by, facts.shared))
+    items = tuple(statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved))
     return replace(trust, items=items, verdict=worst(items))
 
 

@@ -126,7 +126,10 @@ class Trust:
     live to tell. modes : of flexible bodies, whose coordinates
     are freedoms that joints may take. neglected_share : the largest share of the mass matrix of a flexible body that is lacking because it
     moves without the inertia invariants `neglected_names`; None where none does. drivers : motions that are prescribed.
-    undetermined_efforts : results that are not unique while a friction and a driver hold a joint at rest together.
+    undetermined_efforts : results that are not unique while a friction holds a joint at rest together with a driver or
+    with other frictions.
+    unresolved_force : that does so much work in a step of fixed size, unresolved_work [J] at unresolved_time, that the energy error may be
+    its; empty where none does, or the energy is green.
     """
 
     verdict: Verdict
@@ -161,6 +164,9 @@ class Trust:
     neglected_names: tuple[str, ...] = ()
     neglected_time: float | None = None
     undetermined_efforts: tuple[str, ...] = ()
+    unresolved_force: str = ""
+    unresolved_work: float = 0.0
+    unresolved_time: float = 0.0
     items: tuple[Item, ...] = ()
 
     def to_json(self) -> str:

@@ -49,6 +49,7 @@ def add_friction(draft: Draft, force: Friction) -> None:
         2.0 / force.bearing_length if force.bearing_length else 0.0,
         1.0 / radius if radius and not angle else 0.0,
         force.normal_load if force.normal_load is not None else force.preload,
+        0.0,
     ]
     draft.frictions.append((index, numbers))
 

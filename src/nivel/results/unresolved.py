@@ -1,0 +1,70 @@
+"""Which force does so much work in a step of fixed size that what it does decays, or vibrates, within the step and is not followed.
+
+A damper takes from what it stops with a rate r = c/m the share 2 r h of its kinetic energy in a step h, as far as its power at the begin of
+the step says; a spring with the frequency ω takes up to ω h. Where that is of the order of one no formula on steps h has its work right.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+
+import numpy as np
+
+from nivel.results.scales import Readable
+
+# What can be stiff; a load that is given, or dry friction, changes no faster than what makes it.
+STIFF = (
+    "spring-damper",
+    "torsional-spring-damper",
+    "joint-spring-damper",
+    "bushing",
+    "contact",
+    "stop",
+    "motor",
+    "pair-force",
+)
+# Work in a step as a share of the largest kinetic energy from which on it is not followed, and of the energy error that it can explain.
+FOLLOWED, EXPLAINS = 0.5, 0.01
+
+
+@dataclass(frozen=True)
+class Unresolved:
+    """A force, the work [J] that its power at this time [s] does in a step [s], and the largest kinetic energy of the run [J]."""
+
+    force: str
+    work: float
+    time: float
+    step: float
+    kinetic: float
+
+
+def unresolved_force(result: Readable, error: float) -> Unresolved | None:
+    """The force whose work in a step is largest, where it is too much for the step and of a size with the energy error [J]; None where
+    there is none, and where steps are chosen."""
+    settings = json.loads(str(result.attributes.get("settings", "{}")))
+    if "step" not in settings or "tolerance" in settings or "kinetic_energy" not in result.variables:
+        return None
+    step, kinetic = float(settings["step"]), np.abs(result.array("kinetic_energy"))
+    largest = float(np.max(kinetic, initial=0.0, where=np.isfinite(kinetic)))
+    found = [Unresolved(name, work, time, step, largest) for name, work, time in _works(result, step)]
+    worst = max(found, key=lambda each: each.work, default=None)
+    if worst is None or worst.work < max(FOLLOWED * largest, EXPLAINS * error if np.isfinite(error) else 0.0):
+        return None
+    return worst
+
+
+def _works(result: Readable, step: float) -> list[tuple[str, float, float]]:
+    """(name, largest work in a step [J], its time [s]) of the forces that can be stiff and do any."""
+    record = json.loads(str(result.attributes.get("machine_record", "{}")))
+    out = []
+    for force in record.get("forces", ()):
+        variable = f"force.{force['name']}.power"
+        if force["type"] not in STIFF or variable not in result.variables:
+            continue
+        work = step * np.abs(result.array(variable))
+        work[~np.isfinite(work)] = 0.0
+        k = int(np.argmax(work)) if len(work) else 0
+        if len(work) and work[k] > 0.0:
+            out.append((force["name"], float(work[k]), float(result.time[k])))
+    return out

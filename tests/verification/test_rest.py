@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from simulating import G, hinge, machine, simulate, solid
+from simulating import G, hinge, machine, simulate, slide, solid
 from test_friction import sled
 
 METHODS = pytest.mark.parametrize(
@@ -75,3 +75,26 @@ def test_a_scene_knows_radii_of_gyration():
     flat = {"plate": solid(2.0, (0.1, 0.2, 0.3)), "dot": {"mass": 1.0, "point_mass": True, "position": [1, 0, 0]}}
     r = machine({"bodies": flat, "simulation": {"duration": 1e-3}}).simulate()
     assert [body["radius_of_gyration"] for body in r.scene["bodies"]] == pytest.approx([np.sqrt(0.15), 0.0])
+
+
+@pytest.mark.parametrize("damping", [1.0, 1e4, 1e8])
+def test_a_damper_is_no_load(damping):
+    """A block of 2 kg that a damper stops from 10 µm/s is at rest: what counts is 1e-6 of its weight and of the rail's reaction, however
+    hard the damper pulls, and however much of that, at 45°, the rail takes."""
+    sections = {
+        "gravity": [0, -G, 0],
+        "bodies": {"block": solid(2.0, velocity=[1e-5, 0, 0])},
+        "joints": {"rail": slide("ground", "block")},
+        "forces": {
+            "holder": {
+                "type": "spring-damper",
+                "bodies": ["ground", "block"],
+                "points": [[-1, -1, 0], [0, 0, 0]],
+                "damping": damping,
+            }
+        },
+    }
+    r = simulate(sections, integrator="radau", coordinates="relative", duration=0.3, step=1e-3, tolerance=1e-6)
+    assert r.trust.at_rest
+    assert r.trust.energy_scale_kind == "smallest energy that counts"
+    assert r.trust.energy_scale == pytest.approx(1e-6 * r.trust.size * 2 * 2.0 * G, rel=1e-3)

@@ -145,18 +145,41 @@ def blocks(result: Readable) -> Iterator[slice]:
 
 
 def _largest_load(result: Readable, size: float) -> float:
-    """Largest reaction, applied force or effort of a driver times the size, or torque [J]; for a size of 0, the largest force [N]."""
+    """Largest reaction, applied force or effort of a driver times the size, or torque [J]; for a size of 0, the largest force [N].
+
+    In every frame it is less by all that dampers do then, themselves and by way of reactions: what only resists a motion loads no machine.
+    """
     largest = 0.0
-    for name, variable in result.variables.items():
-        if name not in ("joint_force", "joint_torque") and (
-            "." not in name or name.startswith("sensor.") or variable.units not in ("N", "N m")
-        ):
-            continue
-        arm = (size or 1.0) if variable.units == "N" else float(size > 0.0)
-        for frames in blocks(result):
-            values = np.abs(result.array(name, frames))
-            largest = max(largest, arm * float(np.max(values, initial=0.0, where=np.isfinite(values))))
+    for frames in blocks(result):
+        load = np.zeros(len(result.time[frames]))
+        for name, variable in result.variables.items():
+            if name not in ("joint_force", "joint_torque") and (
+                "." not in name or name.startswith("sensor.") or variable.units not in ("N", "N m")
+            ):
+                continue
+            values = np.abs(result.array(name, frames)).reshape(len(load), -1)
+            known = np.max(values, axis=1, initial=0.0, where=np.isfinite(values))
+            load = np.maximum(load, _arm(variable.units, size) * known)
+        largest = max(largest, float(np.max(load - _damping(result, size, frames), initial=0.0)))
     return largest
+
+
+def _damping(result: Readable, size: float, frames: slice) -> Array:
+    """(frames,) what all dampers of the machine do, as `_largest_load` measures it."""
+    total = np.zeros(len(result.time[frames]))
+    for force in json.loads(str(result.attributes.get("machine_record", "{}"))).get("forces", ()):
+        name, damping = f"force.{force['name']}", force.get("damping", 0.0)
+        if f"{name}.rate" in result.variables and isinstance(damping, float | int) and damping > 0.0:
+            effort = np.abs(damping * result.array(f"{name}.rate", frames))
+            total += _arm(result.variables[f"{name}.magnitude"].units, size) * np.where(
+                np.isfinite(effort), effort, 0.0
+            )
+    return total
+
+
+def _arm(units: str, size: float) -> float:
+    """What forces [N] and torques [N m] are multiplied by."""
+    return (size or 1.0) if units == "N" else float(size > 0.0)
 
 
 def _mass(result: Readable) -> float:

@@ -81,10 +81,10 @@ POINT_SIZE = 1.0  # m: a single point that never moves has no size; said whereve
 RULES = {
     "energy_scale": "the largest kinetic energy, or the largest change of potential energy, work of external forces or "
     "dissipated energy where one of these is larger; at least what a machine at rest is made of: 1e-9 of the largest potential energy; "
-    "1e-9, or of a machine at rest whose steps are chosen the tolerance, of the largest load and the weight times the size, and of the "
-    "kinetic energy of travelling by the size in the time of the run; 1e5 times the work of these loads over what joints are open by, as "
-    "far as that is 1e-12 of the size at most. There is no fixed number of joules: where all energies are zero, an error of zero is a "
-    "fraction of zero",
+    "1e-9, or of a machine at rest whose steps are chosen the tolerance, of the largest load (less what dampers do in the same frame) and "
+    "the weight times the size, and of the kinetic energy of travelling by the size in the time of the run; 1e5 times the work of these "
+    "loads over what joints are open by, as far as that is 1e-12 of the size at most. There is no fixed number of joules: where all "
+    "energies are zero, an error of zero is a fraction of zero",
     "size": "the diagonal of the box around all joint points, centres of mass and body origins in the first frame. "
     "Where all of them are one point: of the box around its path, or twice the largest radius of gyration where that is larger; where it "
     "has neither, because it is a point mass or moves by less than 1e-9 of what its loads would move it, 1 m by convention. Constraint "

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from nivel.errors import SolveError
 from simulating import G, hinge, simulate, slide, solid
 from test_friction import MASS, sled
 from test_held_friction import crank, found
@@ -101,3 +102,11 @@ def test_nothing_is_said_where_shares_are_known(sections, integrator):
     r = simulate(sections, integrator=integrator, duration=0.4, step=1e-3, output_interval=1e-3)
     assert not found(r)
     assert r.trust.undetermined_efforts == ()
+
+
+def test_a_run_that_grows_beyond_all_bounds_is_no_worse_for_it():
+    """An unstable damper takes both frictions with it: what is no number rests nowhere, and the failure names the damper."""
+    damper = {"type": "joint-spring-damper", "coordinate": "rail", "damping": 1e6}
+    with pytest.raises(SolveError, match="holder is the force that takes most power") as caught:
+        simulate(pair(speed=1.0, forces={"holder": damper}), integrator="rk4", duration=10.0, step=1e-3)
+    assert not found(caught.value.result)

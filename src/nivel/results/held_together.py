@@ -34,6 +34,7 @@ class Sticking:
     viscous: float
 
 
+@np.errstate(over="ignore", invalid="ignore")  # of a run that grew beyond all bounds
 def loads_held_together(result: Readable, frictions: Sequence[Sticking]) -> tuple[Shared, ...]:
     """Frictions that hold one motion at rest together, over two frames or more.
 
@@ -62,10 +63,9 @@ def loads_held_together(result: Readable, frictions: Sequence[Sticking]) -> tupl
 def _holding(result: Readable, frictions: Sequence[Sticking]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """(frames, frictions) which rest under a load, and which of them stick."""
     rests, sticks = [], []
+    coordinates, rates = result.coordinates[result.variables["joint_rate"].dims[1]], result.array("joint_rate")
     for each in frictions:
-        rate = result.array("joint_rate")[
-            :, result.coordinates[result.variables["joint_rate"].dims[1]].index(each.coordinate)
-        ]
+        rate = rates[:, coordinates.index(each.coordinate)]
         largest = each.static * result.array(f"force.{each.friction}.normal_load")
         effort = np.abs(result.array(f"force.{each.friction}.magnitude") + each.viscous * rate)
         resting = still(result, each.coordinate, RESTING) & (largest > 0.0)

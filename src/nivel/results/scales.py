@@ -111,14 +111,25 @@ def largest_energy(result: Readable, size: float, opening: float = 0.0, at_rest:
     if not len(result.time):
         return 0.0, ""
     candidates = [
-        ("largest kinetic energy", _largest(result, "kinetic_energy", lambda e: e)),
-        ("largest change of potential energy", _largest(result, "potential_energy", lambda e: e - e[0])),
-        ("largest work of external forces", _largest(result, "external_work", lambda e: e)),
+        *_mechanical_energies(result),
         ("largest dissipated energy", _largest(result, "dissipated_energy", lambda e: e)),
         ("smallest energy that counts", _energy_of_rest(result, size, opening, at_rest)),
     ]
     kind, value = max(candidates, key=lambda each: each[1])
     return value, kind
+
+
+def largest_mechanical_energy(result: Readable) -> float:
+    """The largest kinetic energy, change of potential energy or work of external forces [J] of a run with frames."""
+    return max(value for _, value in _mechanical_energies(result))
+
+
+def _mechanical_energies(result: Readable) -> list[tuple[str, float]]:
+    return [
+        ("largest kinetic energy", _largest(result, "kinetic_energy", lambda e: e)),
+        ("largest change of potential energy", _largest(result, "potential_energy", lambda e: e - e[0])),
+        ("largest work of external forces", _largest(result, "external_work", lambda e: e)),
+    ]
 
 
 def _energy_of_rest(result: Readable, size: float, opening: float, at_rest: bool) -> float:

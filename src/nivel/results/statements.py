@@ -66,7 +66,9 @@ def _energy_item(trust: Trust, unresolved: Unresolved | None) -> Item:
 def _unresolved_words(unresolved: Unresolved) -> str:
     """Which force is too fast for the step, by what that is seen, and what to do."""
     its = unresolved
-    share = f"{number(its.work / its.kinetic)} times the largest kinetic energy" if its.kinetic else "and nothing moves"
+    share = (
+        f"{number(its.work / its.energy)} times all other energy of the run" if its.energy else "and there is no energy"
+    )
     return (
         f"; {its.force} does {number(its.work)} J in one step of {number(its.step)} s at t = {its.time:.6g} s, {share}: what it does "
         f"decays, or vibrates, within a step, and its work is not known. Take a shorter step, or an integrator that chooses "

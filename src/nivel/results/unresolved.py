@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.results.scales import Readable
+from nivel.results.scales import Readable, largest_mechanical_energy
 
 # What can be stiff; a load that is given, or dry friction, changes no faster than what makes it.
 STIFF = (
@@ -24,32 +24,32 @@ STIFF = (
     "motor",
     "pair-force",
 )
-# Work in a step as a share of the largest kinetic energy from which on it is not followed, and of the energy error that it can explain.
+# Work in a step as a share of the largest energy from which on it is not followed, and of the energy error that it can explain.
 FOLLOWED, EXPLAINS = 0.5, 0.01
 
 
 @dataclass(frozen=True)
 class Unresolved:
-    """A force, the work [J] that its power at this time [s] does in a step [s], and the largest kinetic energy of the run [J]."""
+    """A force, the work [J] that its power at this time [s] does in a step [s], and the largest energy of the run [J]: kinetic, change of
+    potential energy, or work of external forces. A slow machine under loads has far more of the latter than a force does in one step."""
 
     force: str
     work: float
     time: float
     step: float
-    kinetic: float
+    energy: float
 
 
 def unresolved_force(result: Readable, error: float) -> Unresolved | None:
     """The force whose work in a step is largest, where it is too much for the step and of a size with the energy error [J]; None where
     there is none, and where steps are chosen."""
     settings = json.loads(str(result.attributes.get("settings", "{}")))
-    if "step" not in settings or "tolerance" in settings or "kinetic_energy" not in result.variables:
+    if "step" not in settings or "tolerance" in settings or not len(result.time):
         return None
-    step, kinetic = float(settings["step"]), np.abs(result.array("kinetic_energy"))
-    largest = float(np.max(kinetic, initial=0.0, where=np.isfinite(kinetic)))
-    found = [Unresolved(name, work, time, step, largest) for name, work, time in _works(result, step)]
+    step, energy = float(settings["step"]), largest_mechanical_energy(result)
+    found = [Unresolved(name, work, time, step, energy) for name, work, time in _works(result, step)]
     worst = max(found, key=lambda each: each.work, default=None)
-    if worst is None or worst.work < max(FOLLOWED * largest, EXPLAINS * error if np.isfinite(error) else 0.0):
+    if worst is None or worst.work < max(FOLLOWED * energy, EXPLAINS * error if np.isfinite(error) else 0.0):
         return None
     return worst
 

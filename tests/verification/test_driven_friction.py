@@ -120,3 +120,25 @@ def test_two_drivers_move_it_together():
     }
     r = simulate(sections, duration=0.1, step=1e-3, output_interval=0.02)
     np.testing.assert_allclose(r.array("force.rub.magnitude"), -0.5 * np.sign(r.array("last.angle.rate")), rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("integrator", "settings"),
+    [
+        ("rk4", {"coordinates": "absolute"}),
+        ("rk4", {"coordinates": "absolute", "formulation": "penalty"}),
+        ("rk4", {"coordinates": "relative", "formulation": "augmented-lagrangian"}),
+        ("generalised-alpha", {"coordinates": "independent"}),
+    ],
+    ids=["multipliers", "penalty", "iterated", "independent"],
+)
+def test_it_never_drives(integrator, settings):
+    """A crank turns at 20 rad/s: up to its dead points, where it slows down by more than its speed in τ, the slide rubs against its
+    motion."""
+    sections = crank("20*time")
+    sections["forces"]["rub"] |= {"coefficient": 0.2}
+    del sections["forces"]["rub"]["normal_load"]
+    r = simulate(sections, integrator=integrator, duration=0.5, step=1e-3, output_interval=1e-3, **settings)
+    load, rate = r.array("force.rub.normal_load"), r.array("slide.displacement.rate")
+    assert np.count_nonzero(np.diff(np.sign(rate))) == 3
+    np.testing.assert_allclose(r.array("force.rub.magnitude"), -0.2 * np.sign(rate) * load, atol=1e-7 * load.max())

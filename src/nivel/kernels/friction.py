@@ -210,18 +210,22 @@ def driven(machine, k):
     number.
 
     An effort of one on such a coordinate is taken up by the multipliers R of `respond` alone: C_f = Rᵀ C_q. So ċ = Σ R f'(t) over the
-    drivers, however far velocities are from closed.
+    drivers, however far velocities are from closed. With penalties S_kk is Σ R²/α then, unless they are iterated.
     """
     record = record_at(machine)
-    friction, constraints = record.friction, record.constraints
-    if friction.S[k, k] * friction.mass[k] > PRESCRIBED:
+    friction, constraints, saddle = record.friction, record.constraints, record.saddle
+    own = friction.S[k, k]
+    if record.control.iterations[0] <= 1:
+        for row in range(saddle.row.shape[0]):
+            own -= saddle.shift[row] * friction.response[k, saddle.row[row]] ** 2
+    if own * friction.mass[k] > PRESCRIBED:
         return np.nan
     rate, share = 0.0, 0.0
     for i in range(constraints.combination.shape[0]):
         if constraints.combination[i, 3] != NONE:
-            own = friction.response[k, constraints.combination[i, 0]]
-            rate += own * real(constraints.motion[i])
-            share = max(share, np.abs(own))
+            part = friction.response[k, constraints.combination[i, 0]]
+            rate += part * real(constraints.motion[i])
+            share = max(share, np.abs(part))
     if not share > DRIVEN:
         return np.nan
     return np.sign(rate) if np.abs(rate) > friction.number[k, REST] else 0.0

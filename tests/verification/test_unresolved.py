@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from nivel.errors import SolveError
+from nivel.results.result import Result
 from nivel.results.unresolved import unresolved_force
 from simulating import G, simulate, slide, solid
 from test_growth import stiff_pair
@@ -73,6 +74,7 @@ def test_a_run_that_a_damper_breaks_off_says_so(integrator, rate, coordinates):
     message = "A step of 0.001 s is too long for its fastest decay, and holder is the force that takes most power"
     assert message in caught.value.message
     assert "shorter the stiffer the damper" in caught.value.advice
+    assert isinstance(caught.value.result, Result)
     assert caught.value.result.trust.unresolved_force == "holder"
 
 

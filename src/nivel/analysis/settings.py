@@ -8,7 +8,7 @@ from math import ceil
 from nivel.analysis.combinations import refuse_combinations
 from nivel.errors import Fault, ModelError
 from nivel.machine.settings import Corrector, Penalty, SimulationSettings
-from nivel.march.alpha_constants import generalised_alpha, hht, newmark
+from nivel.march.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
 from nivel.march.catalogue import INTEGRATORS, IntegratorFacts, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
@@ -146,7 +146,9 @@ def _constants(settings: SimulationSettings) -> tuple[float, ...]:
         case "hht":
             return hht(settings.hht.alpha)
         case "generalised-alpha":
-            return generalised_alpha(settings.generalised_alpha.spectral_radius)
+            usual = CHOSEN_STEPS if settings.step_control == "error" else FIXED_STEPS
+            given = settings.generalised_alpha.spectral_radius
+            return generalised_alpha(usual if given is None else given)
     return ()
 
 

@@ -83,7 +83,9 @@ class HHT(Record):
 class GeneralisedAlpha(Record):
     """Damping of generalised-alpha: what is left of a vibration far above the step's frequency after one step, 0 … 1."""
 
-    spectral_radius: Annotated[float, Field(ge=0.0, le=1.0)] = 0.8
+    spectral_radius: Annotated[float, Field(ge=0.0, le=1.0)] | None = Field(
+        default=None, description="absent, 0.8 with fixed steps and 0.6 with chosen ones"
+    )
 
 
 SHORTEST = 1e-12  # s; squares of speeds of a machine's length in such a time are still numbers

@@ -11,6 +11,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails
 
+from nivel.arguments import checked_arguments, checked_fields
 from nivel.machine.arithmetic import TIME, ExpressionError, FaultyParameterError, Parameters, Signal, Time, varies
 from nivel.machine.python_source import source_of
 from nivel.machine.quantity import (
@@ -28,6 +29,7 @@ from nivel.machine.record import unknown_word
 KEYS: Final = ("source", "function", "arguments", "file")
 
 
+@checked_fields
 @dataclass(frozen=True)
 class PythonLaw:
     """The value that a Python function returns, SI.
@@ -51,6 +53,7 @@ class PythonLaw:
             object.__setattr__(self, "arguments", tuple(listed(self.arguments)))
 
     @classmethod
+    @checked_arguments
     def of(cls, function: Callable[..., Any], arguments: Sequence[object] = ()) -> PythonLaw:
         """The law that a function of this program is. Modules, numbers and functions that it uses go with it.
 

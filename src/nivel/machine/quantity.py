@@ -31,6 +31,7 @@ from nivel.machine.arithmetic import (
 from nivel.machine.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.grammar import parse
 from nivel.machine.measure import measure
+from nivel.wording import shown
 
 MASSLESS = (
     "; a link without mass is a joint: distance, revolute-spherical, revolute-cylindrical, revolute-translational"
@@ -150,22 +151,6 @@ def constant_tree(text: str, parameters: Parameters) -> Node:
     if varies(tree):
         raise ExpressionError("`time` may only be used where a value may vary: in forces, drivers, sensors and events")
     return tree
-
-
-def shown(value: object) -> str:
-    """`value` in a message: as in the file, and short."""
-    if value is None:
-        return "nothing"
-    if isinstance(value, bool):
-        return f"`{str(value).lower()}`"
-    if isinstance(value, dict):
-        return "a mapping"
-    if isinstance(value, list | tuple):
-        return "a list"
-    if isinstance(value, int) and abs(value) > 1e40:
-        return "a number of more than 40 digits"  # Python does not write integers of thousands of digits
-    text = str(value)
-    return f"`{text}`" if len(text) <= 40 else f"`{text[:37]}…`"
 
 
 @dataclass(frozen=True)

@@ -384,8 +384,13 @@ class Machine:
 
     @checked_arguments
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the machine as a YAML file."""
-        Path(fspath(path)).write_text(write_machine(self.record), encoding="utf-8")
+        """Write the machine as a YAML file; an existing file is replaced. Raises ModelError where it cannot be written."""
+        text = write_machine(self.record)
+        try:
+            Path(path).write_text(text, encoding="utf-8")
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            raise ModelError(f"the machine file {fspath(path)} cannot be written: {reason.lower()}") from error
 
     def _repr_html_(self) -> str:
         """A card for notebooks: what the machine consists of."""

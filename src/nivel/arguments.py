@@ -29,7 +29,7 @@ WORDS: Final[Mapping[object, str]] = {
     float: "a number",
     str: "a text",
     PathLike: "the name of a file",
-    Mapping: "a mapping",
+    Mapping: "a mapping with texts as keys",
     Callable: "a function",
     slice: "a slice",
 }
@@ -127,7 +127,9 @@ def _fits(value: object, wanted: Any) -> bool:
     if kind is float:
         too_large = isinstance(value, Integral) and abs(value) > float_info.max
         return isinstance(value, Real) and not isinstance(value, bool) and not too_large
-    return _fits_entries(value, get_args(wanted)) if _is_list(kind) else isinstance(value, kind)
+    if _is_list(kind):
+        return _fits_entries(value, get_args(wanted))
+    return isinstance(value, kind) and (not isinstance(value, Mapping) or _fits_entries([*value], get_args(wanted)))
 
 
 def _is_list(kind: type) -> bool:

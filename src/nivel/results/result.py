@@ -198,7 +198,7 @@ class Result:
         return own_units(self.attributes, variable.name, self.coordinates[variable.dims[1]][row])
 
     def __contains__(self, name: object) -> bool:
-        return name == "time" or name in self._selections
+        return isinstance(name, str) and (name == "time" or name in self._selections)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)

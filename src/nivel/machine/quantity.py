@@ -7,14 +7,15 @@ file come in through the validation context: ``{"parameters": {"radius": Number(
 
 from __future__ import annotations
 
+import numbers
 from collections.abc import Collection
 from dataclasses import dataclass
-from numbers import Real
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from nivel.arguments import plain
 from nivel.machine.arithmetic import (
     LOCAL_SYMBOLS,
     ExpressionError,
@@ -125,16 +126,15 @@ def read_quantity(value: object, kind: Kind, parameters: Parameters) -> float:
 
 
 def _read_number(value: object, kind: Kind, parameters: Parameters) -> float:
+    value = plain(value)
     if isinstance(value, str):
         tree = constant_tree(value, parameters)
         its = measure(tree)
         number = evaluate(tree)
         check_kind(value.strip(), its, kind)
         return number
-    if isinstance(value, Real) and not isinstance(value, bool):
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
         return given(value)
-    if hasattr(value, "item") and getattr(value, "shape", None) == ():  # a NumPy scalar or array without axes
-        return _read_number(value.item(), kind, parameters)  # type: ignore[attr-defined]
     raise ExpressionError(f"{expected_kind(kind)} was expected, got {shown(value)}")
 
 
@@ -202,6 +202,15 @@ def listed(value: Any) -> Any:
     return value.tolist() if hasattr(value, "tolist") and getattr(value, "ndim", 0) > 0 else value
 
 
+def _no_truth(value: Any) -> Any:
+    """NumPy scalars as numbers; true and false are none."""
+    if isinstance(value := plain(value), bool):
+        raise fault(f"a number was expected, got {shown(value)}")
+    return value
+
+
+Real = Annotated[float, BeforeValidator(_no_truth)]  # without units
+Whole = Annotated[int, BeforeValidator(_no_truth)]
 Scalar = Annotated[float, Quantity("number")]
 Length = Annotated[float, Quantity("length")]
 PositiveLength = Annotated[float, Quantity("length", positive=True)]

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, get_args
 
 from pydantic import Field, field_validator, model_validator
 
-from nivel.machine.quantity import Duration, Rate, fault
+from nivel.machine.quantity import Duration, Rate, Real, Whole, fault
 from nivel.machine.record import Record
 
 Integrator = Literal[
@@ -29,7 +29,7 @@ Coordinates = Literal["auto", "absolute", "relative", "independent"]
 Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]
 Stabilisation = Literal["none", "baumgarte", "direct", "geometric"]
 Start = Literal["as-given", "equilibrium"]
-Tolerance = Annotated[float, Field(gt=0.0, lt=1.0)]
+Tolerance = Annotated[Real, Field(gt=0.0, lt=1.0)]
 
 
 class Baumgarte(Record):
@@ -46,11 +46,11 @@ class Penalty(Record):
     Ω = 0.1/step, or 0 where the stabilisation corrects states anyway.
     """
 
-    factor: Annotated[float, Field(ge=1.0, le=1e14)] | None = None
-    alpha: Annotated[float, Field(gt=0.0)] | None = None
+    factor: Annotated[Real, Field(ge=1.0, le=1e14)] | None = None
+    alpha: Annotated[Real, Field(gt=0.0)] | None = None
     omega: Rate | None = None
-    mu: Annotated[float, Field(ge=0.0)] = 1.0
-    iterations: Annotated[int, Field(ge=1, le=1000)] = 30
+    mu: Annotated[Real, Field(ge=0.0)] = 1.0
+    iterations: Annotated[Whole, Field(ge=1, le=1000)] = 30
 
 
 class Corrector(Record):
@@ -63,27 +63,27 @@ class Corrector(Record):
 
     iteration: Literal["functional", "newton"] | None = None
     tolerance: Tolerance = 1e-10
-    most_iterations: Annotated[int, Field(ge=1, le=1000)] = 50
+    most_iterations: Annotated[Whole, Field(ge=1, le=1000)] = 50
     matrix: Literal["kept", "full"] = Field(default="kept", description="of newmark, hht and generalised-alpha")
 
 
 class Newmark(Record):
     """Constants of newmark: order 2 and no damping with γ = ½, stable at any step with β ≥ γ/2."""
 
-    beta: Annotated[float, Field(gt=0.0, le=1.0)] = 0.25
-    gamma: Annotated[float, Field(ge=0.5, le=1.0)] = 0.5
+    beta: Annotated[Real, Field(gt=0.0, le=1.0)] = 0.25
+    gamma: Annotated[Real, Field(ge=0.5, le=1.0)] = 0.5
 
 
 class HHT(Record):
     """Damping of hht: 0 none (newmark), ⅓ most."""
 
-    alpha: Annotated[float, Field(ge=0.0, le=1.0 / 3.0)] = 0.1
+    alpha: Annotated[Real, Field(ge=0.0, le=1.0 / 3.0)] = 0.1
 
 
 class GeneralisedAlpha(Record):
     """Damping of generalised-alpha: what is left of a vibration far above the step's frequency after one step, 0 … 1."""
 
-    spectral_radius: Annotated[float, Field(ge=0.0, le=1.0)] = 0.8
+    spectral_radius: Annotated[Real, Field(ge=0.0, le=1.0)] = 0.8
 
 
 SHORTEST = 1e-12  # s; squares of speeds of a machine's length in such a time are still numbers

@@ -8,7 +8,7 @@ from typing import Any
 
 from nivel.errors import Fault, ModelError
 from nivel.machine.arithmetic import ExpressionError
-from nivel.machine.quantity import read_quantity, shown
+from nivel.machine.quantity import expression_fault, read_quantity, shown
 from nivel.machine.settings import SHORTEST
 
 MOST_STEPS = 1_000_000
@@ -55,7 +55,7 @@ def statics_settings(given: Mapping[str, Any], coordinates: str) -> StaticsSetti
         try:
             seconds = read_quantity(value, "time", {})
         except ExpressionError as problem:
-            faults.append(_fault(name, f"{shown(value)}: {problem}"))
+            faults.append(_fault(name, expression_fault(problem, value).message()))
             return default
         if seconds < 0.0 or (seconds == 0.0 and name != "duration"):
             faults.append(_fault(name, f"a time greater than zero was expected, got {shown(value)}"))

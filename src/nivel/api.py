@@ -220,7 +220,7 @@ class Machine:
 
         if out is not None and self.origin.file:
             keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
-        with self._faults_in_file():
+        with chosen._faults_in_file():
             return simulate(
                 chosen.record,
                 source=self.origin.source,
@@ -340,7 +340,7 @@ class Machine:
         # after the kernels: what follows imports them
         from nivel.analysis.compare import compare
 
-        with self._faults_in_file():
+        with chosen._faults_in_file():
             return compare(chosen.record, grid, repeat=repeat, listener=listener)
 
     def _refuse_settings(self, given: Collection[str]) -> None:

@@ -49,8 +49,7 @@ class PythonLaw:
     file: str = ""
 
     def __post_init__(self) -> None:
-        if not isinstance(self.arguments, str):  # a text in place of a list is refused when it is read
-            object.__setattr__(self, "arguments", tuple(listed(self.arguments)))
+        object.__setattr__(self, "arguments", tuple(listed(self.arguments)))
 
     @classmethod
     @checked_arguments
@@ -71,7 +70,7 @@ class PythonLaw:
         return {
             "source": self.source,
             "function": self.function,
-            "arguments": self.arguments if isinstance(self.arguments, str) else list(self.arguments),
+            "arguments": list(self.arguments),
             "file": self.file,
         }
 

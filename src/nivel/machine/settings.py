@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 from typing import Annotated, Literal, get_args
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, field_validator
 
+from nivel.machine.checked import Checked, Problem
 from nivel.machine.quantity import Duration, Rate, Real, Whole, fault
 from nivel.machine.record import Record
 
@@ -89,7 +91,7 @@ class GeneralisedAlpha(Record):
 SHORTEST = 1e-12  # s; squares of speeds of a machine's length in such a time are still numbers
 
 
-class SimulationSettings(Record):
+class SimulationSettings(Checked):
     """Time span, step and methods. Without `baumgarte`, the coefficients of that stabilisation follow from the step.
 
     Integrators that choose their steps try `step` first, and keep the motion within ten times the `tolerance` (relative to the largest
@@ -132,20 +134,21 @@ class SimulationSettings(Record):
             raise fault(f"{', '.join(f'`{name}`' for name in twice)} stands here more than once; name each joint once")
         return cut
 
-    @model_validator(mode="after")
-    def _makes_sense(self) -> SimulationSettings:
+    def problems(self) -> Iterator[Problem]:
+        """Each is about several settings, which its message names; the place is that of all of them."""
         fixed = self.integrator not in CHOOSING and not (self.integrator in EITHER and self.step_control == "error")
+        messages = []
         if self.duration < SHORTEST:
-            raise fault(f"`duration` {self.duration:g} s is shorter than {SHORTEST:g} s, the shortest run there is")
+            messages.append(f"`duration` {self.duration:g} s is shorter than {SHORTEST:g} s, the shortest run there is")
         if fixed and self.step > self.duration:
-            raise fault(f"`step` {self.step:g} s is longer than `duration` {self.duration:g} s")
+            messages.append(f"`step` {self.step:g} s is longer than `duration` {self.duration:g} s")
         if fixed and self.output_interval is not None and self.output_interval < self.step * (1 - 1e-9):
-            raise fault(f"`output_interval` {self.output_interval:g} s is shorter than `step` {self.step:g} s")
+            messages.append(f"`output_interval` {self.output_interval:g} s is shorter than `step` {self.step:g} s")
         if self.baumgarte is not None and self.stabilisation != "baumgarte":
-            raise fault(f"`baumgarte` needs `stabilisation: baumgarte`; it is `{self.stabilisation}`")
+            messages.append(f"`baumgarte` needs `stabilisation: baumgarte`; it is `{self.stabilisation}`")
         if self.penalty.factor is not None and self.penalty.alpha is not None:
-            raise fault("`penalty` takes `factor` or `alpha`, not both")
-        return self
+            messages.append("`penalty` takes `factor` or `alpha`, not both")
+        yield from (Problem((), message) for message in messages)
 
 
 def known_words(setting: str) -> tuple[str, ...]:

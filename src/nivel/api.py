@@ -59,34 +59,33 @@ class Machine:
         self,
         name: str = "machine",
         *,
-        bodies: Sequence[Body | Mapping[str, Any]] = (),
-        markers: Sequence[Marker | Mapping[str, Any]] = (),
-        joints: Sequence[Joint | Mapping[str, Any]] = (),
-        couplings: Sequence[Coupling | Mapping[str, Any]] = (),
-        drivers: Sequence[Driver | Mapping[str, Any]] = (),
-        forces: Sequence[Force | Mapping[str, Any]] = (),
-        sensors: Sequence[Sensor | Mapping[str, Any]] = (),
-        events: Sequence[Event | Mapping[str, Any]] = (),
+        bodies: Sequence[Body] = (),
+        markers: Sequence[Marker] = (),
+        joints: Sequence[Joint] = (),
+        couplings: Sequence[Coupling] = (),
+        drivers: Sequence[Driver] = (),
+        forces: Sequence[Force] = (),
+        sensors: Sequence[Sensor] = (),
+        events: Sequence[Event] = (),
         gravity: Sequence[float | str] = (0.0, 0.0, 0.0),
         assembly: AssemblySettings | Mapping[str, Any] | None = None,
         simulation: SimulationSettings | Mapping[str, Any] | None = None,
         description: str = "",
     ) -> None:
-        self.record = MachineRecord(
-            name=name,
-            description=description,
-            gravity=gravity,
-            bodies=tuple(bodies),
-            markers=tuple(markers),
-            joints=tuple(joints),
-            couplings=tuple(couplings),
-            drivers=tuple(drivers),
-            forces=tuple(forces),
-            sensors=tuple(sensors),
-            events=tuple(events),
-            assembly=AssemblySettings() if assembly is None else assembly,
-            simulation=SimulationSettings() if simulation is None else simulation,
-        )
+        sections = {
+            "bodies": bodies,
+            "markers": markers,
+            "joints": joints,
+            "couplings": couplings,
+            "drivers": drivers,
+            "forces": forces,
+            "sensors": sensors,
+            "events": events,
+        }
+        given: dict[str, Any] = {section: tuple(records) for section, records in sections.items()}
+        given |= {} if assembly is None else {"assembly": assembly}
+        given |= {} if simulation is None else {"simulation": simulation}
+        self.record = MachineRecord(name=name, description=description, gravity=gravity, **given)  # type: ignore[arg-type]
         self.origin = Origin()
 
     @classmethod

@@ -125,7 +125,7 @@ def _fits(value: object, wanted: Any) -> bool:
     if kind is int:
         return isinstance(value, Integral) and not isinstance(value, bool)
     if kind is float:
-        too_large = isinstance(value, Integral) and abs(value) > float_info.max
+        too_large = isinstance(value, Integral) and abs(int(value)) > float_info.max
         return isinstance(value, Real) and not isinstance(value, bool) and not too_large
     if _is_list(kind):
         return _fits_entries(value, get_args(wanted))

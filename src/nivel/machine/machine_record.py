@@ -103,7 +103,7 @@ class MachineRecord(Checked):
         try:
             record = handler(data)
         except ValidationError as error:
-            raise restated(error, cls, lines) from None
+            raise restated(error, cls, [*lines, *cls.lines_beside(error, data, info)]) from None
         if lines:
             raise ValidationError.from_exception_data(cls.__name__, lines)
         return record

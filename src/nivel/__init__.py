@@ -11,6 +11,7 @@ Names are loaded when they are used: importing `nivel` costs nothing.
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -135,7 +136,7 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
-        raise AttributeError(f"module 'nivel' has no attribute '{name}'")
+        raise AttributeError(f"module 'nivel' has no attribute '{name}'", name=name, obj=sys.modules[__name__])
     return getattr(import_module(_HOME[name]), name)
 
 

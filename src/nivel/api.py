@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from html import escape
-from numbers import Integral
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +15,8 @@ from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import compile_path, compile_statics
 from nivel.analysis.idle import idle_settings
 from nivel.analysis.listener import Listener
-from nivel.errors import ModelError
+from nivel.arguments import checked_arguments
+from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
 from nivel.files.reader import parse_machine, read_text
 from nivel.files.writer import write_machine
@@ -54,6 +54,7 @@ class Machine:
     Raises ModelError with everything that is wrong.
     """
 
+    @checked_arguments
     def __init__(
         self,
         name: str = "machine",
@@ -66,29 +67,29 @@ class Machine:
         forces: Sequence[Force] = (),
         sensors: Sequence[Sensor] = (),
         events: Sequence[Event] = (),
-        gravity: tuple[float, float, float] = (0.0, 0.0, 0.0),
-        assembly: AssemblySettings | None = None,
-        simulation: SimulationSettings | None = None,
+        gravity: Sequence[float | str] = (0.0, 0.0, 0.0),
+        assembly: AssemblySettings | Mapping[str, Any] | None = None,
+        simulation: SimulationSettings | Mapping[str, Any] | None = None,
         description: str = "",
     ) -> None:
-        self.record = MachineRecord(
-            name=name,
-            description=description,
-            gravity=gravity,
-            bodies=tuple(bodies),
-            markers=tuple(markers),
-            joints=tuple(joints),
-            couplings=tuple(couplings),
-            drivers=tuple(drivers),
-            forces=tuple(forces),
-            sensors=tuple(sensors),
-            events=tuple(events),
-            assembly=assembly or AssemblySettings(),
-            simulation=simulation or SimulationSettings(),
-        )
+        sections = {
+            "bodies": bodies,
+            "markers": markers,
+            "joints": joints,
+            "couplings": couplings,
+            "drivers": drivers,
+            "forces": forces,
+            "sensors": sensors,
+            "events": events,
+        }
+        given: dict[str, Any] = {section: tuple(records) for section, records in sections.items()}
+        given |= {} if assembly is None else {"assembly": assembly}
+        given |= {} if simulation is None else {"simulation": simulation}
+        self.record = MachineRecord(name=name, description=description, gravity=gravity, **given)  # type: ignore[arg-type]
         self.origin = Origin()
 
     @classmethod
+    @checked_arguments
     def from_record(cls, record: MachineRecord, origin: Origin | None = None) -> Machine:
         """Wrap a record; `origin` says where its values were set."""
         machine = cls.__new__(cls)
@@ -101,6 +102,7 @@ class Machine:
         """Name of the machine."""
         return self.record.name
 
+    @checked_arguments
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         settings, coordinates = self.record.simulation, self._coordinates()
@@ -112,6 +114,7 @@ class Machine:
         with self._faults_in_file():
             return check(self.record)
 
+    @checked_arguments
     def posed(self, *, listener: Listener | None = None) -> Posing:
         """The assembled machine, to be moved by hand. Raises ModelError where it cannot be assembled."""
         simulation = self.record.simulation
@@ -121,12 +124,14 @@ class Machine:
         with self._faults_in_file():
             return Posing(self.record)
 
+    @checked_arguments
     def view(self, *, port: int = 0, browser: bool = True) -> None:
         """Show the assembled machine in a browser, with a slider for each joint that can move; returns after Ctrl-C."""
         from nivel.view.opening import serve
 
         serve(self.shown(), host="127.0.0.1", port=port, browser=browser, say=print)
 
+    @checked_arguments
     def shown(self, *, listener: Listener | None = None) -> Hand:
         """What the viewer shows of the machine before any run."""
         from nivel.view.sources import Hand
@@ -134,6 +139,7 @@ class Machine:
         posed = self.posed(listener=listener)
         return Hand(self.name, posed, self.record.model_dump(mode="json", by_alias=True, exclude_none=True))
 
+    @checked_arguments
     def simulate(
         self,
         *,
@@ -213,7 +219,7 @@ class Machine:
 
         if out is not None and self.origin.file:
             keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
-        with self._faults_in_file():
+        with chosen._faults_in_file():
             return simulate(
                 chosen.record,
                 source=self.origin.source,
@@ -224,6 +230,7 @@ class Machine:
                 compile_seconds=compile_seconds,
             )
 
+    @checked_arguments
     def statics(
         self,
         *,
@@ -231,10 +238,10 @@ class Machine:
         step: float | str | None = None,
         arc_length: bool = False,
         tolerance: float | str | None = None,
-        most_iterations: int | None = None,
+        most_iterations: int | str | None = None,
         line_search: bool = True,
-        modes: int | None = None,
-        buckling: int | None = None,
+        modes: int | str | None = None,
+        buckling: int | str | None = None,
         coordinates: str | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
@@ -287,6 +294,7 @@ class Machine:
                 compile_seconds=compile_seconds,
             )
 
+    @checked_arguments
     def compare(
         self,
         *,
@@ -311,8 +319,8 @@ class Machine:
         A cell that fails or has no meaning is told in its row. Interrupted, it returns what was computed.
         Raises ModelError where words are not known, or the machine cannot be run at all.
         """
-        if not isinstance(repeat, Integral) or isinstance(repeat, bool) or repeat < 1:
-            raise ModelError(f"`repeat` is a whole number of at least 1, got {repeat!r}")
+        if repeat < 1:
+            raise ModelError(Fault("", 0, 0, "repeat", f"a whole number of at least 1 was expected, got `{repeat}`"))
         words: dict[str, Any] = {
             "integrators": integrators,
             "formulations": formulations,
@@ -331,8 +339,8 @@ class Machine:
         # after the kernels: what follows imports them
         from nivel.analysis.compare import compare
 
-        with self._faults_in_file():
-            return compare(chosen.record, grid, repeat=int(repeat), listener=listener)
+        with chosen._faults_in_file():
+            return compare(chosen.record, grid, repeat=repeat, listener=listener)
 
     def _refuse_settings(self, given: Collection[str]) -> None:
         """Raise ModelError where the settings do not go together, or those `given` would have no effect."""
@@ -356,6 +364,7 @@ class Machine:
         except ModelError as error:
             raise ModelError(self.origin.placed(error.faults)) from error
 
+    @checked_arguments
     def with_settings(self, settings: Mapping[str, Any]) -> Machine:
         """The same machine with some simulation settings replaced."""
         if not settings:
@@ -372,9 +381,15 @@ class Machine:
         except ModelError as error:
             raise ModelError(origin.placed(error.faults)) from None
 
+    @checked_arguments
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the machine as a YAML file."""
-        Path(fspath(path)).write_text(write_machine(self.record), encoding="utf-8")
+        """Write the machine as a YAML file; an existing file is replaced. Raises ModelError where it cannot be written."""
+        text = write_machine(self.record)
+        try:
+            Path(path).write_text(text, encoding="utf-8")
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            raise ModelError(f"the machine file {fspath(path)} cannot be written: {reason.lower()}") from error
 
     def _repr_html_(self) -> str:
         """A card for notebooks: what the machine consists of."""
@@ -403,7 +418,8 @@ class Machine:
         return f"<Machine {record.name}: {', '.join(parts)}>"
 
 
-def load(path: str | PathLike[str], overrides: Mapping[str, str] | None = None, *, allow_code: bool = False) -> Machine:
+@checked_arguments
+def load(path: str | PathLike[str], overrides: Mapping[str, Any] | None = None, *, allow_code: bool = False) -> Machine:
     """Read a machine file. `overrides` replace values by path, e.g. ``{"bodies.crank.mass": "22 kg"}``.
 
     allow_code : laws of the machine may be Python functions, which run with all your rights.
@@ -415,6 +431,7 @@ def load(path: str | PathLike[str], overrides: Mapping[str, str] | None = None, 
     return Machine.from_record(record, Origin(text, file, outside))
 
 
+@checked_arguments
 def open_result(path: str | PathLike[str]) -> Result:
     """Open a result file."""
     from nivel.results.result import Result

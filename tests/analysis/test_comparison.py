@@ -247,8 +247,8 @@ def test_words_that_are_not_known_are_refused_all_at_once():
         ({"steps": [0.01, 0.01 * math.sqrt(2)]}, "no common multiple"),
         ({"steps": [1e-3, 1.000000001e-3]}, "the steps 0.001 s, 0.001000000001 s have no common multiple"),
         ({"repeat": 0}, "at least 1"),
-        ({"repeat": 1.5}, "`repeat` is a whole number of at least 1, got 1.5"),
-        ({"repeat": "3"}, "`repeat` is a whole number of at least 1, got '3'"),
+        ({"repeat": 1.5}, "repeat: a whole number was expected, got `1.5`"),
+        ({"repeat": "3"}, "repeat: a whole number was expected, got `3`"),
         ({"cut": "nail"}, "there is no joint `nail`"),
     ],
 )

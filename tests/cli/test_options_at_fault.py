@@ -97,3 +97,73 @@ def test_in_python_the_argument_is_named(machine):
         load(machine).simulate(output_interval="1.5 ms")
     (fault,) = caught.value.faults
     assert (fault.path, fault.line) == ("output_interval", 0)
+
+
+STICKING = MACHINE.replace(
+    "simulation:",
+    """\
+forces:
+  rub: {type: friction, coordinate: hinge, model: stiction, coefficient: 0.1, radius: 1 cm}
+simulation:
+  coordinates: relative""",
+)
+CLASHES = {
+    "`coordinates`: 'relative' does not go with `integrator: energy-momentum`": ":10:16)",
+    "`stabilisation`: 'direct' does not go with `integrator: energy-momentum`": "(the default)",
+    "`forces.rub.model`: 'stiction' does not go with `integrator: energy-momentum`": ":8:51)",
+}
+
+
+@pytest.fixture
+def sticking(tmp_path):
+    (tmp_path / "sticking.yaml").write_text(STICKING)
+    return str(tmp_path / "sticking.yaml")
+
+
+def test_an_integrator_that_goes_with_nothing_is_told_with_all_that_it_does_not_go_with(sticking):
+    """The file alone is right: the option is what is at fault, and the message says where the other half stands."""
+    lines = said("run", sticking, "--integrator", "energy-momentum", "--no-report").splitlines()
+    for clash, place in CLASHES.items():
+        (line,) = [line for line in lines if clash in line]
+        assert line.startswith("--integrator  ")
+        assert line.endswith(place)
+
+
+def test_the_argument_that_clashes_with_the_file_is_named(sticking):
+    with pytest.raises(ModelError) as caught:
+        load(sticking).simulate(integrator="energy-momentum")
+    assert [(fault.path, fault.line) for fault in caught.value.faults] == 3 * [("integrator", 0)]
+
+
+def test_what_clashes_within_the_file_keeps_its_line(sticking, tmp_path):
+    text = STICKING.replace("  coordinates: relative", "  integrator: energy-momentum\n  coordinates: relative")
+    (tmp_path / "sticking.yaml").write_text(text)
+    lines = said("check", sticking).splitlines()
+    for place in ("8:51  forces.rub.model", "9:1  simulation.stabilisation", "11:16  simulation.coordinates"):
+        assert any(line.startswith(f"{sticking}:{place}  ") for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("options", "named", "place"),
+    [
+        (["--duration", "1e300"], "--duration  `step`: ", ":9:9)"),
+        (["--step", "1e-300"], "--step  ", ""),
+        (["--duration", "1e300", "--step", "2 ms"], "--step  ", ""),
+        (["--set", "simulation.duration=1e300"], "simulation.duration  `step`: ", ":9:9) (set from outside the file)"),
+    ],
+)
+def test_too_many_steps_are_told_at_the_option_that_asks_for_them(machine, options, named, place):
+    (line,) = [
+        line for line in said("run", machine, *options).splitlines() if "would take more than 1e+12 steps" in line
+    ]
+    assert line.startswith(named)
+    assert line.endswith(place)
+
+
+@pytest.mark.parametrize("option", ["--largest-step", "--output-interval"])
+def test_steps_and_frames_that_never_end_are_refused(machine, option):
+    assert f"{option}  1e-300 s would" in said("run", machine, "--integrator", "dopri5", option, "1e-300")
+
+
+def test_a_table_without_a_name_is_refused(machine):
+    assert "a table ends with .csv or .json" in said("compare", machine, "--out", "")

@@ -192,7 +192,7 @@ def test_everything_that_does_not_go_together_is_said_at_once_and_before_anythin
     done = nivel(folder, "run", "pendulum.yaml", *options.split(), "--set", "simulation.rotations=euler-angles")
     assert done.returncode == 2
     for part in (
-        "'penalty' does not go with independent coordinates",
+        "'penalty' does not go with `coordinates: independent`",
         "'euler-angles' are rotation coordinates of `formulation: lagrange`",
         "'geometric' scales velocities to the energy they should have, and turn prescribes",
         "`tolerance` has no effect here",

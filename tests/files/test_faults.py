@@ -295,6 +295,27 @@ def test_all_faults_of_a_file_come_at_once_in_the_order_of_the_file():
     assert [fault.line for fault in faults] == sorted(fault.line for fault in faults)
 
 
+def test_all_that_does_not_go_together_in_the_settings_comes_at_once():
+    settings = """simulation:
+  duration: 1e-13
+  output_interval: 1e-5
+  baumgarte: {alpha: 1, beta: 1}
+  penalty: {factor: 10, alpha: 3}"""
+    text, _ = spoilt("simulation:\n  duration: 8", settings)
+    words = ("`duration` 1e-13", "`step` 0.001", "`output_interval` 1e-05", "`baumgarte` needs", "`penalty` takes")
+    told = [fault.message for fault in faults_of(text)]
+    assert sorted(told) == sorted(message for word in words for message in told if message.startswith(word))
+    assert len(told) == len(words)
+
+
+def test_a_format_in_words_does_not_hide_the_rest():
+    text, _ = spoilt("format: 1", "format: one")
+    assert [fault.path for fault in faults_of(text.replace("mass: 21 kg", "mass: -21"))] == [
+        "format",
+        "bodies.crank.mass",
+    ]
+
+
 @pytest.mark.parametrize(
     ("text", "part"),
     [

@@ -191,7 +191,10 @@ def test_a_function_may_use_itself_and_be_indented():
 
 
 def test_arguments_are_a_list():
-    assert "a list was expected, got `time`" in refused("force", PythonLaw.of(factorial, "time"))
+    with pytest.raises(ModelError, match="arguments: a list was expected, got `time`"):
+        PythonLaw.of(factorial, "time")
+    law = {**PythonLaw.of(factorial, ["time"]).written(), "arguments": "time"}
+    assert "a list was expected, got `time`" in refused("force", law)
 
 
 def test_the_function_under_a_wrapper_is_taken():

@@ -135,7 +135,7 @@ def test_motion_that_ends_in_infinity_says_that_no_step_is_small_enough():
 
 
 def test_baumgarte_needs_own_coefficients():
-    with pytest.raises(ModelError, match=r"1/step.*dopri5 chooses its steps.*own coefficients"):
+    with pytest.raises(ModelError, match=r"1/step.*`integrator: dopri5` chooses its steps.*own coefficients"):
         run(machines.slider_crank(), integrator="dopri5", stabilisation="baumgarte")
     own = {"stabilisation": "baumgarte", "baumgarte": {"alpha": 20, "beta": 20}}
     result = run(machines.slider_crank(), integrator="dopri5", duration=0.1, **own)

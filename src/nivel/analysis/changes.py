@@ -17,10 +17,11 @@ def changed(settings: SimulationSettings, changes: Mapping[str, Any]) -> Simulat
     changes = dict(changes)
     if isinstance(changes.get("cut"), str):
         changes["cut"] = (changes["cut"],)
+    words = {name: each for name, each in changes.items() if isinstance(each, str)}  # anything else is refused below
     # own Baumgarte coefficients belong to the stabilisation they were given with
-    if changes.get("stabilisation", "baumgarte") != "baumgarte" and settings.baumgarte is not None:
+    if words.get("stabilisation", "baumgarte") != "baumgarte" and settings.baumgarte is not None:
         changes.setdefault("baumgarte", None)
     # rotation coordinates belong to lagrange in absolute coordinates
-    if (changes.get("formulation", "lagrange"), changes.get("coordinates", "absolute")) != ("lagrange", "absolute"):
+    if (words.get("formulation", "lagrange"), words.get("coordinates", "absolute")) != ("lagrange", "absolute"):
         changes.setdefault("rotations", "euler-parameters")
     return settings.replace(**changes)

@@ -39,10 +39,10 @@ def _refuse_feedback(formulation: str, stabilisation: str) -> list[Fault]:
     faults = []
     left = "they solve the constraints for the dependent coordinates after every step, so no violation is left to feed back"
     if stabilisation == "baumgarte":
-        message = f"'baumgarte' does not go with independent coordinates: {left}; take none, direct or geometric"
+        message = f"'baumgarte' does not go with `coordinates: independent`: {left}; take none, direct or geometric"
         faults.append(_fault("stabilisation", message))
     if FORMULATIONS[formulation].factor > 0.0:
-        message = f"'{formulation}' does not go with independent coordinates: {left}; take newton-euler"
+        message = f"'{formulation}' does not go with `coordinates: independent`: {left}; take newton-euler"
         faults.append(_fault("formulation", message))
     return faults
 
@@ -121,10 +121,11 @@ def _refuse_step_control(settings: SimulationSettings) -> list[Fault]:
     facts, wanted = INTEGRATORS.get(settings.integrator), settings.step_control
     if facts is None or wanted == "own" or facts.either or facts.chooses_steps == (wanted == "error"):
         return []
+    name = f"`integrator: {settings.integrator}`"
     if wanted == "fixed":
-        message = f"{settings.integrator} always chooses its steps: take an integrator of fixed step, e.g. rk4 or generalised-alpha"
+        message = f"{name} always chooses its steps: take an integrator of fixed step, e.g. rk4 or generalised-alpha"
     else:
-        message = f"{settings.integrator} has no estimate of its error: take dopri5, or radau for stiff machines"
+        message = f"{name} has no estimate of its error: take dopri5, or radau for stiff machines"
     return [_fault("step_control", message)]
 
 
@@ -133,7 +134,7 @@ def _refuse_chosen_steps(settings: SimulationSettings) -> list[Fault]:
     faults = []
     if not chooses(settings.integrator, settings.step_control):
         return faults
-    reason = f"which depend on the step, and {settings.integrator} chooses its steps"
+    reason = f"which depend on the step, and `integrator: {settings.integrator}` chooses its steps"
     if settings.stabilisation == "baumgarte" and settings.baumgarte is None:
         message = (
             f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, {reason}: take direct, or own coefficients "
@@ -143,8 +144,8 @@ def _refuse_chosen_steps(settings: SimulationSettings) -> list[Fault]:
     penalised = FORMULATIONS[settings.formulation].factor > 0.0
     if penalised and settings.stabilisation == "none" and settings.penalty.omega is None:
         message = (
-            f"{settings.formulation} without `omega` takes Ω = 0.1/step, {reason}: set `penalty: {{omega: 10 1/s}}`, or take "
-            f"`stabilisation: direct`, which needs no Ω"
+            f"`formulation: {settings.formulation}` without `omega` takes Ω = 0.1/step, {reason}: set `penalty: {{omega: 10 1/s}}`, "
+            f"or take `stabilisation: direct`, which needs no Ω"
         )
         faults.append(_fault("penalty", message))
     return faults

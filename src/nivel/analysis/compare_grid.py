@@ -16,9 +16,10 @@ from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.compilation import compile_path
 from nivel.analysis.listener import Listener
 from nivel.analysis.settings import FRAMES, RunSettings, complete
+from nivel.arguments import plain
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.quantity import Duration, fault
+from nivel.machine.quantity import Duration, fault, listed
 from nivel.machine.record import Record
 from nivel.machine.settings import (
     Coordinates,
@@ -41,6 +42,7 @@ def _listed(value: Any) -> Any:
     """A single value as a list of one; a list of none, and one with an empty text, is refused."""
     if value is None:
         return None
+    value = listed(plain(value))
     if isinstance(value, str | float | int):
         value = (value,)
     if isinstance(value, Collection):

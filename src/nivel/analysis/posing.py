@@ -20,6 +20,7 @@ from nivel.analysis.equations import MotionEquations, equations, moved
 from nivel.analysis.freedoms import Freedoms, coordinate_derivatives, freedoms
 from nivel.analysis.handles import Handle, Wish, further_handles, measured_handles
 from nivel.analysis.stiff_beams import with_stiff_beams
+from nivel.arguments import checked_arguments
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.scene import scene
@@ -89,6 +90,7 @@ class Posing:
         """Values of all movements now."""
         return [*map(float, self._values(self._states)), *([self._time] if self.machine.drivers else [])]
 
+    @checked_arguments
     def move(self, name: str, value: float) -> str:
         """Move a number to `value`, others that are free stay where they can; why it could not be done, or an empty text."""
         movement = next((each for each in self.movements if each.name == name), None)

@@ -57,8 +57,8 @@ def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> No
     }
     if constraints and settings.stabilisation == "none" and undamped.get(settings.integrator):
         message = (
-            f"'none' makes {settings.integrator} solve the positions' constraints alone (index 3), and without damping its multipliers "
-            f"never settle after a load changes: take direct (stabilised index 2), or damp: "
+            f"'none' makes `integrator: {settings.integrator}` solve the positions' constraints alone (index 3), and without damping its "
+            f"multipliers never settle after a load changes: take direct (stabilised index 2), or damp: "
             f"`generalised_alpha: {{spectral_radius: 0.8}}`, `hht: {{alpha: 0.1}}`"
         )
         raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
@@ -89,6 +89,7 @@ def refuse_conserved_drivers(machine: MachineRecord) -> None:
     it is no drift either: to scale all velocities for it would take momentum where no force does."""
     if machine.simulation.stabilisation != "geometric":
         return
+    faults = []
     sudden = [force.name for force in machine.forces if isinstance(force, Contact | Stop)]
     if sudden and not chooses(machine.simulation.integrator, machine.simulation.step_control):
         message = (
@@ -96,14 +97,16 @@ def refuse_conserved_drivers(machine: MachineRecord) -> None:
             f"{', '.join(sudden)} begin{'s' * (len(sudden) == 1)} to touch within it: take direct, or `integrator: dopri5`, whose steps "
             f"end there"
         )
-        raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
+        faults.append(Fault("", 0, 0, "simulation.stabilisation", message))
     if machine.drivers:
         names = ", ".join(driver.name for driver in machine.drivers)
         message = (
             f"'geometric' scales velocities to the energy they should have, and {names} prescribe{'s' * (len(machine.drivers) == 1)} "
             f"velocities: take direct"
         )
-        raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
+        faults.append(Fault("", 0, 0, "simulation.stabilisation", message))
+    if faults:
+        raise ModelError(faults)
 
 
 def refuse_rough_motions(machine: MachineRecord) -> None:
@@ -150,8 +153,8 @@ def _jump_of(table: Table, settings: SimulationSettings) -> str:
     """What is wrong with a table of a driver for an integrator that does not stop where its speed jumps; empty: nothing."""
     end, first, last = settings.duration, table.times[0], table.times[-1]
     lost = (
-        f"{settings.integrator} would lose the jump within a step: take `integrator: newmark`, hht or generalised-alpha, whose steps end "
-        f"there and begin with the new speed"
+        f"`integrator: {settings.integrator}` would lose the jump within a step: take `integrator: newmark`, hht or generalised-alpha, "
+        f"whose steps end there and begin with the new speed"
     )
     if first > 0.0 or table.ends_before(end):
         return (
@@ -193,7 +196,7 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
     out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
     for force in machine.forces:
         if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual:
-            message = f"friction under explicit integrators {why.format('generalised-alpha')}"
+            message = f"friction under `integrator: {machine.simulation.integrator}` {why.format('generalised-alpha')}"
             out.append(Fault("", 0, 0, f"forces.{force.name}", message))
         elif isinstance(force, Friction) and force.model == "stiction":
             message = f"'stiction' {why.format('lugre or coulomb')}"

@@ -86,24 +86,33 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
             faults.append(_fault(field, f"'{word}' is not known; known are {', '.join(known)}"))
     facts = INTEGRATORS.get(settings.integrator)
     chosen_steps = chooses(settings.integrator, settings.step_control)
-    if not chosen_steps and not settings.duration <= MOST_STEPS * settings.step:
-        wanted = f"a duration of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
-        faults.append(_fault("step", f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step"))
-        raise ModelError(faults)
+    countable = settings.duration <= MOST_STEPS * settings.step
+    if not chosen_steps and not countable:
+        wanted = f"a `duration` of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
+        message = f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step, or a shorter duration"
+        faults.append(_fault("step", message))
     if facts is not None and facts.implicit and settings.corrector.tolerance < LEAST_CHANGE:
         message = (
             f"{settings.corrector.tolerance:.3g} is below {LEAST_CHANGE:.0e}, where round-off rules; ask for no less"
         )
         faults.append(_fault("corrector.tolerance", message))
-    steps, every = 0, 0
+    steps, every, interval = 0, 0, settings.duration
     if chosen_steps:
         interval = settings.output_interval or settings.duration / FRAMES
         if settings.duration > MOST_STEPS * interval:
-            faults.append(_fault("output_interval", f"{interval:.6g} s would give more than {MOST_STEPS:.0e} frames"))
+            faults.append(
+                _fault(
+                    "output_interval",
+                    f"{interval:.6g} s would give more than {MOST_STEPS:.0e} frames in a `duration` of {settings.duration:.6g} s",
+                )
+            )
+        if settings.largest_step is not None and settings.duration > MOST_STEPS * settings.largest_step:
+            wanted = f"{settings.largest_step:.6g} s would take more than {MOST_STEPS:.0e} steps"
+            faults.append(_fault("largest_step", f"{wanted} in a `duration` of {settings.duration:.6g} s"))
         if settings.tolerance < LEAST_TOLERANCE:
             message = f"{settings.tolerance:.3g} is below {LEAST_TOLERANCE:.0e}, where round-off rules; ask for no less"
             faults.append(_fault("tolerance", message))
-    else:
+    elif countable:
         steps = max(1, ceil(settings.duration / settings.step * (1.0 - 1e-12)))
         every = _every(settings, steps, faults)
         interval = every * settings.step

@@ -110,6 +110,7 @@ def command(
         raise ModelError(f"--no-report and --report {report} contradict each other: take one of them away")
     loaded = load(machine, overrides, allow_code=allow_code)
     tables = out or tuple(Path(f"{loaded.name}-compare{suffix}") for suffix in FORMATS)
+    _refuse_other_kinds(tables)
     page = None if no_report else report or tables[0].with_suffix(".html")
     _refuse_to_replace(tables, page, force, Path(machine))
     with progress_listener(quiet) as listener:
@@ -142,14 +143,22 @@ def command(
         raise SystemExit(COMPUTATION_FAILED if failed else INPUT_AT_FAULT)
 
 
+def _refuse_other_kinds(tables: tuple[Path, ...]) -> None:
+    """Refuse tables of kinds that are not known."""
+    from nivel.errors import Fault, ModelError
+
+    others = [path for path in tables if path.suffix not in FORMATS]
+    if others:
+        message = "a table ends with .csv or .json; the page is named with --report"
+        raise ModelError(Fault("", 0, 0, "", f"{path}: {message}") for path in others)
+
+
 def _refuse_to_replace(tables: tuple[Path, ...], page: Path | None, force: bool, machine: Path) -> None:
-    """Refuse, before anything is run, files that cannot be written or exist and may not be replaced, and tables of other kinds."""
+    """Refuse, before anything is run, files that cannot be written or exist and may not be replaced."""
     from nivel.errors import ModelError
     from nivel.results.target import check_text_target
 
     for path in tables:
-        if path.suffix not in FORMATS:
-            raise ModelError(f"{path}: a table ends with .csv or .json; the page is named with --report")
         check_text_target(path, "table", force=force, sources=[machine])
     if page is not None:
         if page in tables:

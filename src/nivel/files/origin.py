@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from nivel.errors import Fault
-from nivel.files.reader import locate
+from nivel.files.reader import locate, stands_in
 from nivel.machine import SimulationSettings
 
-SETTING = re.compile(r"`(\w+)[:`]")  # in messages
+SETTING = re.compile(
+    r"`(\w+)(?:`|: ([^`]*)`)"
+)  # in messages, which name a setting as `step`, or with what it is as `step: 1 ms`
+
+OUTSIDE = " (set from outside the file)"
 
 
 @dataclass(frozen=True)
@@ -18,17 +23,17 @@ class Origin:
     """Where the values of a machine were set: in a file, from outside of it, or as arguments of a run.
 
     source : text of the `file`, empty for machines from records. outside : paths of values set from outside of the file, such as
-    ``bodies.crank.mass``. given : simulation settings that are arguments of a run.
+    ``bodies.crank.mass``. given : simulation settings that are arguments of a run, and what was given.
     """
 
     source: str = ""
     file: str = ""
     outside: frozenset[str] = frozenset()
-    given: frozenset[str] = frozenset()
+    given: Mapping[str, Any] = field(default_factory=dict)
 
-    def with_settings(self, settings: Collection[str]) -> Origin:
+    def with_settings(self, settings: Mapping[str, Any]) -> Origin:
         """The same with these simulation settings given for a run."""
-        return replace(self, given=self.given | frozenset(settings))
+        return replace(self, given={**self.given, **settings})
 
     @property
     def settings_outside(self) -> frozenset[str]:
@@ -46,23 +51,48 @@ class Origin:
         if words[0] == "simulation" and words[1:2] and words[1] in self.given:
             return replace(fault, path=".".join(words[1:]))
         if any(".".join(words[:end]) in self.outside for end in range(1, len(words) + 1)):
-            return replace(fault, message=f"{fault.message} (set from outside the file)")
+            return replace(fault, message=f"{fault.message}{OUTSIDE}")
+        asked = self._asked(fault)
+        if asked is not None:
+            return asked
         if not self.source:
             return fault
         line, column = locate(self.source, fault.path)
         return replace(fault, file=self.file, line=line, column=column)
+
+    def _asked(self, fault: Fault) -> Fault | None:
+        """A clash of something with a setting from outside of the file, told at that setting; None where there is no such setting.
+
+        With other settings every setting that the message names has a part in the clash; else one whose value it names.
+        """
+        element = fault.path.removeprefix("simulation.")
+        about_settings = element != fault.path
+        for name, value in SETTING.findall(fault.message):
+            outside = f"simulation.{name}" in self.outside
+            if (outside and (about_settings or value)) or (
+                name in self.given and (about_settings or value == self.given[name])
+            ):
+                message = f"`{element}`: {fault.message}{self._place(fault.path)}{OUTSIDE if outside else ''}"
+                return replace(fault, path=f"simulation.{name}" if outside else name, message=message)
+        return None
+
+    def _place(self, path: str) -> str:
+        """Where the file has `path`, to be said after a message; nothing where there is no file, or it was set from outside."""
+        if not self.source or path in self.outside:
+            return ""
+        if path.startswith("simulation.") and not stands_in(self.source, path):
+            return " (the default)"
+        line, column = locate(self.source, path)
+        return f" ({self.file}:{line}:{column})"
 
     def of_settings(self, fault: Fault, given: Collection[str]) -> Fault:
         """A fault of the simulation settings; one of several settings that do not go together is that of the one that was `given`, and
         says where the file has the other."""
         if fault.path:
             return replace(fault, path=f"simulation.{fault.path}")
-        named = [word for word in SETTING.findall(fault.message) if word in SimulationSettings.model_fields]
+        named = [word for word, _ in SETTING.findall(fault.message) if word in SimulationSettings.model_fields]
         mine, others = [word for word in named if word in given], [word for word in named if word not in given]
         if not mine:
             return replace(fault, path="simulation")
-        message = fault.message
-        if others and self.source and f"simulation.{others[0]}" not in self.outside:
-            line, column = locate(self.source, f"simulation.{others[0]}")
-            message += f" ({self.file}:{line}:{column})"
-        return replace(fault, path=f"simulation.{mine[0]}", message=message)
+        place = self._place(f"simulation.{others[0]}") if others else ""
+        return replace(fault, path=f"simulation.{mine[0]}", message=fault.message + place)

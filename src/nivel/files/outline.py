@@ -36,8 +36,9 @@ def check_start(tree: Tree) -> None:
         return
     given = tree.data.pop("format")
     if given != FORMAT or isinstance(given, bool):
-        message = f"this nivel reads format {FORMAT}, not {shown(given)}"
-        raise ModelError([*tree.faults, tree.fault(("format",), message)])
+        tree.faults.append(tree.fault(("format",), f"this nivel reads format {FORMAT}, not {shown(given)}"))
+        if isinstance(given, int | float) and not isinstance(given, bool):
+            raise ModelError(tree.faults)  # what another format means by the rest is not known
 
 
 def check_sections(tree: Tree) -> None:

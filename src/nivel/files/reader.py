@@ -54,6 +54,11 @@ def locate(text: str, path: str) -> tuple[int, int]:
     return fault.line, fault.column
 
 
+def stands_in(text: str, path: str) -> bool:
+    """Whether `text` itself says something at `path`, such as ``simulation.step``."""
+    return tuple(path.split(".")) in read_tree(text, "").places
+
+
 def _origin(tree: Tree, steps: Path) -> Path:
     """`steps`, or the path of what brings the element that they lead to into the file."""
     if len(steps) < 2 or steps[0] not in SECTIONS or steps[:2] in tree.places or not isinstance(tree.data, dict):

@@ -9,8 +9,9 @@ from pydantic import BeforeValidator, Field
 
 from nivel.flexible.solid_records import Part, Solid
 from nivel.machine.checked import Checked, Problem
+from nivel.machine.coefficient import Truth
 from nivel.machine.machine_record import Title
-from nivel.machine.quantity import Direction, Length, Mass, Position, PositiveLength, Quantity, fault, shown
+from nivel.machine.quantity import Direction, Length, Mass, Position, PositiveLength, Quantity, Whole, fault, shown
 from nivel.machine.record import Name, unknown_word
 from nivel.machine.section import Material, SectionRecord
 
@@ -20,8 +21,8 @@ MASSES: Final = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237, "lbf s^2/in":
 HELD: Final = ("x", "y", "z", "rx", "ry", "rz")
 
 Frequency = Annotated[float, Quantity("frequency", positive=True)]
-Count = Annotated[int, Field(strict=True, ge=0)]
-Positive = Annotated[int, Field(strict=True, ge=1)]
+Count = Annotated[Whole, Field(strict=True, ge=0)]
+Positive = Annotated[Whole, Field(strict=True, ge=1)]
 
 
 def _text(value: Any) -> str:
@@ -187,11 +188,11 @@ class Reduction(Checked):
     mass: Literal["consistent", "lumped"] = "consistent"
     reference: str = Field(default="mean-axis", description="mean-axis, or the interface with which the frame moves")
     held: tuple[str, ...] = Field(default=(), description="six freedoms `interface.x` … `interface.rz` instead")
-    inertia_modes: bool = Field(
+    inertia_modes: Truth = Field(
         default=False,
         description="whether static answers to its own inertia (accelerations, spinning) are added to the modes",
     )
-    stiffening: bool = Field(default=False, description="whether geometric stiffness is computed")
+    stiffening: Truth = Field(default=False, description="whether geometric stiffness is computed")
 
     def problems(self) -> Iterator[Problem]:
         if self.modes.given != bool(self.shapes):
@@ -208,8 +209,8 @@ class Reduction(Checked):
 class Recovery(Checked):
     """What can be found out about the body after a run."""
 
-    stress: bool = True
-    strain: bool = False
+    stress: Truth = True
+    strain: Truth = False
     nodes: Literal["all", "interfaces"] | tuple[int, ...] = Field(default="all", description="where stress is known")
 
 

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Checked, Problem
+from nivel.machine.coefficient import Truth
 from nivel.machine.quantity import Position, PositiveLength, fault, shown
 from nivel.machine.record import Name
 
@@ -19,7 +20,7 @@ def _file(value: Any) -> str:
 
 
 class _PartRecord(Checked):
-    cut: bool = Field(default=False, description="taken away from the parts before it instead of added")
+    cut: Truth = Field(default=False, description="taken away from the parts before it instead of added")
 
 
 class BoxPart(_PartRecord):

@@ -23,6 +23,7 @@ from nivel.machine.quantity import (
     Quantity,
     Scalar,
     VelocityVector,
+    Whole,
     listed,
 )
 from nivel.machine.record import GROUND, Name
@@ -73,8 +74,8 @@ class Beam(Checked):
     shear_centre: Offset = Field(
         default=(0.0, 0.0), description="y and z of the shear centres from the line of the beam"
     )
-    elements: Annotated[int, Field(strict=True, ge=1, le=100_000)] = 10
-    order: Annotated[int, Field(strict=True, ge=1, le=3)] = Field(default=1, description="of an element: 1, 2 or 3")
+    elements: Annotated[Whole, Field(strict=True, ge=1, le=100_000)] = 10
+    order: Annotated[Whole, Field(strict=True, ge=1, le=3)] = Field(default=1, description="of an element: 1, 2 or 3")
     model: Literal["geometrically-exact", "segments", "ancf-cable", "ancf-beam"] = Field(
         default="geometrically-exact",
         description=(

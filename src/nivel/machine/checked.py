@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
-from pydantic import ValidationError, model_validator
+from pydantic import ModelWrapValidatorHandler, ValidationError, ValidationInfo, model_validator
 from pydantic_core import InitErrorDetails
 
+from nivel.machine.partial import problems_beside
 from nivel.machine.quantity import fault
-from nivel.machine.record import Record
+from nivel.machine.record import Record, restated
 
 Place = tuple[str | int, ...]
 
@@ -39,11 +40,29 @@ class Checked(Record):
         refuse(type(self).__name__, self.problems())
         return self
 
+    @model_validator(mode="wrap")
+    @classmethod
+    def _in_plain_words(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:
+        """With what is wrong between the other fields, where some are wrong by themselves."""
+        try:
+            return handler(data)
+        except ValidationError as error:
+            raise restated(error, cls, cls.lines_beside(error, data, info)) from None
+
+    @classmethod
+    def lines_beside(cls, error: ValidationError, data: Any, info: ValidationInfo) -> list[InitErrorDetails]:
+        """What is wrong in `data` between the fields that `error` is not about."""
+        wrong = {line["loc"][0] for line in error.errors(include_url=False) if line["loc"]}
+        return _lines(problems_beside(cls, data, wrong, info.context))
+
 
 def refuse(record: str, problems: Iterable[Problem]) -> None:
     """Raise a ValidationError with all `problems`, if there are any."""
-    lines = [
+    if lines := _lines(problems):
+        raise ValidationError.from_exception_data(record, lines)
+
+
+def _lines(problems: Iterable[Problem]) -> list[InitErrorDetails]:
+    return [
         InitErrorDetails(type=fault(each.message, at_key=each.at_key), loc=each.place, input=None) for each in problems
     ]
-    if lines:
-        raise ValidationError.from_exception_data(record, lines)

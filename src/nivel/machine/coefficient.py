@@ -20,6 +20,7 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, InitErrorDetails, core_schema
 
+from nivel.arguments import plain
 from nivel.machine.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.coordinate_reference import kind_of
 from nivel.machine.dimension import KINDS
@@ -69,7 +70,7 @@ def _poisson_ratio(value: float) -> float:
 
 
 def _truth(value: Any) -> bool:
-    if not isinstance(value, bool):
+    if not isinstance(value := plain(value), bool):
         raise fault(f"true or false was expected, got {shown(value)}")
     return value
 

@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from nivel.arguments import checked_arguments, checked_fields
 from nivel.machine.arithmetic import LOCAL_SYMBOLS, Node, evaluate, render, signals
 from nivel.machine.derivative import derivative
 from nivel.machine.quantity import bound_tree
 
 
+@checked_fields
 @dataclass(frozen=True)
 class Expression:
     """Arithmetic of `time` [s] and signals, e.g. ``10 + 3*sin(2*pi*time)`` or ``-20*hinge.angle_rate``.
@@ -20,6 +22,7 @@ class Expression:
 
     text: str
 
+    @checked_arguments
     def __call__(self, time: float, values: Mapping[str, float] | None = None) -> float:
         """The value at `time` [s], SI. `values` are those of the signals by their paths.
 

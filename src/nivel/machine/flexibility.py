@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from nivel.machine.quantity import fault, shown
+from nivel.machine.quantity import Real, Whole, fault, shown
 from nivel.machine.record import Record
 
 Invariant = Literal["I5", "I8", "I9"]
@@ -25,8 +25,8 @@ class Flexibility(Record):
     """A body that bends by the modes in a file of `nivel reduce`."""
 
     file: str = Field(min_length=1, description="of `nivel reduce`, seen from the machine file")
-    modes: Annotated[int, Field(ge=1)] | None = Field(default=None, description="how many, lowest first; default all")
-    damping_ratio: Annotated[float, Field(ge=0.0, lt=1.0)] = Field(default=0.0, description="of each mode")
+    modes: Annotated[Whole, Field(ge=1)] | None = Field(default=None, description="how many, lowest first; default all")
+    damping_ratio: Annotated[Real, Field(ge=0.0, lt=1.0)] = Field(default=0.0, description="of each mode")
     neglect: Annotated[tuple[Invariant, ...], BeforeValidator(_distinct)] = Field(
         default=(), description="inertia invariants that the moving body does without: I5, I8, I9"
     )

@@ -50,6 +50,12 @@ def _title(value: Any) -> str:
     return value.strip()
 
 
+def _has_none(data: Any, section: str) -> bool:
+    """Whether the machine in `data` lacks a section, or has an empty one."""
+    records = entry(data, section)
+    return records is None or (isinstance(records, list | tuple) and not records)
+
+
 Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"})]
 
 
@@ -90,14 +96,14 @@ class MachineRecord(Checked):
         data = with_whole_coordinates(data)
         faults = reference_faults(data, parameters_of(info))
         lines = [InitErrorDetails(type=fault(text), loc=place, input=None) for place, text in faults]
-        if entry(data, "bodies") in (None, (), []) and entry(data, "beams") in (None, (), []):
+        if _has_none(data, "bodies") and _has_none(data, "beams"):
             lines.append(
                 InitErrorDetails(type=fault("a machine needs at least one body or beam"), loc=("bodies",), input=None)
             )
         try:
             record = handler(data)
         except ValidationError as error:
-            raise restated(error, cls, lines) from None
+            raise restated(error, cls, [*lines, *cls.lines_beside(error, data, info)]) from None
         if lines:
             raise ValidationError.from_exception_data(cls.__name__, lines)
         return record

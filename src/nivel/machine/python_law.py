@@ -11,6 +11,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails
 
+from nivel.arguments import checked_arguments, checked_fields
 from nivel.machine.arithmetic import TIME, ExpressionError, FaultyParameterError, Parameters, Signal, Time, varies
 from nivel.machine.python_source import source_of
 from nivel.machine.quantity import (
@@ -28,6 +29,7 @@ from nivel.machine.record import unknown_word
 KEYS: Final = ("source", "function", "arguments", "file")
 
 
+@checked_fields
 @dataclass(frozen=True)
 class PythonLaw:
     """The value that a Python function returns, SI.
@@ -47,10 +49,10 @@ class PythonLaw:
     file: str = ""
 
     def __post_init__(self) -> None:
-        if not isinstance(self.arguments, str):  # a text in place of a list is refused when it is read
-            object.__setattr__(self, "arguments", tuple(listed(self.arguments)))
+        object.__setattr__(self, "arguments", tuple(listed(self.arguments)))
 
     @classmethod
+    @checked_arguments
     def of(cls, function: Callable[..., Any], arguments: Sequence[object] = ()) -> PythonLaw:
         """The law that a function of this program is. Modules, numbers and functions that it uses go with it.
 
@@ -68,7 +70,7 @@ class PythonLaw:
         return {
             "source": self.source,
             "function": self.function,
-            "arguments": self.arguments if isinstance(self.arguments, str) else list(self.arguments),
+            "arguments": list(self.arguments),
             "file": self.file,
         }
 

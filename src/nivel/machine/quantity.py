@@ -7,14 +7,15 @@ file come in through the validation context: ``{"parameters": {"radius": Number(
 
 from __future__ import annotations
 
+import numbers
 from collections.abc import Collection
 from dataclasses import dataclass
-from numbers import Real
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from nivel.arguments import plain
 from nivel.machine.arithmetic import (
     LOCAL_SYMBOLS,
     ExpressionError,
@@ -31,6 +32,7 @@ from nivel.machine.arithmetic import (
 from nivel.machine.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.grammar import parse
 from nivel.machine.measure import measure
+from nivel.wording import shown
 
 MASSLESS = (
     "; a link without mass is a joint: distance, revolute-spherical, revolute-cylindrical, revolute-translational"
@@ -124,16 +126,15 @@ def read_quantity(value: object, kind: Kind, parameters: Parameters) -> float:
 
 
 def _read_number(value: object, kind: Kind, parameters: Parameters) -> float:
+    value = plain(value)
     if isinstance(value, str):
         tree = constant_tree(value, parameters)
         its = measure(tree)
         number = evaluate(tree)
         check_kind(value.strip(), its, kind)
         return number
-    if isinstance(value, Real) and not isinstance(value, bool):
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
         return given(value)
-    if hasattr(value, "item") and getattr(value, "shape", None) == ():  # a NumPy scalar or array without axes
-        return _read_number(value.item(), kind, parameters)  # type: ignore[attr-defined]
     raise ExpressionError(f"{expected_kind(kind)} was expected, got {shown(value)}")
 
 
@@ -150,22 +151,6 @@ def constant_tree(text: str, parameters: Parameters) -> Node:
     if varies(tree):
         raise ExpressionError("`time` may only be used where a value may vary: in forces, drivers, sensors and events")
     return tree
-
-
-def shown(value: object) -> str:
-    """`value` in a message: as in the file, and short."""
-    if value is None:
-        return "nothing"
-    if isinstance(value, bool):
-        return f"`{str(value).lower()}`"
-    if isinstance(value, dict):
-        return "a mapping"
-    if isinstance(value, list | tuple):
-        return "a list"
-    if isinstance(value, int) and abs(value) > 1e40:
-        return "a number of more than 40 digits"  # Python does not write integers of thousands of digits
-    text = str(value)
-    return f"`{text}`" if len(text) <= 40 else f"`{text[:37]}…`"
 
 
 @dataclass(frozen=True)
@@ -217,6 +202,15 @@ def listed(value: Any) -> Any:
     return value.tolist() if hasattr(value, "tolist") and getattr(value, "ndim", 0) > 0 else value
 
 
+def _no_truth(value: Any) -> Any:
+    """NumPy scalars as numbers; true and false are none."""
+    if isinstance(value := plain(value), bool):
+        raise fault(f"a number was expected, got {shown(value)}")
+    return value
+
+
+Real = Annotated[float, BeforeValidator(_no_truth)]  # without units
+Whole = Annotated[int, BeforeValidator(_no_truth)]
 Scalar = Annotated[float, Quantity("number")]
 Length = Annotated[float, Quantity("length")]
 PositiveLength = Annotated[float, Quantity("length", positive=True)]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from difflib import get_close_matches
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import (
@@ -18,8 +17,10 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails, InitErrorDetails
 
+from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
-from nivel.machine.quantity import FAULT, REPORTED, fault, reported, shown
+from nivel.machine.quantity import FAULT, REPORTED, fault, reported
+from nivel.wording import shown, unknown_word
 
 NAME = re.compile(r"[^\W\d_][\w-]*")
 _ROUGHLY = r"^[^\s\d._-][^\s.]*$"  # in the schema: regular expressions of JSON know no classes of letters
@@ -62,6 +63,7 @@ class Record(BaseModel):
     # Fields that are one of several records, and where in the place of a fault pydantic puts the type that it chose.
     tagged: ClassVar[Mapping[str, int]] = {}
 
+    @checked_arguments
     def __init__(self, /, **data: Any) -> None:
         try:
             super().__init__(**data)
@@ -71,6 +73,7 @@ class Record(BaseModel):
     # Without this mark pydantic would call __init__ for nested records too, and lose the places of faults in them.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
+    @checked_arguments
     def replace(self, **changes: Any) -> Self:
         """A copy in which `changes` hold, checked like a new record."""
         given = {name: getattr(self, name) for name in self.model_fields_set}
@@ -168,16 +171,6 @@ def _quoted(text: object) -> list[str]:
 def field_words(record: type[Record]) -> list[str]:
     """The keys that `record` knows, as they are written in a file."""
     return [field.alias or name for name, field in record.model_fields.items()]
-
-
-def unknown_word(word: str, valid: Sequence[str], what: str) -> str:
-    """A sentence that refuses `word` and offers the nearest of `valid`, or all of them."""
-    near = get_close_matches(word, valid, n=1, cutoff=0.6)
-    if near:
-        return f"the {what} `{word}` is not known; did you mean `{near[0]}`?"
-    if not valid:
-        return f"the {what} `{word}` is not known; there are none"
-    return f"the {what} `{word}` is not known; there {'are' if len(valid) > 1 else 'is'} {', '.join(valid)}"
 
 
 def _faults(record: type[Record], data: Mapping[str, Any], error: ValidationError) -> list[Fault]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 from typing import Annotated, Literal, get_args
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, field_validator
 
-from nivel.machine.quantity import Duration, Rate, fault
+from nivel.machine.checked import Checked, Problem
+from nivel.machine.quantity import Duration, Rate, Real, Whole, fault
 from nivel.machine.record import Record
 
 Integrator = Literal[
@@ -29,7 +31,7 @@ Coordinates = Literal["auto", "absolute", "relative", "independent"]
 Rotations = Literal["euler-parameters", "euler-angles", "rotation-vector"]
 Stabilisation = Literal["none", "baumgarte", "direct", "geometric"]
 Start = Literal["as-given", "equilibrium"]
-Tolerance = Annotated[float, Field(gt=0.0, lt=1.0)]
+Tolerance = Annotated[Real, Field(gt=0.0, lt=1.0)]
 
 
 class Baumgarte(Record):
@@ -46,11 +48,11 @@ class Penalty(Record):
     Ω = 0.1/step, or 0 where the stabilisation corrects states anyway.
     """
 
-    factor: Annotated[float, Field(ge=1.0, le=1e14)] | None = None
-    alpha: Annotated[float, Field(gt=0.0)] | None = None
+    factor: Annotated[Real, Field(ge=1.0, le=1e14)] | None = None
+    alpha: Annotated[Real, Field(gt=0.0)] | None = None
     omega: Rate | None = None
-    mu: Annotated[float, Field(ge=0.0)] = 1.0
-    iterations: Annotated[int, Field(ge=1, le=1000)] = 30
+    mu: Annotated[Real, Field(ge=0.0)] = 1.0
+    iterations: Annotated[Whole, Field(ge=1, le=1000)] = 30
 
 
 class Corrector(Record):
@@ -63,27 +65,27 @@ class Corrector(Record):
 
     iteration: Literal["functional", "newton"] | None = None
     tolerance: Tolerance = 1e-10
-    most_iterations: Annotated[int, Field(ge=1, le=1000)] = 50
+    most_iterations: Annotated[Whole, Field(ge=1, le=1000)] = 50
     matrix: Literal["kept", "full"] = Field(default="kept", description="of newmark, hht and generalised-alpha")
 
 
 class Newmark(Record):
     """Constants of newmark: order 2 and no damping with γ = ½, stable at any step with β ≥ γ/2."""
 
-    beta: Annotated[float, Field(gt=0.0, le=1.0)] = 0.25
-    gamma: Annotated[float, Field(ge=0.5, le=1.0)] = 0.5
+    beta: Annotated[Real, Field(gt=0.0, le=1.0)] = 0.25
+    gamma: Annotated[Real, Field(ge=0.5, le=1.0)] = 0.5
 
 
 class HHT(Record):
     """Damping of hht: 0 none (newmark), ⅓ most."""
 
-    alpha: Annotated[float, Field(ge=0.0, le=1.0 / 3.0)] = 0.1
+    alpha: Annotated[Real, Field(ge=0.0, le=1.0 / 3.0)] = 0.1
 
 
 class GeneralisedAlpha(Record):
     """Damping of generalised-alpha: what is left of a vibration far above the step's frequency after one step, 0 … 1."""
 
-    spectral_radius: Annotated[float, Field(ge=0.0, le=1.0)] | None = Field(
+    spectral_radius: Annotated[Real, Field(ge=0.0, le=1.0)] | None = Field(
         default=None, description="absent, 0.8 with fixed steps and 0.6 with chosen ones"
     )
 
@@ -91,7 +93,7 @@ class GeneralisedAlpha(Record):
 SHORTEST = 1e-12  # s; squares of speeds of a machine's length in such a time are still numbers
 
 
-class SimulationSettings(Record):
+class SimulationSettings(Checked):
     """Time span, step and methods. Without `baumgarte`, the coefficients of that stabilisation follow from the step.
 
     Integrators that choose their steps try `step` first, and keep the motion within ten times the `tolerance` (relative to the largest
@@ -134,20 +136,21 @@ class SimulationSettings(Record):
             raise fault(f"{', '.join(f'`{name}`' for name in twice)} stands here more than once; name each joint once")
         return cut
 
-    @model_validator(mode="after")
-    def _makes_sense(self) -> SimulationSettings:
+    def problems(self) -> Iterator[Problem]:
+        """Each is about several settings, which its message names; the place is that of all of them."""
         fixed = self.integrator not in CHOOSING and not (self.integrator in EITHER and self.step_control == "error")
+        messages = []
         if self.duration < SHORTEST:
-            raise fault(f"`duration` {self.duration:g} s is shorter than {SHORTEST:g} s, the shortest run there is")
+            messages.append(f"`duration` {self.duration:g} s is shorter than {SHORTEST:g} s, the shortest run there is")
         if fixed and self.step > self.duration:
-            raise fault(f"`step` {self.step:g} s is longer than `duration` {self.duration:g} s")
+            messages.append(f"`step` {self.step:g} s is longer than `duration` {self.duration:g} s")
         if fixed and self.output_interval is not None and self.output_interval < self.step * (1 - 1e-9):
-            raise fault(f"`output_interval` {self.output_interval:g} s is shorter than `step` {self.step:g} s")
+            messages.append(f"`output_interval` {self.output_interval:g} s is shorter than `step` {self.step:g} s")
         if self.baumgarte is not None and self.stabilisation != "baumgarte":
-            raise fault(f"`baumgarte` needs `stabilisation: baumgarte`; it is `{self.stabilisation}`")
+            messages.append(f"`baumgarte` needs `stabilisation: baumgarte`; it is `{self.stabilisation}`")
         if self.penalty.factor is not None and self.penalty.alpha is not None:
-            raise fault("`penalty` takes `factor` or `alpha`, not both")
-        return self
+            messages.append("`penalty` takes `factor` or `alpha`, not both")
+        yield from (Problem((), message) for message in messages)
 
 
 def known_words(setting: str) -> tuple[str, ...]:

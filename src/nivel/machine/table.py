@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from nivel.arguments import checked_arguments, checked_fields
 from nivel.machine.arithmetic import TIME, ExpressionError, FaultyParameterError, Parameters
 from nivel.machine.dimension import KINDS
 from nivel.machine.measure import signal_dimensions
@@ -32,6 +33,7 @@ INTERPOLATIONS: Final = ("linear", "cubic")
 SIGNAL_PATH: Final = re.compile(r"[^\W\d_][\w-]*\.[^\W\d]\w*")
 
 
+@checked_fields
 @dataclass(frozen=True)
 class Table:
     """`values` at `times` [s], which increase strictly; before the first and after the last the end values hold.
@@ -51,6 +53,7 @@ class Table:
         object.__setattr__(self, "times", tuple(listed(self.times)))
         object.__setattr__(self, "values", tuple(listed(self.values)))
 
+    @checked_arguments
     def __call__(self, at: float) -> float:
         """The value at the time [s] `at`, or where the variable `of` has the value `at`."""
         if self.interpolation == "linear":

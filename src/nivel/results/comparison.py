@@ -7,6 +7,8 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
+from nivel.arguments import checked_arguments
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -154,14 +156,17 @@ class Comparison:
             if name not in self.varying and (name != "rotations" or method.formulation == "lagrange")
         )
 
+    @checked_arguments
     def label(self, row: Row) -> str:
         """The words of a row that tell it from others, without the step."""
         return method_label(row.method, self.varying)
 
+    @checked_arguments
     def reference_of(self, row: Row) -> Reference | None:
         """What the motion of a row was held against."""
         return next((each for each in self.references if each.name == row.reference), None)
 
+    @checked_arguments
     def is_resolved(self, row: Row) -> bool:
         """Whether the motion error of a row is clearly above the error of its reference."""
         reference = self.reference_of(row)
@@ -174,12 +179,14 @@ class Comparison:
             out.setdefault(row.method, []).append(row)
         return {method: sorted(rows, key=lambda row: -row.fineness) for method, rows in out.items()}
 
+    @checked_arguments
     def to_csv(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
         """A table with a line for every row; written to `path` where one is given. force : replace an existing file."""
         from nivel.results.comparison_files import csv_text, write_text
 
         return write_text(csv_text(self), path, "table", force=force)
 
+    @checked_arguments
     def to_json(self, path: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
         """Everything as JSON; written to `path` where one is given. force : replace an existing file."""
         from nivel.results.comparison_files import json_text, write_text
@@ -187,12 +194,14 @@ class Comparison:
         return write_text(json_text(self), path, "comparison", force=force)
 
     @classmethod
+    @checked_arguments
     def from_json(cls, text: str) -> Comparison:
         """The comparison that `to_json` wrote."""
         from nivel.results.comparison_files import read_json
 
         return read_json(text)
 
+    @checked_arguments
     def report(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Write a page with the table and a work–precision diagram, one HTML file that needs no network.
 

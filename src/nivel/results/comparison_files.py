@@ -47,16 +47,19 @@ def json_text(comparison: Comparison) -> str:
 
 
 def read_json(text: str) -> Comparison:
-    """The comparison of `json_text`."""
-    data = json.loads(text)
-    return Comparison(
-        **data
-        | {
-            "rows": tuple(Row(**row) for row in data["rows"]),
-            "references": tuple(Reference(**each) for each in data["references"]),
-            "spread": data["spread"] and Spread(**data["spread"]),
-        }
-    )
+    """The comparison of `json_text`. Raises ModelError where `text` is none."""
+    try:
+        data = json.loads(text)
+        return Comparison(
+            **data
+            | {
+                "rows": tuple(Row(**row) for row in data["rows"]),
+                "references": tuple(Reference(**each) for each in data["references"]),
+                "spread": data["spread"] and Spread(**data["spread"]),
+            }
+        )
+    except (ValueError, TypeError, KeyError) as error:
+        raise ModelError(f"this is not the text of a comparison, as `to_json` writes it: {error}") from error
 
 
 def write_text(text: str, path: str | os.PathLike[str] | None, what: str, *, force: bool) -> str:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.arguments import checked_arguments
 from nivel.results.contents import Contents
 from nivel.results.names import Selection, selections, unknown_name
 from nivel.results.occurrence import Occurrence, from_json
@@ -40,6 +41,7 @@ class Result:
         self._contents = contents
 
     @classmethod
+    @checked_arguments
     def open(cls, path: str | os.PathLike[str]) -> Result:
         """Read a result file, also one that is still being written or whose writer was killed."""
         return cls(StoredContents(Path(path)))
@@ -103,6 +105,7 @@ class Result:
             return Trust.from_json(str(self.attributes["trust"]))
         return assess(self, Facts(outcome=self.outcome, failure=self.failure))
 
+    @checked_arguments
     def sections(self, beam: str) -> xarray.Dataset:
         """Strains, forces and moments along a beam at all times; see `nivel.results.beam_sections`."""
         from nivel.results.beam_sections import beam_sections
@@ -165,12 +168,14 @@ class Result:
         """Everything that can be asked for."""
         return tuple(self._selections)
 
+    @checked_arguments
     def selection(self, name: str) -> Selection:
         """Where `name` stands; ModelError with the nearest names when there is none."""
         if name not in self._selections:
             raise unknown_name(name, self._selections)
         return self._selections[name]
 
+    @checked_arguments
     def array(self, name: str, frames: slice = slice(None)) -> NDArray[np.float64]:
         """The numbers of `name`, time first, as a numpy array; `frames` takes a part of the run."""
         if name == "time":
@@ -180,6 +185,7 @@ class Result:
         found = self.selection(name)
         return self._contents.read(found.variable, (frames, *found.where[1:]))
 
+    @checked_arguments
     def units(self, name: str) -> str:
         """SI units of `name`; nothing for all joint coordinates or constraint rows together: each has its own."""
         if name == "time":
@@ -192,11 +198,12 @@ class Result:
         return own_units(self.attributes, variable.name, self.coordinates[variable.dims[1]][row])
 
     def __contains__(self, name: object) -> bool:
-        return name == "time" or name in self._selections
+        return isinstance(name, str) and (name == "time" or name in self._selections)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)
 
+    @checked_arguments
     def __getitem__(self, name: str) -> xarray.DataArray:
         from nivel.results.labelled import data_array
 
@@ -209,6 +216,7 @@ class Result:
 
         return dataset(self)
 
+    @checked_arguments
     def recover(self, body: str | None = None, *, file: str | os.PathLike[str] | None = None) -> RecoveredBody:
         """Displacement and stress of a flexible body over the run; without a name, of the only one.
 
@@ -221,36 +229,42 @@ class Result:
 
     # --- for people ---
 
+    @checked_arguments
     def plot(self, *names: str) -> Figure:
         """Curves of `names` over time, one below the other where units differ; without names the joint coordinates."""
         from nivel.results.plot import plot
 
         return plot(self, names)
 
+    @checked_arguments
     def mode(self, number: int, frame: int = -1) -> Result:
         """Vibration `number` (from 1) about an equilibrium of a statics run as a motion of its own, slow and large enough to be seen."""
         from nivel.results.mode_motion import mode_motion
 
         return mode_motion(self, number, frame)
 
+    @checked_arguments
     def report(self, path: str | os.PathLike[str]) -> Path:
         """Write the report as one HTML file that needs no network; an existing file is replaced."""
         from nivel.report.write import write_report
 
         return write_report(self, path)
 
+    @checked_arguments
     def view(self, *others: Result, height: int = 520) -> Inline:
         """The motion, to be played in a notebook; `others` are laid over it as ghosts. height : in pixels."""
         from nivel.view.inline import Inline
 
         return Inline([self, *others], height)
 
+    @checked_arguments
     def export_scene(self, path: str | os.PathLike[str], *others: Result) -> Path:
         """Write the motion as one HTML page that opens anywhere and needs no network; an existing file is replaced."""
         from nivel.view.export import write_scene
 
         return write_scene([self, *others], path)
 
+    @checked_arguments
     def export_csv(self, path: str | os.PathLike[str], select: tuple[str, ...] | list[str] = ()) -> Path:
         """Write a table, one row per frame; `select` takes names, elements (`crank`), or patterns (`*.angle`).
 

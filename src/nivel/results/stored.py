@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -31,9 +32,9 @@ def opened(path: Path) -> Iterator[h5py.File]:
 
 def _opened_while_running(path: Path) -> h5py.File:
     """The file in SWMR mode (single writer, multiple readers): such a file refuses to be opened otherwise."""
-    if not path.exists():
+    if not os.path.exists(path):  # Path.exists raises where the name is too long
         raise ModelError(f"there is no result file {path}") from None
-    if path.is_dir():
+    if os.path.isdir(path):
         raise ModelError(f"{path} is a folder; a result file of nivel was expected") from None
     try:
         return h5py.File(path, "r", swmr=True, locking="best-effort")

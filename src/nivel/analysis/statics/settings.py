@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
-
 from nivel.errors import Fault, ModelError
-from nivel.machine.quantity import Duration
+from nivel.machine.arithmetic import ExpressionError
+from nivel.machine.quantity import expression_fault, read_quantity, shown
 from nivel.machine.settings import SHORTEST
 
 MOST_STEPS = 1_000_000
@@ -53,14 +52,15 @@ def statics_settings(given: Mapping[str, Any], coordinates: str) -> StaticsSetti
         value = given.get(name)
         if value is None:
             return default
-        if name == "duration" and _is_zero(value):
-            return 0.0
         try:
-            return float(TypeAdapter(Duration).validate_python(value))
-        except ValidationError as error:
-            said = error.errors()[0]["msg"].removeprefix("Value error, ")
-            faults.append(_fault(name, f"{value!r}: {said}"))
+            seconds = read_quantity(value, "time", {})
+        except ExpressionError as problem:
+            faults.append(_fault(name, expression_fault(problem, value).message()))
             return default
+        if seconds < 0.0 or (seconds == 0.0 and name != "duration"):
+            faults.append(_fault(name, f"a time greater than zero was expected, got {shown(value)}"))
+            return default
+        return seconds
 
     def whole(name: str, default: int, low: int, high: int) -> int:
         value = given.get(name)
@@ -68,7 +68,7 @@ def statics_settings(given: Mapping[str, Any], coordinates: str) -> StaticsSetti
             return default
         number = _whole(value)
         if number is None or not low <= number <= high:
-            faults.append(_fault(name, f"a whole number from {low} to {high} was expected, got {value!r}"))
+            faults.append(_fault(name, f"a whole number from {low} to {high} was expected, got {shown(value)}"))
             return default
         return number
 
@@ -88,10 +88,10 @@ def statics_settings(given: Mapping[str, Any], coordinates: str) -> StaticsSetti
         )
     tolerance = _number(given.get("tolerance"), 1e-10)
     if tolerance is None or not 1e-14 <= tolerance <= 1e-2:
-        faults.append(_fault("tolerance", f"a number from 1e-14 to 1e-2 was expected, got {given.get('tolerance')!r}"))
-    chosen = given.get("coordinates") or coordinates
+        faults.append(_fault("tolerance", f"a number from 1e-14 to 1e-2 was expected, got {shown(given['tolerance'])}"))
+    chosen = coordinates if given.get("coordinates") is None else given["coordinates"]
     if chosen not in ("auto", "absolute", "relative"):
-        if given.get("coordinates"):
+        if given.get("coordinates") is not None:
             faults.append(_fault("coordinates", f"'{chosen}' is not one of auto, absolute, relative"))
         chosen = "auto"
     buckling = whole("buckling", 0, 0, MOST_MODES)
@@ -115,25 +115,19 @@ def statics_settings(given: Mapping[str, Any], coordinates: str) -> StaticsSetti
     return settings
 
 
-def _is_zero(value: Any) -> bool:
-    text = str(value).strip().split(" ", maxsplit=1)[0]
-    return _number(text, None) == 0.0
-
-
-def _whole(value: Any) -> int | None:
+def _whole(value: int | str) -> int | None:
     try:
-        number = float(value)
-    except (TypeError, ValueError):
+        return int(value)
+    except ValueError:
         return None
-    return int(number) if number == int(number) else None
 
 
-def _number(value: Any, default: float | None) -> float | None:
+def _number(value: float | str | None, default: float) -> float | None:
     if value is None:
         return default
     try:
         return float(value)
-    except (TypeError, ValueError):
+    except ValueError:
         return None
 
 

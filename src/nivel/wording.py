@@ -1,0 +1,38 @@
+"""How messages show what stood there, and what would be right."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
+from typing import Final
+
+LONGEST: Final = 40  # characters of a value in a message
+
+
+def shown(value: object) -> str:
+    """`value` in a message: as in the file, short, and in one line."""
+    if value is None:
+        return "nothing"
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    if isinstance(value, Mapping):
+        return "a mapping"
+    if isinstance(value, list | tuple) or getattr(value, "ndim", 0):
+        return "a list"
+    if isinstance(value, int) and abs(value) > 1e40:
+        return "a number of more than 40 digits"  # Python does not write integers of thousands of digits
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    text = str(value)
+    line = (text.splitlines() or [""])[0]
+    return f"`{text}`" if line == text and len(text) <= LONGEST else f"`{line[: LONGEST - 3]}…`"
+
+
+def unknown_word(word: str, valid: Sequence[str], what: str) -> str:
+    """A sentence that refuses `word` and offers the nearest of `valid`, or all of them."""
+    near = get_close_matches(word, valid, n=1, cutoff=0.6)
+    if near:
+        return f"the {what} `{word}` is not known; did you mean `{near[0]}`?"
+    if not valid:
+        return f"the {what} `{word}` is not known; there are none"
+    return f"the {what} `{word}` is not known; there {'are' if len(valid) > 1 else 'is'} {', '.join(valid)}"

@@ -18,6 +18,7 @@ bodies, never entered, push the rest of an evaluation out of the processor's cac
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -30,8 +31,26 @@ _compile_address: Any = cfunc
 # A product and a sum may be one instruction with one rounding; nothing else is taken as exact, and NaN stays NaN.
 OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "_nrt": False}
 
-leaf: Callable[..., Any] = _compile(**OPTIONS)
-stage: Callable[..., Any] = _compile(forceinline=True, **OPTIONS)
+
+def _distinct(compiler: Callable[..., Any]) -> Callable[..., Any]:
+    """`compiler`, with names of functions made within others that tell what they are made of.
+
+    Numba names a function in machine code by its qualified name and by how many this process has compiled before. Of two entries from the
+    cache, compiled in different processes, functions made with different parts may have the same name, and one is taken for the other.
+    """
+
+    def compiled(function: Callable[..., Any]) -> Any:
+        cells = [cell.cell_contents for cell in function.__closure__ or ()]
+        if cells:
+            parts = [f"{x.__module__}.{x.__qualname__}" if hasattr(x, "__qualname__") else repr(x) for x in cells]
+            function.__qualname__ += "_" + hashlib.sha256("\n".join(parts).encode()).hexdigest()[:8]
+        return compiler(function)
+
+    return compiled
+
+
+leaf: Callable[..., Any] = _distinct(_compile(**OPTIONS))
+stage: Callable[..., Any] = _distinct(_compile(forceinline=True, **OPTIONS))
 shared: Callable[..., Any] = _compile(inline="always", **OPTIONS)
 
 

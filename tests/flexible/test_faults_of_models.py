@@ -44,6 +44,7 @@ reduction: {modes: -1, method: guyan, referenc: root}
     found = {(fault.line, fault.path) for fault in faults_of(text)}
     assert found == {
         (4, "materials.steel.youngs_modulus"),
+        (4, "materials.steel.poisson_ratio"),
         (6, "sections.bar"),
         (7, "sections.tube.inner_radius"),
         (8, "sections.round.radius"),

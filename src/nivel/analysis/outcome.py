@@ -81,7 +81,9 @@ def failure(
             told = _no_solution(motion, number, time, step, y)
         elif told is None:
             told = (_not_converged if status == NOT_CONVERGED else _not_a_number)(motion, time, step, y)
-    if not chosen_by and (grown := grown_motion(motion, time, step, y)):
+    # an iteration on the rates of the state that does not converge says itself what to do
+    iterated = status == NOT_CONVERGED and not len(motion.system.record.residual.vdot)
+    if not chosen_by and not iterated and (grown := grown_motion(motion, time, step, y)):
         # what failed in the end failed because of that
         told = too_fast(beams, step) or grown
     return f"stopped at t = {time:.6g} s: {told[0]}", told[1]

@@ -31,7 +31,7 @@ from nivel.system.system import Array
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
 NEAR_SINGULAR = 1e-6
-# Integrators that choose long steps whatever the stiffness.
+# Integrators that choose their steps, for stiff forces.
 FOR_STIFF = ("radau", "bdf")
 # A violation above this share of its scale is not round-off or truncation: the step was too large for the motion.
 DRIFTED = 1e-2

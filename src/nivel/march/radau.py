@@ -70,7 +70,9 @@ from nivel.march.step_control import (
 # of the error of one step with its estimate
 ORDER = 4.0
 # A step may err, by its estimate, by SHARE tolerance^(4/5); its stages are found to CLOSE of the tolerance.
-SHARE, CLOSE = 0.06, 0.01
+SHARE, CLOSE = 0.06, 1e-3
+# what counts of an error that settles within a step
+SETTLING = 0.2
 # Derivatives are found anew where a change is more than this share of the one before.
 GOOD = 0.02
 LEAST_CHANGE, MOST_CHANGE = 0.2, 8.0
@@ -106,18 +108,25 @@ def smooth(machine, history, h, slope):
 @leaf
 def estimate(evaluate, machine, history, h, tolerance):
     """Fill ERROR and the rows of the polynomial; returns the error as a share of the allowed one. Where it is too large, stiff entries
-    and energies may be to blame that are far from what they settle to: they are looked at once more after they have."""
+    and energies may be to blame that are far from what they settle to within the step: they are looked at once more after they have.
+
+    What settles is a speed of stiff springs that the step before left wrong, by its length to the power 3 (index 3); while it does, it
+    pushes what is slow as far as the springs turn. So SETTLING of it counts, though not where the step was rejected: a shorter one
+    begins as wrong.
+    """
     run = run_at(history)
     write_polynomial(run)
     smooth(machine, history, h, run.rate)
     error = size(run, run.stages[ERROR]) / tolerance
     if not error <= 1.0 and error < np.inf:
+        settling = 0.0 if run.numbers[REPEATED] == 1.0 or run.numbers[LAST_STEP] == 0.0 else SETTLING * error
         for i in range(run.y.shape[0]):
             run.trial[i] = run.y[i] + run.stages[ERROR, i]
         run.counter[EVALUATIONS] += 1
         if evaluate(machine, run.clock[TIME], run.trial, run.scratch) == OK:
             smooth(machine, history, h, run.scratch)
-            error = size(run, run.stages[ERROR]) / tolerance
+            settled = size(run, run.stages[ERROR]) / tolerance
+            error = settling if settled < settling else settled
     return error
 
 

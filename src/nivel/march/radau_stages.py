@@ -34,8 +34,8 @@ MOST = 10
 SLOWEST = 0.9
 # derivatives at the stages are found anew where a change is more than this share of the one before
 CONTRACTS = 0.1
-# what is left is taken for no less than this share of a change
-SANGUINE = 1e-3
+# what is left is taken for no less than this share of a change, and of the last one for no less than that
+SANGUINE, LEAST_LEFT = 1e-3, 0.1
 FORGET = 0.8
 
 
@@ -195,7 +195,7 @@ def iterate(evaluate, machine, history, h, end, close):
             now = change / last if last > 0.0 else 0.0
             contraction = np.sqrt(now * contraction) if k > 1 and contraction < 1.0 else now
             numbers[CONTRACTION] = contraction
-            left = contraction / (1.0 - contraction) if contraction < 1.0 else np.inf
+            left = max(LEAST_LEFT, contraction / (1.0 - contraction)) if contraction < 1.0 else np.inf
             if change > close and fails(k, contraction, change / close):
                 break
         if max(change, energies) * min(left, 1.0) <= close:
@@ -261,7 +261,7 @@ def iterate_coupled(evaluate, machine, history, h, end, close):
             break
         if k > 0:
             contraction = change / last if last > 0.0 else 0.0
-            left = contraction / (1.0 - contraction) if contraction < 1.0 else np.inf
+            left = max(LEAST_LEFT, contraction / (1.0 - contraction)) if contraction < 1.0 else np.inf
         if max(change, energies) * min(left, 1.0) <= close:
             status = OK
             break

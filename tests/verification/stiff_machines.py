@@ -165,3 +165,100 @@ def rigid_double_pendulum(times):
         rtol=1e-12,
         atol=1e-12,
     ).y[0]
+
+
+def two_bars(stiffness, **settings):
+    """Two bars on hinges 0.8 m apart and a spring between their tips that begins with the force that a rigid rod would: they fall, turn by
+    most of a turn, all but stand still, and come back."""
+    crank = Body(name="crank", mass=1, inertia=(0.001, 0.01, 0.01), position=(0, 0.15, 0))
+    rocker = Body(name="rocker", mass=2.5, inertia=(0.05, 0.003, 0.05), position=(0.7, 0.3, 0))
+    tips = ((0, 0.3, 0), (0.6, 0.6, 0))
+    return MachineRecord(
+        name="two bars",
+        gravity=(0, -GRAVITY, 0),
+        bodies=(crank, rocker),
+        joints=(
+            Joint(name="left", type="revolute", bodies=("ground", "crank"), point=(0, 0, 0), axis=(0, 0, 1)),
+            Joint(name="right", type="revolute", bodies=("ground", "rocker"), point=(0.8, 0, 0), axis=(0, 0, 1)),
+        ),
+        forces=(
+            SpringDamper(
+                name="rod",
+                bodies=("crank", "rocker"),
+                points=tips,
+                stiffness=stiffness,
+                free_length=float(np.hypot(0.6, 0.3)),
+                preload=-_rod_between_bars(np.zeros(2), np.zeros(2))[1] * float(np.hypot(0.6, 0.3)),
+            ),
+        ),
+        simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
+    )
+
+
+def _rod_between_bars(angles, rates):
+    """Accelerations of the angles of `two_bars` with a rigid rod, and the multiplier of ½ (d·d - L²) = 0, d from tip to tip."""
+    (s, S), (c, C) = np.sin(angles), np.cos(angles)
+    inertia = np.array([0.01 + 0.15**2, 0.05 + 2.5 * (0.1**2 + 0.3**2)])
+    weight = GRAVITY * np.array([0.15 * s, 2.5 * (0.1 * C + 0.3 * S)])
+    d = np.array([0.8 - 0.2 * C - 0.6 * S + 0.3 * s, -0.2 * S + 0.6 * C - 0.3 * c])
+    along = np.array([[0.3 * c, 0.3 * s], [0.2 * S - 0.6 * C, -0.2 * C - 0.6 * S]])
+    turning = np.array([[-0.3 * s, 0.3 * c], [0.2 * C + 0.6 * S, 0.2 * S - 0.6 * C]])
+    speed, gradient = rates @ along, along @ d
+    asked = -(speed @ speed) - rates**2 @ (turning @ d)
+    multiplier = (asked - gradient @ (weight / inertia)) / (gradient @ (gradient / inertia))
+    return (weight + gradient * multiplier) / inertia, multiplier
+
+
+def rigid_two_bars(times):
+    """Angles of the crank and the rocker of the same with a rigid rod, rows of the array."""
+    from scipy.integrate import solve_ivp
+
+    return solve_ivp(
+        lambda t, y: np.append(y[2:], _rod_between_bars(y[:2], y[2:])[0]),
+        (0, times[-1]),
+        np.zeros(4),
+        method="DOP853",
+        t_eval=times,
+        rtol=1e-12,
+        atol=1e-12,
+    ).y[:2]
+
+
+def driven_bar(stiffness, **settings):
+    """A crank of 0.1 m, driven at 6 rad/s, a spring of 0.5 m for a coupler, and a rocker: drawn so that the rocker begins with the
+    acceleration that a rigid coupler would give it, (6/s)² (0.1 m) (1 + 0.1/0.5)/0.4 m."""
+    moment = (0.02 + 1.5 * (0.05**2 + 0.2**2)) * 10.8 + 1.5 * GRAVITY * 0.05
+    return MachineRecord(
+        name="driven bar",
+        gravity=(0, -GRAVITY, 0),
+        bodies=(
+            Body(name="crank", mass=1, inertia=(0.001, 0.01, 0.01), angular_velocity=(0, 0, 6)),
+            Body(name="rocker", mass=1.5, inertia=(0.02, 0.003, 0.02), position=(0.55, -0.2, 0)),
+        ),
+        joints=(
+            Joint(name="main", type="revolute", bodies=("ground", "crank"), point=(0, 0, 0), axis=(0, 0, 1)),
+            Joint(name="pivot", type="revolute", bodies=("ground", "rocker"), point=(0.5, -0.4, 0), axis=(0, 0, 1)),
+        ),
+        forces=(
+            SpringDamper(
+                name="coupler",
+                bodies=("crank", "rocker"),
+                points=((0.1, 0, 0), (0.6, 0, 0)),
+                stiffness=stiffness,
+                free_length=0.5,
+                preload=moment / 0.4,
+            ),
+        ),
+        drivers=(Driver(name="motor", coordinate="main", value="6*time"),),
+        simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
+    )
+
+
+def rigid_driven_bar(times):
+    """Angle of the rocker of the same with a rigid coupler, where the circles about the tip of the crank and the pivot meet; zero at
+    the start."""
+    x, y = 0.5 - 0.1 * np.cos(6 * times), -0.4 - 0.1 * np.sin(6 * times)
+    # tip of the rocker: pivot + R(angle) (0.1, 0.4), and (x, y) is from the tip of the crank to the pivot
+    reach = np.hypot(0.1, 0.4)
+    towards = (0.25 - x**2 - y**2 - reach**2) / (2 * reach)
+    return np.arctan2(y, x) + np.arccos(towards / np.hypot(x, y)) - np.arctan2(0.4, 0.1)

@@ -14,20 +14,23 @@ from typing import Any
 
 import numpy as np
 
-from nivel.analysis.closing import DENSE_ENTRIES, close_positions
+from nivel.analysis.closing import close_positions
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.redundancy import scaled_jacobian
+from nivel.errors import ModelError
 from nivel.system.system import Array, System
 
 # How far beyond a failure a jam is looked for, in steps: methods that solve for accelerations fail some steps before it.
 AHEAD = 50.0
 # How far before it, where joints are open already, in powers of ten of a step.
 BACK = 6
-# Halvings of the time between a position that can be closed and one that cannot.
-HALVINGS = 20
+# Halvings of the time between a position that can be closed and one that cannot; after so many it shows whether it is a singular one.
+HALVINGS, SHOWS = 20, 4
+# Iterations that close positions from nearby, at most, and entries of C_q with which many of them are still quick.
+ITERATIONS, MOST_ENTRIES = 30, 200_000
 # The least singular value of C_q falls as the square root of the time to the jam. This share of what it was at the start is near it.
 LOST = 0.05
-# And where the run failed, if that is not in the step that leads beyond the jam, it has fallen to this.
+# And soon before, as where the run failed if that is not in the step that leads beyond the jam, it has fallen to this.
 FALLEN = 0.5
 # Rows take part in what is lost with at least this share of the one that does most.
 TAKES_PART = 0.1
@@ -37,9 +40,8 @@ TAKES_PART = 0.1
 class Jam:
     """The position beyond which joints cannot be closed.
 
-    time : [s]. joints, drivers : with rows that depend on each other there; couplings are with the joints. later : a time beyond it [s], at
-    which `row` is open by `gap` [its unit], and most of all rows, when all are as nearly closed as was found. place : joint and coordinate
-    of that row, in words.
+    time : [s]. joints, drivers : whose rows depend on each other there; couplings are with the joints. later : a time beyond it [s], at
+    which `row`, in words, is open by `gap`, with its unit, and most of all rows, when all are as nearly closed as was found.
     """
 
     time: float
@@ -52,11 +54,12 @@ class Jam:
     @property
     def message(self) -> str:
         """When and where the machine jams."""
-        held = (
-            f"{_listed(self.joints)} hold {_listed(self.drivers)}" if self.drivers else f"{_listed(self.joints)} lock"
-        )
+        verb = "are" if len(self.drivers) > 1 else "is"
+        held = f"{_listed(self.drivers)} {verb} held by {_listed(self.joints)}"
+        if not self.drivers:
+            held = f"{_listed(self.joints)} depend on each other"
         return (
-            f"the machine jams at t = {self.time:.6g} s, in a singular position beyond which its joints cannot be closed: {held} there. "
+            f"the machine jams at t = {self.time:.6g} s, in a singular position beyond which its joints cannot be closed: there {held}. "
             f"At t = {self.later:.6g} s {self.row} would be open by {self.gap}"
         )
 
@@ -75,7 +78,7 @@ def can_be_asked(prepared: Prepared) -> bool:
     system = prepared.absolute.system
     entries = system.machine_rows * 6 * system.body_count
     sliding = len(prepared.motion.system.record.tree.slider) > 0
-    return 0 < entries <= DENSE_ENTRIES and not sliding and not len(prepared.motion.system.modes)
+    return 0 < entries <= MOST_ENTRIES and not sliding and not len(prepared.motion.system.modes)
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of states that may be beyond all bounds
@@ -90,6 +93,8 @@ def find_jam(prepared: Prepared, time: float, step: float, short: float, end: fl
     kept = [(array, array.copy()) for array in _arrays(prepared.motion.system.record)]
     try:
         return _Nearby(prepared, time, y).jam(step, max(step, short), end)
+    except (ModelError, np.linalg.LinAlgError):  # positions so far apart that nothing can be computed with them
+        return None
     finally:
         for array, numbers in kept:
             array[...] = numbers
@@ -114,7 +119,7 @@ class _Nearby:
         """Whether all rows can be closed at t from y, and the state in which they are, or the best one found."""
         near = y.copy()
         self.absolute.system.record.coordinates.reference[:] = self.reference
-        return close_positions(self.absolute, t, near), near
+        return close_positions(self.absolute, t, near, iterations=ITERATIONS), near
 
     def jam(self, step: float, unit: float, end: float) -> Jam | None:
         """The first one from here on, or where joints are open already, the last one before. unit : at least a step [s]."""
@@ -133,7 +138,9 @@ class _Nearby:
     def between(self, last: float, later: float, q: Array) -> Jam | None:
         """The jam between `last`, when q closes all rows, and `later`, when nothing does; None where the rows stay independent."""
         open_at = later
-        for _ in range(HALVINGS):
+        for k in range(HALVINGS):
+            if k == SHOWS and not self.has_lost(last, q, FALLEN):
+                return None
             half = 0.5 * (last + open_at)
             closed, nearer = self.closed(half, q)
             if closed:
@@ -199,4 +206,5 @@ def _is_driven(row: str) -> bool:
 
 
 def _listed(names: tuple[str, ...]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+    """Names in a sentence."""
+    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1]))) if names else "the joints"

@@ -58,9 +58,12 @@ class Wishes:
     aims: tuple[Aim, ...] = ()
 
 
-def close_positions(motion: MotionEquations, t: float, y: Array, wishes: Wishes | None = None) -> bool:
+def close_positions(
+    motion: MotionEquations, t: float, y: Array, wishes: Wishes | None = None, *, iterations: int = ITERATIONS
+) -> bool:
     """Move the positions in the state y as little as possible onto the constraints, in place; whether all rows are closed.
 
+    iterations : at most, and more where they are far open.
     Where they cannot be closed, y is the best position found. The record is left evaluated at y; measured angles are followed.
     """
     system = motion.system
@@ -77,7 +80,7 @@ def close_positions(motion: MotionEquations, t: float, y: Array, wishes: Wishes 
         errors = (aim.error(y[: system.positions]) for aim in aims)
         return np.concatenate([C[rows], coordinates.value[chosen] - wanted, *errors])
 
-    best, least, steps, budget = y.copy(), np.inf, 0, ITERATIONS
+    best, least, steps, budget = y.copy(), np.inf, 0, iterations
     while steps < budget:
         steps += 1
         _evaluate_and_follow(motion, t, y)

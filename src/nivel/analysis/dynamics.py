@@ -14,14 +14,28 @@ import numpy as np
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.history import start_history
 from nivel.analysis.interrupt import interruptible
+from nivel.analysis.jam import Jam, can_be_asked, find_jam
 from nivel.analysis.listener import Progress
 from nivel.analysis.outcome import failure
 from nivel.analysis.penalties import feedback
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.settings import RunSettings
 from nivel.kernels.handle import Handle
-from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE
+from nivel.kernels.status import (
+    BUDGET_SPENT,
+    BUFFER_FULL,
+    CONTRADICTION,
+    DONE,
+    MULTIPLIERS_NOT_FOUND,
+    NOT_CLOSED,
+    NOT_CONVERGED,
+    NOT_FINITE,
+    OPEN,
+    SINGULAR,
+    STEP_TOO_SMALL,
+)
 from nivel.march.run import (
+    ACCEPTED,
     BUDGET,
     CONSERVE,
     DONE_STEPS,
@@ -30,6 +44,7 @@ from nivel.march.run import (
     FACTORISATIONS,
     FRAMES,
     ITERATIONS,
+    OPEN_LIMIT,
     REJECTED,
     SHOWN,
     STEP,
@@ -46,6 +61,8 @@ from nivel.system.system import System
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
 CHUNK = 0.05
 GOES_ON = (BUDGET_SPENT, BUFFER_FULL)
+# What a method may end with near a position that its machine cannot pass.
+BEFORE_A_JAM = (SINGULAR, NOT_CLOSED, OPEN, NOT_CONVERGED, NOT_FINITE, STEP_TOO_SMALL, MULTIPLIERS_NOT_FOUND)
 
 
 @dataclass
@@ -84,12 +101,20 @@ def march(
     advance = _compiled_loop(prepared, run, stabilisation)
     finished = Finished("done")
     wall = clock_of_python.perf_counter()
-    status, loop_seconds = _march_in_chunks(advance, system, run, sinks, finished, progress, chunk_steps)
+    status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
+    while status in GOES_ON and finished.outcome == "done":
+        status, spent = _march_in_chunks(advance, system, run, sinks, finished, progress, chunk_steps)
+        loop_seconds += spent
+        if status in BEFORE_A_JAM:
+            jam = _jam(prepared, settings, run)
+        if status == OPEN and jam is None and can_be_asked(prepared):
+            _accept_open(prepared.motion, run)
+            status = BUDGET_SPENT
     if run.counter[STOPPED]:
         finished.stopped_by = system.events[run.counter[STOPPED] - 1]
     if status not in (*GOES_ON, DONE):
         finished.outcome = "failed"
-        finished.failure = _failure(prepared, settings, run, status)
+        finished.failure = _failure(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
             _keep_last(prepared.motion, run, sinks)
     finished.timing = {
@@ -156,9 +181,28 @@ def _next_budget(budget: int, spent: float) -> int:
     return max(1, budget // 2)
 
 
-def _failure(prepared: Prepared, settings: RunSettings, run: Run, status: int) -> tuple[str, str, float]:
+def _jam(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
+    """The jam in or beside the step after the last accepted state."""
+    time = float(run.clock[ACCEPTED])
+    step = max(float(run.clock[STEP]), float(run.clock[TIME]) - time)
+    return find_jam(prepared, time, step, settings.step, settings.duration, run.previous)
+
+
+def _accept_open(motion: MotionEquations, run: Run) -> None:
+    """Let the run go on with joints that are open, as they can be closed: they have drifted. Looked at again when that has doubled."""
+    motion.evaluate(float(run.clock[TIME]), run.y)
+    constraints = motion.system.record.constraints
+    share = float(np.max(np.abs(constraints.C) / constraints.scale))
+    run.clock[OPEN_LIMIT] = 2.0 * max(share, run.clock[OPEN_LIMIT]) if np.isfinite(share) else np.inf
+
+
+def _failure(
+    prepared: Prepared, settings: RunSettings, run: Run, status: int, jam: Jam | None
+) -> tuple[str, str, float]:
     """(message, advice, time [s]) of a run that failed."""
-    facts, time = prepared.integrator, float(run.clock[TIME])
+    facts, time = prepared.integrator, float(run.clock[ACCEPTED])
+    if jam is not None:
+        return f"stopped at t = {time:.6g} s: {jam.message}", jam.advice, time
     explicit = settings.steps > 0 and not (facts.implicit or facts.residual)
     message, advice = failure(
         prepared.motion,
@@ -187,7 +231,7 @@ def _counts(system: System, run: Run) -> dict[str, float]:
 
 def _keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
     """Give the last accepted state before a failure, where it lies after the last frame and its accelerations are numbers."""
-    t, feedback = float(run.clock[TIME]), motion.system.record.control.stabilise[:2]
+    t, feedback = float(run.clock[ACCEPTED]), motion.system.record.control.stabilise[:2]
     if not t > run.clock[SHOWN] or not np.isfinite(run.previous).all():
         return
     kept = feedback.copy()

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.implicit import constraint_index
+from nivel.analysis.jam import can_be_asked
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.settings import RunSettings
 from nivel.kernels.record import WATCH
-from nivel.kernels.saddle import MOST_UNSETTLED
+from nivel.kernels.saddle import CONTRADICTORY, MOST_UNSETTLED
 from nivel.march.catalogue import IntegratorFacts
 from nivel.march.run import (
     ALL_STEPS,
@@ -27,6 +28,7 @@ from nivel.march.run import (
     LAST_FRAME,
     MOST_ITERATIONS,
     NEWTON,
+    OPEN_LIMIT,
     ORDER,
     SHOWN,
     STEP,
@@ -34,6 +36,8 @@ from nivel.march.run import (
     TOLERANCE,
     Run,
 )
+from nivel.march.stabilise.catalogue import STABILISATIONS
+from nivel.motion.direct import VISIBLE
 from nivel.results.held import STILL
 from nivel.system.partition import forget
 from nivel.system.system import Array, System
@@ -44,6 +48,8 @@ EVENT_ROWS = 1000
 STICK_STEPS = 2.0
 # Fixed steps that make a time in which a machine moves by its own length, at least.
 LONG = 1e4
+# Positions open by more than this share of the scales of their rows are beyond all drift, where nobody can tell whether the machine jams.
+TORN = 0.1
 
 
 def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
@@ -60,7 +66,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
     values = _watch(system, chosen=settings.steps == 0)
     count[SWITCHED] = system.record.watched.followed[0]
     return Run(
-        clock=_clock(settings),
+        clock=_clock(settings, _open_limit(prepared, settings)),
         counter=count,
         y=y,
         rate=np.zeros_like(y),
@@ -82,14 +88,22 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
     )
 
 
-def _clock(settings: RunSettings) -> Array:
+def _clock(settings: RunSettings, open_limit: float) -> Array:
     clock = np.zeros(CLOCKS)
     clock[STEP], clock[END], clock[INTERVAL] = settings.step, settings.duration, settings.output_interval
     clock[TOLERANCE], clock[LARGEST] = settings.tolerance or 0.0, settings.largest_step
     clock[SHOWN] = -np.inf
+    clock[OPEN_LIMIT] = open_limit
     if settings.corrector is not None:
         clock[CORRECTOR_TOLERANCE] = settings.corrector.tolerance
     return clock
+
+
+def _open_limit(prepared: Prepared, settings: RunSettings) -> float:
+    """The share of the scales of the constraints by which positions may be open until it is asked whether the machine jams."""
+    if not can_be_asked(prepared):
+        return TORN
+    return VISIBLE if STABILISATIONS[settings.stabilisation].CORRECTS else CONTRADICTORY
 
 
 def _counters(settings: RunSettings, facts: IntegratorFacts) -> NDArray[np.int64]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.fast_beams import too_fast
 from nivel.analysis.growth import grown_motion
+from nivel.analysis.jam import named_row, unit_of
 from nivel.analysis.unknowns import unknown_name
 from nivel.kernels.status import (
     BRISTLE_TOO_FAST,
@@ -20,9 +21,11 @@ from nivel.kernels.status import (
     FRICTION_DIVERGES,
     MULTIPLIERS_NOT_FOUND,
     NO_MASS_LEFT,
+    NOT_CLOSED,
     NOT_CONVERGED,
     NOT_FINITE,
     NOT_ON_RAIL,
+    OPEN,
     ROTATION_SINGULAR,
     SINGULAR,
 )
@@ -77,6 +80,8 @@ def failure(
             told = _no_step(motion, status, time, step, y, chosen_by)
         elif told is None and status == SINGULAR:
             told = _singular(motion, number, time, step, y)
+        elif told is None and status in (NOT_CLOSED, OPEN):
+            told = _open(motion, number, status, time, step, y)
         elif told is None and status == NOT_CONVERGED and len(motion.system.record.residual.vdot):
             told = _no_solution(motion, number, time, step, y)
         elif told is None:
@@ -131,6 +136,22 @@ def _singular(motion: MotionEquations, number: int, time: float, step: float, y:
         f"Look at {_owner(row)} in this position: two links in line, or a loop folded flat? Start the run elsewhere, "
         f"or move a joint by a small amount so that the machine does not pass through it exactly. "
         f"A body whose inertia is many orders too small for its mass looks the same."
+    )
+    return message, advice
+
+
+def _open(motion: MotionEquations, number: int, status: int, time: float, step: float, y: Array) -> tuple[str, str]:
+    """Where joints cannot be put together, or are open beyond what drift can be, and positions do not tell why."""
+    motion.evaluate(time, y)
+    found = (
+        f"cannot be closed by changes of positions, {named_row(motion.system, number)} least of all"
+        if status == NOT_CLOSED
+        else "are open by a tenth of the machine, or of their directions"
+    )
+    message = f"after a step of {step:.3g} s from here joints {found}; {_worst(motion)}"
+    advice = (
+        f"The step is too long for this motion, or a driver pulls the machine to where it cannot follow: try --step {step / 10:.3g}. If it "
+        f"stops near this time again, the machine jams in a singular position: look at what the drivers prescribe."
     )
     return message, advice
 
@@ -349,11 +370,7 @@ def _worst(motion: MotionEquations) -> str:
     violation = np.abs(record.constraints.C)
     if len(violation) and np.any(np.isfinite(violation)):
         row = int(np.nanargmax(violation / record.constraints.scale))
-        units = {"m": "m", "rad": "rad"}.get(system.row_units[row], "(a cosine)")
-        where = f"the largest violation before it is {violation[row]:.3g} {units} at {system.rows[row]}"
-        joint = system.rows[row].split(".")[0]
-        rates = [name for name in system.layout.coordinates["joint_coordinate"] if name.startswith(f"{joint}.")]
-        return f"{where} (joint {joint}, coordinate {', '.join(rates)})" if rates else where
+        return f"the largest violation before it is {violation[row]:.3g} {unit_of(system, row)} at {named_row(system, row)}"
     accelerations = np.nan_to_num(np.linalg.norm(record.bodies.Rddot[: system.body_count], axis=1), nan=np.inf)
     body = int(np.argmax(accelerations))
     return f"the body with the largest acceleration before it is {system.bodies[body]}"

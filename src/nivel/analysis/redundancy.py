@@ -42,7 +42,7 @@ def analyse(motion: MotionEquations, t: float, y: Array, modes: ModalRows | None
     freedoms = system.freedoms + (modes.count if modes is not None else 0)
     if motion.evaluate(t, y)[0] == OK and _certainly_independent(motion):
         return Redundancy(freedoms - rows, rows, (), (), ())
-    J = _scaled(motion, modes)
+    J = scaled_jacobian(motion, modes)
     rank, dependent = _dependent_rows(J)
     if not dependent:
         return Redundancy(freedoms - rows, rows, (), (), ())
@@ -68,7 +68,7 @@ def _certainly_independent(motion: MotionEquations) -> bool:
     return bool(np.all(saddle.Dinv * diagonal < 1.0 / CERTAIN))
 
 
-def _scaled(motion: MotionEquations, modes: ModalRows | None = None) -> Array:
+def scaled_jacobian(motion: MotionEquations, modes: ModalRows | None = None) -> Array:
     """C_q with lengths in units of the machine's length and rows of unit length; the columns of modes behind the others."""
     J = motion.jacobian().reshape(motion.system.machine_rows, -1, 6).copy()
     J[:, :, :3] *= motion.system.size
@@ -97,7 +97,7 @@ def _rank_nearby(motion: MotionEquations, t: float, y: Array, rank: int, modes: 
     """Rank a little aside along a free motion of the rigid machine, joints closed again: larger than `rank` where only this position is
     singular."""
     system = motion.system
-    _, sizes, Vt = np.linalg.svd(_scaled(motion))
+    _, sizes, Vt = np.linalg.svd(scaled_jacobian(motion))
     free = Vt[int(np.sum(sizes > DEPENDENT)) :]
     if not len(free):
         return rank
@@ -116,4 +116,4 @@ def _rank_nearby(motion: MotionEquations, t: float, y: Array, rank: int, modes: 
         # a motion of the first order only, as of two links stretched out between two pins: closing leads back
         aside[: system.positions] = opened
         motion.evaluate(t, aside)
-    return max(rank, int(np.sum(np.linalg.svd(_scaled(motion, modes), compute_uv=False) > ASIDE**2)))
+    return max(rank, int(np.sum(np.linalg.svd(scaled_jacobian(motion, modes), compute_uv=False) > ASIDE**2)))

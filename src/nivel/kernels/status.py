@@ -15,4 +15,6 @@ EVENT_NOT_FINITE = 12  # the value of an event is no longer a number: control.fa
 NOT_CONVERGED = 10  # an implicit step has no solution that its iteration finds
 STEP_TOO_SMALL = 11  # the error of even the smallest step is above the tolerance
 NOT_ON_RAIL = 15  # a slider has no place on its beam, or is beyond its end: control.failure is its coordinate
+NOT_CLOSED = 16  # positions cannot be put back onto the constraints: control.failure is the row farthest open
+OPEN = 17  # positions of an accepted state are farther open than run.clock[OPEN_LIMIT]: nothing yet says whether that is drift
 NO_MASS_LEFT = 14  # the modes of a flexible body take up all the mass of its frame: control.failure is its number

@@ -7,13 +7,14 @@ from nivel.kernels.handle import address_type
 from nivel.kernels.hook import call_hook
 from nivel.kernels.observe import accept, observe
 from nivel.kernels.record import GO_ON, LEAVE, PASS, record_at
-from nivel.kernels.saddle import contradicts
-from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK
+from nivel.kernels.saddle import contradicts, exceeds
+from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, CONTRADICTION, DONE, NOT_FINITE, OK, OPEN
 from nivel.kernels.tree import has_passed
 from nivel.march.dense import cubic, frame_time, inside
 from nivel.march.energy import conserve
 from nivel.march.events import begin_events, find_events, hand_out_events
 from nivel.march.run import (
+    ACCEPTED,
     ALL_STEPS,
     BUDGET,
     CONSERVE,
@@ -28,6 +29,7 @@ from nivel.march.run import (
     KNOWN,
     LAST_FRAME,
     LENGTH,
+    OPEN_LIMIT,
     REACHED,
     RESTART,
     SHOWN,
@@ -161,17 +163,21 @@ def accept_state(evaluate, machine, history, due):
     """Evaluate at the state reached, keep what has to be kept, write a frame if one is due. Returns a status."""
     run = run_at(history)
     clock, counter = run.clock, run.counter
+    record = record_at(machine)
+    constraints = record.constraints
     status = evaluate_accepted(evaluate, machine, history)
+    if status == OK and exceeds(record.saddle, constraints.C, constraints.scale, clock[OPEN_LIMIT]):
+        return OPEN
     if status == OK and counter[CONSERVE] == 1 and counter[DONE_STEPS] > 0:
         status = conserve(evaluate, machine, history)
     for i in range(run.y.shape[0]):
         run.previous[i] = run.y[i]
+    clock[ACCEPTED] = clock[TIME]
     if status != OK:
         return status
     if not finite(run.rate):
         return NOT_FINITE
-    record = record_at(machine)
-    if contradicts(record.saddle, record.constraints, record.control.failure):
+    if contradicts(record.saddle, constraints, record.control.failure):
         return CONTRADICTION
     counter[EVALUATED] = 1
     accept(machine, clock[TIME])

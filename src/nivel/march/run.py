@@ -12,8 +12,8 @@ from nivel.kernels.record import correct_signature, evaluate_signature
 
 # entries of Run.clock
 TIME, STEP, START, END, REACHED, INTERVAL, TOLERANCE, LARGEST, CORRECTOR_TOLERANCE = 0, 1, 2, 3, 4, 5, 6, 7, 8
-LENGTH, SHOWN = 9, 10
-CLOCKS = 11
+LENGTH, SHOWN, ACCEPTED, OPEN_LIMIT = 9, 10, 11, 12
+CLOCKS = 13
 # entries of Run.counter
 DONE_STEPS, ALL_STEPS, EVERY, FRAMES, LAST_FRAME, BUDGET, EVALUATIONS, EVALUATED = 0, 1, 2, 3, 4, 5, 6, 7
 ITERATIONS, REJECTED, RESTART, DENSE, INSIDE, STOPPED, EVENTS, ORDER, MOST_ITERATIONS, NEWTON = (
@@ -36,7 +36,8 @@ class Run(NamedTuple):
     """
 
     # TIME of the accepted state, STEP, START, END, REACHED by the last step, INTERVAL of frames [s]; TOLERANCE, LARGEST step, ...;
-    # LENGTH of the step that `dense` describes, longer than the one done where that ends at an event; SHOWN, time of the last frame
+    # LENGTH of the step that `dense` describes, longer than the one done where that ends at an event; SHOWN, time of the last frame;
+    # ACCEPTED, time of the state `previous`; OPEN_LIMIT, share of the scales of the constraints beyond which positions are not accepted
     clock: F1
     # steps done, steps in all (0: not known), steps between frames, frames in the buffer, number of the last frame, budget, evaluations,
     # whether `rate` is that of y; corrector iterations, steps rejected, whether the history must be forgotten, rows of `dense` in use,

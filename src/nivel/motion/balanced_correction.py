@@ -14,7 +14,7 @@ from nivel.kernels.record import NONE, RESIDUAL, correct_signature, record_at
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.status import OK
 from nivel.motion.balanced import normalise
-from nivel.motion.direct import MAX_CORRECTIONS, NOTHING, POSITIONS, VELOCITIES, open_level
+from nivel.motion.direct import LOST, MOST_CORRECTIONS, NOTHING, POSITIONS, VELOCITIES, name_lost, open_level
 
 
 @stage
@@ -55,7 +55,7 @@ def correct(machine, t, y):
     if saddle.row.shape[0] == 0:
         return OK
     factorised = False
-    for attempt in range(MAX_CORRECTIONS + 1):
+    for attempt in range(MOST_CORRECTIONS + 1):
         for i in range(y.shape[0]):
             own.y[i] = y[i]
         status = call_hook(machine, RESIDUAL, 0, t)
@@ -64,6 +64,8 @@ def correct(machine, t, y):
         what = open_level(machine, attempt)
         if what == NOTHING:
             return OK
+        if what == LOST:
+            return name_lost(machine)
         if not factorised:
             status = find_matrix(machine, t)
             if status != OK:

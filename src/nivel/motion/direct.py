@@ -2,29 +2,74 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from nivel.kernels.analytic import real
 from nivel.kernels.compile import shared, stage
 from nivel.kernels.record import record_at
-from nivel.kernels.saddle import correction, exceeds
-from nivel.kernels.status import OK
+from nivel.kernels.saddle import CONTRADICTORY, correction, exceeds
+from nivel.kernels.status import NOT_CLOSED, OK
 
-MAX_CORRECTIONS = 3
+# Passes for the positions; and as many where they are visibly open after these, in a step too long or a position that there is not.
+MAX_CORRECTIONS, MOST_CORRECTIONS = 3, 20
+# What is visible, as a share of the scales of the rows.
+VISIBLE = 1e-6
 # Violations up to this many times the tolerance leave the factor of S good enough for the next pass.
 NEAR = 1e7
 # what is changed
-NOTHING, VELOCITIES, POSITIONS = 0, 1, 2
+NOTHING, VELOCITIES, POSITIONS, LOST = 0, 1, 2, 3
+
+
+@stage
+def are_open(machine, limit):
+    """Whether positions are open by more than `limit`, a share of the scales of their rows, that the passes are to close.
+
+    Of redundant rows those count that were kept in the last factor: what the others are open by is left to the loop
+    (`nivel.kernels.saddle.contradicts`). Penalties close no rows that contradict each other, and leave them as far open.
+    """
+    record = record_at(machine)
+    saddle, constraints = record.saddle, record.constraints
+    if saddle.dense.shape[0] == 0:
+        least = limit if saddle.shift[0] == 0.0 else max(limit, CONTRADICTORY)
+        return exceeds(saddle, constraints.C, constraints.scale, least)
+    for k in range(np.int64(record.control.rank[0])):
+        row = saddle.row[saddle.order[saddle.pivot[k]]]
+        if np.abs(real(constraints.C[row])) > limit * constraints.scale[row]:
+            return True
+    return False
 
 
 @stage
 def open_level(machine, attempt):
     """What pass `attempt` has to change in the state last read.
 
-    A level within its tolerance (control.stabilise[2:4], as a share of the row's scale) is left alone.
+    A level within its tolerance (control.stabilise[2:4], as a share of the row's scale) is left alone. LOST where positions are far open
+    after all passes: of those that are less open the loop asks whether the machine jams.
     """
     record = record_at(machine)
     saddle, constraints, tolerance = record.saddle, record.constraints, record.control.stabilise
-    if attempt < MAX_CORRECTIONS and exceeds(saddle, constraints.C, constraints.scale, tolerance[2]):
-        return POSITIONS
+    if exceeds(saddle, constraints.C, constraints.scale, tolerance[2]):
+        if attempt < MAX_CORRECTIONS:
+            return POSITIONS
+        if are_open(machine, VISIBLE):
+            if attempt < MOST_CORRECTIONS:
+                return POSITIONS
+            if are_open(machine, CONTRADICTORY):
+                return LOST
     return VELOCITIES if exceeds(saddle, constraints.Cdot, constraints.scale, tolerance[3]) else NOTHING
+
+
+@stage
+def name_lost(machine):
+    """Leave the row that is farthest open in control.failure. Returns NOT_CLOSED."""
+    record = record_at(machine)
+    constraints, rows = record.constraints, record.saddle.row
+    largest = 0.0
+    for k in range(rows.shape[0]):
+        share = np.abs(real(constraints.C[rows[k]])) / constraints.scale[rows[k]]
+        if share > largest:
+            largest, record.control.failure[0] = share, rows[k]
+    return NOT_CLOSED
 
 
 @stage
@@ -53,13 +98,15 @@ def correct_levels(machine, t, y, width, read, factorise, change):
     change(machine, y, what), which applies the change in z to the level `what`. The first two return a status.
     """
     factorised = False
-    for attempt in range(MAX_CORRECTIONS + 1):
+    for attempt in range(MOST_CORRECTIONS + 1):
         status = read(machine, t, y)
         if status != OK:
             return status
         what = open_level(machine, attempt)
         if what == NOTHING:
             return OK
+        if what == LOST:
+            return name_lost(machine)
         if not factorised:
             status = factorise(machine, y)
             if status != OK:

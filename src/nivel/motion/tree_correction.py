@@ -7,7 +7,16 @@ import numpy as np
 from nivel.kernels.compile import shared
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
-from nivel.motion.direct import MAX_CORRECTIONS, NOTHING, VELOCITIES, find_correction, is_near, open_level
+from nivel.motion.direct import (
+    LOST,
+    MOST_CORRECTIONS,
+    NOTHING,
+    VELOCITIES,
+    find_correction,
+    is_near,
+    name_lost,
+    open_level,
+)
 from nivel.motion.tree_motion import WIDTH, normalise, write_positions
 
 
@@ -24,13 +33,15 @@ def correct_tree(machine, t, y, read, factorise, accelerate):
     if record.saddle.row.shape[0] == 0:
         return OK
     factorised = False
-    for attempt in range(MAX_CORRECTIONS + 1):
+    for attempt in range(MOST_CORRECTIONS + 1):
         status = read(machine, t, y)
         if status != OK:
             return status
         what = open_level(machine, attempt)
         if what == NOTHING:
             return OK
+        if what == LOST:
+            return name_lost(machine)
         if not factorised:
             status = factorise(machine)
             if status != OK:

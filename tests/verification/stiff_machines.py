@@ -224,41 +224,75 @@ def rigid_two_bars(times):
     ).y[:2]
 
 
-def driven_bar(stiffness, **settings):
-    """A crank of 0.1 m, driven at 6 rad/s, a spring of 0.5 m for a coupler, and a rocker: drawn so that the rocker begins with the
-    acceleration that a rigid coupler would give it, (6/s)² (0.1 m) (1 + 0.1/0.5)/0.4 m."""
-    moment = (0.02 + 1.5 * (0.05**2 + 0.2**2)) * 10.8 + 1.5 * GRAVITY * 0.05
+def driven_rocker(stiffness, value="3*(1-cos(2*time))", speed=0.0, **settings):
+    """A crank of 0.1 m turned by a driver and a rocker, between their tips a spring of 0.5 m for a coupler, drawn at the start as a rigid
+    one would be when the crank turns steadily with this speed [rad/s]: then the rocker has speed² (0.1 m) (1 + 0.1/0.5)/0.4 m."""
+    moment = (0.02 + 1.5 * (0.05**2 + 0.2**2)) * 0.3 * speed**2 + 1.5 * GRAVITY * 0.05
+    bodies = (
+        Body(name="crank", mass=1, inertia=(0.001, 0.01, 0.01)),
+        Body(name="rocker", mass=1.5, inertia=(0.02, 0.003, 0.02), position=(0.55, -0.2, 0)),
+    )
+    hinges = (
+        Joint(name="main", type="revolute", bodies=("ground", "crank"), point=(0, 0, 0), axis=(0, 0, 1)),
+        Joint(name="pivot", type="revolute", bodies=("ground", "rocker"), point=(0.5, -0.4, 0), axis=(0, 0, 1)),
+    )
+    coupler = SpringDamper(
+        name="coupler",
+        bodies=("crank", "rocker"),
+        points=((0.1, 0, 0), (0.6, 0, 0)),
+        stiffness=stiffness,
+        free_length=0.5,
+        preload=moment / 0.4,
+    )
     return MachineRecord(
-        name="driven bar",
+        name="driven rocker",
         gravity=(0, -GRAVITY, 0),
-        bodies=(
-            Body(name="crank", mass=1, inertia=(0.001, 0.01, 0.01), angular_velocity=(0, 0, 6)),
-            Body(name="rocker", mass=1.5, inertia=(0.02, 0.003, 0.02), position=(0.55, -0.2, 0)),
-        ),
-        joints=(
-            Joint(name="main", type="revolute", bodies=("ground", "crank"), point=(0, 0, 0), axis=(0, 0, 1)),
-            Joint(name="pivot", type="revolute", bodies=("ground", "rocker"), point=(0.5, -0.4, 0), axis=(0, 0, 1)),
-        ),
-        forces=(
-            SpringDamper(
-                name="coupler",
-                bodies=("crank", "rocker"),
-                points=((0.1, 0, 0), (0.6, 0, 0)),
-                stiffness=stiffness,
-                free_length=0.5,
-                preload=moment / 0.4,
-            ),
-        ),
-        drivers=(Driver(name="motor", coordinate="main", value="6*time"),),
+        bodies=bodies,
+        joints=hinges,
+        drivers=(Driver(name="motor", coordinate="main", value=value),),
+        forces=(coupler,),
         simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
     )
 
 
-def rigid_driven_bar(times):
-    """Angle of the rocker of the same with a rigid coupler, where the circles about the tip of the crank and the pivot meet; zero at
-    the start."""
-    x, y = 0.5 - 0.1 * np.cos(6 * times), -0.4 - 0.1 * np.sin(6 * times)
-    # tip of the rocker: pivot + R(angle) (0.1, 0.4), and (x, y) is from the tip of the crank to the pivot
-    reach = np.hypot(0.1, 0.4)
-    towards = (0.25 - x**2 - y**2 - reach**2) / (2 * reach)
-    return np.arctan2(y, x) + np.arccos(towards / np.hypot(x, y)) - np.arctan2(0.4, 0.1)
+def rigid_rocker(crank_angle):
+    """Place of the rocker's centre for a rigid coupler: its tip is where circles about the crank's tip and the pivot cross."""
+    tip, pivot = 0.1 * np.stack((np.cos(crank_angle), np.sin(crank_angle)), 1), np.array([0.5, -0.4])
+    between = pivot - tip
+    apart = np.linalg.norm(between, axis=1, keepdims=True)
+    along = (apart**2 + 0.5**2 - 0.17) / (2 * apart)
+    across = np.sqrt(0.5**2 - along**2)
+    unit = between / apart
+    end = tip + along * unit + across * np.stack((-unit[:, 1], unit[:, 0]), 1)
+    # of the rocker: from its pivot (0.05, 0.2) to the centre, (0.1, 0.4) to the tip
+    return 0.5 * (pivot + end)
+
+
+def driven_arm(stiffness=None, **settings):
+    """In space: an arm turned about the vertical by a driver, on its end a rod on a universal joint, held by a stay: a spring from the arm
+    to the rod, drawn by the 2.18 N that hold it still at the start, or where no stiffness is given a rigid one."""
+    bodies = (
+        Body(name="arm", mass=2, inertia=(0.02, 0.2, 0.21), position=(0.4, 0, 0)),
+        Body(name="rod", mass=1, inertia=(0.08, 0.08, 0.002), position=(0.8, 0, -0.4)),
+    )
+    ends = {"bodies": ("arm", "rod"), "points": ((0.3, 0.1, 0), (0.8, 0, -0.6))}
+    joints = (
+        Joint(name="post", type="revolute", bodies=("ground", "arm"), point=(0, 0, 0), axis=(0, 0, 1)),
+        Joint(name="knuckle", type="universal", bodies=("arm", "rod"), point=(0.8, 0, 0), axes=((1, 0, 0), (0, 1, 0))),
+    )
+    if stiffness is None:
+        joints, forces = (*joints, Joint(name="stay", type="distance", **ends)), ()
+    else:
+        length = np.sqrt(0.5**2 + 0.1**2 + 0.6**2)
+        forces = (
+            SpringDamper(name="stay", stiffness=stiffness, free_length=length, preload=2.1804947352286677, **ends),
+        )
+    return MachineRecord(
+        name="driven arm",
+        gravity=(0, 0, -GRAVITY),
+        bodies=bodies,
+        joints=joints,
+        drivers=(Driver(name="motor", coordinate="post", value="1.5*(1-cos(3*time))"),),
+        forces=forces,
+        simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
+    )

@@ -8,13 +8,14 @@ from nivel.machine import Body, Joint, JointSpringDamper, MachineRecord, PointFo
 from running import run
 from stiff_machines import (
     double_pendulum,
-    driven_bar,
+    driven_arm,
+    driven_rocker,
     elastic_crank,
     elastic_pendulum,
     rigid_crank,
     rigid_double_pendulum,
-    rigid_driven_bar,
     rigid_pendulum,
+    rigid_rocker,
     rigid_two_bars,
     swinging_out,
     two_bars,
@@ -82,15 +83,18 @@ def where_two_bars_are(times):
     return np.stack([np.transpose((-0.15 * np.sin(crank), 0.15 * np.cos(crank))), np.transpose(rocker)], axis=1)
 
 
-def where_the_driven_bar_is(times):
-    rocker = rigid_driven_bar(times)
-    place = 0.5 + 0.05 * np.cos(rocker) - 0.2 * np.sin(rocker), -0.4 + 0.05 * np.sin(rocker) + 0.2 * np.cos(rocker)
-    return np.stack([np.zeros((len(times), 2)), np.transpose(place)], axis=1)
+def steadily_driven_rocker(stiffness):
+    return driven_rocker(stiffness, "6*time", speed=6.0)
+
+
+def where_the_steadily_driven_rocker_is(times):
+    return np.stack([np.zeros((len(times), 2)), rigid_rocker(6 * times)], axis=1)
 
 
 @COORDINATES
 @pytest.mark.parametrize(
-    ("make", "soft", "place"), [(two_bars, 300.0, where_two_bars_are), (driven_bar, 200.0, where_the_driven_bar_is)]
+    ("make", "soft", "place"),
+    [(two_bars, 300.0, where_two_bars_are), (steadily_driven_rocker, 200.0, where_the_steadily_driven_rocker_is)],
 )
 def test_radau_where_springs_turn_joints(make, soft, place, coordinates):
     """Springs from tip to tip, of which the speed is wrong by h³ at the end of a step and pushes the bars in the next one; in joint
@@ -109,6 +113,36 @@ def test_radau_where_springs_turn_joints(make, soft, place, coordinates):
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-5])
 def test_bdf(name, coordinates, tolerance):
     assert_stiff_is_no_dearer(name, "bdf", coordinates, tolerance)
+
+
+@COORDINATES
+@pytest.mark.parametrize(("value", "angle"), [
+    ("3*(1-cos(2*time))", lambda t: 3 * (1 - np.cos(2 * t))),
+    ("6*time", lambda t: 6 * t),
+])  # fmt: skip
+def test_bdf_where_a_driver_turns_the_spring(value, angle, coordinates):
+    """What closes the crank on its driver stretches the coupler, 2 um of which are 400 N: neither that nor the power of the driver is to
+    decide how long steps are, at any tolerance."""
+    for tolerance in np.geomspace(3e-3, 1e-4, 12):
+        settings = {"coordinates": coordinates, "tolerance": tolerance}
+        soft, stiff = (solved(driven_rocker(k, value), "bdf", **settings) for k in (200, 2e8))
+        assert stiff.finished.timing["steps"] <= 2.0 * soft.finished.timing["steps"], tolerance
+        size = stiff.prepared.motion.system.size
+        error = np.abs(stiff.position[:, 1, :2] - rigid_rocker(angle(stiff.time))).max()
+        assert error < 10 * tolerance * size + 1e-5
+
+
+@COORDINATES
+def test_bdf_where_a_spring_turns_in_space(coordinates):
+    """An arm that a driver turns to and fro, with a rod that a stiff stay holds by one of its two angles; against the same with a rigid
+    stay, a constraint, by an explicit method."""
+    rigid = solved(driven_arm(), "dop853", tolerance=1e-9, coordinates="absolute")
+    for tolerance in np.geomspace(3e-3, 1e-5, 12):
+        settings = {"coordinates": coordinates, "tolerance": tolerance}
+        soft, stiff = (solved(driven_arm(k), "bdf", **settings) for k in (300, 3e8))
+        assert stiff.finished.timing["steps"] <= 2.0 * soft.finished.timing["steps"], tolerance
+        size = stiff.prepared.motion.system.size
+        assert np.abs(stiff.position[:, 1] - rigid.position[:, 1]).max() < 10 * tolerance * size + 1e-5
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])

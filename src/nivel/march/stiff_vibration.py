@@ -25,6 +25,7 @@ from nivel.march.variable_workspace import (
     ESTIMATE,
     FAST,
     LONGEST,
+    LOOKED,
     PATIENCE,
     SLOW,
     TRIES,
@@ -40,7 +41,8 @@ FREE, LITTLE, HELPS = 0.05, 0.02, 0.5
 SETTLED, MOST_TRIES = 4.0, 9.0
 # Steps with low orders are to be so much longer than those before; by MUCH the vibration is left behind.
 WORTH, MUCH = 2.0, 4.0
-# With free orders a step that became this share of the longest is held by a vibration that grew.
+# With free orders a step that became this share of the longest is held by a vibration that grew; one of the step last looked at is worth a
+# look.
 SHRUNK = 0.4
 LEAST_PATIENCE, MOST_PATIENCE = 8.0, 1024.0
 # The filter is for no time in which the machine moves by more, in radians or its own lengths: of that it is to take away little.
@@ -54,6 +56,7 @@ def forget(run):
     """No vibration is known of."""
     c = run.numbers
     c[VIBRATING], c[UNCHECKED], c[PATIENCE], c[LONGEST], c[TRIES], c[ENTRY] = NO, 0.0, LEAST_PATIENCE, 0.0, 0.0, 0.0
+    c[LOOKED] = 0.0
 
 
 @leaf
@@ -136,10 +139,11 @@ def begin(run, h):
 
 
 @leaf
-def leave(run, helped):
-    """Errors are measured as they are again. Where it did not help, it is long until the next try."""
+def leave(run, h, helped):
+    """Errors are measured as they are again, after a step h. Where it did not help, it is long until the next try, but for steps that
+    become much shorter than that."""
     c = run.numbers
-    c[VIBRATING], c[LONGEST] = NO, 0.0
+    c[VIBRATING], c[LONGEST], c[LOOKED] = NO, 0.0, h
     if helped:
         c[TRIES], c[PATIENCE] = 0.0, LEAST_PATIENCE
     else:
@@ -155,9 +159,10 @@ def look(machine, history, h, factor, tolerance):
     c[UNCHECKED] += 1.0
     if c[VIBRATING] == NO:
         known = rate_of_motion(machine, history) * REACH * h <= 1.0
-        if not FREE < plain < np.inf or c[UNCHECKED] < c[PATIENCE] or not known:
+        patience = LEAST_PATIENCE if h < SHRUNK * c[LOOKED] else c[PATIENCE]
+        if not FREE < plain < np.inf or c[UNCHECKED] < patience or not known:
             return plain
-        c[UNCHECKED] = 0.0
+        c[UNCHECKED], c[LOOKED] = 0.0, h
         for i in range(run.y.shape[0]):
             run.stages[CHANGE, i] = run.stages[ESTIMATE, i]
     status, fast, amplitude = keep_slow(machine, history, h)
@@ -171,15 +176,19 @@ def look(machine, history, h, factor, tolerance):
             run.stages[ESTIMATE, i] = run.stages[CHANGE, i]
         return plain
     if status != OK:
-        leave(run, False)
+        leave(run, h, False)
         return plain
     if c[VIBRATING] == SETTLES:
         c[LONGEST] = max(c[LONGEST], h)
         if plain <= FREE or slow >= HELPS * plain:
-            leave(run, h >= MUCH * c[ENTRY])
+            leave(run, h, h >= MUCH * c[ENTRY])
         elif factor * fast > max(slow, FREE) or h < SHRUNK * c[LONGEST]:
             begin(run, h)
-    return max(slow, factor * fast)
+    error = max(slow, factor * fast)
+    if c[VIBRATING] == GOES_ON and not error <= 1.0:
+        # steps are counted, not tries: those from order one begin short
+        c[UNCHECKED] -= 1.0
+    return error
 
 
 @leaf
@@ -191,6 +200,6 @@ def settle(run, h, grows):
     if grows:
         c[UNCHECKED] = 0.0
     elif c[UNCHECKED] >= SETTLED and h < WORTH * c[ENTRY]:
-        leave(run, False)
+        leave(run, h, False)
     elif c[UNCHECKED] >= SETTLED * 2.0 ** (c[TRIES] - 1.0):
         c[VIBRATING], c[LONGEST] = SETTLES, h

@@ -5,7 +5,8 @@ q + 1 the one that promises the longest step is taken, q + 1 once q + 1 steps of
 
 The direct correction of the loop moves y a little after every step. The polynomial follows: its value at t_n is replaced by the
 corrected one, and for Adams–Moulton with functional iteration its rate by that of the corrected state, which is what that method
-remembers. BDF remembers values: they are all moved alike, and their differences, which are what counts, stay. With Newton's method the
+remembers. BDF remembers values: they are all moved alike, and their differences, which are what counts, stay (`bdf` moves them so that
+no stiff spring is stretched, see `nivel.march.stiff_correction`). With Newton's method the
 rate is kept, since in stiff directions a small change of y would change it beyond measure.
 
 With functional iteration the Adams methods go on from the next order: the estimated error of the corrected state is subtracted, which
@@ -43,6 +44,7 @@ from nivel.march.variable_workspace import (
     CHANGE,
     CONTRACTION,
     CORRECTION,
+    ENERGIES,
     ESTIMATE,
     LAST,
     LAST_STEP,
@@ -51,6 +53,7 @@ from nivel.march.variable_workspace import (
     SHARE,
     SLOPE,
     STEPS,
+    STIFF,
     VIBRATING,
     WAIT,
     WORK,
@@ -63,20 +66,23 @@ from nivel.march.variable_workspace import (
 LOWER, SAME, HIGHER = 6.0, 4.0, 8.0
 # A step is made longer only if it gets longer by this factor, and by no more than the second (the third at the start).
 WORTH, MOST_GROWTH, FIRST_GROWTH = 1.2, 2.0, 10.0
-# After so many rejections of one step its past says nothing about it, and the polynomial begins anew with order one.
+# After so many rejections of one step its past says nothing about it, and the polynomial begins anew with order one; but not where only the
+# energies at the end of y are wrong, on which nothing depends: of stiff springs these depend on accelerations, which order one gets wrong
+# by half of themselves in its first step, however short that is.
 MOST_REJECTIONS = 3
 
 
 @leaf
-def start(run):
-    """The polynomial of order one from the accepted state and its rate, as if steps of this length had been done before."""
+def start(run, rate):
+    """The polynomial of order one from the value that it has and this rate, as if steps of this length had been done before."""
     h = run.clock[STEP]
     for i in range(run.y.shape[0]):
-        run.stages[Z, i] = run.y[i]
-        run.stages[Z + 1, i] = h * run.rate[i]
+        run.stages[Z + 1, i] = h * rate[i]
+        run.stages[SLOPE, i] = h * rate[i]
     run.counter[ORDER] = 1
     numbers = run.numbers
     numbers[SCALED], numbers[CONTRACTION], numbers[SHARE], numbers[WAIT], numbers[LAST_STEP] = h, 1.0, 0.0, 2.0, 0.0
+    numbers[STIFF] = 0.0
     for i in range(MOST_ORDER + 1):
         numbers[STEPS + i] = 0.0
 
@@ -94,9 +100,7 @@ def measure_contraction(run):
 
 @leaf
 def renew(run, family):
-    """The polynomial through the accepted state as the loop corrected it."""
-    for i in range(run.y.shape[0]):
-        run.stages[Z, i] = run.y[i]
+    """The rate of the polynomial after the correction of the loop."""
     if family == ADAMS and run.counter[NEWTON] == 0:
         for i in range(run.y.shape[0]):
             run.stages[Z + 1, i] = run.numbers[SCALED] * run.rate[i]
@@ -179,15 +183,32 @@ def choose(run, family, most, h, tolerance, error, lower, factors):
 
 
 @leaf
+def take_value(machine, history):
+    """The value of the polynomial after the correction of the loop: the accepted state. Returns a status."""
+    run = run_at(history)
+    for i in range(run.y.shape[0]):
+        run.stages[Z, i] = run.y[i]
+    return OK
+
+
+@leaf
+def take_rate(machine, history):
+    """CHANGE := the rate to begin anew with, that of the accepted state."""
+    run = run_at(history)
+    for i in range(run.y.shape[0]):
+        run.stages[CHANGE, i] = run.rate[i]
+
+
+@leaf
 def plain(machine, history, h, factor, tolerance):
     """The error of the step just attempted, `factor` times ESTIMATE, as a share of the allowed one."""
     run = run_at(history)
     return factor * size(run, run.stages[ESTIMATE]) / tolerance
 
 
-def multistep(family, most, correct, damp, look):
+def multistep(family, most, correct, damp, look, follow, find_slope):
     """The function `variable_step` of a family, for orders up to `most`, with a corrector of `nivel.march.variable_corrector` and a look at
-    vibrations of `nivel.march.stiff_vibration`."""
+    vibrations of `nivel.march.stiff_vibration`, and how the past follows the correction of the loop (`nivel.march.stiff_correction`)."""
 
     @leaf
     def variable_step(evaluate, machine, history, tolerance):
@@ -195,14 +216,19 @@ def multistep(family, most, correct, damp, look):
         run = run_at(history)
         numbers = run.numbers
         enter(evaluate, machine, history, 1.0, tolerance)
+        error, rejections = 0.0, 0
         if is_fresh(run):
             forget(run)
-            start(run)
+            status = take_value(machine, history)
+            start(run, run.rate)
             run.counter[RESTART] = 0
-        elif run.counter[NEWTON] == 0:
-            measure_contraction(run)
+        else:
+            if run.counter[NEWTON] == 0:
+                measure_contraction(run)
+            status = follow(machine, history)
+        if status != OK:
+            return status
         renew(run, family)
-        status, error, rejections = OK, 0.0, 0
         while True:
             h = reach(run)
             if h == 0.0:
@@ -223,15 +249,19 @@ def multistep(family, most, correct, damp, look):
                     # the same step with order one
                     numbers[VIBRATING] = GOES_ON
                     run.clock[STEP] = h
-                    start(run)
+                    find_slope(machine, history)
+                    start(run, run.stages[CHANGE])
                     continue
                 shorter = turned_too_far(machine, h)
                 if error <= 1.0 and shorter == 1.0:
                     break
                 reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
             rejections += 1
-            if rejections % MOST_REJECTIONS == 0:
-                start(run)
+            motion = run.stages[ESTIMATE, : run.y.shape[0] - ENERGIES]
+            lost = status != OK or not factors[2] / factors[0] * size(run, motion) <= tolerance
+            if rejections % MOST_REJECTIONS == 0 and lost:
+                find_slope(machine, history)
+                start(run, run.stages[CHANGE])
         accept(run, c)
         extrapolated = factors[2] / factors[0] if family == ADAMS and run.counter[NEWTON] == 0 else 0.0
         for i in range(run.y.shape[0]):

@@ -15,6 +15,11 @@ SCALED, CONTRACTION, SHARE, WAIT, LAST_STEP = 0, 1, 2, 3, 4
 # … and where vectors begin there: the last steps, newest first [s]; ξ; the coefficients c; work for polynomials
 STEPS, XI, C, WORK = 5, 20, 35, 50
 # … and of vibrations: how far they are dealt with, steps since they were looked at, after how many they are again; the longest step with
-# free orders since then [s], how often they grew, the step that they held [s].
-VIBRATING, UNCHECKED, PATIENCE, LONGEST, TRIES, ENTRY = 66, 67, 68, 69, 70, 71
-NUMBERS = 72
+# free orders since then [s], how often they grew, the step that they held [s], the one last looked
+# at in vain [s].
+VIBRATING, UNCHECKED, PATIENCE, LONGEST, TRIES, ENTRY, LOOKED = 66, 67, 68, 69, 70, 71, 72
+# … and for how many more errors a part of them is taken for stiff
+STIFF = 73
+NUMBERS = 74
+# energies at the end of y, on which nothing depends
+ENERGIES = 2

@@ -296,3 +296,35 @@ def driven_arm(stiffness=None, **settings):
         forces=forces,
         simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
     )
+
+
+def propped_arms(stiffness=None, **settings):
+    """In space: an upper arm on a universal joint, a lower one hinged to it, and from the ground to the end of that a prop: a spring drawn
+    by the 11.9 N that hold it still at the start, or where no stiffness is given a rigid one."""
+    bodies = (
+        Body(name="upper", mass=3, inertia=(0.01, 0.1, 0.1), position=(0.4, 0, 0)),
+        Body(name="lower", mass=1.5, inertia=(0.1, 0.004, 0.1), position=(0.8, 0.35, 0)),
+    )
+    joints = (
+        Joint(
+            name="shoulder", type="universal", bodies=("ground", "upper"), point=(0, 0, 0), axes=((0, 1, 0), (0, 0, 1))
+        ),
+        Joint(name="elbow", type="revolute", bodies=("upper", "lower"), point=(0.8, 0, 0), axis=(0, 0, 1)),
+    )
+    ends = {"bodies": ("ground", "lower"), "points": ((0.2, 0.6, 0.7), (0.8, 0.6, 0))}
+    if stiffness is None:
+        joints, forces = (*joints, Joint(name="prop", type="distance", **ends)), ()
+    else:
+        forces = (
+            SpringDamper(
+                name="prop", stiffness=stiffness, free_length=np.sqrt(0.85), preload=11.931249011559704, **ends
+            ),
+        )
+    return MachineRecord(
+        name="propped arms",
+        gravity=(0, 0, -GRAVITY),
+        bodies=bodies,
+        joints=joints,
+        forces=forces,
+        simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
+    )

@@ -12,6 +12,7 @@ from stiff_machines import (
     driven_rocker,
     elastic_crank,
     elastic_pendulum,
+    propped_arms,
     rigid_crank,
     rigid_double_pendulum,
     rigid_pendulum,
@@ -170,6 +171,16 @@ def test_tolerance_is_met_whatever_the_stiffness(integrator, ratio, tolerance, c
     bob = np.transpose(((1 + elongation) * np.cos(angle), (1 + elongation) * np.sin(angle)))
     size = result.prepared.motion.system.size
     assert np.abs(result.position[:, 1, :2] - bob).max() < 10 * tolerance * size
+
+
+def test_long_tries_that_fail_leave_nothing_behind():
+    """At this tolerance a step is tried that is a thousand times as long, and leads nowhere: its multipliers are no numbers, and must not
+    be those that the next try begins with."""
+    settings = {"coordinates": "absolute", "tolerance": 0.0001390870618490682}
+    stiff = solved(propped_arms(3e8), "generalised-alpha", **settings)
+    rigid = solved(propped_arms(), "dop853", coordinates="absolute", tolerance=1e-9)
+    size = stiff.prepared.motion.system.size
+    assert np.abs(stiff.position - rigid.position).max() < 10 * settings["tolerance"] * size
 
 
 @COORDINATES

@@ -151,6 +151,9 @@ def controlled_step(evaluate, machine, history):
         bound_step(machine, run)
         c[HELD] = 0.0
         c[LEAPS] = min(c[LEAPS] + 1.0, MOST_LEAPS)
+    if not fresh and newton.level[0] in (1, 2):
+        # once: after an attempt that failed the record has its multipliers, which may be no numbers
+        refresh(machine, run)
     status, error = OK, 0.0
     while True:
         h = reach(run)
@@ -164,8 +167,6 @@ def controlled_step(evaluate, machine, history):
             h = clock[REACHED] - t
         if fresh:
             start(evaluate, machine, history, t, h)
-        elif newton.level[0] in (1, 2):
-            refresh(machine, run)
         end = before(clock[REACHED]) if corner < np.inf else clock[REACHED]
         close = max(CLOSE * part_of(run, h), EXACT)
         status = attempt(machine, history, h, end, min(newton.settings[NEWTON_TOLERANCE], close))
@@ -178,6 +179,10 @@ def controlled_step(evaluate, machine, history):
             if error > 1.0:
                 factor = factor_after_rejection(OK, error, 2.0)
         reject(run, h, factor)
+        if fresh:
+            # `start` takes the multipliers of the accepted state from the record
+            evaluate(machine, t, run.y, run.scratch)
+            run.counter[EVALUATIONS] += 1
         if leap:
             clock[STEP], leap = usual, False
         newton.kept[0] = 0.0

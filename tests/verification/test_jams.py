@@ -107,6 +107,19 @@ def test_a_jam_is_named_with_its_time_its_joints_and_its_driver(made, methods):
     assert np.max(np.abs(result.array("constraint_violation"))) < 2e-3
 
 
+@pytest.mark.parametrize("over", [1e-3, 1e-5])
+def test_a_jam_is_named_also_where_the_driver_soon_turns_back(over):
+    """Ten times a second the slider is to go beyond its reach by this and back, which takes milliseconds; chosen steps stop before it."""
+    machine, jam = distance_rod()
+    reach, once = SPEED * jam, 0.1
+    machine["drivers"]["pull"]["value"] = f"{0.5 * (reach + over)}*(1 - cos({2 * pi / once}*time))"
+    with pytest.raises(SolveError, match="pull is held by main and rod") as caught:
+        simulate(machine, duration=1.0, step=STEP, integrator="dopri5", coordinates="absolute")
+    said = re.search(r"the machine jams at t = ([\d.]+) s", caught.value.message)
+    assert said is not None
+    assert float(said[1]) == pytest.approx(once / (2 * pi) * acos(1 - 2 * reach / (reach + over)), abs=1e-6)
+
+
 def test_a_driver_that_turns_back_before_the_jam_runs():
     """To half a millimetre before the reach and back: the cosine of the crank's angle follows from the triangle."""
     machine, jam = distance_rod()

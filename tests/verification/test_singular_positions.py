@@ -66,6 +66,20 @@ def test_flat_position_is_passed_by_implicit_methods_in_independent_coordinates(
     np.testing.assert_allclose(r.array("right.angle"), 2.0 * r.time, atol=1e-5)
 
 
+def test_flat_position_in_a_frame_between_chosen_steps_is_named_and_other_frames_pass_it():
+    """At t = 1 s exactly, where a driver turns the crank by -0.5 rad/s."""
+    machine = parallelogram(0.0)
+    del machine["joints"]["left"]["start_rates"]
+    machine["drivers"] = {"turn": {"coordinate": "left.angle", "value": "-0.5*time"}}
+    methods = {"integrator": "dopri5", "coordinates": "absolute", "duration": 3.0}
+    with pytest.raises(SolveError, match="in a frame inside it: there the machine is in a singular position") as caught:
+        simulate(machine, output_interval=0.01, **methods)
+    assert "another `output_interval`" in caught.value.advice
+    assert 0.8 < caught.value.result.time[-1] < 1.0
+    passed = simulate(machine, output_interval=0.3, **methods)
+    np.testing.assert_allclose(passed.array("right.angle"), -0.5 * passed.time, atol=1e-9)
+
+
 def test_start_in_the_flat_position_is_refused_with_the_row_that_is_lost():
     machine = parallelogram(1.0)
     for joint in machine["joints"].values():

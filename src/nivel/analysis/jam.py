@@ -20,8 +20,9 @@ from nivel.analysis.redundancy import scaled_jacobian
 from nivel.errors import ModelError
 from nivel.system.system import Array, System
 
-# How far beyond a failure a jam is looked for, in steps: methods that solve for accelerations fail some steps before it.
-AHEAD = 50.0
+# How far beyond a failure a jam is looked for, in steps: methods that solve for accelerations fail some steps before it, and a driver may
+# be back within its reach a few steps after it.
+AHEAD = (0.1, 0.3, 1.0, 3.0, 10.0, 50.0)
 # How far before it, where joints are open already, in powers of ten of a step.
 BACK = 6
 # Halvings of the time between a position that can be closed and one that cannot; after so many it shows whether it is a singular one.
@@ -66,7 +67,8 @@ class Jam:
     @property
     def advice(self) -> str:
         """What to try."""
-        what = f"what {_listed(self.drivers)} prescribes" if self.drivers else "how they move with time"
+        verb = "prescribe" if len(self.drivers) > 1 else "prescribes"
+        what = f"what {_listed(self.drivers)} {verb}" if self.drivers else "how they move with time"
         return (
             f"Look at {what} against the lengths between {_listed(self.joints)}: let it stop or turn back before t = {self.time:.4g} s, or "
             "drive another coordinate. No step and no method goes on from there."
@@ -123,7 +125,8 @@ class _Nearby:
 
     def jam(self, step: float, unit: float, end: float) -> Jam | None:
         """The first one from here on, or where joints are open already, the last one before. unit : at least a step [s]."""
-        later = (self.time, self.time + step, min(self.time + AHEAD * unit, max(end, self.time + step)))
+        farthest = max(end, self.time + step)
+        later = sorted({self.time, self.time + step, *(min(self.time + share * unit, farthest) for share in AHEAD)})
         open_at = next((t for t in later if not self.closed(t, self.y)[0]), None)
         if open_at is None:
             return None

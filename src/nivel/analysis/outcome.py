@@ -36,6 +36,8 @@ from nivel.system.system import Array
 NEAR_SINGULAR = 1e-6
 # Integrators that choose their steps, for stiff forces.
 FOR_STIFF = ("radau", "bdf")
+# A step above this share of the time is not one that became too small to be told from none.
+TINY = 1e-9
 # A violation above this share of its scale is not round-off or truncation: the step was too large for the motion.
 DRIFTED = 1e-2
 
@@ -77,7 +79,8 @@ def failure(
         # what is not a number spoils pivots as well, so look for it first
         told = broken_function(motion, time, step, y) or too_fast(beams, step)
         if told is None and chosen_by:
-            told = _no_step(motion, status, time, step, y, chosen_by)
+            passed = status == SINGULAR and step > TINY * max(time, 1e-300)
+            told = _met(motion, number, time, step) if passed else _no_step(motion, status, time, step, y, chosen_by)
         elif told is None and status == SINGULAR:
             told = _singular(motion, number, time, step, y)
         elif told is None and status in (NOT_CLOSED, OPEN):
@@ -116,6 +119,20 @@ def _no_step(
         f"Does a force or a law jump here, or grow without bounds? Give it a smooth passage of finite length. A very stiff force asks for "
         f"{stiff}. A larger `tolerance` may also help, or an integrator of fixed step."
     )
+
+
+def _met(motion: MotionEquations, number: int, time: float, step: float) -> tuple[str, str]:
+    """Where a step passes a singular position, and its end or a frame inside it is there."""
+    row = motion.system.rows[number]
+    message = (
+        f"the constraint {row} depends on the others at the end of the step of some {step:.2g} s from here, or in a frame inside it: "
+        f"there the machine is in a singular position, and reactions cannot be found"
+    )
+    advice = (
+        f"Steps pass it, but nothing can be stored in it: another `output_interval` does, when no frame falls there. Or move a joint by a "
+        f"small amount so that the machine does not pass through it exactly: look at {_owner(row)}."
+    )
+    return message, advice
 
 
 def _singular(motion: MotionEquations, number: int, time: float, step: float, y: Array) -> tuple[str, str]:

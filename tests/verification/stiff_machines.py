@@ -328,3 +328,67 @@ def propped_arms(stiffness=None, **settings):
         forces=forces,
         simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
     )
+
+
+def driven_wheel(stiffness, *, drawn=True, **settings):
+    """A wheel turned by a driver and on the same axis a pendulum, carried along by a spring in the joint between them; `drawn` at the start
+    by the 2.3125 N m that give the pendulum, 0.05 kg m² + (1.5 kg)(0.3 m)², the 12.5 rad/s² of the wheel."""
+    return MachineRecord(
+        name="driven wheel",
+        gravity=(0, -GRAVITY, 0),
+        bodies=(
+            Body(name="wheel", mass=1, inertia=(0.01, 0.01, 0.01)),
+            Body(name="pendulum", mass=1.5, inertia=(0.05, 0.05, 0.05), position=(0, -0.3, 0.1)),
+        ),
+        joints=(
+            Joint(name="axle", type="revolute", bodies=("ground", "wheel"), point=(0, 0, 0), axis=(0, 0, 1)),
+            Joint(name="shaft", type="revolute", bodies=("wheel", "pendulum"), point=(0, 0, 0.1), axis=(0, 0, 1)),
+        ),
+        drivers=(Driver(name="motor", coordinate="axle", value="2*(1-cos(2.5*time))"),),
+        forces=(
+            JointSpringDamper(
+                name="coil", coordinate="shaft", stiffness=stiffness, preload=-2.3125 if drawn else 0.0, damping=0.0
+            ),
+        ),
+        simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
+    )
+
+
+def rigid_wheel(times):
+    """Place of the pendulum's centre for a rigid coil."""
+    angle = 2 * (1 - np.cos(2.5 * times))
+    return 0.3 * np.stack((np.sin(angle), -np.cos(angle)), 1)
+
+
+def spatial_crank(stiffness=None, damping=0.0, **settings):
+    """A crank on a vertical axis turned by a driver and a rocker on a horizontal one, between their ends a rod: a spring with a damper,
+    pressed at the start as a rigid one would be, or where no stiffness is given a rigid one."""
+    crank = Body(name="crank", mass=1, inertia=(0.001, 0.002, 0.002), position=(0.06, 0, 0))
+    rocker = Body(name="rocker", mass=2, inertia=(0.016, 0.016, 0.001), position=(0.58, 0.2, 0.55))
+    joints = (
+        Joint(name="shaft", type="revolute", bodies=("ground", "crank"), point=(0, 0, 0), axis=(0, 0, 1)),
+        Joint(name="axle", type="revolute", bodies=("ground", "rocker"), point=(0.6, 0.2, 0.4), axis=(0, 1, 0)),
+    )
+    ends = {"bodies": ("crank", "rocker"), "points": ((0.12, 0, 0), (0.56, 0.2, 0.7))}
+    if stiffness is None:
+        joints, forces = (*joints, Joint(name="rod", type="distance", **ends)), ()
+    else:
+        length = np.sqrt(0.44**2 + 0.2**2 + 0.7**2)
+        # The crank's end starts with 0.12 m 12 rad/s² along y, and the rocker's, (-0.04, 0, 0.3) m from its axle, has to make way for that:
+        # α (0.3 (0.44) + 0.04 (0.7)) = 1.44 (0.2). About the axle there are 0.0618 kg m², and the weight of 2 kg 0.02 m behind it.
+        lever = (0.3 * 0.44 + 0.04 * 0.7) / length
+        moment = (0.016 + 2 * (0.02**2 + 0.15**2)) * 1.44 * 0.2 / (0.3 * 0.44 + 0.04 * 0.7) + 2 * GRAVITY * 0.02
+        forces = (
+            SpringDamper(
+                name="rod", stiffness=stiffness, damping=damping, free_length=length, preload=-moment / lever, **ends
+            ),
+        )
+    return MachineRecord(
+        name="spatial crank",
+        gravity=(0, 0, -GRAVITY),
+        bodies=(crank, rocker),
+        joints=joints,
+        drivers=(Driver(name="motor", coordinate="shaft", value="3*(1-cos(2*time))"),),
+        forces=forces,
+        simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
+    )

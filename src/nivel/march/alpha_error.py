@@ -144,8 +144,9 @@ def size_of_sway(run, residual, newton, h):
 
 
 @stage
-def split(machine, history, t, row, fast):
-    """Overwrite this row of the stages by F⁴ of it, what is slow; `fast` by F (1 - F)³ of it. Returns a status."""
+def split(machine, history, t, row, fast, across):
+    """Overwrite this row of the stages by F⁴ of it, what is slow; `fast` by F (1 - F)³ of it. `across` is that of `keep_slow`. Returns a
+    status."""
     run = run_at(history)
     stages = run.stages
     status = OK
@@ -153,7 +154,7 @@ def split(machine, history, t, row, fast):
         stages[fast, k] = 0.0
     for fold in range(FOLDS):
         if status == OK:
-            status = keep_slow(machine, t, stages[row])
+            status = keep_slow(machine, t, stages[row], across)
         sign = 1.0 if fold == 0 else (-3.0 if fold == 1 else (3.0 if fold == 2 else -1.0))
         for k in range(stages.shape[1]):
             stages[fast, k] += sign * stages[row, k]
@@ -178,13 +179,13 @@ def filtered_error(machine, history, t, h):
     status = find_filter(machine, t, cq, cv, cx)
     run.counter[FACTORISATIONS] += 1
     if status == OK:
-        status = split(machine, history, t, BEND, FAST_BEND)
+        status = split(machine, history, t, BEND, FAST_BEND, False)
     if status == OK:
-        status = split(machine, history, t, CHANGE, FAST_CHANGE)
+        status = split(machine, history, t, CHANGE, FAST_CHANGE, False)
     load_speeds(run, record.residual, newton)
     for _ in range(FOLDS):
         if status == OK:
-            status = keep_slow(machine, t, run.stages[SPEED])
+            status = keep_slow(machine, t, run.stages[SPEED], False)
     if status != OK:
         return np.inf, np.inf
     change, bend = (

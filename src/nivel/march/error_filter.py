@@ -1,4 +1,4 @@
-"""What of an error of accelerations is slow: F δ = (M + c_v D + c_q K)⁻¹ M δ, along the constraints.
+"""What of an error of accelerations is slow: F δ = (M + c_v D + c_q K)⁻¹ M δ, along the constraints or with C_q F δ = C_q δ.
 
 A vibration of angular frequency ω keeps 1/(1 + c_q ω²) of its part of δ, what no spring acts on all of it. c_q F δ is the displacement that
 the springs make of the forces M δ within about √c_q of time: of a vibration faster than that its amplitude.
@@ -32,8 +32,11 @@ def find_filter(machine, t, cq, cv, cx):
 
 
 @stage
-def keep_slow(machine, t, x):
-    """Overwrite x, accelerations and then rates of states of forces, by what of it is slow. Returns a status."""
+def keep_slow(machine, t, x, across):
+    """Overwrite x, accelerations and then rates of states of forces, by what of it is slow. Returns a status.
+
+    across : whether what leads across the constraints, as a driver would lead, stays as it is and is followed; dropped otherwise.
+    """
     record = record_at(machine)
     newton, here = record.newton, record.residual
     b, n, states = newton.filter.b, here.vdot.shape[0], newton.state.shape[0]
@@ -47,8 +50,9 @@ def keep_slow(machine, t, x):
         b[k] = moving.value[k].imag / EPSILON
     for k in range(states):
         b[n + k] = x[n + k]
-    for k in range(n + states, b.shape[0]):
-        b[k] = 0.0
+    first, rows = n + states, b.shape[0] - n - states
+    for k in range(rows):
+        b[first + k] = moving.value[first + k + 2 * rows].imag / EPSILON if across and k < here.row.shape[0] else 0.0
     solve_entries(newton, newton.filter)
     apply_turns(newton, b)
     for k in range(n + states):

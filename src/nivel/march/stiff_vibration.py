@@ -1,10 +1,15 @@
-"""Vibrations of stiff springs in BDF: told from what is slow, damped by low orders, and not followed where they are below the tolerance.
+"""Vibrations of stiff springs in BDF: told from what is slow, damped by order two, and not followed where they are below the tolerance.
 
 Above order two BDF lets vibrations grow while a step is about as long as their period, and the error of a step then keeps it so short for
 ever. So where a step does not get longer, its error is looked at by `nivel.march.error_filter`, for steps REACH times as long. If little of
-it is slow, and the amplitude of the vibration within the tolerance of the run, the polynomial begins anew with order one, and no order is
-above two until steps do not get longer any more: the error of the slow motion decides, the vibration is damped, and steps get so long that
-all orders damp what is left of it. Where they do not, the vibration grows again, and the next time low orders last longer.
+it is slow, the amplitude of the vibration within the tolerance of the run, and the slow motion good for a step of order two as long, the
+polynomial is reduced to that order: through the same points, as a new begin with order one would shake the spring. From there on the error
+of what is slow decides. No order is above two until steps do not get longer any more, by when the vibration is damped; then orders are
+free, and steps get so long that all of them damp what is left. Where they do not, the vibration grows again, and the next time order two
+lasts longer.
+
+What drivers prescribe is slow, and what stiff springs make of it: a filtered error keeps both. The work of a driver at which a vibrating
+spring pulls has an error that changes its sign with the vibration; it is not slow.
 """
 
 from __future__ import annotations
@@ -14,37 +19,43 @@ import numpy as np
 from nivel.kernels.compile import leaf
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.rotation import angular_velocity, rates_of_parameters
-from nivel.kernels.status import NOT_CONVERGED, OK
-from nivel.march.alpha_error import MOST_MOVED, REACH, rate_of_motion, size_of_displacement, split
+from nivel.kernels.status import OK
+from nivel.march.alpha_error import REACH, rate_of_motion, size_of_displacement, split
 from nivel.march.error_filter import find_filter
-from nivel.march.run import FACTORISATIONS, REACHED, TOLERANCE, run_at
+from nivel.march.run import FACTORISATIONS, ORDER, REACHED, TOLERANCE, run_at
 from nivel.march.step_control import EXACT, size
 from nivel.march.variable_workspace import (
     CHANGE,
+    ENERGIES,
     ENTRY,
     ESTIMATE,
     FAST,
     LONGEST,
     LOOKED,
     PATIENCE,
+    SCALED,
     SLOW,
     TRIES,
     UNCHECKED,
     VIBRATING,
+    Z,
 )
 
 # Twice the amplitude of a vibration may be this share of the tolerance of the run.
 AMPLITUDE = 0.1
-# Errors below the first share of the allowed one are not looked at; a vibration is what of an error leaves less than the second share.
+# Errors below the first share of the allowed one are not looked at; a vibration leaves less than the second share of an error, and where
+# the slow part is more than the third there is none.
 FREE, LITTLE, HELPS = 0.05, 0.02, 0.5
 # Steps without growth after which orders are free again, twice as many with every time that a vibration grew by it.
 SETTLED, MOST_TRIES = 4.0, 9.0
-# Steps with low orders are to be so much longer than those before; by MUCH the vibration is left behind.
-WORTH, MUCH = 2.0, 4.0
+# With equal steps order two errs by this many h³ y⃛/6.
+SECOND = 4.0 / 3.0
+# Steps that got so much longer have left the vibration behind.
+MUCH = 4.0
 # With free orders a step that became this share of the longest is held by a vibration that grew; one of the step last looked at is worth a
 # look.
 SHRUNK = 0.4
-LEAST_PATIENCE, MOST_PATIENCE = 8.0, 1024.0
+LEAST_PATIENCE, MOST_PATIENCE = 8.0, 64.0
 # The filter is for no time in which the machine moves by more, in radians or its own lengths: of that it is to take away little.
 MOST_TURN = 0.3
 # values of numbers[VIBRATING]
@@ -60,9 +71,16 @@ def forget(run):
 
 
 @leaf
+def count_positions(machine, run):
+    """How many positions stand before the velocities in y."""
+    newton = record_at(machine).newton
+    return np.int64(run.y.shape[0]) - newton.place.shape[0] - newton.state.shape[0] - ENERGIES
+
+
+@leaf
 def load_velocities(run, source, positions):
     """SLOW := the entries of velocities and states of forces of `source` (ny,)."""
-    for i in range(positions, source.shape[0] - 2):
+    for i in range(positions, source.shape[0] - ENERGIES):
         run.stages[SLOW, i - positions] = source[i]
 
 
@@ -100,38 +118,65 @@ def keep_slow_positions(run, newton):
 
 
 @leaf
-def keep_slow(machine, history, h):
-    """ESTIMATE := what of it is slow. Returns a status, the largest displacement of it that was fast, and twice the amplitude of the
-    vibrations of the accepted state; both as a share of what vibrations may be wrong by."""
+def drop_energies(run):
+    """ESTIMATE of the energies := 0. Returns the larger one, as a share of the scales."""
+    estimate, n, largest = run.stages[ESTIMATE], run.y.shape[0], 0.0
+    for i in range(n - ENERGIES, n):
+        largest = max(largest, np.abs(estimate[i]) / run.scale[i])
+        estimate[i] = 0.0
+    return largest
+
+
+@leaf
+def find_amplitude(machine, history, h):
+    """Make the filter for a step h ready. Returns a status, and twice the amplitude of the vibrations of the accepted state, as a share of
+    what vibrations may be wrong by."""
     run, newton = run_at(history), record_at(machine).newton
     rate, t = rate_of_motion(machine, history), run.clock[REACHED]
-    if rate * h > MOST_MOVED:
-        return NOT_CONVERGED, 0.0, 0.0
-    moving = newton.place.shape[0] + newton.state.shape[0]
-    positions = np.int64(run.y.shape[0]) - moving - 2
     reach = min(REACH * h, MOST_TURN / max(rate, 1e-300))
     status = find_filter(machine, t, reach * reach, reach, reach)
     run.counter[FACTORISATIONS] += 1
-    load_velocities(run, run.rate, positions)
+    load_velocities(run, run.rate, count_positions(machine, run))
     if status == OK:
-        status = split(machine, history, t, SLOW, FAST)
+        status = split(machine, history, t, SLOW, FAST, True)
     amplitude = size_of_displacement(run, newton, FAST, reach * reach, reach)
+    return status, 2.0 * amplitude / max(AMPLITUDE * run.clock[TOLERANCE], EXACT)
+
+
+@leaf
+def keep_slow(machine, history):
+    """ESTIMATE := what of it is slow, by the filter of `find_amplitude`. Returns a status, and the largest displacement of it that was
+    fast, as a share of what vibrations may be wrong by."""
+    run, newton = run_at(history), record_at(machine).newton
+    positions, t = count_positions(machine, run), run.clock[REACHED]
     load_velocities(run, run.stages[ESTIMATE], positions)
-    if status == OK:
-        status = split(machine, history, t, SLOW, FAST)
-    for k in range(moving):
+    status = split(machine, history, t, SLOW, FAST, True)
+    for k in range(run.y.shape[0] - ENERGIES - positions):
         run.stages[ESTIMATE, positions + k] = run.stages[SLOW, k]
     load_positions(run, newton)
     if status == OK:
-        status = split(machine, history, t, SLOW, FAST)
-    fast = keep_slow_positions(run, newton)
-    most = max(AMPLITUDE * run.clock[TOLERANCE], EXACT)
-    return status, fast / most, 2.0 * amplitude / most
+        status = split(machine, history, t, SLOW, FAST, True)
+    displacement, energy = keep_slow_positions(run, newton), drop_energies(run)
+    tolerance = run.clock[TOLERANCE]
+    return status, max(displacement / max(AMPLITUDE * tolerance, EXACT), energy / max(tolerance, EXACT))
+
+
+@leaf
+def lasts(machine, history, h, tolerance):
+    """Whether the slow motion allows order two a step h as well. Overwrites ESTIMATE."""
+    run = run_at(history)
+    if run.counter[ORDER] <= 2:
+        return True
+    scaled = h / run.numbers[SCALED]
+    for i in range(run.y.shape[0]):
+        run.stages[ESTIMATE, i] = SECOND * scaled**3 * run.stages[Z + 3, i]
+    status, _ = keep_slow(machine, history)
+    return status == OK and size(run, run.stages[ESTIMATE]) <= tolerance
 
 
 @leaf
 def begin(run, h):
-    """The polynomial is to begin anew, after a step h."""
+    """The polynomial is to be reduced, for a step h."""
     c = run.numbers
     if c[VIBRATING] == NO:
         c[ENTRY] = h
@@ -147,15 +192,15 @@ def leave(run, h, helped):
     if helped:
         c[TRIES], c[PATIENCE] = 0.0, LEAST_PATIENCE
     else:
-        c[PATIENCE] = min(4.0 * c[PATIENCE], MOST_PATIENCE)
+        c[PATIENCE] = min(2.0 * c[PATIENCE], MOST_PATIENCE)
 
 
 @leaf
 def look(machine, history, h, factor, tolerance):
     """The error of the step just attempted, `factor` times ESTIMATE, as a share of the allowed one. Where it begins to be that of what is
-    slow alone, numbers[VIBRATING] is BEGINS, and the polynomial has to begin anew."""
+    slow alone, numbers[VIBRATING] is BEGINS, and the step is to be tried again with order two."""
     run = run_at(history)
-    c, plain = run.numbers, factor * size(run, run.stages[ESTIMATE]) / tolerance
+    c, plain, motion = run.numbers, factor * size(run, run.stages[ESTIMATE]) / tolerance, 0.0
     c[UNCHECKED] += 1.0
     if c[VIBRATING] == NO:
         known = rate_of_motion(machine, history) * REACH * h <= 1.0
@@ -163,12 +208,16 @@ def look(machine, history, h, factor, tolerance):
         if not FREE < plain < np.inf or c[UNCHECKED] < patience or not known:
             return plain
         c[UNCHECKED], c[LOOKED] = 0.0, h
+        motion = factor * size(run, run.stages[ESTIMATE, : run.y.shape[0] - ENERGIES]) / tolerance
         for i in range(run.y.shape[0]):
             run.stages[CHANGE, i] = run.stages[ESTIMATE, i]
-    status, fast, amplitude = keep_slow(machine, history, h)
+    status, amplitude = find_amplitude(machine, history, h)
+    fast = 0.0
+    if status == OK:
+        status, fast = keep_slow(machine, history)
     slow = factor * size(run, run.stages[ESTIMATE]) / tolerance
     if c[VIBRATING] == NO:
-        if status == OK and slow < LITTLE * plain and amplitude <= 1.0:
+        if status == OK and slow < LITTLE * motion and amplitude <= 1.0 and lasts(machine, history, h, tolerance):
             begin(run, h)
             return slow
         c[PATIENCE] = min(2.0 * c[PATIENCE], MOST_PATIENCE)
@@ -186,7 +235,7 @@ def look(machine, history, h, factor, tolerance):
             begin(run, h)
     error = max(slow, factor * fast)
     if c[VIBRATING] == GOES_ON and not error <= 1.0:
-        # steps are counted, not tries: those from order one begin short
+        # steps are counted, not tries
         c[UNCHECKED] -= 1.0
     return error
 
@@ -199,7 +248,5 @@ def settle(run, h, grows):
         return
     if grows:
         c[UNCHECKED] = 0.0
-    elif c[UNCHECKED] >= SETTLED and h < WORTH * c[ENTRY]:
-        leave(run, h, False)
     elif c[UNCHECKED] >= SETTLED * 2.0 ** (c[TRIES] - 1.0):
         c[VIBRATING], c[LONGEST] = SETTLES, h

@@ -13,13 +13,13 @@ from nivel.march.run import DONE_STEPS, run_at, step_signature
 from nivel.march.step_control import allowed
 from nivel.march.stiff_vibration import NO
 from nivel.march.variable_corrector import corrector
-from nivel.march.variable_order import multistep, plain, take_rate, take_value
+from nivel.march.variable_order import multistep, plain, take_value
 from nivel.march.variable_workspace import VIBRATING
 
 MOST_ORDER = 5
 SHARE, TOTAL = 0.001, 0.3
 
-variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix, 1), plain, take_value, take_rate)
+variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix, 1), plain, take_value)
 
 
 @leaf

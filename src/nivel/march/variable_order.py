@@ -73,12 +73,12 @@ MOST_REJECTIONS = 3
 
 
 @leaf
-def start(run, rate):
-    """The polynomial of order one from the value that it has and this rate, as if steps of this length had been done before."""
+def start(run):
+    """The polynomial of order one from the accepted state, as if steps of this length had been done before."""
     h = run.clock[STEP]
     for i in range(run.y.shape[0]):
-        run.stages[Z + 1, i] = h * rate[i]
-        run.stages[SLOPE, i] = h * rate[i]
+        run.stages[Z + 1, i] = h * run.rate[i]
+        run.stages[SLOPE, i] = h * run.rate[i]
     run.counter[ORDER] = 1
     numbers = run.numbers
     numbers[SCALED], numbers[CONTRACTION], numbers[SHARE], numbers[WAIT], numbers[LAST_STEP] = h, 1.0, 0.0, 2.0, 0.0
@@ -132,6 +132,19 @@ def advance_order(run, family, change, K):
         add_polynomial(run, p, q - 1, Z + q, -1.0)
     run.counter[ORDER] = q + change
     numbers[WAIT], numbers[LAST_STEP] = q + change + 1.0, 0.0
+
+
+@leaf
+def reduce_order(run, family):
+    """The polynomial of order two through the last points, or of order one where there are no more."""
+    numbers = run.numbers
+    xi = numbers[XI : XI + MOST_ORDER + 3]
+    xi[0] = 0.0
+    for i in range(run.counter[ORDER]):
+        before = numbers[STEPS + i]
+        xi[i + 1] = xi[i] + (before / numbers[SCALED] if before > 0.0 else 1.0)
+    while run.counter[ORDER] > 2:
+        advance_order(run, family, -1, 1.0)
 
 
 @leaf
@@ -192,21 +205,13 @@ def take_value(machine, history):
 
 
 @leaf
-def take_rate(machine, history):
-    """CHANGE := the rate to begin anew with, that of the accepted state."""
-    run = run_at(history)
-    for i in range(run.y.shape[0]):
-        run.stages[CHANGE, i] = run.rate[i]
-
-
-@leaf
 def plain(machine, history, h, factor, tolerance):
     """The error of the step just attempted, `factor` times ESTIMATE, as a share of the allowed one."""
     run = run_at(history)
     return factor * size(run, run.stages[ESTIMATE]) / tolerance
 
 
-def multistep(family, most, correct, damp, look, follow, find_slope):
+def multistep(family, most, correct, damp, look, follow):
     """The function `variable_step` of a family, for orders up to `most`, with a corrector of `nivel.march.variable_corrector` and a look at
     vibrations of `nivel.march.stiff_vibration`, and how the past follows the correction of the loop (`nivel.march.stiff_correction`)."""
 
@@ -220,7 +225,7 @@ def multistep(family, most, correct, damp, look, follow, find_slope):
         if is_fresh(run):
             forget(run)
             status = take_value(machine, history)
-            start(run, run.rate)
+            start(run)
             run.counter[RESTART] = 0
         else:
             if run.counter[NEWTON] == 0:
@@ -246,11 +251,10 @@ def multistep(family, most, correct, damp, look, follow, find_slope):
             else:
                 error = look(machine, history, h, factors[2] / factors[0], tolerance)
                 if numbers[VIBRATING] == BEGINS:
-                    # the same step with order one
+                    # the same step with order two
                     numbers[VIBRATING] = GOES_ON
                     run.clock[STEP] = h
-                    find_slope(machine, history)
-                    start(run, run.stages[CHANGE])
+                    reduce_order(run, family)
                     continue
                 shorter = turned_too_far(machine, h)
                 if error <= 1.0 and shorter == 1.0:
@@ -258,10 +262,11 @@ def multistep(family, most, correct, damp, look, follow, find_slope):
                 reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
             rejections += 1
             motion = run.stages[ESTIMATE, : run.y.shape[0] - ENERGIES]
-            lost = status != OK or not factors[2] / factors[0] * size(run, motion) <= tolerance
+            lost = status != OK or (
+                numbers[VIBRATING] == NO and not factors[2] / factors[0] * size(run, motion) <= tolerance
+            )
             if rejections % MOST_REJECTIONS == 0 and lost:
-                find_slope(machine, history)
-                start(run, run.stages[CHANGE])
+                start(run)
         accept(run, c)
         extrapolated = factors[2] / factors[0] if family == ADAMS and run.counter[NEWTON] == 0 else 0.0
         for i in range(run.y.shape[0]):

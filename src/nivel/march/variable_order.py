@@ -68,7 +68,7 @@ LOWER, SAME, HIGHER = 6.0, 4.0, 8.0
 WORTH, MOST_GROWTH, FIRST_GROWTH = 1.2, 2.0, 10.0
 # After so many rejections of one step its past says nothing about it, and the polynomial begins anew with order one; but not where only the
 # energies at the end of y are wrong, on which nothing depends: of stiff springs these depend on accelerations, which order one gets wrong
-# by half of themselves in its first step, however short that is.
+# by half of themselves in its first step, however short that is. Nor while a vibration is stepped over, which would be shaken anew.
 MOST_REJECTIONS = 3
 
 

@@ -392,3 +392,38 @@ def spatial_crank(stiffness=None, damping=0.0, **settings):
         forces=forces,
         simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
     )
+
+
+def bead_on_a_vibrating_rod(stiffness, **settings):
+    """A rod on a hinge with a coil, turned away by 0.8 mJ, and a bead that slides on it: vibrating, the rod drives the bead outwards, and
+    what that gains the vibration loses."""
+    return MachineRecord(
+        name="bead on a vibrating rod",
+        gravity=(0, 0, 0),
+        bodies=(
+            Body(name="rod", mass=1, inertia=(0.01, 0.1, 0.1)),
+            Body(name="bead", mass=1, inertia=(0.001, 0.001, 0.001), position=(0.3, 0, 0)),
+        ),
+        joints=(
+            Joint(name="hinge", type="revolute", bodies=("ground", "rod"), point=(0, 0, 0), axis=(0, 0, 1)),
+            Joint(name="rail", type="translational", bodies=("rod", "bead"), point=(0.3, 0, 0), axis=(1, 0, 0)),
+        ),
+        forces=(
+            JointSpringDamper(
+                name="coil", coordinate="hinge", stiffness=stiffness, preload=-np.sqrt(1.6e-3 * stiffness), damping=0.0
+            ),
+        ),
+        simulation=SimulationSettings(**({"duration": 1.0, "output_interval": 0.05} | settings)),
+    )
+
+
+def bead_on_a_rod(times, stiffness):
+    """Distance of the bead from the hinge, from the Lagrangian: I = 0.101 kg m² + r², (r, angle from where the coil is at rest)."""
+    from scipy.integrate import solve_ivp
+
+    def rates(t, y):
+        r, angle, out, turning = y
+        return out, turning, r * turning**2, -(stiffness * angle + 2 * r * out * turning) / (0.101 + r**2)
+
+    start = [0.3, np.sqrt(1.6e-3 / stiffness), 0, 0]
+    return solve_ivp(rates, (0, times[-1]), start, method="DOP853", t_eval=times, rtol=1e-10, atol=1e-13).y[0]

@@ -32,14 +32,12 @@ def find_filter(machine, t, cq, cv, cx):
 
 
 @stage
-def keep_slow(machine, t, x, across):
-    """Overwrite x, accelerations and then rates of states of forces, by what of it is slow. Returns a status.
-
-    across : whether what leads across the constraints, as a driver would lead, stays as it is and is followed; dropped otherwise.
-    """
+def weigh(machine, t, x):
+    """M x of accelerations x (·,), in the first entries of newton.filter.b; behind them what x leads across the constraints, C_q x, where
+    that of frictions is none. Returns a status."""
     record = record_at(machine)
     newton, here = record.newton, record.residual
-    b, n, states = newton.filter.b, here.vdot.shape[0], newton.state.shape[0]
+    b, n, first = newton.filter.b, here.vdot.shape[0], here.vdot.shape[0] + newton.state.shape[0]
     twin, moving = load_twin(newton, here)
     for k in range(n):
         moving.vdot[k] += 1j * EPSILON * x[k]
@@ -48,11 +46,29 @@ def keep_slow(machine, t, x, across):
         return status
     for k in range(n):
         b[k] = moving.value[k].imag / EPSILON
+    rows = b.shape[0] - first
+    for k in range(rows):
+        b[first + k] = moving.value[first + k + 2 * rows].imag / EPSILON if k < here.row.shape[0] else 0.0
+    return OK
+
+
+@stage
+def keep_slow(machine, t, x, across):
+    """Overwrite x, accelerations and then rates of states of forces, by what of it is slow. Returns a status.
+
+    across : whether what leads across the constraints, as a driver would lead, stays as it is and is followed; dropped otherwise.
+    """
+    record = record_at(machine)
+    newton, here = record.newton, record.residual
+    b, n, states = newton.filter.b, here.vdot.shape[0], newton.state.shape[0]
+    status = weigh(machine, t, x)
+    if status != OK:
+        return status
     for k in range(states):
         b[n + k] = x[n + k]
-    first, rows = n + states, b.shape[0] - n - states
-    for k in range(rows):
-        b[first + k] = moving.value[first + k + 2 * rows].imag / EPSILON if across and k < here.row.shape[0] else 0.0
+    if not across:
+        for k in range(n + states, b.shape[0]):
+            b[k] = 0.0
     solve_entries(newton, newton.filter)
     apply_turns(newton, b)
     for k in range(n + states):

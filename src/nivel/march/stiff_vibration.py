@@ -2,7 +2,7 @@
 
 Above order two BDF lets vibrations grow while a step is about as long as their period, and the error of a step then keeps it so short for
 ever. So where a step does not get longer, its error is looked at by `nivel.march.error_filter`, for steps REACH times as long. If little of
-it is slow, the amplitude of the vibration within the tolerance of the run, and the slow motion good for a step of order two as long, the
+it is slow, amplitude and energy of the vibration within the tolerance, and the slow motion good for a step of order two as long, the
 polynomial is reduced to that order: through the same points, as a new begin with order one would shake the spring. From there on the error
 of what is slow decides. No order is above two until steps do not get longer any more, by when the vibration is damped; then orders are
 free, and steps get so long that all of them damp what is left. Where they do not, the vibration grows again, and the next time order two
@@ -21,7 +21,7 @@ from nivel.kernels.record import NONE, record_at
 from nivel.kernels.rotation import angular_velocity, rates_of_parameters
 from nivel.kernels.status import OK
 from nivel.march.alpha_error import REACH, rate_of_motion, size_of_displacement, split
-from nivel.march.error_filter import find_filter
+from nivel.march.error_filter import find_filter, weigh
 from nivel.march.run import FACTORISATIONS, ORDER, REACHED, TOLERANCE, run_at
 from nivel.march.step_control import EXACT, size
 from nivel.march.variable_workspace import (
@@ -33,16 +33,19 @@ from nivel.march.variable_workspace import (
     LONGEST,
     LOOKED,
     PATIENCE,
+    RATE,
     SCALED,
     SLOW,
+    SPAN,
     TRIES,
     UNCHECKED,
     VIBRATING,
     Z,
 )
 
-# Twice the amplitude of a vibration may be this share of the tolerance of the run.
-AMPLITUDE = 0.1
+# Of the tolerance of the run: twice the amplitude of a vibration may be the first share of it, the energy the second. What a vibration does
+# to slow motion is about as large as its energy, and the motion is to be within ten tolerances.
+AMPLITUDE, ENERGY = 0.1, 10.0
 # Errors below the first share of the allowed one are not looked at; a vibration leaves less than the second share of an error, and where
 # the slow part is more than the third there is none.
 FREE, LITTLE, HELPS = 0.05, 0.02, 0.5
@@ -50,8 +53,11 @@ FREE, LITTLE, HELPS = 0.05, 0.02, 0.5
 SETTLED, MOST_TRIES = 4.0, 9.0
 # With equal steps order two errs by this many h³ y⃛/6.
 SECOND = 4.0 / 3.0
-# Steps that got so much longer have left the vibration behind.
+# Steps that got so much longer have left the vibration behind; vibrations so much larger than may be stepped over are followed again.
 MUCH = 4.0
+# Steps get longer, but what a vibration is stays what it was when it was told from what is slow: so many times faster than what is faster
+# than the span, as far as that can be told from the share of it that the filter leaves. A contact or a soft spring is not taken for one.
+CLEAR, LEAST = 5.0, 1e-24
 # With free orders a step that became this share of the longest is held by a vibration that grew; one of the step last looked at is worth a
 # look.
 SHRUNK = 0.4
@@ -128,24 +134,56 @@ def drop_energies(run):
 
 
 @leaf
-def find_amplitude(machine, history, h):
-    """Make the filter for a step h ready. Returns a status, and twice the amplitude of the vibrations of the accepted state, as a share of
-    what vibrations may be wrong by."""
+def double_energy(machine, history, x):
+    """Returns a status, and the product of x (·,) and M times what is in RATE: of vibrations twice an energy, where both are velocities, or
+    displacements and accelerations."""
+    run, total = run_at(history), 0.0
+    status = weigh(machine, run.clock[REACHED], run.stages[RATE])
+    forces = record_at(machine).newton.filter.b
+    for k in range(record_at(machine).newton.place.shape[0]):
+        total += x[k] * forces[k]
+    return status, total
+
+
+@leaf
+def find_vibrations(machine, history, h):
+    """Make the filter for a step h ready. Returns a status, and how large the vibrations of the accepted state are, as a share of what may
+    be stepped over: twice their amplitude, or their energy, of which a slow motion may live (a bead on a rod that vibrates)."""
     run, newton = run_at(history), record_at(machine).newton
-    rate, t = rate_of_motion(machine, history), run.clock[REACHED]
+    rate, t, positions = rate_of_motion(machine, history), run.clock[REACHED], count_positions(machine, run)
+    slow, fast, work, moving = run.stages[SLOW], run.stages[FAST], run.stages[RATE], newton.place.shape[0]
     reach = min(REACH * h, MOST_TURN / max(rate, 1e-300))
+    if run.numbers[VIBRATING] == NO:
+        run.numbers[SPAN] = reach
+    else:
+        reach = min(reach, run.numbers[SPAN])
     status = find_filter(machine, t, reach * reach, reach, reach)
     run.counter[FACTORISATIONS] += 1
-    load_velocities(run, run.rate, count_positions(machine, run))
+    load_velocities(run, run.rate, positions)
     if status == OK:
         status = split(machine, history, t, SLOW, FAST, True)
-    amplitude = size_of_displacement(run, newton, FAST, reach * reach, reach)
-    return status, 2.0 * amplitude / max(AMPLITUDE * run.clock[TOLERANCE], EXACT)
+    amplitude = 2.0 * size_of_displacement(run, newton, FAST, reach * reach, reach)
+    potential, kinetic = 0.0, 0.0
+    for k in range(moving):
+        work[k] = run.rate[positions + k] - slow[k]
+        fast[k] *= reach * reach
+    if status == OK:
+        status, potential = double_energy(machine, history, fast)
+    load_velocities(run, run.y, positions)
+    if status == OK:
+        status = split(machine, history, t, SLOW, FAST, True)
+    for k in range(moving):
+        work[k] = run.y[positions + k] - slow[k]
+    if status == OK:
+        status, kinetic = double_energy(machine, history, work)
+    share = 0.5 * (potential + kinetic) / max(run.scale[-2], run.scale[-1])
+    tolerance = run.clock[TOLERANCE]
+    return status, max(amplitude / max(AMPLITUDE * tolerance, EXACT), share / max(ENERGY * tolerance, EXACT))
 
 
 @leaf
 def keep_slow(machine, history):
-    """ESTIMATE := what of it is slow, by the filter of `find_amplitude`. Returns a status, and the largest displacement of it that was
+    """ESTIMATE := what of it is slow, by the filter of `find_vibrations`. Returns a status, and the largest displacement of it that was
     fast, as a share of what vibrations may be wrong by."""
     run, newton = run_at(history), record_at(machine).newton
     positions, t = count_positions(machine, run), run.clock[REACHED]
@@ -211,20 +249,22 @@ def look(machine, history, h, factor, tolerance):
         motion = factor * size(run, run.stages[ESTIMATE, : run.y.shape[0] - ENERGIES]) / tolerance
         for i in range(run.y.shape[0]):
             run.stages[CHANGE, i] = run.stages[ESTIMATE, i]
-    status, amplitude = find_amplitude(machine, history, h)
+    status, vibrations = find_vibrations(machine, history, h)
     fast = 0.0
     if status == OK:
         status, fast = keep_slow(machine, history)
     slow = factor * size(run, run.stages[ESTIMATE]) / tolerance
     if c[VIBRATING] == NO:
-        if status == OK and slow < LITTLE * motion and amplitude <= 1.0 and lasts(machine, history, h, tolerance):
+        if status == OK and slow < LITTLE * motion and vibrations <= 1.0 and lasts(machine, history, h, tolerance):
+            # (1 + (ω span)²)⁻⁴ of a vibration is left: from that ω span, which becomes CLEAR
+            c[SPAN] *= CLEAR / np.sqrt(max(slow / motion, LEAST) ** -0.25 - 1.0)
             begin(run, h)
             return slow
         c[PATIENCE] = min(2.0 * c[PATIENCE], MOST_PATIENCE)
         for i in range(run.y.shape[0]):
             run.stages[ESTIMATE, i] = run.stages[CHANGE, i]
         return plain
-    if status != OK:
+    if status != OK or vibrations > MUCH:
         leave(run, h, False)
         return plain
     if c[VIBRATING] == SETTLES:

@@ -11,10 +11,8 @@ from nivel.march.difference_matrix import find_matrix, solve_matrix
 from nivel.march.multistep_polynomials import BDF
 from nivel.march.run import DONE_STEPS, run_at, step_signature
 from nivel.march.step_control import allowed
-from nivel.march.stiff_vibration import NO
 from nivel.march.variable_corrector import corrector
 from nivel.march.variable_order import multistep, plain, take_value
-from nivel.march.variable_workspace import VIBRATING
 
 MOST_ORDER = 5
 SHARE, TOTAL = 0.001, 0.3
@@ -24,10 +22,8 @@ variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix,
 
 @leaf
 def of_step(history):
-    """What the next step may be wrong by, as a share of the scales. What is damped on purpose does not add up."""
+    """What the next step may be wrong by, as a share of the scales."""
     run = run_at(history)
-    if run.numbers[VIBRATING] != NO:
-        return allowed(run, SHARE)
     return allowed(run, min(SHARE, TOTAL / (1.0 + run.counter[DONE_STEPS])))
 
 

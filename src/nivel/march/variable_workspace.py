@@ -20,6 +20,8 @@ STEPS, XI, C, WORK = 5, 20, 35, 50
 VIBRATING, UNCHECKED, PATIENCE, LONGEST, TRIES, ENTRY, LOOKED = 66, 67, 68, 69, 70, 71, 72
 # … and for how many more errors a part of them is taken for stiff
 STIFF = 73
-NUMBERS = 74
+# … and what is faster than this [s] vibrates
+SPAN = 74
+NUMBERS = 75
 # energies at the end of y, on which nothing depends
 ENERGIES = 2

@@ -10,6 +10,7 @@ from nivel.machine import (
     PointForce,
     SimulationSettings,
     SpringDamper,
+    Stop,
 )
 from nivel.machine.driver import Driver
 
@@ -427,3 +428,33 @@ def bead_on_a_rod(times, stiffness):
 
     start = [0.3, np.sqrt(1.6e-3 / stiffness), 0, 0]
     return solve_ivp(rates, (0, times[-1]), start, method="DOP853", t_eval=times, rtol=1e-10, atol=1e-13).y[0]
+
+
+def braced_cart(stiffness, **settings):
+    """A cart of 3 kg that runs into a stop of 1e4 N/m with 1.5 m/s; on it an arm on a hinge, its centre 0.1 m below, braced by a
+    spring with what carries its 1.5 kg at 0.3 m."""
+    length = np.hypot(0.3, 0.7)
+    return MachineRecord(
+        name="braced cart",
+        gravity=(0, -GRAVITY, 0),
+        bodies=(
+            Body(name="cart", mass=3, inertia=(0.1, 0.1, 0.1), velocity=(1.5, 0, 0)),
+            Body(name="arm", mass=1.5, inertia=(0.05, 0.05, 0.05), position=(0.3, -0.1, 0), velocity=(1.5, 0, 0)),
+        ),
+        joints=(
+            Joint(name="rail", type="translational", bodies=("ground", "cart"), point=(0, 0, 0), axis=(1, 0, 0)),
+            Joint(name="pin", type="revolute", bodies=("cart", "arm"), point=(0, 0, 0), axis=(0, 0, 1)),
+        ),
+        forces=(
+            SpringDamper(
+                name="brace",
+                bodies=("cart", "arm"),
+                points=((0.3, 0.5, 0), (0.6, -0.2, 0)),
+                stiffness=stiffness,
+                free_length=length,
+                preload=1.5 * GRAVITY * 0.3 * length / (0.6 * 0.7 - 0.2 * 0.3),
+            ),
+            Stop(name="stop", coordinate="rail", lower=-0.3, upper=0.4, stiffness=1e4, restitution=0.8),
+        ),
+        simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
+    )

@@ -9,6 +9,7 @@ from running import run
 from stiff_machines import (
     bead_on_a_rod,
     bead_on_a_vibrating_rod,
+    braced_cart,
     double_pendulum,
     driven_arm,
     driven_rocker,
@@ -176,6 +177,16 @@ def test_bdf_where_the_rocker_is_all_that_the_driver_makes_of_it(coordinates, se
         assert stiff.finished.timing["steps"] <= 2.0 * soft.finished.timing["steps"], tolerance
         error = np.abs(stiff.position[:, 1] - rigid.position[:, 1]).max()
         assert error < tolerance * stiff.prepared.motion.system.size + 1e-5
+
+
+@COORDINATES
+def test_bdf_takes_no_contact_for_a_vibration(coordinates):
+    """Where the span of the filter grew with the steps, the 50 rad/s of the cart in its stop were stepped over as well."""
+    exact = solved(braced_cart(3e8), "dop853", tolerance=1e-9, coordinates="relative")
+    for tolerance in np.geomspace(1e-2, 1e-5, 12):
+        result = solved(braced_cart(3e8), "bdf", coordinates=coordinates, tolerance=tolerance)
+        error = np.abs(result.position - exact.position).max()
+        assert error < 10 * tolerance * result.prepared.motion.system.size
 
 
 @COORDINATES

@@ -67,7 +67,7 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     **{f"gear{k}": IntegratorFacts(_GEAR, "gear", _ROWS, k, _NUMBERS, implicit=True) for k in range(1, 5)},
     "dopri5": IntegratorFacts("nivel.march.dormand_prince", "dopri5", 7, 5, numbers=2, chooses_steps=True),
     "dop853": IntegratorFacts("nivel.march.dop853", "dop853", 16, 8, numbers=2, chooses_steps=True),
-    "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 34, 12, 74, chooses_steps=True, implicit=True),
+    "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 34, 12, 75, chooses_steps=True, implicit=True),
     **{
         name: IntegratorFacts(
             "nivel.march.alpha", "alpha", 12, 2, 14, implicit=True, residual=True, either=True, jumps=True, filters=True
@@ -84,13 +84,13 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
         whole="nivel.motion.energy_momentum_residual",
         whole_flexible="nivel.motion.floating_energy_momentum_residual",
     ),
-    "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 34, 5, 74, chooses_steps=True, implicit=True),
+    "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 34, 5, 75, chooses_steps=True, implicit=True),
     "bdf": IntegratorFacts(
         "nivel.march.variable_bdf",
         "bdf",
         34,
         5,
-        74,
+        75,
         chooses_steps=True,
         implicit=True,
         residual=True,

@@ -74,7 +74,8 @@ MOST_REJECTIONS = 3
 
 @leaf
 def start(run):
-    """The polynomial of order one from the accepted state, as if steps of this length had been done before."""
+    """The polynomial of order one from the value that it has and the rate of the accepted state, as if steps of this length had been done
+    before."""
     h = run.clock[STEP]
     for i in range(run.y.shape[0]):
         run.stages[Z + 1, i] = h * run.rate[i]

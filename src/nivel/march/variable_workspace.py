@@ -20,7 +20,7 @@ STEPS, XI, C, WORK = 5, 20, 35, 50
 VIBRATING, UNCHECKED, PATIENCE, LONGEST, TRIES, ENTRY, LOOKED = 66, 67, 68, 69, 70, 71, 72
 # … and for how many more errors a part of them is taken for stiff
 STIFF = 73
-# … and what is faster than this [s] vibrates
+# … and the time [s] that tells what vibrates from what is slow, kept while order two goes on
 SPAN = 74
 NUMBERS = 75
 # energies at the end of y, on which nothing depends

@@ -1,5 +1,7 @@
 """Settings that all tests share."""
 
+import os
+
 import numpy as np
 import pytest
 from hypothesis import settings
@@ -12,3 +14,17 @@ settings.load_profile("nivel")
 @pytest.fixture
 def rng():
     return np.random.default_rng(20031)
+
+
+if os.environ.get("NIVEL_TESTS_ARE_COMPILED") == "1":
+    from compiling import fail_where_it_compiles
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_setup(item):
+        with fail_where_it_compiles(allowed=item.get_closest_marker("compiles")):
+            return (yield)
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_call(item):
+        with fail_where_it_compiles(allowed=item.get_closest_marker("compiles")):
+            return (yield)

@@ -47,7 +47,7 @@ def test_python_of_the_page_runs(tmp_path):
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert "spread: the 2 methods" in done.stdout
-    assert {"pendulum.csv", "pendulum.html"} <= {path.name for path in tmp_path.iterdir()}
+    assert {"four-bar.csv", "four-bar.html"} <= {path.name for path in tmp_path.iterdir()}
 
 
 def test_lines_are_short():

@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from nivel.machine import Sensor as Sensor
     from nivel.machine import SimulationSettings as SimulationSettings
     from nivel.machine import SpringDamper as SpringDamper
+    from nivel.machine import State as State
     from nivel.machine import Stop as Stop
     from nivel.machine import Table as Table
     from nivel.machine import Torque as Torque
@@ -86,6 +87,7 @@ _HOME = {
     "Sensor": "nivel.machine",
     "SimulationSettings": "nivel.machine",
     "SpringDamper": "nivel.machine",
+    "State": "nivel.machine",
     "Stop": "nivel.machine",
     "Table": "nivel.machine",
     "Torque": "nivel.machine",
@@ -125,6 +127,7 @@ __all__ = [
     "SimulationSettings",
     "SolveError",
     "SpringDamper",
+    "State",
     "Stop",
     "Table",
     "Torque",

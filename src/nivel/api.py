@@ -32,6 +32,7 @@ from nivel.machine import (
     Marker,
     Sensor,
     SimulationSettings,
+    State,
 )
 
 if TYPE_CHECKING:
@@ -65,6 +66,7 @@ class Machine:
         couplings: Sequence[Coupling] = (),
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
+        states: Sequence[State] = (),
         sensors: Sequence[Sensor] = (),
         events: Sequence[Event] = (),
         gravity: Sequence[float | str] = (0.0, 0.0, 0.0),
@@ -79,6 +81,7 @@ class Machine:
             "couplings": couplings,
             "drivers": drivers,
             "forces": forces,
+            "states": states,
             "sensors": sensors,
             "events": events,
         }

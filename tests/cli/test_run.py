@@ -8,6 +8,8 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import chdir
+from types import SimpleNamespace
 
 import pytest
 from click.testing import CliRunner
@@ -34,13 +36,22 @@ def folder(tmp_path):
     return tmp_path
 
 
-def nivel(folder, *arguments, **options):
+def nivel(folder, *arguments):
+    """What the command says and leaves behind; in this process, where a defect is an error of the test."""
+    with chdir(folder):
+        done = CliRunner().invoke(main, [*map(str, arguments)], prog_name="nivel", catch_exceptions=False)
+    return SimpleNamespace(returncode=done.exit_code, stdout=done.stdout, stderr=done.stderr)
+
+
+def process(folder, *arguments, **options):
+    """The same by a process of its own."""
     command = [sys.executable, "-m", "nivel", *map(str, arguments)]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300, **options)
 
 
-def test_result_and_report_stand_beside_each_other(folder):
-    done = nivel(folder, "run", "pendulum.yaml")
+@pytest.mark.parametrize("call", [nivel, process])
+def test_result_and_report_stand_beside_each_other(folder, call):
+    done = call(folder, "run", "pendulum.yaml")
     assert done.returncode == 0, done.stderr
     assert done.stdout == ""
     assert (folder / "pendulum.nc").exists()
@@ -117,7 +128,8 @@ def test_a_disk_that_is_full_ends_with_code_three_and_a_readable_result(folder):
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 
     nivel(folder, "run", "pendulum.yaml", "--no-report", "--out", "first.nc")  # compiled before the disk is full
-    done = nivel(folder, "run", "pendulum.yaml", "--duration", "20", "--output-interval", "1 ms", preexec_fn=small_disk)
+    arguments = ("run", "pendulum.yaml", "--duration", "20", "--output-interval", "1 ms")
+    done = process(folder, *arguments, preexec_fn=small_disk)
     assert done.returncode == 3, done.stderr
     result = Result.open(folder / "pendulum.nc")
     assert result.outcome == "failed"
@@ -131,7 +143,7 @@ def test_forces_beyond_all_bounds_give_no_warnings(folder):
     burst = 'burst: {type: force, body: bar, position: [0.3, 0, 0.2], vector: [0, "exp(1000*time)", 0]}'
     text += f"forces:\n  {burst}\n"
     (folder / "burst.yaml").write_text(text)
-    done = nivel(folder, "run", "burst.yaml", "--output-interval", "1 ms")
+    done = process(folder, "run", "burst.yaml", "--output-interval", "1 ms")
     assert "Warning" not in done.stderr
     assert "trust: red" in done.stderr
 
@@ -220,7 +232,7 @@ def test_another_formulation_leaves_the_rotation_coordinates_of_lagrange_behind(
 
 
 def test_help_lists_every_word_of_every_method(folder):
-    shown = " ".join(nivel(folder, "run", "--help").stdout.split())
+    shown = " ".join(process(folder, "run", "--help").stdout.split())
     for setting in ("integrator", "formulation", "coordinates", "rotations", "stabilisation"):
         for word in known_words(setting):
             assert re.search(rf"[ :]{word}[,.]", shown), word
@@ -252,28 +264,28 @@ def test_failed_computation_ends_with_code_three_and_a_readable_result(folder):
 
 def start_long_run(folder):
     command = [sys.executable, "-m", "nivel", "run", "pendulum.yaml", "--duration", "20000", "--output-interval", "0.1"]
-    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    running = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     path = folder / "pendulum.nc"
     deadline = time.monotonic() + 240
     while time.monotonic() < deadline:
         time.sleep(0.2)
-        assert process.poll() is None, process.communicate()
+        assert running.poll() is None, running.communicate()
         if path.exists():
             try:
                 if len(Result.open(path).time) > 100:
-                    return process, path
+                    return running, path
             except Exception:
                 continue
-    process.kill()
+    running.kill()
     raise AssertionError("the run did not start")
 
 
 @pytest.mark.skipif(os.name == "nt", reason="POSIX signals")
 def test_interruption_keeps_what_was_computed(folder):
-    process, path = start_long_run(folder)
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=240)
-    assert process.returncode == 130, errors
+    running, path = start_long_run(folder)
+    running.send_signal(signal.SIGINT)
+    _, errors = running.communicate(timeout=240)
+    assert running.returncode == 130, errors
     result = Result.open(path)
     assert result.outcome == "interrupted"
     assert len(result.time) > 100
@@ -282,9 +294,9 @@ def test_interruption_keeps_what_was_computed(folder):
 
 @pytest.mark.skipif(os.name == "nt", reason="POSIX signals")
 def test_killed_run_leaves_a_readable_result(folder):
-    process, path = start_long_run(folder)
-    process.kill()
-    process.communicate(timeout=240)
+    running, path = start_long_run(folder)
+    running.kill()
+    running.communicate(timeout=240)
     result = Result.open(path)
     assert result.outcome == "running"
     assert len(result.time) > 100

@@ -4,6 +4,9 @@ import subprocess
 import sys
 
 import pytest
+from click.testing import CliRunner
+
+from nivel.cli import main
 
 HEAVY = ("numba", "numpy", "scipy", "xarray", "pandas", "matplotlib", "pint", "pydantic", "h5py")
 
@@ -37,8 +40,13 @@ def test_public_names_exist_and_are_few():
     "command", ["new", "check", "run", "compare", "reduce", "view", "explain", "stress", "export", "warmup"]
 )
 def test_every_command_has_help(command):
-    done = subprocess.run(
-        [sys.executable, "-m", "nivel", command, "--help"], capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr
+    done = CliRunner().invoke(main, [command, "--help"])
+    assert done.exit_code == 0, done.stderr
     assert "Usage" in done.stdout
+
+
+def test_the_module_is_the_command():
+    command = [sys.executable, "-m", "nivel", "run", "--help"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "nivel run [OPTIONS] MACHINE" in done.stdout

@@ -18,9 +18,9 @@ from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.settings import StaticsSettings
 from nivel.flexible import reference
 from nivel.flexible.body_file import read_body
-from nivel.machine import SimulationSettings
+from nivel.machine import PointForce, SimulationSettings
 from observing import assert_same_frame, observed, of_absolute
-from running import run
+from running import reference_run, run
 from tree_machines import MACHINES, beam, hinge, machine, write_beams
 from unknowns import Unknowns, error_of
 
@@ -169,7 +169,7 @@ def test_energy_is_kept(folder, name):
 def test_all_integrators_agree(folder, name, integrator, settings):
     record = MACHINES[name](folder)
     common = {"duration": 0.1, "output_interval": 0.02, "coordinates": "relative"}
-    expected = run(record, integrator="dop853", tolerance=1e-10, **common)
+    expected = reference_run(record, integrator="dop853", tolerance=1e-10, **common)
     r = run(record, integrator=integrator, **settings, **common)
     assert r.finished.outcome == "done"
     assert np.abs(r.position - expected.position).max() < 2e-4
@@ -188,7 +188,7 @@ def test_stiff_modes_are_a_rigid_body(tmp_path):
         rigid = {"mass": body.mass, "centre_of_mass": tuple(body.centre_of_mass), "inertia": body.inertia.tolist()}
         solid = record.replace(bodies=tuple(each.replace(flexible=None, **rigid) for each in bars))
         common = {"duration": 0.2, "output_interval": 0.05, "coordinates": "relative"}
-        expected = run(solid, integrator="dop853", tolerance=1e-11, **common)
+        expected = reference_run(solid, integrator="dop853", tolerance=1e-11, **common)
         r = run(record, integrator="radau", tolerance=1e-9, **common)
         differences.append(np.abs(r.position - expected.position).max())
     assert differences[1] == pytest.approx(differences[0] / 4.0, rel=0.15)
@@ -231,7 +231,7 @@ def test_ros2_by_modes_is_of_order_two(folder, name):
     """Without any matrix; the longest steps are past the bound of stability of RK4, ω h = 2.8."""
     record = MACHINES[name](folder)
     common = {"duration": 0.2, "output_interval": 0.05, "coordinates": "relative"}
-    fine = run(record, integrator="dop853", tolerance=1e-11, **common)
+    fine = reference_run(record, integrator="dop853", tolerance=1e-11, **common)
     highest = np.sqrt(fine.prepared.motion.system.record.flexible.stiffness.max())
     errors = []
     for step in (1e-3, 5e-4, 2.5e-4, 1.25e-4):
@@ -261,7 +261,7 @@ def test_ros2_goes_by_modes_only_without_other_stiffness(folder):
 def test_penalties_hold_flexible_bodies(folder, formulation, coordinates):
     record = MACHINES["loop"](folder)
     common = {"integrator": "rk4", "step": 2e-5, "duration": 0.02, "output_interval": 0.01, "coordinates": coordinates}
-    expected = run(record, **common)
+    expected = reference_run(record, **common)
     r = run(record, formulation=formulation, **common)
     assert r.finished.outcome == "done"
     assert np.abs(r.position - expected.position).max() < 1e-6
@@ -361,3 +361,11 @@ def test_a_flexible_body_carries_a_beam(folder, mass):
     widths[: here.n] *= np.where(np.array(units) == "kg^0.5 m/s", 0.5, 1.0)
     unknowns.widths = lambda: widths
     assert error_of(unknowns.matrix()[1], unknowns.jacobian(), widths) < 1e-9
+
+
+def test_force_that_becomes_infinite_is_named_beside_modes(folder):
+    record = MACHINES["pendulum"](folder)
+    push = PointForce(name="push", body="a", position=(0.5, 0, 0), vector=("sqrt(0.01 - time)", 0, 0))
+    result = run(record.replace(forces=(push,)), integrator="rk4", step=5e-5, duration=0.02, coordinates="absolute")
+    assert result.finished.outcome == "failed"
+    assert "the force push is not a number at t = 0.01" in result.finished.failure[0]

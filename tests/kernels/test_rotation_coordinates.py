@@ -14,6 +14,8 @@ from nivel.kernels.rotation import product, rotation_matrix
 from nivel.kernels.rotation_vector import coefficients
 from nivel.kernels.spatial import solve
 
+pytestmark = pytest.mark.compiles
+
 H = 1e-30
 SCIPY = {euler_angles: lambda phi: Rotation.from_euler("ZXZ", phi), rotation_vector: Rotation.from_rotvec}
 KINDS = pytest.mark.parametrize("kind", SCIPY, ids=lambda kind: kind.__name__.rsplit(".", 1)[1])

@@ -8,6 +8,8 @@ from nivel.kernels.record import Saddle
 from nivel.kernels.sparse import factorise, solve
 from nivel.system.elimination import plan
 
+pytestmark = pytest.mark.compiles
+
 
 def random_rows(rng, bodies, joints, rows_each):
     """Rows C (K, 6 bodies) of random joints: a chain from the ground, then loops between random bodies."""

@@ -10,6 +10,8 @@ from nivel.kernels.sparse_lu import SparseLU, factorise_sparse_lu, solve_sparse_
 from nivel.system.factor_plan import plan_factor
 from saddle_points import chain, entries, linkage, matrix, random_linkage, ring, solved, sparse, star
 
+pytestmark = pytest.mark.compiles
+
 DTYPES = [float, complex]
 
 

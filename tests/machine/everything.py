@@ -249,6 +249,9 @@ EVERYTHING = {
         },
         {"name": "billiards", "type": "contact", "bodies": ["a", "b"], "materials": [STEEL, STEEL], "restitution": 0.9},
     ],
+    "states": [
+        {"name": "lag", "start": 0.5, "rate": "hinge.angle - lag.value", "scale": 2.0, "units": "rad"},
+    ],
     "sensors": [
         {"name": "speed", "marker": "tip", "quantity": "velocity", "relative_to": "eye"},
         {"name": "angle", "coordinate": "hinge", "quantity": "acceleration"},

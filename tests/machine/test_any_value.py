@@ -4,6 +4,7 @@ from functools import partial
 
 from everything import EVERYTHING
 
+from lanes import thirds
 from nivel.machine import MachineRecord, Record
 from wrong_values import WRONG, told_or_done
 
@@ -18,7 +19,8 @@ def records(record):
                 yield from records(each)
 
 
-def test_records_refuse_any_value_of_any_field_in_words():
+@thirds()
+def test_records_refuse_any_value_of_any_field_in_words(third):
     seen = set()
     for record in records(MachineRecord(**EVERYTHING)):
         base = {name: getattr(record, name) for name in record.model_fields_set}
@@ -26,6 +28,6 @@ def test_records_refuse_any_value_of_any_field_in_words():
             if (type(record), name) in seen:
                 continue
             seen.add((type(record), name))
-            for value in WRONG:
+            for value in WRONG[(len(seen) + third) % 3 :: 3]:
                 told_or_done(partial(type(record), **{**base, name: value}))
     assert len(seen) > 200

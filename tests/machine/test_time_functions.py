@@ -139,8 +139,11 @@ def test_where_nothing_varies_symbols_are_refused():
     from nivel.machine.quantity import read_quantity
 
     for text, part in [
-        ("2*hinge.angle", "`hinge.angle` may only be used where a value may vary: in forces, sensors and events"),
-        ("2*time", "`time` may only be used where a value may vary: in forces, drivers, sensors and events"),
+        (
+            "2*hinge.angle",
+            "`hinge.angle` may only be used where a value may vary: in forces, states, sensors and events",
+        ),
+        ("2*time", "`time` may only be used where a value may vary: in forces, drivers, states, sensors and events"),
         ("2*length", "(only the `law` of a spring knows its `length`)"),
     ]:
         with pytest.raises(ExpressionError) as caught:

@@ -54,6 +54,7 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
     function = getattr(import_module(facts.module), facts.function)
     clock, counter = np.zeros(names.CLOCKS), np.zeros(names.COUNTS, dtype=np.int64)
     clock[names.STEP], clock[names.END], clock[names.INTERVAL] = step, end, 1e-9
+    clock[names.BOUND] = end
     clock[names.TOLERANCE], clock[names.LARGEST] = tolerance, step if fixed else largest
     counter[names.MOST_ITERATIONS], counter[names.NEWTON] = 50, int(newton)
     y = np.array(start, dtype=float)
@@ -76,6 +77,7 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
         dense=np.zeros((names.DENSE_ROWS, n)),
         frames=np.zeros((1, 1)),
         event_values=np.zeros((2, 0)),
+        samples=np.zeros(0, dtype=np.int64),
         events=np.zeros((0, 3)),
     )
     machine, history = resting(), Handle(run)

@@ -150,7 +150,10 @@ def slope_of(function, x, size):
     return found[k + 1]
 
 
-@pytest.mark.parametrize("name", ["signed_square", "looped", "table", "periodic", "steady", "interpolated"])
+COMPILED_LONG = pytest.param("interpolated", marks=pytest.mark.compiles)
+
+
+@pytest.mark.parametrize("name", ["signed_square", "looped", "table", "periodic", "steady", COMPILED_LONG])
 def test_python_laws_give_the_derivative_of_the_branch_they_are_on(name):
     namespace = {}
     exec(TEXT, namespace)
@@ -159,6 +162,9 @@ def test_python_laws_give_the_derivative_of_the_branch_they_are_on(name):
         value, slope, _ = on_complex(address, (x, 1.0), (0.7, 2.0))
         assert value == pytest.approx(namespace[name](x, 0.7), rel=1e-14, abs=1e-15)
         assert slope == pytest.approx(slope_of(namespace[name], x, 0.7), rel=3e-11, abs=1e-11)
+
+
+COMPILED_LONG = pytest.param("interpolated", marks=pytest.mark.compiles)
 
 
 @pytest.mark.parametrize("name", ["signed_square", "looped", "periodic"])

@@ -19,6 +19,18 @@ class Frames:
         self.blocks.append(frames.copy())
 
 
+def reference_run(machine, **settings):
+    """`run`, once for equal machines and settings: what many tests compare with."""
+    key = repr((machine, sorted(settings.items())))
+    if key not in _REFERENCES:
+        _REFERENCES[key] = found = run(machine, **settings)
+        found.frames.flags.writeable = False
+    return _REFERENCES[key]
+
+
+_REFERENCES = {}
+
+
 def run(machine, *, chunk_steps=None, **settings):
     """Arrays of all variables, `time`, the prepared machine and how the run finished."""
     record = machine.replace(simulation=machine.simulation.replace(**settings)) if settings else machine

@@ -10,7 +10,6 @@ from nivel.machine import (
     PointForce,
     SimulationSettings,
     SpringDamper,
-    Stop,
 )
 from nivel.machine.driver import Driver
 
@@ -269,36 +268,6 @@ def rigid_rocker(crank_angle):
     return 0.5 * (pivot + end)
 
 
-def driven_arm(stiffness=None, **settings):
-    """In space: an arm turned about the vertical by a driver, on its end a rod on a universal joint, held by a stay: a spring from the arm
-    to the rod, drawn by the 2.18 N that hold it still at the start, or where no stiffness is given a rigid one."""
-    bodies = (
-        Body(name="arm", mass=2, inertia=(0.02, 0.2, 0.21), position=(0.4, 0, 0)),
-        Body(name="rod", mass=1, inertia=(0.08, 0.08, 0.002), position=(0.8, 0, -0.4)),
-    )
-    ends = {"bodies": ("arm", "rod"), "points": ((0.3, 0.1, 0), (0.8, 0, -0.6))}
-    joints = (
-        Joint(name="post", type="revolute", bodies=("ground", "arm"), point=(0, 0, 0), axis=(0, 0, 1)),
-        Joint(name="knuckle", type="universal", bodies=("arm", "rod"), point=(0.8, 0, 0), axes=((1, 0, 0), (0, 1, 0))),
-    )
-    if stiffness is None:
-        joints, forces = (*joints, Joint(name="stay", type="distance", **ends)), ()
-    else:
-        length = np.sqrt(0.5**2 + 0.1**2 + 0.6**2)
-        forces = (
-            SpringDamper(name="stay", stiffness=stiffness, free_length=length, preload=2.1804947352286677, **ends),
-        )
-    return MachineRecord(
-        name="driven arm",
-        gravity=(0, 0, -GRAVITY),
-        bodies=bodies,
-        joints=joints,
-        drivers=(Driver(name="motor", coordinate="post", value="1.5*(1-cos(3*time))"),),
-        forces=forces,
-        simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
-    )
-
-
 def propped_arms(stiffness=None, **settings):
     """In space: an upper arm on a universal joint, a lower one hinged to it, and from the ground to the end of that a prop: a spring drawn
     by the 11.9 N that hold it still at the start, or where no stiffness is given a rigid one."""
@@ -331,36 +300,6 @@ def propped_arms(stiffness=None, **settings):
     )
 
 
-def driven_wheel(stiffness, *, drawn=True, **settings):
-    """A wheel turned by a driver and on the same axis a pendulum, carried along by a spring in the joint between them; `drawn` at the start
-    by the 2.3125 N m that give the pendulum, 0.05 kg m² + (1.5 kg)(0.3 m)², the 12.5 rad/s² of the wheel."""
-    return MachineRecord(
-        name="driven wheel",
-        gravity=(0, -GRAVITY, 0),
-        bodies=(
-            Body(name="wheel", mass=1, inertia=(0.01, 0.01, 0.01)),
-            Body(name="pendulum", mass=1.5, inertia=(0.05, 0.05, 0.05), position=(0, -0.3, 0.1)),
-        ),
-        joints=(
-            Joint(name="axle", type="revolute", bodies=("ground", "wheel"), point=(0, 0, 0), axis=(0, 0, 1)),
-            Joint(name="shaft", type="revolute", bodies=("wheel", "pendulum"), point=(0, 0, 0.1), axis=(0, 0, 1)),
-        ),
-        drivers=(Driver(name="motor", coordinate="axle", value="2*(1-cos(2.5*time))"),),
-        forces=(
-            JointSpringDamper(
-                name="coil", coordinate="shaft", stiffness=stiffness, preload=-2.3125 if drawn else 0.0, damping=0.0
-            ),
-        ),
-        simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
-    )
-
-
-def rigid_wheel(times):
-    """Place of the pendulum's centre for a rigid coil."""
-    angle = 2 * (1 - np.cos(2.5 * times))
-    return 0.3 * np.stack((np.sin(angle), -np.cos(angle)), 1)
-
-
 def spatial_crank(stiffness=None, damping=0.0, **settings):
     """A crank on a vertical axis turned by a driver and a rocker on a horizontal one, between their ends a rod: a spring with a damper,
     pressed at the start as a rigid one would be, or where no stiffness is given a rigid one."""
@@ -391,70 +330,5 @@ def spatial_crank(stiffness=None, damping=0.0, **settings):
         joints=joints,
         drivers=(Driver(name="motor", coordinate="shaft", value="3*(1-cos(2*time))"),),
         forces=forces,
-        simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
-    )
-
-
-def bead_on_a_vibrating_rod(stiffness, **settings):
-    """A rod on a hinge with a coil, turned away by 0.8 mJ, and a bead that slides on it: vibrating, the rod drives the bead outwards, and
-    what that gains the vibration loses."""
-    return MachineRecord(
-        name="bead on a vibrating rod",
-        gravity=(0, 0, 0),
-        bodies=(
-            Body(name="rod", mass=1, inertia=(0.01, 0.1, 0.1)),
-            Body(name="bead", mass=1, inertia=(0.001, 0.001, 0.001), position=(0.3, 0, 0)),
-        ),
-        joints=(
-            Joint(name="hinge", type="revolute", bodies=("ground", "rod"), point=(0, 0, 0), axis=(0, 0, 1)),
-            Joint(name="rail", type="translational", bodies=("rod", "bead"), point=(0.3, 0, 0), axis=(1, 0, 0)),
-        ),
-        forces=(
-            JointSpringDamper(
-                name="coil", coordinate="hinge", stiffness=stiffness, preload=-np.sqrt(1.6e-3 * stiffness), damping=0.0
-            ),
-        ),
-        simulation=SimulationSettings(**({"duration": 1.0, "output_interval": 0.05} | settings)),
-    )
-
-
-def bead_on_a_rod(times, stiffness):
-    """Distance of the bead from the hinge, from the Lagrangian: I = 0.101 kg m² + r², (r, angle from where the coil is at rest)."""
-    from scipy.integrate import solve_ivp
-
-    def rates(t, y):
-        r, angle, out, turning = y
-        return out, turning, r * turning**2, -(stiffness * angle + 2 * r * out * turning) / (0.101 + r**2)
-
-    start = [0.3, np.sqrt(1.6e-3 / stiffness), 0, 0]
-    return solve_ivp(rates, (0, times[-1]), start, method="DOP853", t_eval=times, rtol=1e-10, atol=1e-13).y[0]
-
-
-def braced_cart(stiffness, **settings):
-    """A cart of 3 kg that runs into a stop of 1e4 N/m with 1.5 m/s; on it an arm on a hinge, its centre 0.1 m below, braced by a
-    spring with what carries its 1.5 kg at 0.3 m."""
-    length = np.hypot(0.3, 0.7)
-    return MachineRecord(
-        name="braced cart",
-        gravity=(0, -GRAVITY, 0),
-        bodies=(
-            Body(name="cart", mass=3, inertia=(0.1, 0.1, 0.1), velocity=(1.5, 0, 0)),
-            Body(name="arm", mass=1.5, inertia=(0.05, 0.05, 0.05), position=(0.3, -0.1, 0), velocity=(1.5, 0, 0)),
-        ),
-        joints=(
-            Joint(name="rail", type="translational", bodies=("ground", "cart"), point=(0, 0, 0), axis=(1, 0, 0)),
-            Joint(name="pin", type="revolute", bodies=("cart", "arm"), point=(0, 0, 0), axis=(0, 0, 1)),
-        ),
-        forces=(
-            SpringDamper(
-                name="brace",
-                bodies=("cart", "arm"),
-                points=((0.3, 0.5, 0), (0.6, -0.2, 0)),
-                stiffness=stiffness,
-                free_length=length,
-                preload=1.5 * GRAVITY * 0.3 * length / (0.6 * 0.7 - 0.2 * 0.3),
-            ),
-            Stop(name="stop", coordinate="rail", lower=-0.3, upper=0.4, stiffness=1e4, restitution=0.8),
-        ),
         simulation=SimulationSettings(**({"duration": 2.0, "output_interval": 0.05} | settings)),
     )

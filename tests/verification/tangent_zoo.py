@@ -9,6 +9,7 @@ import force_zoo
 import linked
 import machines
 import nivel
+import stated
 from unknowns import ROTATIONS, moving
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -48,6 +49,8 @@ WHOLE = {
     "loops": lambda: linked.record(linked.loops()),
     "free ring": lambda: linked.record(linked.free_ring()),
     **{f"every element, {model}": (lambda model=model: linked.record(linked.every_element(model))) for model in ("coulomb", "lugre")},
+    "states": lambda: stated.machine_with_states(bristles=False).record,
+    "states and bristles": lambda: stated.machine_with_states(bristles=True).record,
     **{path.name: (lambda path=path: example(path)) for path in sorted(EXAMPLES.glob("*.yaml"))},
 }  # fmt: skip
 ZOO = {**JOINTS, **WHOLE, **force_zoo.ELEMENTS}
@@ -56,6 +59,23 @@ DRAWS = 40
 EACH = pytest.mark.parametrize("name", ZOO)
 COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 FORMULATED = pytest.mark.parametrize("coordinates", ["absolute", "relative", *ROTATIONS])
+
+# all machines and elements, by the coordinates of the motion; whole machines and rotation coordinates beside Euler parameters are many
+FEW = ("slider-crank", "four-bar", "bennett", "tree", "every element, coulomb", "gear-train.yaml")
+
+
+def _rests(name, coordinates):
+    return (name in WHOLE and name not in FEW) or (name in force_zoo.ELEMENTS and coordinates in ROTATIONS[1:])
+
+
+EVERY_FORMULATED = pytest.mark.parametrize(
+    ("name", "coordinates"),
+    [
+        pytest.param(name, each, id=f"{name}-{each}", marks=[pytest.mark.full] if _rests(name, each) else [])
+        for each in ("absolute", "relative", *ROTATIONS)
+        for name in ZOO
+    ],
+)
 
 
 def state_of(name, coordinates, rng):

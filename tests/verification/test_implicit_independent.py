@@ -19,7 +19,7 @@ from nivel.errors import ModelError, SolveError
 from nivel.kernels.record import DEPENDENT
 from nivel.kernels.status import OK
 from references import slider_crank
-from running import Frames, run
+from running import Frames, reference_run, run
 from simulating import machine as machine_of
 from test_independent import triple_rocker
 from test_shifted_parts import sled
@@ -132,7 +132,7 @@ def test_formulas_of_newmark_hold_for_the_independent_velocities(name):
 @EACH_ALPHA
 def test_order_two_in_positions_velocities_and_multipliers_of_the_four_bar(integrator):
     common = {"duration": 0.4, "output_interval": 0.02}
-    fine = run(machines.four_bar(), integrator="dop853", tolerance=1e-11, coordinates="relative", **common)
+    fine = reference_run(machines.four_bar(), integrator="dop853", tolerance=1e-11, coordinates="relative", **common)
     found = []
     for step in (4e-3, 2e-3, 1e-3):
         r = run(
@@ -156,7 +156,7 @@ def test_changes_of_the_partition_keep_order_two_and_close_everything(integrator
     """Four bars of which none turns round: each of them stands still somewhere while the others move."""
     record = machine_of(triple_rocker()).record
     common = {"duration": 0.6, "output_interval": 0.02}
-    fine = run(record, integrator="dop853", tolerance=1e-11, coordinates="absolute", **common)
+    fine = reference_run(record, integrator="dop853", tolerance=1e-11, coordinates="absolute", **common)
     errors = []
     for step in (1e-3, 5e-4, 2.5e-4):
         r = run(record, integrator=integrator, step=step, coordinates="independent", **common, **ALPHA[integrator])
@@ -174,7 +174,7 @@ def test_changes_of_the_partition_keep_order_two_and_close_everything(integrator
 def test_tolerance_is_met_through_changes_of_the_partition(integrator, tolerance):
     record = machine_of(triple_rocker()).record
     common = {"duration": 0.6, "output_interval": 0.02}
-    fine = run(record, integrator="dop853", tolerance=1e-11, coordinates="absolute", **common)
+    fine = reference_run(record, integrator="dop853", tolerance=1e-11, coordinates="absolute", **common)
     r = run(record, integrator=integrator, tolerance=tolerance, coordinates="independent", **common)
     assert r.finished.timing["partitions"] > 0
     assert np.abs(r.position - fine.position).max() < 10 * tolerance * r.prepared.motion.system.size
@@ -247,7 +247,7 @@ def test_redundant_joints(machine, integrator):
     """Motion, and the reactions of least length, are those of an explicit method."""
     record = machine()
     common = {"duration": 0.2, "output_interval": 0.02, "coordinates": "independent"}
-    fine = run(record, integrator="dop853", tolerance=1e-10, **common)
+    fine = reference_run(record, integrator="dop853", tolerance=1e-10, **common)
     settings = {"step": 2e-4} if integrator in ("newmark", "ros2") else {"tolerance": 1e-7}
     r = run(record, integrator=integrator, **common, **settings)
     assert np.abs(r.position - fine.position).max() < 1e-5
@@ -258,7 +258,7 @@ def test_redundant_joints(machine, integrator):
 def test_friction_loaded_by_reactions(integrator):
     """A sled on bristles, against an explicit method in absolute coordinates."""
     common = {"duration": 0.3, "output_interval": 0.03}
-    fine = run(sled(), integrator="dop853", tolerance=1e-10, coordinates="absolute", **common)
+    fine = reference_run(sled(), integrator="dop853", tolerance=1e-10, coordinates="absolute", **common)
     settings = {"step": 1e-4} if integrator in ("newmark", "ros2") else {"tolerance": 1e-7}
     r = run(sled(), integrator=integrator, coordinates="independent", **common, **settings)
     assert r.dissipated_energy[-1] > 1e-3

@@ -6,7 +6,7 @@ import pytest
 import machines
 from nivel.errors import ModelError
 from references import slider_crank
-from running import run
+from running import reference_run, run
 from test_driver_corners import RAMPS, cart_and_arm, swing
 
 COORDINATES = pytest.mark.parametrize("coordinates", ["absolute", "relative"])
@@ -29,7 +29,7 @@ SOFT = 1e-6
 @pytest.mark.parametrize("integrator", ["newmark", "hht", "generalised-alpha", "ros2"])
 def test_order_two_in_positions_velocities_and_reactions(integrator, coordinates, method):
     common = {"duration": 0.4, "output_interval": 0.02, "coordinates": coordinates}
-    fine = run(machines.slider_crank(), integrator="dop853", tolerance=1e-11, **common)
+    fine = reference_run(machines.slider_crank(), integrator="dop853", tolerance=1e-11, **common)
     errors = []
     for step in (1e-3, 5e-4, 2.5e-4) if integrator == "ros2" else (2e-3, 1e-3, 5e-4):
         r = run(machines.slider_crank(), integrator=integrator, step=step, **common, **METHODS[method])
@@ -67,7 +67,7 @@ def test_chosen_steps_meet_the_tolerance(method):
 def test_redundant_joints_share_their_loads_as_with_explicit_methods(make, method, integrator, coordinates):
     """All rows are kept: the penalties say how dependent ones share what they hold."""
     common = {"duration": 0.2, "output_interval": 0.02, "coordinates": coordinates, **METHODS[method]}
-    fine = run(make(), integrator="dop853", tolerance=1e-10, **common)
+    fine = reference_run(make(), integrator="dop853", tolerance=1e-10, **common)
     settings = {"step": 2e-4} if integrator in ("newmark", "ros2") else {"tolerance": 1e-7}
     r = run(make(), integrator=integrator, **common, **settings)
     assert r.finished.outcome == "done"

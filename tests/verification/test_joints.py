@@ -63,6 +63,7 @@ def aside(motion, state, rng):
     return q, rng.uniform(-2, 2, (count, 3)), rng.uniform(-3, 3, (count, 3))
 
 
+@pytest.mark.compiles
 @KINDS
 @GROUND
 def test_jacobian_is_the_complex_step_derivative(joint, rng):

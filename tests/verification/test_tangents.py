@@ -4,15 +4,14 @@ import numpy as np
 
 from force_zoo import CASES
 from nivel.march.newton_state import set_state
-from tangent_zoo import COORDINATES, EACH, FORMULATED, state_of
+from tangent_zoo import COORDINATES, EACH, EVERY_FORMULATED, state_of
 from unknowns import SHARES, Unknowns, error_of
 
 # of the largest entry in each row; the differences are good for 2e-11, mostly for 1e-12
 TOLERANCE = 5e-11
 
 
-@FORMULATED
-@EACH
+@EVERY_FORMULATED
 def test_matrix_is_the_derivative_of_the_residual(name, coordinates, rng):
     """∂(r, ẋ - rates, C/cq)/∂(v̇, ẋ, λ) with positions, velocities and states moved by v̇ and ẋ; rotations once as they are, once in the
     middle of a step, where v̇ moves the rotation vector of the step and columns are for turns after it."""

@@ -1,17 +1,19 @@
 """Stills and films through the page in a browser, and `nivel view` on the command line."""
 
-import os
 import shutil
 import subprocess
 import sys
+from contextlib import chdir
 from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import nivel
 import synthetic_run as pendulum
 from browsing import with_browser
+from nivel.cli import main
 from nivel.errors import ModelError
 from nivel.results import Store
 from nivel.view import browser, capture
@@ -121,25 +123,29 @@ def test_looks_that_make_no_sense_are_refused(given, said):
 # --- nivel view ---
 
 
-def view(folder, *arguments, **environment):
+def view(folder, *arguments):
+    """`nivel view` in this process, where a defect is an error of the test."""
+    with chdir(folder):
+        return CliRunner().invoke(main, ["view", *map(str, arguments)], prog_name="nivel", catch_exceptions=False)
+
+
+def view_in_a_process(folder, *arguments):
     command = [sys.executable, "-m", "nivel", "view", *map(str, arguments)]
-    return subprocess.run(
-        command, cwd=folder, capture_output=True, text=True, check=False, timeout=300, env={**os.environ, **environment}
-    )
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300)
 
 
 def test_an_export_is_one_file_and_is_not_replaced_unasked(stored, tmp_path):
     done = view(tmp_path, stored, "--export", "scene.html")
-    assert (done.returncode, done.stderr.strip()) == (0, "written: scene.html")
+    assert (done.exit_code, done.stderr.strip()) == (0, "written: scene.html")
     done = view(tmp_path, stored, "--export", "scene.html")
-    assert done.returncode == 2
+    assert done.exit_code == 2
     assert "--force" in done.stderr
     assert view(tmp_path, stored, stored, "--export", "scene.html", "--force", "--quiet").stderr == ""
 
 
 @with_browser
 def test_a_still_and_a_film_from_the_command_line(stored, tmp_path):
-    done = view(
+    done = view_in_a_process(
         tmp_path, stored, "--still", "a.png", "--at", "0.3", "--export", "b.gif", "--size", "160x120", "--speed", "5"
     )
     assert done.returncode == 0, done.stderr
@@ -177,12 +183,12 @@ def test_what_cannot_be_shown_is_said_with_exit_code_two(arguments, said, stored
         "format: 1\nbodies:\n  a: {mass: 1, inertia: [1, 1, 1], positon: [0, 0, 0]}\n", encoding="utf-8"
     )
     done = view(tmp_path, *arguments)
-    assert done.returncode == 2, done.stderr
+    assert done.exit_code == 2, done.stderr
     assert said in done.stderr
     assert "Traceback" not in done.stderr
 
 
 def test_a_machine_is_exported_as_it_is_assembled(tmp_path):
     done = view(tmp_path, EXAMPLES / "simple-pendulum.yaml", "--export", "pendulum.html", "--quiet")
-    assert done.returncode == 0, done.stderr
+    assert done.exit_code == 0, done.stderr
     assert (tmp_path / "pendulum.html").stat().st_size < 1_000_000

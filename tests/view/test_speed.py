@@ -69,7 +69,10 @@ def assert_fast(rates, free):
 
 @pytest.mark.parametrize(
     ("stage", "moment"),
-    [(many_bodies.stage, many_bodies.moment), (many_bodies.chain, many_bodies.wave)],
+    [
+        (many_bodies.stage, many_bodies.moment),
+        pytest.param(many_bodies.chain, many_bodies.wave, marks=pytest.mark.full),
+    ],
     ids=["fifty bodies and a mesh", "a chain of 300 links"],
 )
 def test_large_scenes_are_shown_at_thirty_frames_a_second(stage, moment):

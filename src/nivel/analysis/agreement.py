@@ -7,6 +7,7 @@ from collections.abc import Callable
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.refusals import (
     refuse_conserved_drivers,
+    refuse_flexible_lagrange,
     refuse_for_shared_mass,
     refuse_friction_at_jumps,
     refuse_rough_motions,
@@ -23,6 +24,7 @@ def disagreements(machine: MachineRecord) -> list[Fault]:
     checks: list[Callable[[], object]] = [
         lambda: complete(machine.simulation, coordinates),
         lambda: refuse_for_shared_mass(machine, formulation, coordinates),
+        lambda: refuse_flexible_lagrange(machine, formulation),
         lambda: refuse_conserved_drivers(machine),
         lambda: refuse_stiction_over_steps(machine),
         lambda: refuse_rough_motions(machine),

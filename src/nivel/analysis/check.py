@@ -9,7 +9,14 @@ import numpy as np
 
 from nivel.analysis.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.choice import choose_coordinates, choose_cut
-from nivel.analysis.elements import coupling_in_words, driver_in_words, event_in_words, force_in_words, sensor_in_words
+from nivel.analysis.elements import (
+    coupling_in_words,
+    driver_in_words,
+    event_in_words,
+    force_in_words,
+    sensor_in_words,
+    state_in_words,
+)
 from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import RunSettings, complete
 from nivel.machine.joint import JOINT_KINDS
@@ -63,9 +70,10 @@ class Check:
     bodies: tuple[BodyFacts, ...]
     beams: tuple[BeamFacts, ...]
     joints: tuple[JointFacts, ...]
-    couplings: tuple[str, ...]  # each in words, as drivers, forces, sensors and events
+    couplings: tuple[str, ...]  # each in words, as drivers, forces, states, sensors and events
     drivers: tuple[str, ...]
     forces: tuple[str, ...]
+    states: tuple[str, ...]
     sensors: tuple[str, ...]
     events: tuple[str, ...]
     degrees_of_freedom: int
@@ -121,7 +129,7 @@ def _lines(facts: Check) -> Iterator[str]:
             yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}"
     for kind, convention in {joint.type: joint.convention for joint in facts.joints if joint.coordinates}.items():
         yield f"  {kind}: {convention}"
-    for title in ("couplings", "drivers", "forces", "sensors", "events"):
+    for title in ("couplings", "drivers", "forces", "states", "sensors", "events"):
         elements: tuple[str, ...] = getattr(facts, title)
         if elements:
             yield title
@@ -225,6 +233,7 @@ def check(machine: MachineRecord) -> Check:
         couplings=tuple(coupling_in_words(machine, coupling) for coupling in machine.couplings),
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
+        states=tuple(state_in_words(state) for state in machine.states),
         sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
         events=tuple(event_in_words(event) for event in machine.events),
         degrees_of_freedom=redundancy.degrees_of_freedom,

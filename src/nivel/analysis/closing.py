@@ -59,11 +59,17 @@ class Wishes:
 
 
 def close_positions(
-    motion: MotionEquations, t: float, y: Array, wishes: Wishes | None = None, *, iterations: int = ITERATIONS
+    motion: MotionEquations,
+    t: float,
+    y: Array,
+    wishes: Wishes | None = None,
+    *,
+    iterations: int = ITERATIONS,
+    from_afar: bool = True,
 ) -> bool:
     """Move the positions in the state y as little as possible onto the constraints, in place; whether all rows are closed.
 
-    iterations : at most, and more where they are far open.
+    iterations : at most; from_afar : more where they are far open.
     Where they cannot be closed, y is the best position found. The record is left evaluated at y; measured angles are followed.
     """
     system = motion.system
@@ -88,7 +94,7 @@ def close_positions(
         if not np.all(np.isfinite(violation)):
             return False
         size = float(np.linalg.norm(violation / scale))
-        if steps == 1:
+        if steps == 1 and from_afar:
             # a value far away takes its share of steps
             budget += min(MOST_STEPS, int(4.0 * size / LONGEST)) if np.isfinite(size) else 0
         if size < least:

@@ -13,13 +13,14 @@ from nivel.analysis.modal_stiffness import integrator_of
 from nivel.kernels import cache
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import INTEGRATORS, IntegratorFacts, chooses
+from nivel.march.catalogue import BY_MODES, INTEGRATORS, IntegratorFacts, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import BALANCED, FLEXIBLE, PATHS, path_of
+from nivel.motion.catalogue import BALANCED, BALANCED_CORRECTION, FLEXIBLE, PATHS, path_of
 from nivel.system.beams import ELASTIC as ELASTIC_FAMILY
 from nivel.system.beams import FAMILIES as BEAMS
 from nivel.system.beams import family_of
 from nivel.system.forces import FORCES
+from nivel.system.user_states import FAMILY as STATE_FAMILY
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
@@ -33,6 +34,8 @@ POINTS = "nivel.kernels.point_inertia"
 # nodes of trees that are no joints, for residuals in relative coordinates
 OF_MODES, OF_SLIDERS = "nivel.kernels.modal_nodes", "nivel.kernels.slider_nodes"
 PASSING = "nivel.kernels.slider_pass"
+# what completes the frames of runs in relative coordinates
+COMPLETIONS = ("nivel.kernels.carried", "nivel.kernels.carried_balance", "nivel.kernels.carried_flexible")
 RARE = {
     MEASURE: "measured coordinates",
     FRICTION: "friction",
@@ -40,6 +43,7 @@ RARE = {
     POINTS: "absolute nodal coordinates",
     "nivel.kernels.sensor": "sensors",
     "nivel.kernels.watch": "events",
+    "nivel.kernels.sampling": "sampled states",
 }
 
 
@@ -128,7 +132,7 @@ def _facts(machine: MachineRecord, coordinates: str, integrator: str) -> Integra
 
 def complex_modules() -> list[str]:
     """Modules of families that exact derivatives may need on complex numbers."""
-    families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])
+    families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS, STATE_FAMILY])
     residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values()) if path.residual]
     residuals += [module for facts in INTEGRATORS.values() for module in (facts.whole, facts.whole_flexible) if module]
     of_forces = [f"nivel.kernels.forces.{family}" for family in families]
@@ -154,11 +158,14 @@ def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener,
 
 def rare_modules() -> list[str]:
     """Modules of all kinds of forces and of everything else that only some machines have."""
-    families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS])
+    families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS, STATE_FAMILY])
     return [
         *(f"nivel.kernels.forces.{family}" for family in families),
         *RARE,
         BALANCED,
+        BALANCED_CORRECTION,
+        *(facts.module for facts in BY_MODES.values()),
+        *COMPLETIONS,
         *OF_BEAMS,
         OF_MODES,
         OF_SLIDERS,
@@ -174,7 +181,10 @@ def _rare_parts(machine: MachineRecord, chosen: bool) -> list[tuple[str, str]]:
     types = {force.type for force in machine.forces}
     families = dict.fromkeys(family for force in types for family in FORCES[force].families)
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
+    if machine.states:
+        families |= {STATE_FAMILY: None}
     needed = {
+        "nivel.kernels.sampling": any(state.update is not None for state in machine.states),
         MEASURE: bool(machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}),
         FRICTION: "friction" in types,
         RAIL: any(JOINT_KINDS[joint.type].rail for joint in machine.joints),

@@ -1,4 +1,4 @@
-"""Couplings, drivers, forces, sensors and events in words: what `nivel check` says of them."""
+"""Couplings, drivers, forces, states, sensors and events in words: what `nivel check` says of them."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from nivel.machine.forces import Between, BetweenMarkers, Contact, End, ForceEle
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.sensor import Sensor
+from nivel.machine.state import State
 from nivel.machine.table import Table
 from nivel.machine.time_function import TimeFunction
 
@@ -87,6 +88,17 @@ def sensor_in_words(sensor: Sensor) -> str:
         case form:
             seen = f", seen from {sensor.relative_to}" if sensor.relative_to else ""
             return f"{sensor.name}: {str(sensor.quantity).replace('_', ' ')} of {getattr(sensor, form)}{seen}"
+
+
+def state_in_words(state: State) -> str:
+    """How a state changes, and its start."""
+    start = f"{state.start:.6g}{f' {state.units}' if state.units else ''} at the start"
+    if state.rate is not None:
+        return f"{state.name}: rate {function_in_words(state.rate)}, {start}"
+    assert state.update is not None  # the record was checked
+    times = [f"every {state.every:.6g} s"] if state.every else []
+    times += [f"at the event {state.event}"] if state.event else []
+    return f"{state.name}: {function_in_words(state.update)}, sampled {' and '.join(times)}, {start}"
 
 
 def event_in_words(event: Event) -> str:

@@ -16,4 +16,4 @@ def touches_ground(machine: MachineRecord, system: System) -> bool:
             seen = driver.reference
             joined |= {machine.marker_named[name].body for name in (driver.marker, seen) if name is not None}
             joined |= {GROUND} if seen is None else set()
-    return GROUND in joined or any(system.body_count in bodies for bodies in system.coupled)
+    return GROUND in joined or any(system.body_count in each.bodies for each in system.coupled)

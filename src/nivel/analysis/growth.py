@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from nivel.analysis.equations import MotionEquations
+from nivel.system.layout import reported
 from nivel.system.system import Array, System
 
 # Energy that no load gave, as a multiple of that of the start and of the weights at the machine's length; as a share of the work.
@@ -68,7 +69,6 @@ def _most(system: System, output: str) -> str:
 def _outputs(system: System, output: str) -> list[tuple[str, float]]:
     """(name, value) of the forces that report `output`, in the state last evaluated."""
     values = system.record.outputs.value
-    names = [variable.name for variable in system.layout.variables if len(variable.dims) == 1]
-    names = names[len(names) - len(values) :] if len(values) else []
+    names = [variable.name for variable in reported(system.layout, len(values))]
     parts = [(name.split("."), float(value)) for name, value in zip(names, values, strict=True)]
     return [(part[1], value) for part, value in parts if part[0] == "force" and part[-1] == output]

@@ -84,6 +84,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         dense=np.zeros((DENSE_ROWS, len(y))),
         frames=np.zeros((rows, width)),
         event_values=np.zeros((6, values)),
+        samples=np.zeros(len(system.record.sampled.state), dtype=np.int64),
         events=np.zeros((EVENT_ROWS if len(system.record.watched.event) else 0, 3)),
     )
 
@@ -132,6 +133,7 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
         record.newton.level[0] = constraint_index(settings.formulation, settings.stabilisation, prepared.path)
     record.coordinates.reference[:] = prepared.assembly.reference
     record.watched.followed[:] = 0
+    record.sampled.came[:] = 0
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
     record.friction.force[:] = 0.0
@@ -171,7 +173,7 @@ def _watch(system: System, *, chosen: bool) -> int:
 
 def _scales(system: System, y: Array, duration: float) -> Array:
     """What errors of the entries of y are measured by, at least: the machine's length, a radian, these once in the run, its energy at
-    such a speed; the deflections of bristles by that in which they slide.
+    such a speed; states of elements by their own scales.
 
     The largest value that an entry has taken so far counts where it is larger.
     """
@@ -187,23 +189,8 @@ def _scales(system: System, y: Array, duration: float) -> Array:
     scale = np.array([floors.get(unit, 0.0) for unit in units])
     scale[units == "kg^0.5 m"] = system.modal_sizes()
     scale[units == "kg^0.5 m/s"] = system.modal_sizes() / duration
-    states = len(system.record.elements.state)
-    scale[len(scale) - 2 - states : -2] = _deflections(system)
-    scale[-2:] = energy
+    scale[len(scale) - len(system.start_of_states) :] = [*(fact.scale for fact in system.states), energy, energy]
     return np.maximum(scale, np.abs(y))
-
-
-def _deflections(system: System) -> Array:
-    """Deflection [m] of bristles in steady sliding, coefficient/bristle_stiffness, in the order of their states."""
-    record = system.record
-    out = np.zeros(len(record.elements.state))
-    if len(out):
-        columns: Any = import_module("nivel.kernels.friction")
-        state = record.friction.columns[:, columns.STATE]
-        has = state < len(out)
-        numbers = record.friction.number[has]
-        out[state[has]] = numbers[:, columns.KINETIC] / numbers[:, columns.STIFFNESS]
-    return out
 
 
 def _weight_energy(system: System) -> float:

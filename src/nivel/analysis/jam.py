@@ -121,7 +121,7 @@ class _Nearby:
         """Whether all rows can be closed at t from y, and the state in which they are, or the best one found."""
         near = y.copy()
         self.absolute.system.record.coordinates.reference[:] = self.reference
-        return close_positions(self.absolute, t, near, iterations=ITERATIONS), near
+        return close_positions(self.absolute, t, near, iterations=ITERATIONS, from_afar=False), near
 
     def jam(self, step: float, unit: float, end: float) -> Jam | None:
         """The first one from here on, or where joints are open already, the last one before. unit : at least a step [s]."""
@@ -131,9 +131,9 @@ class _Nearby:
         if open_at is None:
             return None
         earlier = [self.time, *(self.time - 10.0**k * unit for k in range(BACK)), 0.0]
-        for last in earlier:
+        for last in (t for t in earlier if 0.0 <= t < open_at):
             closed, q = self.closed(last, self.y)
-            if closed and 0.0 <= last < open_at:
+            if closed:
                 leads_there = open_at <= self.time + step
                 return self.between(last, open_at, q) if leads_there or self.has_lost(last, q, FALLEN) else None
         return None

@@ -30,6 +30,7 @@ from nivel.kernels.status import (
     SINGULAR,
 )
 from nivel.machine.beam import Beam
+from nivel.system.layout import reported
 from nivel.system.system import Array
 
 # Pivots of S below this share of their diagonal are taken for the neighbourhood of a singular position.
@@ -70,7 +71,7 @@ def failure(
     elif status == EVENT_NOT_FINITE and number < len(motion.system.events):
         told = _broken_event(motion.system.events[number])
     elif status == NO_MASS_LEFT:
-        told = _no_mass_left(motion.system.bodies[number])
+        told = broken_function(motion, time, step, y) or _no_mass_left(motion.system.bodies[number])
     elif status == ROTATION_SINGULAR:
         told = _singular_rotation(motion.system.bodies[number])
     elif status == NOT_ON_RAIL:
@@ -297,7 +298,7 @@ def broken_function(motion: MotionEquations, time: float, step: float, y: Array)
     """The first force or driver that is not a finite number at a time that the step from `time` looks at."""
     system, record = motion.system, motion.system.record
     outputs, constraints = record.outputs.value, record.constraints
-    names = [v.name for v in system.layout.variables][-len(outputs) :] if len(outputs) else []
+    names = [variable.name for variable in reported(system.layout, len(outputs))]
     magnitudes = [(k, name.split(".")[1]) for k, name in enumerate(names) if name.endswith(".magnitude")]
     rows = constraints.combination[:, 0].astype(int)
     for at in (time, time + 0.5 * step, time + step):

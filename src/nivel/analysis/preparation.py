@@ -23,6 +23,7 @@ from nivel.analysis.redundancy import Redundancy, analyse
 from nivel.analysis.refusals import (
     refuse_conserved_drivers,
     refuse_deep_starts,
+    refuse_flexible_lagrange,
     refuse_for_shared_mass,
     refuse_friction_at_jumps,
     refuse_moved_nodes,
@@ -87,6 +88,7 @@ def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinat
     """
     machine = with_nodes(machine)
     refuse_for_shared_mass(machine, formulation, coordinates)
+    refuse_flexible_lagrange(machine, formulation)
     motion = equations(machine)
     assembly, rest = _assembled(machine, motion)
     redundancy, absolute = _independent_rows(machine, motion, assembly.y)
@@ -159,12 +161,14 @@ def _arranged(
     `rest` from which the run starts."""
     arrangement: Any = import_module(methods.path.arrangement)
     system, start = arrangement.arrange(machine, absolute, y, rank, choose_cut(machine))
-    if rest is None or not machine.is_flexible:
+    if rest is None:
         return system, start
-    if methods.coordinates == "relative":
-        return arrangement.arrange_deformed(machine, absolute, rest.q, rank, choose_cut(machine))
-    # the bodies are there already
-    start[system.positions - len(system.modes) : system.positions] = rest.q[7 * system.body_count :]
+    if machine.is_flexible and methods.coordinates == "relative":
+        system, start = arrangement.arrange_deformed(machine, absolute, rest.q, rank, choose_cut(machine))
+    elif machine.is_flexible:
+        # the bodies are there already
+        start[system.positions - len(system.modes) : system.positions] = rest.q[7 * system.body_count :]
+    start[len(start) - len(system.start_of_states) :][: len(rest.states)] = rest.states
     return system, start
 
 
@@ -203,7 +207,7 @@ def _wanted(machine: MachineRecord, motion: MotionEquations, methods: _Methods) 
         balance=methods.balanced,
         along=integrator.along,
         free=not touches_ground(machine, motion.system) if integrator.whole else None,
-        filtered=integrator.filters and chooses(simulation.integrator, simulation.step_control),
+        filtered=integrator.either and chooses(simulation.integrator, simulation.step_control),
         accelerations=integrator.accelerations,
         compliance=saddle.shift if methods.penalised else None,
     )

@@ -16,10 +16,13 @@ from nivel.machine.settings import SimulationSettings
 from nivel.machine.table import Table
 from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.system.laws import false_derivative
+from nivel.system.layout import reported
 from nivel.system.system import Array
 
 # Stops and contacts may start inside what they touch by this share of the machine's length, or of a radian.
 DEEPEST_START = 0.02
+# Times of samples are ends of steps to this share.
+WHOLE = 1e-9
 # The assembly may move a node of a beam by this share of the machine's length, or of a radian.
 FITS = 1e-8
 # and change its speed by this share of the machine's.
@@ -30,12 +33,13 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
     """Stops and contacts that start far inside what they touch: they would throw the machine apart."""
     motion.evaluate(0.0, y)
     system, faults = motion.system, []
-    names = [variable.name for variable in system.layout.variables]
-    first = len(names) - len(system.record.outputs.value)
+    values = system.record.outputs.value
+    reports = reported(system.layout, len(values))
+    names = [variable.name for variable in reports]
     for force in machine.forces:
         if isinstance(force, Stop | Contact):
             place = names.index(f"force.{force.name}.depth")
-            depth, units = float(system.record.outputs.value[place - first]), system.layout.variables[place].units
+            depth, units = float(values[place]), reports[place].units
             deepest = DEEPEST_START * (system.size if units == "m" else 1.0)
             if depth > deepest:
                 message = (
@@ -43,6 +47,21 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
                     f"machine apart; move the bodies, or the ends of the way"
                 )
                 faults.append(Fault("", 0, 0, f"forces.{force.name}", message))
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_samples_between_steps(machine: MachineRecord, step: float, *, fixed: bool) -> None:
+    """Sampled states whose times are not ends of fixed steps [s]."""
+    faults = []
+    for state in machine.states if fixed else ():
+        count = round(state.every / step) if state.every else 0
+        if state.every and (count < 1 or abs(count * step - state.every) > WHOLE * state.every):
+            message = (
+                f"{state.every:.6g} s is no whole number of steps of {step:.6g} s, and fixed steps stay as they are: "
+                f"`simulation: {{step: {state.every / max(count, 1):.6g}}}` would fit, or an integrator that chooses its steps"
+            )
+            faults.append(Fault("", 0, 0, f"states.{state.name}.every", message))
     if faults:
         raise ModelError(faults)
 
@@ -203,6 +222,14 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
             out.append(Fault("", 0, 0, f"forces.{force.name}.model", message))
     if out:
         raise ModelError(out)
+
+
+def refuse_flexible_lagrange(machine: MachineRecord, formulation: str) -> None:
+    """The Lagrange equations, which are for rigid bodies."""
+    names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
+    if names and formulation == "lagrange":
+        message = f"'lagrange' does not go with flexible bodies ({names}): take `formulation: newton-euler`, whose motion is the same"
+        raise ModelError(Fault("", 0, 0, "simulation.formulation", message))
 
 
 def refuse_moved_nodes(machine: MachineRecord, moved: Sequence[tuple[str, float, float]], size: float) -> None:

@@ -13,6 +13,7 @@ from nivel.analysis.dynamics import Finished, march
 from nivel.analysis.held_friction import resting_frictions
 from nivel.analysis.listener import Listener
 from nivel.analysis.preparation import Prepared, prepare
+from nivel.analysis.refusals import refuse_samples_between_steps
 from nivel.analysis.settings import RunSettings, complete
 from nivel.errors import SolveError
 from nivel.machine.machine_record import MachineRecord
@@ -26,8 +27,11 @@ from nivel.results.neglected import Neglected, cost
 from nivel.results.occurrence import to_json
 from nivel.results.result import Result
 from nivel.results.store import Store
-from nivel.results.trust import Facts, Peak, assess
+from nivel.results.trust import Facts, Peak, SmallState, assess, peak
 from nivel.system.flexible import bending_bodies
+
+# A state whose values stay below this share of its scale is not followed to the tolerance.
+SMALL = 0.01
 
 
 def simulate(
@@ -48,6 +52,7 @@ def simulate(
     """
     listener = listener or Listener()
     settings = complete(machine.simulation, choose_coordinates(machine))
+    refuse_samples_between_steps(machine, settings.step, fixed=settings.steps > 0)
     sink = Memory() if out is None else Store(out, force)
     begin = time.perf_counter()
     listener.say("preparing")
@@ -89,6 +94,7 @@ def _close(
         failure=message,
         stopped_by=finished.stopped_by,
         neglected=cost(sink.result(), _neglected(machine)),
+        small_states=_small_states(sink.result(), prepared),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
     attributes: dict[str, str | float | int] = {
@@ -104,6 +110,18 @@ def _close(
     if finished.failure is not None:
         raise SolveError(message, time=at, advice=advice, result=result)
     return result
+
+
+def _small_states(result: Result, prepared: Prepared) -> tuple[SmallState, ...]:
+    """The states that stayed far below the scale by which their errors are measured."""
+    if not (prepared.integrator.chooses_steps or prepared.integrator.either or prepared.integrator.residual):
+        return ()
+    out = []
+    for fact in prepared.motion.system.states:
+        largest = peak(result, f"state.{fact.name}").value
+        if not fact.sampled and 0.0 < largest < SMALL * fact.scale:
+            out.append(SmallState(fact.name, largest, fact.scale))
+    return tuple(out)
 
 
 def _neglected(machine: MachineRecord) -> tuple[Neglected, ...]:

@@ -22,7 +22,7 @@ def unknown_groups(
     system: System, velocities: int, row: Index, part: Index, coordinates: str
 ) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
     """Sizes of the groups of unknowns, which are constraints, and which depend on each other: bodies, then modes of flexible ones (or all
-    joint velocities as one), states of forces, joints, efforts of frictions with stiction."""
+    joint velocities as one), states of elements, joints, efforts of frictions with stiction."""
     record = system.record
     states, stiction = len(record.elements.state), frictions_with_stiction(system)
     normalised = {f"{name}.euler_parameters": body for body, name in enumerate(system.bodies)}
@@ -53,8 +53,9 @@ def unknown_groups(
         couples |= {(body, joint) for body in _moved_by(system, bodies)}
         for together in _together(system, rows_of[joint], bodies):
             couples |= set(combinations(sorted(_moved_by(system, together)), 2))
-    for bodies in system.coupled:
-        couples |= set(combinations(sorted(_moved_by(system, bodies)), 2))
+    for each in system.coupled:
+        groups = _moved_by(system, each.bodies) | {moving + state for state in each.states}
+        couples |= set(combinations(sorted(groups), 2))
     effort = {k: moving + states + len(joints) + place for place, k in enumerate(stiction)}
     for k, (bodies, state, joint) in enumerate(_frictions(system)):
         depending = [*([moving + state] if state != NONE else []), *([number[joint]] if joint in number else [])]
@@ -65,7 +66,7 @@ def unknown_groups(
 
 
 def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
-    """The same of joint coordinates: velocities of the joint that carries each body, states of forces, joints that are cut.
+    """The same of joint coordinates: velocities of the joint that carries each body, states of elements, joints that are cut.
 
     A velocity moves the bodies outwards of it, and its row has the forces on these; two of them meet where they have a body in common, or
     bodies between which a force or a joint that is cut acts.
@@ -87,12 +88,14 @@ def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int],
     for child, *_ in nodes:
         couples |= carrying.pairs([child])
     together = {each for joint, bodies in bodies_of.items() for each in _together(system, rows_of[joint], bodies)}
-    for bodies in {*system.coupled, *together}:
+    for bodies in {*(each.bodies for each in system.coupled), *together}:
         couples |= carrying.pairs(bodies)
+    for each in system.coupled:
+        own = sorted(moving + state for state in each.states)
+        couples |= {(node, state) for body in each.bodies for node in carrying.of(body) for state in own}
+        couples |= set(combinations(own, 2))
     for joint, bodies in bodies_of.items():
         couples |= {(node, joint) for body in bodies for node in carrying.of(body)}
-    # bristles belong to frictions; a machine without any has no other states
-    couples |= {(node, moving + state) for node in range(moving) for state in range(states)}
     return sizes, constraint, couples
 
 

@@ -19,7 +19,7 @@ def unknown_name(system: System, number: int) -> str:
     if number >= n + states:
         return f"the constraint {system.rows[record.residual.row[number - n - states]]}"
     if number >= n:
-        return "the state of a friction"
+        return f"the state {system.states[number - n].name}"
     if not len(record.tree.node):
         width = system.equations.velocities
         if number >= width * system.body_count:

@@ -23,6 +23,7 @@ MENTIONS: Final = (
     "force",
     "distance",
     "angle",
+    "event",
 )
 
 Elements = Mapping[str, Sequence[Record]]

@@ -11,7 +11,7 @@ from nivel.files.placed_forces import placed_force
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement
 from nivel.files.scene import Scene
 from nivel.files.substitution import NotRepresentableError, negative
-from nivel.machine import Driver, Event, LinearCoupling, Rack, Record, Sensor
+from nivel.machine import Driver, Event, LinearCoupling, Rack, Record, Sensor, State
 from nivel.machine.record import entry
 
 Elements = Mapping[str, Sequence[Record]]
@@ -36,6 +36,7 @@ def placed(elements: Elements, placing: Placement) -> dict[str, tuple[Record, ..
         "drivers": lambda driver: placed_driver(driver, scene),
         "forces": lambda force: placed_force(force, scene),
         "sensors": lambda sensor: placed_sensor(sensor, scene),
+        "states": lambda state: placed_state(state, scene),
         "events": lambda event: placed_event(event, scene),
     }
     made = {section: tuple(_by(rules[section], record) for record in elements[section]) for section in elements}
@@ -84,6 +85,15 @@ def placed_sensor(sensor: Sensor, scene: Scene) -> Sensor:
     Raises NotRepresentableError.
     """
     return sensor if sensor.value is None else sensor.replace(value=scene.varied(sensor.value))
+
+
+def placed_state(state: State, scene: Scene) -> State:
+    """`state` in the placed part: it has the value that it would have in the part.
+
+    Raises NotRepresentableError.
+    """
+    name = "rate" if state.rate is not None else "update"
+    return state.replace(**{name: scene.varied(getattr(state, name))})
 
 
 def placed_event(event: Event, scene: Scene) -> Event:

@@ -64,7 +64,7 @@ def weigh_flexible_row(machine, entries):
             square += power * power
             for i in range(6):
                 x[i] -= B[i, j] * power
-        forward(own.root[f], x, 6)
+        forward(own.root[f], x)
         for i in range(6):
             square += x[i] * x[i]
     return square

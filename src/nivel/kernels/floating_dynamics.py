@@ -142,9 +142,9 @@ def remaining_mass(bodies, own, f, M):
 
 
 @stage
-def factorise_lower(L, size):
-    """Overwrite the lower triangle of a symmetric L (size, size) with its Cholesky factor; whether there is one."""
-    for i in range(size):
+def factorise_lower(L):
+    """Overwrite the lower triangle of a symmetric L (6, 6) with its Cholesky factor; whether there is one."""
+    for i in range(6):
         for j in range(i + 1):
             total = L[i, j]
             for k in range(j):
@@ -156,9 +156,9 @@ def factorise_lower(L, size):
 
 
 @leaf
-def forward(L, x, size):
-    """x (size,) := L⁻¹ x."""
-    for i in range(size):
+def forward(L, x):
+    """x (6,) := L⁻¹ x."""
+    for i in range(6):
         total = x[i]
         for k in range(i):
             total -= L[i, k] * x[k]
@@ -166,11 +166,11 @@ def forward(L, x, size):
 
 
 @leaf
-def backward(L, x, size):
-    """x (size,) := L⁻ᵀ x."""
-    for i in range(size - 1, -1, -1):
+def backward(L, x):
+    """x (6,) := L⁻ᵀ x."""
+    for i in range(5, -1, -1):
         total = x[i]
-        for k in range(i + 1, size):
+        for k in range(i + 1, 6):
             total -= L[k, i] * x[k]
         x[i] = total / L[i, i]
 
@@ -215,7 +215,7 @@ def factorise_frames(machine):
     own = record.flexible
     for f in range(own.body.shape[0]):
         remaining_mass(record.bodies, own, f, own.root[f])
-        if not factorise_lower(own.root[f], 6):
+        if not factorise_lower(own.root[f]):
             record.control.failure[0] = own.body[f]
             return NO_MASS_LEFT
     return OK
@@ -234,7 +234,7 @@ def whiten_flexible_rows(machine):
         flexible_row(machine, e)
         if own.block[e, 1] != NONE:
             leave_modes(own, f, saddle.W[at], saddle.W, np.int64(own.block[e, 3]))
-        forward(own.root[f], saddle.W[at], 6)
+        forward(own.root[f], saddle.W[at])
     return OK
 
 
@@ -267,7 +267,7 @@ def whiten_flexible_forces(machine):
         load_frame(bodies, own, f, x)
         load_modal_rows(own, f, z, at)
         leave_modes(own, f, x, z, at)
-        forward(own.root[f], x, 6)
+        forward(own.root[f], x)
         at += modal_rows(own, f)
 
 
@@ -297,7 +297,7 @@ def unwhiten_flexible(machine):
     for f in range(own.body.shape[0]):
         b = own.body[f]
         x = z[b]
-        backward(own.root[f], x, 6)
+        backward(own.root[f], x)
         multiply(bodies.A[b], x[:3], bodies.Rddot[b])
         for i in range(3):
             bodies.alpha_b[b, i] = x[3 + i]

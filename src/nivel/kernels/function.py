@@ -16,7 +16,7 @@ NEAR = 16.0 * 2.220446049250313e-16
 # kinds of functions; a held table keeps its end values outside, an extended one its end pieces
 CONSTANT, TABLE_HELD, TABLE_EXTENDED, COMPILED = 0, 1, 2, 3
 # kinds of signals: index and component say of what
-NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY = 0, 1, 2, 3, 4, 5, 6
+NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY, STATE = 0, 1, 2, 3, 4, 5, 6, 7
 
 
 @intrinsic
@@ -86,6 +86,8 @@ def read_arguments(machine, k, t):
             functions.arguments[place] = record.markers.rdot[index, component]
         elif kind == ANGULAR_VELOCITY:
             functions.arguments[place] = record.bodies.omega[record.markers.body[index], component]
+        elif kind == STATE:
+            functions.arguments[place] = record.elements.state[index]
 
 
 @stage

@@ -94,9 +94,9 @@ def measure_active(machine, t):
 
 @stage
 def apply_forces(machine, t, y):
-    """Let every family of forces add to the wrenches of the bodies, to power and stored energy, and give the rates of its states.
+    """Let every family of elements add to the wrenches of the bodies, to power and stored energy, and to the rates of states.
 
-    The states of the forces stand in y before its last two entries.
+    The states of elements stand in y before its last two entries.
     """
     record = record_at(machine)
     elements, control = record.elements, record.control
@@ -105,6 +105,7 @@ def apply_forces(machine, t, y):
     first = y.shape[0] - 2 - count
     for i in range(count):
         elements.state[i] = y[first + i]
+        elements.state_rate[i] = 0.0
     for k in range(elements.address.shape[0]):
         status = call_family(elements.address[k], machine, k, t)  # type: ignore[call-arg]
         if status != OK:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import shared, stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.lu import factorise_lu, solve_lu
 from nivel.kernels.record import record_at
 from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.kernels.status import NOT_CONVERGED, OK
 
 
-@shared
+@leaf
 def factorise_entries(pattern, factors, failure):
     """Factors of the matrix with the entries `factors.value`.
 
@@ -29,7 +29,7 @@ def factorise_entries(pattern, factors, failure):
     return OK if factorise_lu(factors.matrix, factors.pivot) else NOT_CONVERGED
 
 
-@shared
+@leaf
 def solve_entries(pattern, factors):
     """Overwrite factors.b with the solution, for factors of `factorise_entries`."""
     if factors.matrix.shape[0] == 0:
@@ -38,14 +38,14 @@ def solve_entries(pattern, factors):
         solve_lu(factors.matrix, factors.pivot, factors.b)
 
 
-@stage
+@leaf
 def factorise(machine):
     """Factors of the matrix whose entries were found. Returns a status; the unknown without a pivot is left in control.failure."""
     record = record_at(machine)
     return factorise_entries(record.newton, record.newton, record.control.failure)
 
 
-@stage
+@leaf
 def solve(machine):
     """Overwrite newton.b with the solution."""
     newton = record_at(machine).newton

@@ -158,7 +158,7 @@ class Elements(NamedTuple):
     )
     depth_rate: W2  # (E, ·) its rate, where contacts and stops are followed
     state: W1  # (nx,) first-order states, copied from y
-    state_rate: W1  # (nx,)
+    state_rate: W1  # (nx,) zero before the families add to it
 
 
 class Friction(NamedTuple):
@@ -182,12 +182,13 @@ class Friction(NamedTuple):
 
 
 class Outputs(NamedTuple):
-    """What forces, drivers and sensors report: one number each in a frame."""
+    """What forces, drivers and sensors report, one number each, and where all variables stand in a frame."""
 
     value: W1
     combination: (
         U2  # (combinations, 2) first output of the effort (and power) of a coupling or driver or NONE, has power
     )
+    column: U1  # first column of each variable in a frame, by its number in `nivel.kernels.observe`
 
 
 class Sensors(NamedTuple):
@@ -199,7 +200,7 @@ class Sensors(NamedTuple):
 class Watched(NamedTuple):
     """Values whose zeros are looked for: those of events, then overlaps of contacts and stops."""
 
-    event: U2  # (events, 3) FUNCTION, DIRECTION, STOP: whether it ends the run
+    event: U2  # (events, 3) FUNCTION, DIRECTION, STOP: see ENDS_RUN
     surface: U2  # (surfaces, 2) element, place in its `depth`
     value: F1  # (events + surfaces,) in the state last evaluated
     rate: F1  # (events + surfaces,) of the surfaces, zero for events
@@ -208,12 +209,26 @@ class Watched(NamedTuple):
     )
 
 
+class Sampled(NamedTuple):
+    """States of elements that change at given times or events only."""
+
+    state: U1  # (samples,) number of the state
+    function: U1  # (samples,) its next value
+    event: U1  # (samples,) event that takes a sample, or NONE
+    period: F1  # (samples,) [s] between samples, the first one at t = 0; zero: at the event only
+    at_rest: U1  # (1,) 1: in statics, where the rate of such a state is what a sample would change it by
+    # work
+    came: U1  # (events,) whether the event came in the last step
+    due: U1  # (samples,) whether a sample is taken now
+    value: F1  # (samples,) values after it
+
+
 class Hooks(NamedTuple):
     """Addresses of what only some machines need, or zero: see `family_signature`."""
 
     address: (
         A1  # (HOOKS,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams,
-        # rails, pass, mass of points, residual at an instant, dependent coordinates, nodes of modes, nodes that slide
+        # rails, pass, mass of points, residual at an instant, dependent coordinates, nodes of modes, nodes that slide, samples
     )
 
 
@@ -390,6 +405,7 @@ class Record(NamedTuple):
     newton: Newton
     sensors: Sensors
     watched: Watched
+    sampled: Sampled
     outputs: Outputs
     hooks: Hooks
     control: Control
@@ -429,10 +445,13 @@ EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
     DEPENDENT,
     MODES,
     SLIDERS,
-) = range(15)  # entries of Hooks.address
-HOOKS = 15
+    SAMPLE,
+) = range(16)  # entries of Hooks.address
+HOOKS = 16
 HOLD, LEAVE, GO_ON = 0, 1, 2  # jobs of the hook PASS
 # what the hooks MODES and SLIDERS do for a node, and MODES for all flexible bodies, see `nivel.kernels.tree_nodes`
 MOVE, ACCELERATE, HAND, LOAD, NEED = 0, 1, 2, 3, 4
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event
 BOTH, RISING, FALLING = 0, 1, 2  # directions
+# values of STOP: the event is noted; it ends the run; it ends the step where steps are chosen, for a sample
+NOTED, ENDS_RUN, ENDS_STEP = 0, 1, 2

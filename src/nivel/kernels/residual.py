@@ -106,8 +106,7 @@ def inertial_wrenches(machine):
 
 @shared
 def find_wrenches(machine, t):
-    """`residual.wrench` of all bodies for the state read and `residual.acceleration`; flexible bodies have
-    `nivel.kernels.floating_residual`. Returns a status."""
+    """`residual.wrench` of all rigid bodies for the state read and `residual.acceleration`. Returns a status."""
     record = record_at(machine)
     load_weight(record.bodies)
     status = apply_forces(machine, t, record.residual.y)

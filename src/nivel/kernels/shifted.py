@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_family
 from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import NONE, record_at
@@ -24,7 +24,7 @@ from nivel.kernels.status import OK
 from nivel.kernels.tangent import ACCELERATIONS, EPSILON, differentiate, load_twin
 
 
-@stage
+@leaf
 def prepare_shifted(machine, t, y, rate, s):
     """Factors for the state y, last evaluated with the result `rate`. Returns a status."""
     record = record_at(machine)
@@ -42,7 +42,7 @@ def prepare_shifted(machine, t, y, rate, s):
     return factorise(machine) if status == OK else status
 
 
-@stage
+@leaf
 def move_along(newton, residual, moving, r, s):
     """Move the complex state along the direction that r asks for before the accelerations change. Leaves rotations in newton.moved."""
     n, states = residual.vdot.shape[0], newton.state.shape[0]
@@ -66,7 +66,7 @@ def move_along(newton, residual, moving, r, s):
         moving.y[positions + n + k] += factor * r[positions + n + k]
 
 
-@stage
+@leaf
 def solve_shifted(machine, t, r, s, ahead):
     """Overwrite r (ny,) with x, the solution of (1 - s ∂f/∂y) x = r + s ahead ∂f/∂t. Returns a status."""
     record = record_at(machine)

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.newton_matrix import factorise_entries, solve_entries
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.residual import known_multiplier
@@ -21,7 +21,7 @@ from nivel.kernels.rotation import angular_velocity
 from nivel.kernels.tangent_parts import differentiate_parts
 
 
-@stage
+@leaf
 def keep_multipliers(machine):
     """`residual.lam` := the multipliers of the state last evaluated."""
     record = record_at(machine)
@@ -29,7 +29,7 @@ def keep_multipliers(machine):
         record.residual.lam[k] = known_multiplier(record, k)
 
 
-@stage
+@leaf
 def find_parts(machine, t, y, rate):
     """Derivatives at the state y with the rate f(t, y) and the multipliers kept. Returns a status."""
     record = record_at(machine)
@@ -61,7 +61,7 @@ def turned(theta, w, d, x, a):
     )
 
 
-@stage
+@leaf
 def combine(machine, factors, s):
     """factors.value := M + s D + s K X s."""
     record = record_at(machine)
@@ -90,7 +90,7 @@ def combine(machine, factors, s):
                 value[p2] += share * (K[p2] + a * (K[p1] * w0 - K[p0] * w1))
 
 
-@stage
+@leaf
 def factorise_shifted(machine, factors, s):
     """Factors for this s. Returns a status; the unknown without a pivot is left in control.failure."""
     record = record_at(machine)
@@ -98,7 +98,7 @@ def factorise_shifted(machine, factors, s):
     return factorise_entries(record.newton, factors, record.control.failure)
 
 
-@stage
+@leaf
 def move_by_right_side(newton, y, factors, s):
     """factors.moved := X (r_q + s r_v); of rotations, r is overwritten by it as Euler parameters."""
     r, moved = factors.r, factors.moved
@@ -114,7 +114,7 @@ def move_by_right_side(newton, y, factors, s):
             angular_velocity(theta, d, moved[k : k + 3])
 
 
-@stage
+@leaf
 def load_right_side(newton, factors, positions):
     """factors.b := -D (r_v, r_x) - K moved."""
     b, r, moved, D, K = factors.b, factors.r, factors.moved, newton.shifted.D, newton.shifted.K
@@ -130,7 +130,7 @@ def load_right_side(newton, factors, positions):
                 b[row] -= K[p] * moved[j]
 
 
-@stage
+@leaf
 def solve_shifted_parts(machine, factors, s):
     """Overwrite factors.r (ny,) with x, for factors of the same s."""
     record = record_at(machine)

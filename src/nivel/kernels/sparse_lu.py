@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nivel.kernels.arrays import U1
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.lu import magnitude
 
 # A pivot this small against the sum of what was taken from it is round-off: the row depends on those before it.
@@ -54,7 +54,7 @@ def _subtract(target, factor, row):
         target[j] -= factor * row[j]
 
 
-@stage
+@leaf
 def factorise_sparse_lu(tables, value, L, U, Dinv, work):
     """Factors of A, whose entries are `value` in the order of the plan's pattern (`row_start`, `column`).
 
@@ -71,7 +71,7 @@ def factorise_sparse_lu(tables, value, L, U, Dinv, work):
     return -1
 
 
-@stage
+@leaf
 def _enter(tables, value, L, U, Dinv):
     """Put the entries of A where the factors start from; Dinv counts what is taken from each pivot."""
     for p in range(L.shape[0]):
@@ -86,7 +86,7 @@ def _enter(tables, value, L, U, Dinv):
         L[tables.lower_at[e]] = value[tables.lower_from[e]]
 
 
-@stage
+@leaf
 def _eliminate_block(tables, k, U, Dinv):
     """The panel of U of block k, row by row. Returns -1, or the place of a pivot that is none."""
     first = np.int64(tables.first[k])
@@ -110,7 +110,7 @@ def _eliminate_block(tables, k, U, Dinv):
     return -1
 
 
-@stage
+@leaf
 def _eliminate_beside(tables, k, L, U, Dinv, work):
     """The panel of L of block k, and what it takes from later blocks."""
     first = np.int64(tables.first[k])
@@ -160,7 +160,7 @@ def _add(target, row):
         target[j] += row[j]
 
 
-@stage
+@leaf
 def solve_sparse_lu(tables, L, U, Dinv, b, work):
     """Overwrite b (N,), numbered as the unknowns, with the solution. work : as in `factorise_sparse_lu`."""
     N = tables.order.shape[0]
@@ -182,7 +182,7 @@ def _less(total, a, b):
     return total
 
 
-@stage
+@leaf
 def _forward(tables, k, L, U, y):
     """y of block k, and what it takes from later ones: L y = b."""
     first = np.int64(tables.first[k])
@@ -200,7 +200,7 @@ def _forward(tables, k, L, U, y):
             below += size
 
 
-@stage
+@leaf
 def _backward(tables, k, U, Dinv, y, beside):
     """Solution of block k from that of later ones: U x = y."""
     first = np.int64(tables.first[k])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_family, call_hook
 from nivel.kernels.record import NONE, TANGENT, record_at
 from nivel.kernels.spatial import cross, dot
@@ -34,7 +34,7 @@ def inverse_tangent(psi, w):
     return w[0] + 0.5 * c[0] + eta * d[0], w[1] + 0.5 * c[1] + eta * d[1], w[2] + 0.5 * c[2] + eta * d[2]
 
 
-@stage
+@leaf
 def move_unknown(newton, moving, j, factor, cq, cv, cx):
     """Move unknown j of the complex residual `moving` by i ε: factor = i ε."""
     n, states, positions = moving.vdot.shape[0], newton.state.shape[0], np.int64(moving.y.shape[0])
@@ -62,7 +62,7 @@ def move_unknown(newton, moving, j, factor, cq, cv, cx):
             moving.vdot[first + i] += w[i] * factor
 
 
-@stage
+@leaf
 def write_column(newton, value, j, n, held, cq, level):
     """Column j of the matrix from the imaginary parts of the residual's value, and the row of C_qᵀ that goes with it.
 
@@ -85,14 +85,14 @@ def write_column(newton, value, j, n, held, cq, level):
             newton.value[p] = slope
 
 
-@stage
+@leaf
 def add_compliance(newton, entries):
     """-1/α at the multipliers of penalty methods."""
     for k in range(newton.compliance.shape[0]):
         entries[newton.diagonal[k]] = -newton.compliance[k]
 
 
-@stage
+@leaf
 def load_twin(newton, here):
     """The complex residual at the same state, accelerations and multipliers. Returns the complex record's address and its residual."""
     twin = (newton.address[0],)
@@ -106,7 +106,7 @@ def load_twin(newton, here):
     return twin, moving
 
 
-@stage
+@leaf
 def differentiate(machine, t, cq, cv, cx, level):
     """Entries of the matrix of Newton's iteration, [M + cv D + cq K, C_qᵀ; C_q, 0], at `residual.y`, `vdot`, `lam`. Returns a status.
 
@@ -135,7 +135,7 @@ def differentiate(machine, t, cq, cv, cx, level):
     return call_hook(machine, TANGENT, 0, t)
 
 
-@stage
+@leaf
 def still(newton, moving, here, j):
     """Put back what `move_unknown` moved for unknown j."""
     n, states = here.vdot.shape[0], newton.state.shape[0]

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_family, call_hook
 from nivel.kernels.record import NONE, TANGENT, record_at
 from nivel.kernels.status import OK
@@ -19,7 +19,7 @@ from nivel.kernels.tangent import EPSILON, add_compliance, load_twin, still
 ACCELERATION, VELOCITY, POSITION = 0, 1, 2
 
 
-@stage
+@leaf
 def is_moved(j, n, states, part):
     """Whether unknown j stands for something of this part: a velocity in all, a state of a force and a multiplier in one."""
     if j < n:
@@ -27,7 +27,7 @@ def is_moved(j, n, states, part):
     return part == (VELOCITY if j < n + states else ACCELERATION)
 
 
-@stage
+@leaf
 def move_part(newton, moving, j, factor, part):
     """Move what unknown j stands for in the complex residual `moving` by i ε: factor = i ε."""
     n, states = moving.vdot.shape[0], newton.state.shape[0]
@@ -50,7 +50,7 @@ def move_part(newton, moving, j, factor, part):
         moving.y[p + 3] += -e2 * x + e1 * y + e0 * z
 
 
-@stage
+@leaf
 def write_part(newton, value, j, n, part, out):
     """Column j of this part from the imaginary parts of the residual's value; with M also the row of C_qᵀ that goes with it."""
     states = newton.state.shape[0]
@@ -63,7 +63,7 @@ def write_part(newton, value, j, n, part, out):
             out[transposed] = slope
 
 
-@stage
+@leaf
 def own_rates(newton, n, out):
     """The rows of the rates of states are ẋ - g: their derivatives with respect to ẋ are 1."""
     for j in range(n, n + newton.state.shape[0]):
@@ -72,7 +72,7 @@ def own_rates(newton, n, out):
                 out[newton.entry[e, 1]] = 1.0
 
 
-@stage
+@leaf
 def differentiate_part(machine, t, part, out):
     """Fill `out` with the derivatives of one part for `residual.y`, `vdot` and `lam`. Returns a status."""
     record = record_at(machine)
@@ -98,7 +98,7 @@ def differentiate_part(machine, t, part, out):
     return call_hook(machine, TANGENT, 1 + part, t)
 
 
-@stage
+@leaf
 def differentiate_parts(machine, t):
     """Fill newton.shifted.M, D and K for `residual.y`, `vdot` and `lam`. Returns a status."""
     newton = record_at(machine).newton

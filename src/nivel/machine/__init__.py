@@ -34,6 +34,7 @@ from nivel.machine.record import GROUND, Record
 from nivel.machine.sensor import Sensor
 from nivel.machine.settings import Baumgarte, SimulationSettings
 from nivel.machine.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Shape, Sphere, Tube
+from nivel.machine.state import State
 from nivel.machine.symbols import find_symbol
 from nivel.machine.time_function import Expression, PythonLaw, Table, TimeFunction
 
@@ -82,6 +83,7 @@ __all__ = [
     "SimulationSettings",
     "Sphere",
     "SpringDamper",
+    "State",
     "Stop",
     "Table",
     "TimeFunction",

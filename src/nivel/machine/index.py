@@ -9,7 +9,18 @@ from typing import Any, Final
 from nivel.machine.record import GROUND, entry
 
 Place = tuple[str | int, ...]
-SECTIONS: Final = ("bodies", "beams", "markers", "joints", "couplings", "drivers", "forces", "sensors", "events")
+SECTIONS: Final = (
+    "bodies",
+    "beams",
+    "markers",
+    "joints",
+    "couplings",
+    "drivers",
+    "forces",
+    "states",
+    "sensors",
+    "events",
+)
 
 
 def elements(machine: Any, section: str) -> Sequence[Any]:
@@ -32,7 +43,7 @@ class Index:
     """What the elements of a machine are, by name.
 
     bodies : type of the shape ("" without one), also of the stations of beams. beams : names of the stations.
-    point_masses : bodies that are. markers : the body. joints : the type. forces, sensors : the element.
+    point_masses : bodies that are. markers : the body. joints : the type. forces, states, sensors : the element.
     """
 
     bodies: Mapping[str, str]
@@ -41,6 +52,7 @@ class Index:
     markers: Mapping[str, str]
     joints: Mapping[str, str]
     forces: Mapping[str, Any]
+    states: Mapping[str, Any]
     sensors: Mapping[str, Any]
 
     @classmethod
@@ -55,6 +67,7 @@ class Index:
             markers={name: _text(entry(marker, "body")) for name, marker in _by_name(machine, "markers").items()},
             joints={name: _text(entry(joint, "type")) for name, joint in _by_name(machine, "joints").items()},
             forces=_by_name(machine, "forces"),
+            states=_by_name(machine, "states"),
             sensors=_by_name(machine, "sensors"),
         )
 

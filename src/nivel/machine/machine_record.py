@@ -34,6 +34,7 @@ from nivel.machine.record import entry, restated
 from nivel.machine.references import reference_faults
 from nivel.machine.sensor import Sensor
 from nivel.machine.settings import SimulationSettings
+from nivel.machine.state import State
 
 LONGEST_NAME: Final = 100  # characters: the files of a run are named after the machine
 
@@ -74,6 +75,7 @@ class MachineRecord(Checked):
     couplings: tuple[Coupling, ...] = ()
     drivers: tuple[Driver, ...] = ()
     forces: tuple[Force, ...] = ()
+    states: tuple[State, ...] = ()
     sensors: tuple[Sensor, ...] = ()
     events: tuple[Event, ...] = ()
     assembly: AssemblySettings = AssemblySettings()

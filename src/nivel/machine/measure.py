@@ -44,7 +44,7 @@ def signal_dimensions(path: str) -> tuple[Dimension, ...]:
     """What the signal `path` may measure, by its last name; empty where that name does not tell."""
     last = path.rpartition(".")[2]
     match last:
-        case "displacement" | "distance" | "length" | "x" | "y" | "z":
+        case "displacement" | "distance" | "length" | "bristle" | "x" | "y" | "z":
             return (_METRE,)
         case "vx" | "vy" | "vz":
             return (_SPEED,)
@@ -52,7 +52,7 @@ def signal_dimensions(path: str) -> tuple[Dimension, ...]:
             return (_TURN_RATE,)
         case "rate":
             return (_SPEED, _TURN_RATE)
-        case "value":
+        case "value" if "." not in path:  # of a state it may be anything
             return (_METRE, _RADIAN)
     if last.endswith("_rate"):
         of = signal_dimensions(last.removesuffix("_rate"))

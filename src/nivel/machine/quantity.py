@@ -146,10 +146,12 @@ def constant_tree(text: str, parameters: Parameters) -> Node:
     tree = bound_tree(text, parameters)
     if signals(tree):
         raise ExpressionError(
-            f"`{signals(tree)[0]}` may only be used where a value may vary: in forces, sensors and events"
+            f"`{signals(tree)[0]}` may only be used where a value may vary: in forces, states, sensors and events"
         )
     if varies(tree):
-        raise ExpressionError("`time` may only be used where a value may vary: in forces, drivers, sensors and events")
+        raise ExpressionError(
+            "`time` may only be used where a value may vary: in forces, drivers, states, sensors and events"
+        )
     return tree
 
 
@@ -157,13 +159,8 @@ def constant_tree(text: str, parameters: Parameters) -> Node:
 class Quantity:
     """Annotation of a float field: it is a quantity of `kind`, and possibly bounded below by zero."""
 
-    kind: str
+    kind: Kind
     positive: bool = False
-
-    @property
-    def unit(self) -> str:
-        """The SI unit, for documentation."""
-        return KINDS[self.kind][1]
 
     def read(self, value: Any, info: ValidationInfo) -> float:
         try:
@@ -174,15 +171,16 @@ class Quantity:
             raise expression_fault(problem, value) from None
         if self.positive and number <= 0:
             instead = MASSLESS if self.kind == "mass" and number == 0 else ""
-            raise fault(f"{KINDS[self.kind][0]} greater than zero was expected, got {shown(value)}{instead}")
+            article = KINDS[self.kind][0] if isinstance(self.kind, str) else "a number"
+            raise fault(f"{article} greater than zero was expected, got {shown(value)}{instead}")
         return number
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_plain_validator_function(self.read)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        article, unit, _ = KINDS[self.kind]
-        meaning = article if unit == "1" else f"{article} in {unit}, or with a unit"
+        article, unit, _ = KINDS[self.kind] if isinstance(self.kind, str) else ("a quantity in SI units", "", None)
+        meaning = article if unit == "1" else f"{article}{f' in {unit}' if unit else ''}, or with a unit"
         number: dict[str, Any] = {"type": "number"}
         if self.positive:
             number["exclusiveMinimum"] = 0

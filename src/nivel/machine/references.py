@@ -43,9 +43,12 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
         yield from _of_force(force, index, ("forces", at))
     for at, sensor in enumerate(elements(machine, "sensors")):
         yield from _of_sensor(sensor, index, ("sensors", at))
-    for section in ("forces", "sensors", "events"):
+    for section in ("forces", "states", "sensors", "events"):
         for at, element in enumerate(elements(machine, section)):
             yield from symbol_faults(element, (section, at), index, parameters or {})
+    events = [name for event in elements(machine, "events") if isinstance(name := entry(event, "name"), str)]
+    for at, state in enumerate(elements(machine, "states")):
+        yield from _unknown(entry(state, "event"), events, "event", ("states", at, "event"))
     for at, name in enumerate(as_list(entry(entry(machine, "simulation"), "cut"))):
         yield from _unknown(name, tuple(index.joints), "joint", ("simulation", "cut", at))
     yield from coordinate_faults(machine, index)
@@ -53,7 +56,7 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
 
 
 def _twice(machine: Any) -> Faults:
-    for sections in (("bodies", "beams"), ("markers",), WITH_ROWS, ("forces",), ("sensors",), ("events",)):
+    for sections in (("bodies", "beams"), ("markers",), WITH_ROWS, ("forces",), ("states",), ("sensors",), ("events",)):
         seen: dict[str, str] = {}
         for section in sections:
             for at, element in enumerate(elements(machine, section)):

@@ -1,7 +1,7 @@
 """What expressions can use of the machine itself: `hinge.angle_rate`, `tip.vx`.
 
 A symbol is the name of an element, a dot and a quantity. Where several elements have one name, the first that has
-the quantity is meant: of joints, sensors, markers and bodies, in this order.
+the quantity is meant: of joints, states, forces, sensors, markers and bodies, in this order.
 """
 
 from __future__ import annotations
@@ -26,12 +26,23 @@ from nivel.machine.record import entry
 from nivel.machine.table import SIGNAL_PATH
 from nivel.machine.time_function import Expression, PythonLaw, Table
 
-Section = Literal["joints", "sensors", "markers", "bodies"]
+Section = Literal["joints", "states", "forces", "sensors", "markers", "bodies"]
 
 POINT_QUANTITIES: Final = ("x", "y", "z", "vx", "vy", "vz")
+STATE_QUANTITY: Final = "value"
 TURN_QUANTITIES: Final = ("wx", "wy", "wz")
 SENSOR_QUANTITIES: Final = {"distance": ("distance", "rate"), "angle": ("angle", "rate")}
-VARYING_KEYS: Final = ("vector", "law", "magnitude", "effort", "speed", "value", "when")  # keys of what may use symbols
+VARYING_KEYS: Final = (
+    "vector",
+    "law",
+    "magnitude",
+    "effort",
+    "speed",
+    "value",
+    "when",
+    "rate",
+    "update",
+)  # keys of what may use symbols
 
 
 @dataclass(frozen=True)
@@ -70,6 +81,8 @@ def find_in(path: str, index: Index) -> Symbol:
         near = get_close_matches(quantity, having, n=1, cutoff=0.6)
         hint = f"did you mean `{name}.{near[0]}`?" if near else f"it has {', '.join(having)}"
         raise UnknownSymbolError(f"`{name}` has no `{quantity}`; {hint}")
+    if name == "state" and quantity in index.states:
+        raise UnknownSymbolError(f"the value of the state `{quantity}` is written `{quantity}.{STATE_QUANTITY}`")
     if name in index.forces:
         message = f"`{name}` is a force and has no symbols; what it depends on is measured by a sensor of `distance` or `angle`"
         raise UnknownSymbolError(message)
@@ -81,7 +94,7 @@ def find_in(path: str, index: Index) -> Symbol:
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""
     empty = any(name in elements for elements in _quantities(index).values())
-    what = f"`{name}` has no symbols" if empty else f"there is no joint, sensor, marker or body `{name}`"
+    what = f"`{name}` has no symbols" if empty else f"there is no joint, state, sensor, marker or body `{name}`"
     raise UnknownSymbolError(f"{what}{hint}")
 
 
@@ -89,6 +102,8 @@ def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
     """Section → element → the quantities that it has."""
     return {
         "joints": {name: _of_joint(type_) for name, type_ in index.joints.items()},
+        "states": dict.fromkeys(index.states, (STATE_QUANTITY,)),
+        "forces": {name: states_of(force) for name, force in index.forces.items()},
         "sensors": {name: _of_sensor(sensor) for name, sensor in index.sensors.items()},
         "markers": {name: _of_frame(body, index) for name, body in index.markers.items()},
         "bodies": {name: _of_frame(name, index) for name in index.bodies if "." not in name},
@@ -104,12 +119,17 @@ def _of_sensor(sensor: Any) -> tuple[str, ...]:
     return next((its for form, its in SENSOR_QUANTITIES.items() if entry(sensor, form) is not None), ())
 
 
+def states_of(force: Any) -> tuple[str, ...]:
+    """The first-order states of a force: the bristle of friction by the lugre model."""
+    return ("bristle",) if entry(force, "model") == "lugre" else ()
+
+
 def _of_frame(body: str, index: Index) -> tuple[str, ...]:
     return POINT_QUANTITIES if body in index.point_masses else (*POINT_QUANTITIES, *TURN_QUANTITIES)
 
 
 def symbol_faults(element: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
-    """Symbols that a force, sensor or event uses in vain."""
+    """Symbols that a force, state, sensor or event uses in vain."""
     for key in VARYING_KEYS:
         value = entry(element, key)
         for where, path in _used(value, (*place, key), index, parameters):
@@ -155,5 +175,7 @@ def _has_hyphen(path: str, index: Index) -> bool:
     """Whether an element's name ends in this one behind a `-`, which an expression takes for minus."""
     ending = f"-{path.partition('.')[0]}"
     return any(
-        name.endswith(ending) for its in (index.joints, index.sensors, index.markers, index.bodies) for name in its
+        name.endswith(ending)
+        for its in (index.joints, index.states, index.sensors, index.markers, index.bodies)
+        for name in its
     )

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.status import OK
 from nivel.march.alpha_step import ALPHA_F, ALPHA_M, BEFORE, BETA, DELTA_F, DELTA_M, GAMMA, LAST_STEP, THETA, VDOT, XDOT
@@ -41,14 +41,14 @@ BEND, CHANGE, FAST_BEND, FAST_CHANGE, SPEED = 7, 8, 9, 10, 11
 BY_SPEED, BY_CHANGE = 1.0 / 8.0, 1.0 / 16.0
 
 
-@stage
+@leaf
 def part_of(run, h):
     """What a step h may be wrong by, as a share of the scales."""
     span = run.clock[END] - run.clock[START]
     return max(SHARE * run.clock[TOLERANCE] * max(h / span, LEAST_PART), EXACT)
 
 
-@stage
+@leaf
 def find_differences(run, residual, newton, h):
     """Fill BEND and CHANGE."""
     stages, n, last = run.stages, residual.vdot.shape[0], run.numbers[LAST_STEP]
@@ -62,7 +62,7 @@ def find_differences(run, residual, newton, h):
             stages[BEND, k] *= 2.0
 
 
-@stage
+@leaf
 def size_of_error(run, newton, h):
     """Largest error in q and v by CHANGE and BEND, as a share of the scales."""
     c, stages, scale = run.numbers, run.stages, run.scale
@@ -81,7 +81,7 @@ def size_of_error(run, newton, h):
     return largest
 
 
-@stage
+@leaf
 def size_of_displacement(run, newton, row, cq, cx):
     """Largest displacement by the accelerations in this row of the stages, as a share of the scales."""
     n, states, scale = newton.place.shape[0], newton.state.shape[0], run.scale
@@ -95,7 +95,7 @@ def size_of_displacement(run, newton, row, cq, cx):
     return largest
 
 
-@stage
+@leaf
 def plain_error(machine, history, h):
     """The error of the step just attempted as a share of the allowed one, all of it taken for slow. Fills BEND and CHANGE."""
     run, record = run_at(history), record_at(machine)
@@ -103,7 +103,7 @@ def plain_error(machine, history, h):
     return size_of_error(run, record.newton, h) / part_of(run, h)
 
 
-@stage
+@leaf
 def rate_of_motion(machine, history):
     """How fast the machine moves in the state last evaluated, in radians or its own lengths per second."""
     run, newton = run_at(history), record_at(machine).newton
@@ -117,7 +117,7 @@ def rate_of_motion(machine, history):
     return largest
 
 
-@stage
+@leaf
 def load_speeds(run, residual, newton):
     """SPEED := the change of the velocities in the step just attempted."""
     n, speed = residual.vdot.shape[0], run.stages[SPEED]
@@ -127,7 +127,7 @@ def load_speeds(run, residual, newton):
         speed[k] = residual.y[positions + k] - run.y[positions + k]
 
 
-@stage
+@leaf
 def size_of_sway(run, residual, newton, h):
     """What the cubic of this step sways by for the vibrations in its velocities, of which CHANGE and SPEED are what is slow, as a share of
     the scales. What turns with a stiff rod changes its velocity as a vibration does, but not its acceleration; vibrations that an undamped
@@ -143,10 +143,9 @@ def size_of_sway(run, residual, newton, h):
     return largest
 
 
-@stage
-def split(machine, history, t, row, fast, across):
-    """Overwrite this row of the stages by F⁴ of it, what is slow; `fast` by F (1 - F)³ of it. `across` is that of `keep_slow`. Returns a
-    status."""
+@leaf
+def split(machine, history, t, row, fast):
+    """Overwrite this row of the stages by F⁴ of it, what is slow; `fast` by F (1 - F)³ of it. Returns a status."""
     run = run_at(history)
     stages = run.stages
     status = OK
@@ -154,14 +153,14 @@ def split(machine, history, t, row, fast, across):
         stages[fast, k] = 0.0
     for fold in range(FOLDS):
         if status == OK:
-            status = keep_slow(machine, t, stages[row], across)
+            status = keep_slow(machine, t, stages[row])
         sign = 1.0 if fold == 0 else (-3.0 if fold == 1 else (3.0 if fold == 2 else -1.0))
         for k in range(stages.shape[1]):
             stages[fast, k] += sign * stages[row, k]
     return status
 
 
-@stage
+@leaf
 def filtered_error(machine, history, t, h):
     """The error of the step just attempted, to time t: of the slow part, and twice the amplitude of the vibrations, each as a share of the
     allowed one. Overwrites BEND and CHANGE. Infinite where they cannot be found, or would be those of the motion itself.
@@ -179,13 +178,13 @@ def filtered_error(machine, history, t, h):
     status = find_filter(machine, t, cq, cv, cx)
     run.counter[FACTORISATIONS] += 1
     if status == OK:
-        status = split(machine, history, t, BEND, FAST_BEND, False)
+        status = split(machine, history, t, BEND, FAST_BEND)
     if status == OK:
-        status = split(machine, history, t, CHANGE, FAST_CHANGE, False)
+        status = split(machine, history, t, CHANGE, FAST_CHANGE)
     load_speeds(run, record.residual, newton)
     for _ in range(FOLDS):
         if status == OK:
-            status = keep_slow(machine, t, run.stages[SPEED], False)
+            status = keep_slow(machine, t, run.stages[SPEED])
     if status != OK:
         return np.inf, np.inf
     change, bend = (

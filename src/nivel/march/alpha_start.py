@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_family
 from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import record_at
@@ -48,7 +48,7 @@ NEXT = 10.0
 JUMP, SLOPE, FAST = 7, 8, 9
 
 
-@stage
+@leaf
 def is_steep(run, newton):
     """Whether SLOPE is larger than STEEP times JUMP, as shares of the scales."""
     n, states, scale = newton.place.shape[0], newton.state.shape[0], run.scale
@@ -60,7 +60,7 @@ def is_steep(run, newton):
     return slope > STEEP * jump
 
 
-@stage
+@leaf
 def keep_fast(machine, t, cq, cv, cx, x):
     """x := E x of accelerations, then of rates of states of forces: E = (M + c_v D + c_q K)⁻¹ (c_v D + c_q K) along the constraints, with
     the factors there are. Of what decays with d or vibrates with ω that is (c_v d + c_q ω²)/(1 + c_v d + c_q ω²), of what is across the
@@ -86,7 +86,7 @@ def keep_fast(machine, t, cq, cv, cx, x):
     return OK
 
 
-@stage
+@leaf
 def leave_out_fast(machine, run, t, cq, cv, cx):
     """SLOPE := (1 - E)³ SLOPE, with the factors there are: of a fast decay less is left than of accelerations. Where steps are fixed,
     JUMP := (1 - E)² (1 + 2 E) JUMP too, which changes what is resolved only to the order of the method; E of dampers alone, for what stiff
@@ -111,7 +111,7 @@ def leave_out_fast(machine, run, t, cq, cv, cx):
                 stages[JUMP, k] -= weight * stages[FAST, k]
 
 
-@stage
+@leaf
 def smooth(machine, run, t):
     """Leave what is fast out of a steep SLOPE and its JUMP. `residual` has the accelerations and multipliers of the state run.y at time
     t."""
@@ -136,7 +136,7 @@ def smooth(machine, run, t):
     newton.kept[0] = 0.0
 
 
-@stage
+@leaf
 def add(run, newton):
     """Add JUMP to accelerations and rates, and SLOPE to what they change by in a step."""
     c, stages, n = run.numbers, run.stages, newton.place.shape[0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, RESIDUAL, record_at
 from nivel.kernels.status import NOT_CONVERGED, OK, SINGULAR
@@ -28,7 +28,7 @@ CLOSER, ROUND = 0.01, 1e-13
 SHORT = 0.1
 
 
-@stage
+@leaf
 def refresh(machine, run):
     """As index 1 or 2, take accelerations, rates and multipliers of the accepted state from its evaluation by the loop.
 
@@ -55,7 +55,7 @@ def refresh(machine, run):
         newton.lam[k] = record.constraints.lam[residual.row[k]]
 
 
-@stage
+@leaf
 def predict(run, newton, residual, h):
     """The unknowns at the end of the step as if they went on to change as in the step before, or as they are now: whichever would have
     been nearer there. Accelerations of stiff parts change their sign from step to step."""
@@ -69,7 +69,7 @@ def predict(run, newton, residual, h):
         residual.lam[k] = newton.lam[k] + ratio * (newton.lam[k] - newton.lam_before[k])
 
 
-@stage
+@leaf
 def prepare(run, newton, n, h):
     """The state as a function of the unknowns. Returns cq, cv, cx.
 
@@ -99,7 +99,7 @@ def prepare(run, newton, n, h):
     return h * h * c[BETA] * share, h * c[GAMMA] * share, h * c[THETA] * share_x
 
 
-@stage
+@leaf
 def begin_frictions(machine, y, h, t):
     """What rows of frictions with stiction need to know of the accepted state y: rates and efforts. Returns a status."""
     record = record_at(machine)
@@ -114,7 +114,7 @@ def begin_frictions(machine, y, h, t):
     return status
 
 
-@stage
+@leaf
 def move_by_velocity(run, newton, residual, h, cq):
     """Accelerations with which positions change by h times the velocities at the start of the step."""
     n = residual.vdot.shape[0]
@@ -172,7 +172,7 @@ def solve_step(machine, history, h, end, tolerance):
     return status
 
 
-@stage
+@leaf
 def goes_on(run, residual, states, h):
     """Whether the accelerations of the step just done are nearer to those extrapolated than to those before it."""
     stages, n, ratio = run.stages, residual.vdot.shape[0], h / run.numbers[LAST_STEP]
@@ -186,7 +186,7 @@ def goes_on(run, residual, states, h):
     return extrapolated < constant
 
 
-@stage
+@leaf
 def keep_slopes(run, residual, newton, h):
     """Accelerations and rates of the state reached, changing as they did before. A step this short says nothing of their changes, and of
     themselves what the tolerance of its velocities leaves over its length."""
@@ -203,7 +203,7 @@ def keep_slopes(run, residual, newton, h):
         stages[XDOT, k] += gained
 
 
-@stage
+@leaf
 def keep_changes(run, residual, newton, h):
     """a and w of the state reached, its accelerations and rates, and those before."""
     c, stages = run.numbers, run.stages
@@ -224,7 +224,7 @@ def keep_changes(run, residual, newton, h):
     c[LAST_STEP] = h
 
 
-@stage
+@leaf
 def keep_step(machine, run, h, is_part):
     """The state reached, and what the next step needs to know of it. is_part : of a step cut at a corner."""
     record = record_at(machine)

@@ -12,13 +12,12 @@ from dataclasses import dataclass
 class IntegratorFacts:
     """`function` of `module` is the compiled step; `stages` vectors and `numbers` of work and history; `order` of convergence.
 
-    chooses_steps : controls its error; either : does so on request. implicit : iterates a corrector, by Newton's method on request.
-    residual : needs the equations of motion as a residual, with exact tangents, and iterates by Newton's method alone; it solves them for
-    accelerations and multipliers, or with `rates` for the rates of the state;
-    shifted : it also solves systems with complex shares of a step. whole : module of its residual, one over a whole step in absolute
+    chooses_steps : controls its error; either : does so on request, and tells slow errors from vibrations (`nivel.march.error_filter`).
+    implicit : iterates a corrector, by Newton's method on request. residual : needs the equations of motion as a residual, with exact
+    tangents, and iterates by Newton's method alone; it solves them for accelerations and multipliers, or with `rates` for the rates of the
+    state; shifted : it also solves systems with complex shares of a step. whole : module of its residual, one over a whole step in absolute
     coordinates; empty: that at a time; whole_flexible : the same for machines with flexible bodies. jumps : it ends its steps where speeds
-    of drivers jump, and lets them. filters : where it chooses its steps, it tells slow errors from vibrations, see
-    `nivel.march.error_filter`.
+    of drivers jump, and lets them.
     """
 
     module: str
@@ -35,7 +34,6 @@ class IntegratorFacts:
     whole: str = ""
     whole_flexible: str = ""
     jumps: bool = False
-    filters: bool = False
 
     def over_step(self, flexible: bool) -> str:
         """Module of its residual over a whole step for machines with or without flexible bodies; empty: none."""
@@ -67,10 +65,10 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     **{f"gear{k}": IntegratorFacts(_GEAR, "gear", _ROWS, k, _NUMBERS, implicit=True) for k in range(1, 5)},
     "dopri5": IntegratorFacts("nivel.march.dormand_prince", "dopri5", 7, 5, numbers=2, chooses_steps=True),
     "dop853": IntegratorFacts("nivel.march.dop853", "dop853", 16, 8, numbers=2, chooses_steps=True),
-    "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 34, 12, 75, chooses_steps=True, implicit=True),
+    "adams": IntegratorFacts("nivel.march.variable_adams", "adams", 32, 12, 66, chooses_steps=True, implicit=True),
     **{
         name: IntegratorFacts(
-            "nivel.march.alpha", "alpha", 12, 2, 14, implicit=True, residual=True, either=True, jumps=True, filters=True
+            "nivel.march.alpha", "alpha", 12, 2, 14, implicit=True, residual=True, either=True, jumps=True
         )
         for name in ("newmark", "hht", "generalised-alpha")
     },
@@ -84,18 +82,17 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
         whole="nivel.motion.energy_momentum_residual",
         whole_flexible="nivel.motion.floating_energy_momentum_residual",
     ),
-    "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 34, 5, 75, chooses_steps=True, implicit=True),
+    "gear": IntegratorFacts("nivel.march.variable_gear", "gear", 32, 5, 66, chooses_steps=True, implicit=True),
     "bdf": IntegratorFacts(
         "nivel.march.variable_bdf",
         "bdf",
-        34,
+        32,
         5,
-        75,
+        66,
         chooses_steps=True,
         implicit=True,
         residual=True,
         rates=True,
-        filters=True,
     ),
     "ros2": IntegratorFacts("nivel.march.rosenbrock", "ros2", 2, 2, residual=True, rates=True),
     "radau": IntegratorFacts(

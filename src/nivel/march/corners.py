@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.function import NEAR
 from nivel.kernels.hook import call_hook
 from nivel.kernels.newton_matrix import factorise, solve
@@ -60,7 +60,7 @@ def before(t):
     return t - 2.0 * NEAR * np.abs(t)
 
 
-@stage
+@leaf
 def speeds_are_open(residual, scale, first):
     """Whether a velocity constraint is violated, by more than round-off."""
     rows, largest = residual.lam.shape[0], 0.0
@@ -69,7 +69,7 @@ def speeds_are_open(residual, scale, first):
     return largest > SMOOTH
 
 
-@stage
+@leaf
 def work_of_drivers(constraints):
     """-Σ μ f' of all drivers for impulses μ in `constraints.lam` [J]."""
     work = 0.0
@@ -78,7 +78,7 @@ def work_of_drivers(constraints):
     return work
 
 
-@stage
+@leaf
 def find_jump(machine):
     """newton.b := the change of the velocities and the impulses that close them. Overwrites `before`.
 

@@ -1,4 +1,4 @@
-"""What of an error of accelerations is slow: F δ = (M + c_v D + c_q K)⁻¹ M δ, along the constraints or with C_q F δ = C_q δ.
+"""What of an error of accelerations is slow: F δ = (M + c_v D + c_q K)⁻¹ M δ, along the constraints.
 
 A vibration of angular frequency ω keeps 1/(1 + c_q ω²) of its part of δ, what no spring acts on all of it. c_q F δ is the displacement that
 the springs make of the forces M δ within about √c_q of time: of a vibration faster than that its amplitude.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_family
 from nivel.kernels.newton_matrix import factorise_entries, solve_entries
 from nivel.kernels.record import record_at
@@ -17,7 +17,7 @@ from nivel.kernels.tangent import EPSILON, POSITIONS, differentiate, load_twin
 from nivel.march.residual_newton import apply_turns
 
 
-@stage
+@leaf
 def find_filter(machine, t, cq, cv, cx):
     """The factors at the state, accelerations and multipliers in `residual`, frictions with stiction neither holding nor braking what they
     hold: an error of that is one of its place for ever. Returns a status."""
@@ -31,13 +31,12 @@ def find_filter(machine, t, cq, cv, cx):
     return factorise_entries(newton, newton.filter, record.control.failure) if status == OK else status
 
 
-@stage
-def weigh(machine, t, x):
-    """M x of accelerations x (·,), in the first entries of newton.filter.b; behind them what x leads across the constraints, C_q x, where
-    that of frictions is none. Returns a status."""
+@leaf
+def keep_slow(machine, t, x):
+    """Overwrite x, accelerations and then rates of states of forces, by what of it is slow. Returns a status."""
     record = record_at(machine)
     newton, here = record.newton, record.residual
-    b, n, first = newton.filter.b, here.vdot.shape[0], here.vdot.shape[0] + newton.state.shape[0]
+    b, n, states = newton.filter.b, here.vdot.shape[0], newton.state.shape[0]
     twin, moving = load_twin(newton, here)
     for k in range(n):
         moving.vdot[k] += 1j * EPSILON * x[k]
@@ -46,29 +45,10 @@ def weigh(machine, t, x):
         return status
     for k in range(n):
         b[k] = moving.value[k].imag / EPSILON
-    rows = b.shape[0] - first
-    for k in range(rows):
-        b[first + k] = moving.value[first + k + 2 * rows].imag / EPSILON if k < here.row.shape[0] else 0.0
-    return OK
-
-
-@stage
-def keep_slow(machine, t, x, across):
-    """Overwrite x, accelerations and then rates of states of forces, by what of it is slow. Returns a status.
-
-    across : whether what leads across the constraints, as a driver would lead, stays as it is and is followed; dropped otherwise.
-    """
-    record = record_at(machine)
-    newton, here = record.newton, record.residual
-    b, n, states = newton.filter.b, here.vdot.shape[0], newton.state.shape[0]
-    status = weigh(machine, t, x)
-    if status != OK:
-        return status
     for k in range(states):
         b[n + k] = x[n + k]
-    if not across:
-        for k in range(n + states, b.shape[0]):
-            b[k] = 0.0
+    for k in range(n + states, b.shape[0]):
+        b[k] = 0.0
     solve_entries(newton, newton.filter)
     apply_turns(newton, b)
     for k in range(n + states):

@@ -8,12 +8,13 @@ step to step, never found anew from the state, so an event is found once whateve
 from __future__ import annotations
 
 from nivel.kernels.compile import leaf
-from nivel.kernels.record import STOP, record_at
+from nivel.kernels.record import ENDS_RUN, NOTED, STOP, record_at
 from nivel.kernels.status import BUFFER_FULL, OK
 from nivel.march.crossing import NEVER, end_at, find_crossings, read_values, side_of
 from nivel.march.dense import cubic
 from nivel.march.run import (
     AFTER,
+    ALL_STEPS,
     BEFORE,
     DENSE,
     EVALUATIONS,
@@ -44,18 +45,20 @@ def begin_events(machine, history):
 
 
 @leaf
-def first_stop(watched, when):
-    """Number of the first event that ends the run, or -1."""
+def first_stop(watched, when, fixed):
+    """Number of the first event that ends the run, or the step, or -1. Fixed steps are ended by the end of the run alone."""
     first = -1
     for k in range(watched.event.shape[0]):
-        if watched.event[k, STOP] == 1 and when[k] < NEVER and (first < 0 or when[k] < when[first]):
+        ends = watched.event[k, STOP] == ENDS_RUN if fixed else watched.event[k, STOP] != NOTED
+        if ends and when[k] < NEVER and (first < 0 or when[k] < when[first]):
             first = k
     return first
 
 
 @leaf
 def find_events(evaluate, correct, machine, history):
-    """Look at the step just done: events into row WHEN; the step ends earlier where an event ends the run, or a contact begins or ends.
+    """Look at the step just done: events into row WHEN. The step ends earlier where an event ends the run or takes a sample, or a contact
+    begins or ends.
 
     Returns a status. With counter[KNOWN] the state reached is evaluated already, its rate is run.scratch.
     """
@@ -75,17 +78,19 @@ def find_events(evaluate, correct, machine, history):
     status, end = find_contacts(evaluate, correct, machine, history, events)
     if status == OK:
         status = find_crossings(evaluate, correct, machine, history, 0, events, end)
-    stop = first_stop(watched, values[WHEN])
+    stop = first_stop(watched, values[WHEN], counter[ALL_STEPS] > 0)
     if status == OK and stop >= 0:
         end = values[WHEN, stop]
         status = end_at(evaluate, correct, machine, history, end)
-        counter[STOPPED] = stop + 1
+        if watched.event[stop, STOP] == ENDS_RUN:
+            counter[STOPPED] = stop + 1
     for k in range(count):
         now = side_of(values[AFTER, k], k, events)
         if k >= events:
             values[SIDE, k] = now
         elif values[WHEN, k] <= end:
             values[SIDE, k] = -values[SIDE, k]
+            record_at(machine).sampled.came[k] = 1
         else:
             values[WHEN, k] = NEVER
             values[SIDE, k] = now if now != 0.0 else values[SIDE, k]

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import RESIDUAL, record_at
 from nivel.kernels.status import OK
@@ -32,7 +32,7 @@ def next_seed(seed):
     return seed * 16807 % 2147483647
 
 
-@stage
+@leaf
 def begin_turns(residual):
     """At the begin of an iteration: what frictions do follows from the state."""
     residual.tally[TURNS], residual.tally[STEEP], residual.tally[SEED] = 0.0, 0.0, 1.0
@@ -40,21 +40,21 @@ def begin_turns(residual):
         residual.bidden[k], residual.frozen[k] = np.nan, np.nan
 
 
-@stage
+@leaf
 def release(residual):
     """Let all frictions slide or stick as follows from the state."""
     for k in range(residual.branch.shape[0]):
         residual.bidden[k] = np.nan
 
 
-@stage
+@leaf
 def keep_made(residual):
     """Remember what frictions did when the matrix was made."""
     for k in range(residual.branch.shape[0]):
         residual.made[k] = residual.branch[k]
 
 
-@stage
+@leaf
 def turn_some(residual):
     """Bid about half of the frictions that have turned to remain as Newton's matrix has them."""
     for k in range(residual.branch.shape[0]):
@@ -64,7 +64,7 @@ def turn_some(residual):
             residual.bidden[k] = np.nan if seed % 2 == 0 else np.sign(residual.made[k])
 
 
-@stage
+@leaf
 def freeze(residual):
     """Take Stribeck's curve, where it is steep, at the speeds there are."""
     for k in range(residual.branch.shape[0]):
@@ -72,7 +72,7 @@ def freeze(residual):
             residual.frozen[k] = residual.rate[k]
 
 
-@stage
+@leaf
 def follow_turns(machine, t):
     """After an evaluation of the residual: (status, whether a friction has another equation than Newton's matrix, whether some were bidden
     to remain, whether a friction is where Stribeck's curve is steep)."""

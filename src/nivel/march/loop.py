@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from nivel.kernels.compile import entry, leaf
+from nivel.kernels.function import NEAR
 from nivel.kernels.handle import address_type
 from nivel.kernels.hook import call_hook
 from nivel.kernels.observe import accept, observe
@@ -43,6 +46,7 @@ from nivel.march.run import (
     run_at,
     step_type,
 )
+from nivel.march.samples import find_bound, take_samples
 
 
 @leaf
@@ -74,6 +78,12 @@ def at_end(run):
 
 
 @leaf
+def is_past(t, other):
+    """Whether the time t is the other one, but for round-off, or later: a frame at the time of a sample shows the state after it."""
+    return t >= other - NEAR * np.abs(other)
+
+
+@leaf
 def is_due(run):
     """Whether the accepted state is to be a frame. LAST_FRAME counts steps where they are fixed, frames otherwise."""
     counter = run.counter
@@ -82,7 +92,7 @@ def is_due(run):
     if counter[ALL_STEPS] > 0:
         n = counter[DONE_STEPS]
         return (n % counter[EVERY] == 0 or at_end(run)) and counter[LAST_FRAME] != n
-    return run.clock[TIME] >= frame_time(run, counter[LAST_FRAME] + 1)
+    return is_past(run.clock[TIME], frame_time(run, counter[LAST_FRAME] + 1))
 
 
 @leaf
@@ -121,7 +131,7 @@ def write_inside(evaluate, correct, machine, history):
     clock, counter = run.clock, run.counter
     while counter[ALL_STEPS] == 0:
         t = frame_time(run, counter[LAST_FRAME] + 1)
-        if t >= clock[REACHED]:
+        if is_past(t, clock[REACHED]):
             break
         if counter[FRAMES] == run.frames.shape[0]:
             return BUFFER_FULL
@@ -187,6 +197,10 @@ def accept_state(evaluate, machine, history, due):
         status = evaluate_accepted(evaluate, machine, history)
         if status == OK and not finite(run.rate):
             status = NOT_FINITE
+    if status == OK and record.sampled.state.shape[0] > 0:
+        status = take_samples(evaluate, machine, history)
+        if status == OK and not finite(run.rate):
+            status = NOT_FINITE
     if status == OK and counter[DONE_STEPS] == 0 and run.event_values.shape[1] > 0:
         status = begin_events(machine, history)
     if status != OK:
@@ -246,6 +260,7 @@ def take_step(evaluate, correct, step, machine, history):
     if fixed:
         clock[REACHED] = time_of(run, n + 1)
         clock[STEP] = clock[REACHED] - clock[TIME] if n + 1 == counter[ALL_STEPS] else h
+    find_bound(machine, run)
     counter[DENSE] = 0
     status = step(evaluate, machine, history)
     if fixed:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import DEPENDENT, NONE, record_at
 from nivel.kernels.spatial import dot
@@ -35,7 +35,7 @@ def turn_by(theta, psi, out):
     out[3] = e3 * c + e0 * z + e1 * y - e2 * x
 
 
-@stage
+@leaf
 def set_state(machine, cq, cv, cx):
     """`residual.y` of the unknowns."""
     record = record_at(machine)
@@ -56,7 +56,7 @@ def set_state(machine, cq, cv, cx):
         y[positions + n + k] = newton.state[k] + cx * newton.rate[k]
 
 
-@stage
+@leaf
 def find_state(machine, t, cq, cv, cx):
     """`residual.y` of the unknowns at time t; in independent coordinates with all that depends on them, `residual.vdot` too. Returns a
     status."""

@@ -41,8 +41,8 @@ from nivel.march.radau_stages import (
     write_polynomial,
 )
 from nivel.march.run import (
+    BOUND,
     DENSE,
-    END,
     EVALUATIONS,
     POWERS,
     REACHED,
@@ -204,7 +204,7 @@ def radau(evaluate, machine, history):
         if corner < np.inf:
             # just beyond it, where functions are what follows, even those that are no number at the corner
             end = before(corner)
-            run.clock[REACHED] = min(corner + (corner - end), run.clock[END])
+            run.clock[REACHED] = min(corner + (corner - end), run.clock[BOUND])
             h = run.clock[REACHED] - run.clock[TIME]
         status, error, shorter = attempt(evaluate, machine, history, h, end, tolerance)
         if status != OK:

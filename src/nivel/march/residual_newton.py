@@ -33,7 +33,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
+from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_hook
 from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import RESIDUAL, record_at
@@ -64,7 +64,7 @@ CLOSE = 1e-4
 SAMPLES, SAFETY = 8, 4.0
 
 
-@stage
+@leaf
 def write_defect(machine, cq, cv):
     """b := minus the residual; of the constraints, positions, velocities or accelerations as the index says, in units of accelerations."""
     record = record_at(machine)
@@ -90,7 +90,7 @@ def write_defect(machine, cq, cv):
             b[first + k] += newton.compliance[k] * residual.lam[k]
 
 
-@stage
+@leaf
 def close_positions(machine, cq, cv):
     """newton.moved := the further change of positions that closes them after the change in newton.b is made. Overwrites `last`."""
     record = record_at(machine)
@@ -111,7 +111,7 @@ def close_positions(machine, cq, cv):
         b[i] = kept[i]
 
 
-@stage
+@leaf
 def apply_turns(newton, x):
     """Overwrite changes x (n,) of rotations after the iterate by those of their rotation vectors."""
     for k in range(newton.place.shape[0]):
@@ -119,7 +119,7 @@ def apply_turns(newton, x):
             x[k], x[k + 1], x[k + 2] = inverse_tangent(newton.change[k : k + 3], (x[k], x[k + 1], x[k + 2]))
 
 
-@stage
+@leaf
 def size_of_change(machine, scale, cq, cv, cx):
     """Largest change of a position, velocity or state of forces by newton.b and newton.moved, as a share of its scale, or of the effort of
     a friction with stiction, as a share of itself and its limit times CLOSE; its unknown is left in control.failure."""
@@ -147,7 +147,7 @@ def size_of_change(machine, scale, cq, cv, cx):
     return largest
 
 
-@stage
+@leaf
 def take_change(newton, residual, b, moved, share):
     """Add `share` of the changes b and `moved` to the unknowns."""
     n, states = residual.vdot.shape[0], newton.state.shape[0]
@@ -160,7 +160,7 @@ def take_change(newton, residual, b, moved, share):
         residual.lam[k] += share * b[n + states + k]
 
 
-@stage
+@leaf
 def keep_change(newton):
     """Remember the change just taken, which may have to be taken back."""
     for k in range(newton.b.shape[0]):
@@ -175,13 +175,13 @@ def is_same(a, b):
     return np.abs(a - b) <= 1e-6 * np.abs(b)
 
 
-@stage
+@leaf
 def is_kept(newton, cq, cv, cx):
     """Whether the factors are for these coefficients, but for the round-off of a step that is a difference of times."""
     return is_same(newton.kept[CQ], cq) and is_same(newton.kept[CV], cv) and is_same(newton.kept[CX], cx)
 
 
-@stage
+@leaf
 def renew(machine, t, cq, cv, cx):
     """The factors of the matrix at the iterate. Returns a status."""
     record = record_at(machine)
@@ -194,7 +194,7 @@ def renew(machine, t, cq, cv, cx):
     return status
 
 
-@stage
+@leaf
 def find_change(machine, cq, cv):
     """newton.b and newton.moved: the change of all unknowns that the residual just evaluated asks for."""
     newton = record_at(machine).newton
@@ -206,7 +206,7 @@ def find_change(machine, cq, cv):
     apply_turns(newton, newton.b)
 
 
-@stage
+@leaf
 def is_round_off(machine, scale, cq, cv, cx, tolerance):
     """Whether the change in newton.before is of index 3 or without constraints, and no larger than the tolerance and what round-off does.
 
@@ -256,7 +256,7 @@ def is_round_off(machine, scale, cq, cv, cx, tolerance):
     return True
 
 
-@stage
+@leaf
 def is_finite(value):
     """Whether all entries are numbers; a difference of infinities is none either. Derivatives of other ones would be stale."""
     total = 0.0
@@ -265,7 +265,7 @@ def is_finite(value):
     return total == 0.0
 
 
-@stage
+@leaf
 def is_worth_a_new_one(newton, contraction, size, tolerance):
     """Whether the iterations still to come with the matrix that there is would cost more than another matrix."""
     price = min(DEAR * (newton.group_start.shape[0] - 1.0), DEAREST)

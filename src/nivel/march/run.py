@@ -12,8 +12,8 @@ from nivel.kernels.record import correct_signature, evaluate_signature
 
 # entries of Run.clock
 TIME, STEP, START, END, REACHED, INTERVAL, TOLERANCE, LARGEST, CORRECTOR_TOLERANCE = 0, 1, 2, 3, 4, 5, 6, 7, 8
-LENGTH, SHOWN, ACCEPTED, OPEN_LIMIT = 9, 10, 11, 12
-CLOCKS = 13
+LENGTH, SHOWN, ACCEPTED, OPEN_LIMIT, BOUND = 9, 10, 11, 12, 13
+CLOCKS = 14
 # entries of Run.counter
 DONE_STEPS, ALL_STEPS, EVERY, FRAMES, LAST_FRAME, BUDGET, EVALUATIONS, EVALUATED = 0, 1, 2, 3, 4, 5, 6, 7
 ITERATIONS, REJECTED, RESTART, DENSE, INSIDE, STOPPED, EVENTS, ORDER, MOST_ITERATIONS, NEWTON = (
@@ -31,13 +31,14 @@ class Run(NamedTuple):
     """History and output of one run. All of it is here, so the result does not depend on how the run is cut into chunks.
 
     An integrator with a fixed step finds ALL_STEPS > 0 and leaves clock[STEP] and clock[REACHED] alone. One that chooses its steps finds
-    ALL_STEPS = 0, tries clock[STEP], and leaves the time reached in clock[REACHED] (never past clock[END]) and the step to try next in
+    ALL_STEPS = 0, tries clock[STEP], and leaves the time reached in clock[REACHED] (never past clock[BOUND]) and the step to try next in
     clock[STEP].
     """
 
     # TIME of the accepted state, STEP, START, END, REACHED by the last step, INTERVAL of frames [s]; TOLERANCE, LARGEST step, ...;
     # LENGTH of the step that `dense` describes, longer than the one done where that ends at an event; SHOWN, time of the last frame;
-    # ACCEPTED, time of the state `previous`; OPEN_LIMIT, share of the scales of the constraints beyond which positions are not accepted
+    # ACCEPTED, time of the state `previous`; OPEN_LIMIT, share of the scales of the constraints beyond which positions are not accepted;
+    # BOUND, time of the next sample or of the end
     clock: F1
     # steps done, steps in all (0: not known), steps between frames, frames in the buffer, number of the last frame, budget, evaluations,
     # whether `rate` is that of y; corrector iterations, steps rejected, whether the history must be forgotten, rows of `dense` in use,
@@ -63,6 +64,7 @@ class Run(NamedTuple):
     frames: F2  # (capacity, width) output
     # BEFORE and AFTER the last step, SIDE, share of the step WHEN it changed, the rates before and after; see `nivel.march.events`
     event_values: F2  # (6, values watched)
+    samples: I1  # (sampled states,) taken so far of those with a period
     events: F2  # (capacity, 3) time [s], number of the event, direction 1 or -1
 
 

@@ -17,6 +17,7 @@ from nivel.kernels.compile import leaf
 from nivel.kernels.record import record_at
 from nivel.kernels.status import NOT_FINITE, OK, STEP_TOO_SMALL
 from nivel.march.run import (
+    BOUND,
     DONE_STEPS,
     END,
     EVALUATIONS,
@@ -104,7 +105,7 @@ def first_step(evaluate, machine, history, order, tolerance):
     """
     run = run_at(history)
     h, first = run.clock[STEP], size(run, run.rate)
-    ahead = min(h, run.clock[END] - run.clock[TIME])
+    ahead = min(h, run.clock[BOUND] - run.clock[TIME])
     if first > 0.0:
         ahead = min(ahead, 0.01 * np.sqrt(tolerance) / first)
     for i in range(run.y.shape[0]):
@@ -160,14 +161,14 @@ def enter_boldly(machine, history, order, tolerance):
 def reach(run):
     """clock[REACHED] for a step of about clock[STEP]; returns the step, or 0 where it is lost in the round-off of the time.
 
-    The last step ends at the end exactly; the last but one leaves it half of what is left, instead of a crumb.
+    The last step before clock[BOUND] ends there exactly; the last but one leaves it half of what is left, instead of a crumb.
     """
     clock = run.clock
-    t, h, left = clock[TIME], clock[STEP], clock[END] - clock[TIME]
+    t, h, left = clock[TIME], clock[STEP], clock[BOUND] - clock[TIME]
     if not h > SMALLEST * ROUND_OFF * max(np.abs(t), clock[END] - clock[START]):
         return 0.0
     if h * STRETCH >= left:
-        clock[REACHED] = clock[END]
+        clock[REACHED] = clock[BOUND]
         return left
     clock[REACHED] = t + (0.5 * left if 2.0 * h > left else h)
     return clock[REACHED] - t

@@ -8,12 +8,12 @@ from nivel.march.multistep_polynomials import ADAMS
 from nivel.march.run import run_at, step_signature
 from nivel.march.step_control import allowed
 from nivel.march.variable_corrector import corrector
-from nivel.march.variable_order import multistep, plain, take_value
+from nivel.march.variable_order import multistep
 
 MOST_ORDER = 11
 SHARE = 0.03
 
-variable_step = multistep(ADAMS, MOST_ORDER, *corrector(find_matrix, solve_matrix, 1), plain, take_value)
+variable_step = multistep(ADAMS, MOST_ORDER, *corrector(find_matrix, solve_matrix))
 
 
 @entry(step_signature)

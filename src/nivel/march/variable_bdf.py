@@ -6,13 +6,11 @@ from nivel.kernels.compile import entry
 from nivel.march.exact_matrix import find_matrix, solve_matrix
 from nivel.march.multistep_polynomials import BDF
 from nivel.march.run import step_signature
-from nivel.march.stiff_correction import follow
-from nivel.march.stiff_vibration import look
 from nivel.march.variable_corrector import corrector
 from nivel.march.variable_gear import MOST_ORDER, of_step
 from nivel.march.variable_order import multistep
 
-variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix, 2), look, follow)
+variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix))
 
 
 @entry(step_signature)

@@ -14,7 +14,7 @@ from nivel.kernels.compile import leaf
 from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, MOST_ITERATIONS, NEWTON, REACHED, run_at
 from nivel.march.step_control import size
-from nivel.march.variable_workspace import CHANGE, CONTRACTION, CORRECTION, ENERGIES, PREDICTED, RATE, SHARE, STIFF, C
+from nivel.march.variable_workspace import CHANGE, CONTRACTION, CORRECTION, PREDICTED, RATE, SHARE, C
 
 # More iterations than this are dearer than a shorter step.
 MOST = 4
@@ -24,12 +24,10 @@ CLOSE = 0.1
 FORGET, DIVERGES = 0.3, 2.0
 # Newton's matrix is found again where h/c_1 has changed by more than this share.
 SAME = 0.3
-# Slow errors change by less than this share of themselves when they are filtered; how many errors long stiff ones are remembered.
-LITTLE, REMEMBERED = 0.25, 8.0
 
 
-def corrector(find_matrix, solve_matrix, folds):
-    """The functions `correct` and `damp` with Newton's matrix from these; `damp` by so many solutions where something is stiff."""
+def corrector(find_matrix, solve_matrix):
+    """The functions `correct` and `damp` with Newton's matrix from these."""
 
     @leaf
     def iterate(evaluate, machine, history, h, tolerance):
@@ -103,26 +101,10 @@ def corrector(find_matrix, solve_matrix, folds):
 
     @leaf
     def damp(machine, history, source, x):
-        """x := `source`, with Newton's method less of the vibrations that are stiff: (1 - (h/c_1) ∂f/∂y)⁻¹ of it. Returns a status.
-
-        Of what stretches a stiff spring one solution leaves the speed, -1/(h/c_1) times the stretch. Where it changes x by more than a
-        share of what it leaves, now or a few times before, something is stiff, and `folds` solutions are made.
-        """
-        run, status = run_at(history), OK
+        """x := `source`, with Newton's method less of the vibrations that are stiff: (1 - (h/c_1) ∂f/∂y)⁻¹ of it. Returns a status."""
+        run = run_at(history)
         for i in range(x.shape[0]):
             x[i] = source[i]
-        if run.counter[NEWTON] == 0:
-            return OK
-        status = solve_matrix(machine, history, x)
-        if folds > 1 and status == OK:
-            taken, left = 0.0, 0.0
-            for i in range(x.shape[0] - ENERGIES):
-                taken = max(taken, np.abs(source[i] - x[i]) / run.scale[i])
-                left = max(left, np.abs(x[i]) / run.scale[i])
-            run.numbers[STIFF] = REMEMBERED if taken > LITTLE * left else max(run.numbers[STIFF] - 1.0, 0.0)
-            for _ in range(1, folds):
-                if run.numbers[STIFF] > 0.0 and status == OK:
-                    status = solve_matrix(machine, history, x)
-        return status
+        return solve_matrix(machine, history, x) if run.counter[NEWTON] == 1 else OK
 
     return correct, damp

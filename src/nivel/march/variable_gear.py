@@ -12,12 +12,12 @@ from nivel.march.multistep_polynomials import BDF
 from nivel.march.run import DONE_STEPS, run_at, step_signature
 from nivel.march.step_control import allowed
 from nivel.march.variable_corrector import corrector
-from nivel.march.variable_order import multistep, plain, take_value
+from nivel.march.variable_order import multistep
 
 MOST_ORDER = 5
 SHARE, TOTAL = 0.001, 0.3
 
-variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix, 1), plain, take_value)
+variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix))
 
 
 @leaf

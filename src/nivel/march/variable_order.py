@@ -5,8 +5,7 @@ q + 1 the one that promises the longest step is taken, q + 1 once q + 1 steps of
 
 The direct correction of the loop moves y a little after every step. The polynomial follows: its value at t_n is replaced by the
 corrected one, and for Adams–Moulton with functional iteration its rate by that of the corrected state, which is what that method
-remembers. BDF remembers values: they are all moved alike, and their differences, which are what counts, stay (`bdf` moves them so that
-no stiff spring is stretched, see `nivel.march.stiff_correction`). With Newton's method the
+remembers. BDF remembers values: they are all moved alike, and their differences, which are what counts, stay. With Newton's method the
 rate is kept, since in stiff directions a small change of y would change it beyond measure.
 
 With functional iteration the Adams methods go on from the next order: the estimated error of the corrected state is subtracted, which
@@ -38,13 +37,11 @@ from nivel.march.step_control import (
     too_small,
     turned_too_far,
 )
-from nivel.march.stiff_vibration import BEGINS, GOES_ON, NO, forget, settle
 from nivel.march.variable_corrector import FORGET
 from nivel.march.variable_workspace import (
     CHANGE,
     CONTRACTION,
     CORRECTION,
-    ENERGIES,
     ESTIMATE,
     LAST,
     LAST_STEP,
@@ -53,8 +50,6 @@ from nivel.march.variable_workspace import (
     SHARE,
     SLOPE,
     STEPS,
-    STIFF,
-    VIBRATING,
     WAIT,
     WORK,
     XI,
@@ -66,24 +61,20 @@ from nivel.march.variable_workspace import (
 LOWER, SAME, HIGHER = 6.0, 4.0, 8.0
 # A step is made longer only if it gets longer by this factor, and by no more than the second (the third at the start).
 WORTH, MOST_GROWTH, FIRST_GROWTH = 1.2, 2.0, 10.0
-# After so many rejections of one step its past says nothing about it, and the polynomial begins anew with order one; but not where only the
-# energies at the end of y are wrong, on which nothing depends: of stiff springs these depend on accelerations, which order one gets wrong
-# by half of themselves in its first step, however short that is. Nor while a vibration is stepped over, which would be shaken anew.
+# After so many rejections of one step its past says nothing about it, and the polynomial begins anew with order one.
 MOST_REJECTIONS = 3
 
 
 @leaf
 def start(run):
-    """The polynomial of order one from the value that it has and the rate of the accepted state, as if steps of this length had been done
-    before."""
+    """The polynomial of order one from the accepted state and its rate, as if steps of this length had been done before."""
     h = run.clock[STEP]
     for i in range(run.y.shape[0]):
+        run.stages[Z, i] = run.y[i]
         run.stages[Z + 1, i] = h * run.rate[i]
-        run.stages[SLOPE, i] = h * run.rate[i]
     run.counter[ORDER] = 1
     numbers = run.numbers
     numbers[SCALED], numbers[CONTRACTION], numbers[SHARE], numbers[WAIT], numbers[LAST_STEP] = h, 1.0, 0.0, 2.0, 0.0
-    numbers[STIFF] = 0.0
     for i in range(MOST_ORDER + 1):
         numbers[STEPS + i] = 0.0
 
@@ -101,7 +92,9 @@ def measure_contraction(run):
 
 @leaf
 def renew(run, family):
-    """The rate of the polynomial after the correction of the loop."""
+    """The polynomial through the accepted state as the loop corrected it."""
+    for i in range(run.y.shape[0]):
+        run.stages[Z, i] = run.y[i]
     if family == ADAMS and run.counter[NEWTON] == 0:
         for i in range(run.y.shape[0]):
             run.stages[Z + 1, i] = run.numbers[SCALED] * run.rate[i]
@@ -136,19 +129,6 @@ def advance_order(run, family, change, K):
 
 
 @leaf
-def reduce_order(run, family):
-    """The polynomial of order two through the last points, or of order one where there are no more."""
-    numbers = run.numbers
-    xi = numbers[XI : XI + MOST_ORDER + 3]
-    xi[0] = 0.0
-    for i in range(run.counter[ORDER]):
-        before = numbers[STEPS + i]
-        xi[i + 1] = xi[i] + (before / numbers[SCALED] if before > 0.0 else 1.0)
-    while run.counter[ORDER] > 2:
-        advance_order(run, family, -1, 1.0)
-
-
-@leaf
 def higher_error(run, h, K, above):
     """Error of the step just done, had its order been one more: from the change of D_q since the last step."""
     q = run.counter[ORDER]
@@ -173,10 +153,7 @@ def choose(run, family, most, h, tolerance, error, lower, factors):
     q, numbers = run.counter[ORDER], run.numbers
     growth, change = longer(error, q, SAME), 0
     numbers[WAIT] -= 1.0
-    if numbers[VIBRATING] == GOES_ON:
-        # what is left of the vibration says nothing about orders; the second is the highest that lets none grow
-        change = 1 if q == 1 and numbers[WAIT] <= 0.0 else 0
-    elif numbers[WAIT] <= 0.0:
+    if numbers[WAIT] <= 0.0:
         numbers[WAIT] = 2.0
         if q > 1:
             factor = longer(below * lower / tolerance, q - 1, LOWER)
@@ -196,25 +173,8 @@ def choose(run, family, most, h, tolerance, error, lower, factors):
     return growth
 
 
-@leaf
-def take_value(machine, history):
-    """The value of the polynomial after the correction of the loop: the accepted state. Returns a status."""
-    run = run_at(history)
-    for i in range(run.y.shape[0]):
-        run.stages[Z, i] = run.y[i]
-    return OK
-
-
-@leaf
-def plain(machine, history, h, factor, tolerance):
-    """The error of the step just attempted, `factor` times ESTIMATE, as a share of the allowed one."""
-    run = run_at(history)
-    return factor * size(run, run.stages[ESTIMATE]) / tolerance
-
-
-def multistep(family, most, correct, damp, look, follow):
-    """The function `variable_step` of a family, for orders up to `most`, with a corrector of `nivel.march.variable_corrector` and a look at
-    vibrations of `nivel.march.stiff_vibration`, and how the past follows the correction of the loop (`nivel.march.stiff_correction`)."""
+def multistep(family, most, correct, damp):
+    """The function `variable_step` of a family, for orders up to `most`, with a corrector of `nivel.march.variable_corrector`."""
 
     @leaf
     def variable_step(evaluate, machine, history, tolerance):
@@ -222,19 +182,13 @@ def multistep(family, most, correct, damp, look, follow):
         run = run_at(history)
         numbers = run.numbers
         enter(evaluate, machine, history, 1.0, tolerance)
-        error, rejections = 0.0, 0
         if is_fresh(run):
-            forget(run)
-            status = take_value(machine, history)
             start(run)
             run.counter[RESTART] = 0
-        else:
-            if run.counter[NEWTON] == 0:
-                measure_contraction(run)
-            status = follow(machine, history)
-        if status != OK:
-            return status
+        elif run.counter[NEWTON] == 0:
+            measure_contraction(run)
         renew(run, family)
+        status, error, rejections = OK, 0.0, 0
         while True:
             h = reach(run)
             if h == 0.0:
@@ -250,23 +204,13 @@ def multistep(family, most, correct, damp, look, follow):
             if status != OK:
                 reject(run, h, AFTER_FAILURE)
             else:
-                error = look(machine, history, h, factors[2] / factors[0], tolerance)
-                if numbers[VIBRATING] == BEGINS:
-                    # the same step with order two
-                    numbers[VIBRATING] = GOES_ON
-                    run.clock[STEP] = h
-                    reduce_order(run, family)
-                    continue
+                error = factors[2] / factors[0] * size(run, run.stages[ESTIMATE]) / tolerance
                 shorter = turned_too_far(machine, h)
                 if error <= 1.0 and shorter == 1.0:
                     break
                 reject(run, h, min(shorter, max(LEAST_CHANGE, longer(error, q, SAME))) if error > 1.0 else shorter)
             rejections += 1
-            motion = run.stages[ESTIMATE, : run.y.shape[0] - ENERGIES]
-            lost = status != OK or (
-                numbers[VIBRATING] == NO and not factors[2] / factors[0] * size(run, motion) <= tolerance
-            )
-            if rejections % MOST_REJECTIONS == 0 and lost:
+            if rejections % MOST_REJECTIONS == 0:
                 start(run)
         accept(run, c)
         extrapolated = factors[2] / factors[0] if family == ADAMS and run.counter[NEWTON] == 0 else 0.0
@@ -283,10 +227,8 @@ def multistep(family, most, correct, damp, look, follow):
         lower = 0.0
         if numbers[WAIT] <= 1.0:
             status = damp(machine, history, run.stages[Z + q], run.stages[CHANGE])
-            # an error without its vibrations is not to be compared with one that has them
-            lower = size(run, run.stages[CHANGE]) if numbers[VIBRATING] == NO else np.inf
+            lower = size(run, run.stages[CHANGE])
         growth = choose(run, family, most, h, tolerance, error, lower, factors)
-        settle(run, h, growth >= WORTH)
         run.clock[STEP] = h * min(growth, 1.0 if rejections > 0 else (FIRST_GROWTH if first else MOST_GROWTH))
         return status
 

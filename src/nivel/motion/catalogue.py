@@ -75,21 +75,6 @@ FLEXIBLE_TREE = PathFacts(
     "nivel.system.states.flexible_tree",
     "nivel.motion.relative_residual",
 )
-_FLOATING_PARAMETERS = PathFacts(
-    "nivel.motion.floating_lagrange",
-    "nivel.motion.floating_lagrange_correction",
-    "nivel.system.states.floating_parameters",
-    "nivel.motion.floating_lagrange_residual",
-)
-_FLOATING_ANGLES, _FLOATING_VECTOR = (
-    PathFacts(
-        "nivel.motion.floating_lagrange_three",
-        "nivel.motion.floating_lagrange_three_correction",
-        f"nivel.system.states.floating_{kind}",
-        "nivel.motion.floating_lagrange_three_residual",
-    )
-    for kind in ("euler_angles", "rotation_vector")
-)
 _FLOATING_INDEPENDENT = PathFacts(
     "nivel.motion.floating_independent",
     "nivel.motion.floating_independent",
@@ -116,9 +101,6 @@ PATHS: dict[tuple[str, str, str], PathFacts] = {
 # the same for machines with flexible bodies
 FLEXIBLE: dict[tuple[str, str, str], PathFacts] = {
     ("absolute", "newton-euler", "euler-parameters"): FLOATING,
-    ("absolute", "lagrange", "euler-parameters"): _FLOATING_PARAMETERS,
-    ("absolute", "lagrange", "euler-angles"): _FLOATING_ANGLES,
-    ("absolute", "lagrange", "rotation-vector"): _FLOATING_VECTOR,
     ("relative", "newton-euler", "euler-parameters"): FLEXIBLE_TREE,
     ("independent", "newton-euler", "euler-parameters"): _FLOATING_INDEPENDENT,
 }

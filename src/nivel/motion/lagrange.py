@@ -23,8 +23,8 @@ WIDTH = 7
 
 @leaf
 def first_rate(record):
-    """Where q̇ stands in y: behind (R, θ) of the bodies and the modal coordinates of flexible ones."""
-    return 7 * record.bodies.mass.shape[0] + record.flexible.p.shape[0]
+    """Where q̇ stands in y: behind (R, θ) of the bodies."""
+    return 7 * record.bodies.mass.shape[0]
 
 
 @stage

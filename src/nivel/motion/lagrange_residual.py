@@ -66,10 +66,10 @@ def write_body(machine, b):
 
 
 @stage
-def write_bodies(machine, first):
-    """The rows of all bodies from `residual.wrench`, rates of the states of forces, and constraints. first : the row behind velocities."""
+def write_bodies(machine):
+    """The rows of all bodies from `residual.wrench`, rates of the states of forces, and constraints."""
     record = record_at(machine)
-    own = record.residual
+    own, first = record.residual, WIDTH * record.bodies.mass.shape[0]
     for b in range(record.bodies.mass.shape[0]):
         write_body(machine, b)
     write_rows(machine, first)
@@ -93,5 +93,5 @@ def residual(machine, job, t):
         accelerate_bodies(machine)
         status = find_wrenches(machine, t)
     if status == OK:
-        write_bodies(machine, WIDTH * record.bodies.mass.shape[0])
+        write_bodies(machine)
     return status

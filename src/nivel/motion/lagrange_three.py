@@ -42,8 +42,8 @@ def turn_body(rotations, b, phi, phidot):
 
 @leaf
 def first_rate(record):
-    """Where q̇ stands in y: behind (R, φ) of the bodies and the modal coordinates of flexible ones."""
-    return 6 * record.bodies.mass.shape[0] + record.flexible.p.shape[0]
+    """Where q̇ stands in y: behind (R, φ) of the bodies."""
+    return 6 * record.bodies.mass.shape[0]
 
 
 @stage

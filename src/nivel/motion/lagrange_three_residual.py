@@ -29,8 +29,8 @@ def accelerate_bodies(machine):
 
 
 @stage
-def write_bodies(machine, first):
-    """The rows of all bodies from `residual.wrench`, rates of the states of forces, and constraints. first : the row behind velocities."""
+def write_bodies(machine):
+    """The rows of all bodies from `residual.wrench`, rates of the states of forces, and constraints."""
     record = record_at(machine)
     bodies, own = record.bodies, record.residual
     for b in range(bodies.mass.shape[0]):
@@ -41,7 +41,7 @@ def write_bodies(machine, first):
         for i in range(3):
             own.value[6 * b + i] = F[3 + i]
             own.value[6 * b + 3 + i] = G[0, i] * n0 + G[1, i] * n1 + G[2, i] * n2
-    write_rows(machine, first)
+    write_rows(machine, 6 * bodies.mass.shape[0])
 
 
 @family
@@ -53,5 +53,5 @@ def residual(machine, job, t):
         accelerate_bodies(machine)
         status = find_wrenches(machine, t)
     if status == OK:
-        write_bodies(machine, 6 * record.bodies.mass.shape[0])
+        write_bodies(machine)
     return status

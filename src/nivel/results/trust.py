@@ -12,9 +12,9 @@ import numpy as np
 from nivel.results.held import Shared
 from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
-from nivel.results.statements import statements
+from nivel.results.statements import number, statements
 from nivel.results.unresolved import unresolved_force
-from nivel.results.verdicts import THRESHOLDS, Trust, worst
+from nivel.results.verdicts import THRESHOLDS, Item, Trust, worst
 
 __all__ = ["Facts", "Peak", "Trust", "assess", "peak", "worst_row"]
 
@@ -29,6 +29,15 @@ class Peak:
 
 
 @dataclass(frozen=True)
+class SmallState:
+    """A first-order state whose `largest` magnitude stayed far below its `scale`, by which its errors were measured."""
+
+    name: str
+    largest: float
+    scale: float
+
+
+@dataclass(frozen=True)
 class Facts:
     """What only the run itself knows.
 
@@ -38,7 +47,8 @@ class Facts:
     accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
     neglected : what it cost that flexible bodies moved without some of their inertia invariants. shared : frictions at rest on motions
     that are prescribed, or that others hold too.
-    failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
+    small_states : those whose errors were hardly controlled. failure : what stopped the run, in a sentence. stopped_by : name of the
+    event that ended it as it was to do.
     """
 
     outcome: str
@@ -53,6 +63,7 @@ class Facts:
     modes: int = 0
     neglected: Cost | None = None
     shared: tuple[Shared, ...] = ()
+    small_states: tuple[SmallState, ...] = ()
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -107,8 +118,18 @@ def assess(result: Readable, facts: Facts) -> Trust:
         unresolved_work=unresolved.work if unresolved else 0.0,
         unresolved_time=unresolved.time if unresolved else 0.0,
     )
-    items = tuple(statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved))
+    items = (
+        *statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved),
+        *(_small_state(each) for each in facts.small_states),
+    )
     return replace(trust, items=items, verdict=worst(items))
+
+
+def _small_state(state: SmallState) -> Item:
+    """A state of which the tolerance says little."""
+    said = f"the largest value of {state.name} is {number(state.largest)}, its scale is {number(state.scale)}: the tolerance hardly held"
+    advice = f"write `states: {{{state.name}: {{scale: {state.largest:.1g}}}}}`"
+    return Item("states", "amber", f"States: {said} it; {advice}", row=state.name)
 
 
 def peak(result: Readable, name: str) -> Peak:

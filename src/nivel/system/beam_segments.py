@@ -18,6 +18,7 @@ from nivel.kernels.record import NONE
 from nivel.machine.beam import Beam
 from nivel.system.beam_elements import Array, gauss, relative_turns
 from nivel.system.draft import Draft
+from nivel.system.state_facts import Coupled
 
 # points of integration over half of a segment: exact for straight beams, to round-off for arcs of a few degrees
 POINTS = 8
@@ -79,7 +80,7 @@ def add_segments(draft: Draft, beam: Beam) -> None:
         numbers[bushing.STIFFNESS : bushing.DAMPING] = stiffness
         numbers[bushing.DAMPING : bushing.X] = beam.damping * stiffness
         draft.elements.add("bushing", [NONE, *ends], numbers.tolist())
-        draft.noted.append(frozenset(draft.markers.body[end] for end in ends))
+        draft.noted.append(Coupled(frozenset(draft.markers.body[end] for end in ends)))
 
 
 def deflections(beam: Beam, place: Array, axes: Array) -> Array:

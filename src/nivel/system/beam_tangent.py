@@ -60,7 +60,7 @@ def plain_nodes(system: System, part: Index) -> dict[int, int]:
     """Bodies that nothing but such elements takes hold of, and their groups of unknowns. part : of all rows, as in `Residual`."""
     record = system.record
     own = Counter(frozenset(record.markers.body[nodes].tolist()) for nodes in _nodes(record))
-    others = Counter(system.coupled) - own
+    others = Counter(each.bodies for each in system.coupled) - own
     touched = {body for bodies in others for body in bodies} | set(part[:, 3].tolist())
     bodies = {body for nodes in own for body in nodes} - touched
     bodies = {body for body in bodies if not record.bodies.centre_b[body].any()}

@@ -17,6 +17,7 @@ from nivel.system.beam_segments import add_segments
 from nivel.system.draft import GROUND, Draft
 from nivel.system.gradient_beams import FAMILIES as OF_GRADIENTS
 from nivel.system.gradient_beams import add_gradient_beam, family_of_gradients
+from nivel.system.state_facts import Coupled
 from nivel.system.tables import index_array
 
 MOST_NODES = 4
@@ -64,7 +65,7 @@ def _add_elements(draft: Draft, beam: Beam) -> None:
         index = [*nodes.tolist(), *[NONE] * (MOST_NODES - count), count, len(weight), slot, frame]
         number = [beam.damping, *section.stiffness.ravel().tolist(), *points.ravel().tolist(), *[0.0] * 60]
         draft.elements.add(family_of(beam), index, number)
-        draft.noted.append(frozenset(draft.markers.body[node] for node in nodes))
+        draft.noted.append(Coupled(frozenset(draft.markers.body[node] for node in nodes)))
 
 
 def nodes_of_elements(record: Record) -> list[int]:

@@ -10,13 +10,17 @@ import numpy as np
 
 from nivel.kernels.record import (
     BOTH,
+    ENDS_RUN,
+    ENDS_STEP,
     FALLING,
     FRICTION,
     HOOKS,
     MEASURE,
+    NOTED,
     POINTS,
     RAIL,
     RISING,
+    SAMPLE,
     SENSE,
     Control,
     Frames,
@@ -36,7 +40,7 @@ from nivel.system.forces import FORCES, family_addresses
 from nivel.system.gradient_beams import point_inertia
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.interfaces import refuse_unknown_interfaces
-from nivel.system.layout import frame_layout
+from nivel.system.layout import first_columns, frame_layout
 from nivel.system.located import located
 from nivel.system.partition import no_partition
 from nivel.system.rows import RowTable, add_couplings, add_drivers, add_joint, coordinate_units
@@ -46,6 +50,7 @@ from nivel.system.states.three_coordinates import no_rotations
 from nivel.system.system import Equations, System
 from nivel.system.tables import index_array
 from nivel.system.tree_tables import empty_tree
+from nivel.system.user_states import add_states, sampled_states
 
 DIRECTIONS = {"both": BOTH, "rising": RISING, "falling": FALLING}
 # [s] time within which stiction stops a joint, until a run says better
@@ -67,14 +72,17 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         row_names += [f"{name}.euler_parameters" for name in names]
         units += ["1"] * len(names)
     record, size = _record(draft, rows, units, equations)
+    states = draft.elements.states
+    layout = frame_layout(names, joints, list(draft.joint_coordinates), row_names, draft.outputs.entries, states)
     system = System(
-        record=record,
+        record=record._replace(outputs=record.outputs._replace(column=index_array(first_columns(layout), 1))),
         equations=equations,
-        layout=frame_layout(names, joints, list(draft.joint_coordinates), row_names, draft.outputs.entries),
+        layout=layout,
         bodies=names,
         joints=joints,
         events=tuple(event.name for event in machine.events),
         coupled=tuple(draft.noted),
+        states=states,
         frictions=tuple(force.name for force in machine.forces if force.type == "friction"),
         rows=tuple(row_names),
         row_owner=tuple(rows.owner),
@@ -99,6 +107,7 @@ def _drafted(machine: MachineRecord) -> tuple[Draft, RowTable]:
             add_joint(draft, rows, joint)
     add_couplings(draft, rows)
     add_drivers(draft, rows)
+    add_states(draft)
     for force in machine.forces:
         _add_force(draft, force)
     for beam in machine.beams:
@@ -114,7 +123,7 @@ def _record(draft: Draft, rows: RowTable, units: list[str], equations: Equations
     """The arrays, for rows with these units, and the size of the machine [m]."""
     machine, count = draft.machine, len(units)
     # these may still add to the draft
-    sensors, watched = sensor_columns(draft), _watched(draft)
+    sensors, watched, sampled = sensor_columns(draft), _watched(draft), sampled_states(draft)
     markers = draft.markers.arrays()
     size = machine_size(given_poses(machine.bodies), markers)
     extra = friction_parts(draft, rows, count)
@@ -149,7 +158,8 @@ def _record(draft: Draft, rows: RowTable, units: list[str], equations: Equations
         newton=no_newton(),
         sensors=Sensors(index_array(sensors, 4)),
         watched=watched,
-        outputs=Outputs(np.zeros(len(draft.outputs.entries)), index_array(rows.reports, 2)),
+        sampled=sampled,
+        outputs=Outputs(np.zeros(len(draft.outputs.entries)), index_array(rows.reports, 2), index_array([], 1)),
         hooks=_hooks(draft, bool(sensors)),
         control=_control(count),
     )
@@ -157,16 +167,17 @@ def _record(draft: Draft, rows: RowTable, units: list[str], equations: Equations
 
 
 def _add_force(draft: Draft, force: Any) -> None:
-    with located(f"forces.{force.name}"), draft.noting_bodies(), draft.within(f"forces.{force.name}"):
+    with located(f"forces.{force.name}"), draft.noting(), draft.within(f"forces.{force.name}"):
         FORCES[force.type].add(draft, force)
 
 
 def _watched(draft: Draft) -> Watched:
     """Events, and the surfaces of contacts and stops."""
-    events = []
+    events, taking = [], {state.event for state in draft.machine.states}
     for event in draft.machine.events:
+        ends = ENDS_RUN if event.stop else ENDS_STEP if event.name in taking else NOTED
         with located(f"events.{event.name}.when"):
-            events.append((draft.function(event.when), DIRECTIONS[event.direction], int(event.stop)))
+            events.append((draft.function(event.when), DIRECTIONS[event.direction], ends))
     surfaces = draft.elements.surfaces()
     return Watched(
         event=index_array(events, 3),
@@ -188,6 +199,8 @@ def _hooks(draft: Draft, sensors: bool) -> Hooks:
         address[POINTS] = import_module("nivel.kernels.point_inertia").resist.address
     if draft.frictions:
         address[FRICTION] = import_module("nivel.kernels.friction").rub.address
+    if any(state.update is not None for state in draft.machine.states):
+        address[SAMPLE] = import_module("nivel.kernels.sampling").sample.address
     if sensors:
         address[SENSE] = import_module("nivel.kernels.sensor").sense.address
     return Hooks(address)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from nivel.kernels.coordinate import DISTANCE, ROTATION
-from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, POSITION, RATE, VELOCITY
+from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, POSITION, RATE, STATE, VELOCITY
 from nivel.machine.coordinate_reference import Kind, resolve
 from nivel.machine.forces import End, GlobalPoint
 from nivel.machine.machine_record import MachineRecord
@@ -19,6 +19,7 @@ from nivel.machine.time_function import TimeFunction
 from nivel.system.functions import FunctionTable, Signal
 from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import Placed, seen_from
+from nivel.system.state_facts import Coupled, StateFact
 from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, OutputTable
 
 GROUND = "ground"
@@ -31,7 +32,7 @@ class Draft:
 
     joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
     frictions : (columns of index, of number) of `nivel.kernels.friction`. owners : `joints.hinge`, `markers.tip`, …: what made each
-    marker. noted : the bodies looked at in each `noting_bodies`.
+    marker. noted : the bodies and states used in each `noting`.
     """
 
     machine: MachineRecord
@@ -42,10 +43,11 @@ class Draft:
     outputs: OutputTable = field(default_factory=OutputTable)
     joint_coordinates: dict[str, int] = field(default_factory=dict)
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
-    noted: list[frozenset[int]] = field(default_factory=list)
+    noted: list[Coupled] = field(default_factory=list)
     owners: list[str] = field(default_factory=list)
     _owner: str = ""
     _noting: set[int] = field(default_factory=set)
+    _noting_states: set[int] = field(default_factory=set)
     _named: dict[str, int] = field(default_factory=dict)
     _frames: dict[str, int] = field(default_factory=dict)
     _tips: dict[tuple[str, int], int] = field(default_factory=dict)
@@ -59,11 +61,12 @@ class Draft:
         self._bodies = {name: k for k, name in enumerate((*names, GROUND))}
 
     @contextmanager
-    def noting_bodies(self) -> Iterator[None]:
-        """Append the bodies whose markers and coordinates are asked for inside to `noted`."""
+    def noting(self) -> Iterator[None]:
+        """Append the bodies whose markers and coordinates are asked for inside, and the states, to `noted`."""
         self._noting.clear()
+        self._noting_states.clear()
         yield
-        self.noted.append(frozenset(self._noting))
+        self.noted.append(Coupled(frozenset(self._noting), frozenset(self._noting_states)))
 
     @contextmanager
     def within(self, owner: str) -> Iterator[None]:
@@ -134,6 +137,17 @@ class Draft:
         joint, name = resolve(reference, self.machine.joints, kind)
         return self._measured(f"{joint}.{name}")
 
+    def own_state(self, fact: StateFact) -> int:
+        """Index of a new state: what adds to its rate is said by the kernel of its element."""
+        self.elements.own_state(fact)
+        return self.state(fact.name)
+
+    def state(self, name: str) -> int:
+        """Index of the state of this name, which the element being added reads or feeds."""
+        index = self.elements.state(name)
+        self._noting_states.add(index)
+        return index
+
     def measure_all(self) -> None:
         """All joint coordinates are measured in every evaluation from now on."""
         for name in self.joint_coordinates:
@@ -159,6 +173,8 @@ class Draft:
             name = symbol.quantity.removesuffix("_rate")
             index = self._measured(f"{symbol.name}.{name}")
             return (COORDINATE if name == symbol.quantity else RATE, index, 0)
+        if symbol.section in ("states", "forces"):
+            return (STATE, self.state(symbol.name if symbol.section == "states" else path), 0)
         if symbol.section == "sensors":
             sensor = next(sensor for sensor in self.machine.sensors if sensor.name == symbol.name)
             ends = sensor.distance or sensor.angle

@@ -26,6 +26,7 @@ from nivel.system.gradient_elements import (
     unstressed_vectors,
     vectors_of_node,
 )
+from nivel.system.state_facts import Coupled
 from nivel.system.tables import index_array
 
 CABLE, BEAM = FAMILIES = ("ancf_cable", "ancf_beam")
@@ -48,7 +49,7 @@ def add_gradient_beam(draft: Draft, beam: Beam) -> None:
             index += axes[e : e + 2]
         head = [beam.damping, reach_of(beam), reach_of(beam), *[0.0] * VECTORS]
         draft.elements.add(family_of_gradients(beam), index, [*head, *own])
-        draft.noted.append(frozenset(draft.markers.body[node] for node in axes[e : e + 2]))
+        draft.noted.append(Coupled(frozenset(draft.markers.body[node] for node in axes[e : e + 2])))
 
 
 def _points(draft: Draft, beam: Beam) -> list[list[int]]:

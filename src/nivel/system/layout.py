@@ -1,10 +1,12 @@
-"""Where each number of an output frame stands, and what it is called. The order is that of `nivel.kernels.observe.observe`."""
+"""Where each number of an output frame stands, and what it is called; `nivel.kernels.observe` fills it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import prod
+
+from nivel.system.state_facts import StateFact
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,11 @@ VARIABLES: tuple[Entry, ...] = (
     ("dissipated_energy", ("time",), "J", "energy dissipated since the start"),
     ("energy_error", ("time",), "J", "change of kinetic and potential energy less work plus dissipation"),
 )
+# behind what elements report
+OF_MODES: tuple[Entry, ...] = (
+    ("modal_coordinate", ("time", "mode"), "kg^0.5 m", "modal coordinate of a mode of unit modal mass"),
+    ("modal_rate", ("time", "mode"), "kg^0.5 m/s", "rate of the modal coordinate"),
+)
 
 
 def frame_layout(
@@ -74,8 +81,12 @@ def frame_layout(
     joint_coordinates: Sequence[str],
     constraints: Sequence[str],
     outputs: Sequence[tuple[str, str, str]],
+    states: Sequence[StateFact] = (),
 ) -> FrameLayout:
-    """Layout of the frames of a machine with these names; `outputs` are (name, units, long name) of single numbers."""
+    """Layout of the frames of a machine with these names.
+
+    outputs : (name, units, long name) of single numbers. states : first-order states of elements.
+    """
     coordinates = {
         "body": tuple(bodies),
         "joint": tuple(joints),
@@ -86,12 +97,13 @@ def frame_layout(
     }
     entries = list(VARIABLES)
     entries += [(name, ("time",), units, long_name) for name, units, long_name in outputs]
+    entries += [(f"state.{fact.name}", ("time",), fact.units, fact.long_name) for fact in states]
     return laid_out(entries, coordinates)
 
 
-def laid_out(entries: Sequence[Entry], coordinates: dict[str, tuple[str, ...]]) -> FrameLayout:
-    """Layout of the frames of these variables, (name, dimensions, units, long name), one after the other behind the time."""
-    variables, start = [], 1
+def laid_out(entries: Sequence[Entry], coordinates: dict[str, tuple[str, ...]], start: int = 1) -> FrameLayout:
+    """Layout of the frames of these variables, (name, dimensions, units, long name), one after the other from column `start` on."""
+    variables = []
     for name, dims, units, long_name in entries:
         stop = start + prod(len(coordinates[dim]) for dim in dims[1:])
         variables.append(Variable(name, dims, units, long_name, slice(start, stop)))
@@ -101,14 +113,18 @@ def laid_out(entries: Sequence[Entry], coordinates: dict[str, tuple[str, ...]]) 
 
 def with_modal_coordinates(layout: FrameLayout, modes: Sequence[str]) -> FrameLayout:
     """The layout with the coordinates and rates of these modes behind all else."""
-    count, first = len(modes), layout.width
-    named = (
-        ("modal_coordinate", "kg^0.5 m", "modal coordinate of a mode of unit modal mass"),
-        ("modal_rate", "kg^0.5 m/s", "rate of the modal coordinate"),
-    )
-    variables = tuple(
-        Variable(name, ("time", "mode"), units, text, slice(first + k * count, first + (k + 1) * count))
-        for k, (name, units, text) in enumerate(named)
-    )
-    coordinates = {**layout.coordinates, "mode": tuple(modes)}
-    return FrameLayout(first + 2 * count, layout.variables + variables, coordinates)
+    added = laid_out(OF_MODES, {**layout.coordinates, "mode": tuple(modes)}, layout.width)
+    return FrameLayout(added.width, layout.variables + added.variables, added.coordinates)
+
+
+def first_columns(layout: FrameLayout) -> list[int]:
+    """First columns of what elements report, their states, VARIABLES and OF_MODES, as `nivel.kernels.observe` numbers them."""
+    start = {variable.name: variable.columns.start for variable in layout.variables}
+    reports = layout.variables[len(VARIABLES) - 1].columns.stop
+    states = next((column for name, column in start.items() if name.startswith("state.")), layout.width)
+    return [reports, states, *(start.get(name, layout.width) for name, *_ in (*VARIABLES, *OF_MODES))]
+
+
+def reported(layout: FrameLayout, count: int) -> tuple[Variable, ...]:
+    """The variables that elements report, `count` single numbers in the order of `Outputs.value`."""
+    return layout.variables[len(VARIABLES) : len(VARIABLES) + count]

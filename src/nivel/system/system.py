@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from nivel.kernels.record import Control, Record
 from nivel.system.layout import FrameLayout
 from nivel.system.rails import element_of
+from nivel.system.state_facts import Coupled, StateFact
 from nivel.system.tables import Array, index_array
 
 
@@ -40,7 +41,7 @@ class System:
 
     rows : name of every constraint row of the formulation, e.g. ``hinge.s.x``; the first `machine_rows` belong to joints, couplings
     and drivers. row_owner : name of the joint, coupling or driver of each of these. point_masses : (B,) bodies that do not turn.
-    coupled : bodies that each force acts on or depends on, the ground included.
+    coupled : what each element acts on or depends on. states : first-order states of elements, in the order of `Elements.state`.
     frame_markers : markers that are frames of bodies. marker_owners : `joints.hinge`, …: what each marker belongs to.
     modes : names of the modal coordinates. gradient_sizes : (modes,) what those of gradients are measured by [kg^½ m], 0 for others.
     as_placed : combinations that keep the value that they have as the machine is placed.
@@ -52,7 +53,8 @@ class System:
     layout: FrameLayout
     bodies: tuple[str, ...]
     joints: tuple[str, ...]
-    coupled: tuple[frozenset[int], ...]
+    coupled: tuple[Coupled, ...]
+    states: tuple[StateFact, ...]
     frictions: tuple[str, ...]
     events: tuple[str, ...]
     rows: tuple[str, ...]
@@ -103,14 +105,11 @@ class System:
             if not self.equations.normalisation:
                 turns.append((q + 3, v + 3))
             units += ["m/s"] * 3 + ["1/s"] * (width - 3)
-        units += [""] * (len(self.record.elements.state) + 2)
+        units += [""] * len(self.start_of_states)
         return StateMap(index_array(plain, 2), index_array(turns, 2), tuple(units))
 
     def state(self, q: Array, velocity: Array, angular_velocity_b: Array) -> Array:
-        """State y = (q, v, x) in Euler parameters from q (7 B,), Ṙ (B, 3) [m/s] and ω̄ (B, 3) [rad/s, body axes].
-
-        x = 0: no bristle is bent.
-        """
+        """State y = (q, v, x) in Euler parameters from q (7 B,), Ṙ (B, 3) [m/s] and ω̄ (B, 3) [rad/s, body axes]."""
         count, per_body = self.body_count, self.equations.velocities
         v = np.zeros((count, per_body))
         v[:, :3] = velocity
@@ -118,7 +117,12 @@ class System:
             v[:, 3:] = parameter_rates(q.reshape(count, 7)[:, 3:], angular_velocity_b)
         else:
             v[:, 3:] = angular_velocity_b
-        return np.concatenate([q, v.ravel(), np.zeros(len(self.record.elements.state) + 2)])
+        return np.concatenate([q, v.ravel(), self.start_of_states])
+
+    @property
+    def start_of_states(self) -> Array:
+        """x at t = 0: states of elements, then work of external forces and dissipated energy [J]."""
+        return np.array([*(fact.start for fact in self.states), 0.0, 0.0])
 
     def modal_sizes(self) -> Array:
         """(modes,) [kg^½ m] what modal coordinates are measured by: modes of unit modal mass move the machine by about p/√m, and stretch

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.coordinate import ALONG, LAST_ANGLE
 from nivel.kernels.record import NONE, Coordinates, Elements, Markers
+from nivel.system.state_facts import StateFact
 
 Array = NDArray[np.float64]
 
@@ -124,10 +125,10 @@ class CoordinateTable:
 
 @dataclass
 class ElementTable:
-    """Forces by family, a family being named by its kernel's module."""
+    """Forces by family, a family being named by its kernel's module, and the first-order states of all elements."""
 
     families: dict[str, list[tuple[list[int], list[float], int, tuple[int, ...]]]] = field(default_factory=dict)
-    states: int = 0
+    _states: dict[str, StateFact | None] = field(default_factory=dict)
 
     def add(
         self,
@@ -142,6 +143,21 @@ class ElementTable:
         surfaces : those of the numbers that are about a surface, which touches or not.
         """
         self.families.setdefault(family, []).append((index, number or [], memory, surfaces))
+
+    def state(self, name: str) -> int:
+        """Number of the first-order state of this name, which an element owns or will own."""
+        self._states.setdefault(name, None)
+        return list(self._states).index(name)
+
+    def own_state(self, fact: StateFact) -> int:
+        """Number of a state that gets its facts from its owner."""
+        self._states[fact.name] = fact
+        return self.state(fact.name)
+
+    @property
+    def states(self) -> tuple[StateFact, ...]:
+        """The states of all elements, in the order of their numbers."""
+        return tuple(fact for fact in self._states.values() if fact is not None)
 
     def surfaces(self) -> list[tuple[int, int]]:
         """(element, place in its memory) of all surfaces."""
@@ -163,8 +179,8 @@ class ElementTable:
             proposal=np.zeros(kept),
             depth=np.zeros(kept),
             depth_rate=np.zeros(kept),
-            state=np.zeros(self.states),
-            state_rate=np.zeros(self.states),
+            state=np.zeros(len(self.states)),
+            state_rate=np.zeros(len(self.states)),
         )
 
 

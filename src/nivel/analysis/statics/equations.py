@@ -23,6 +23,7 @@ from nivel.analysis.statics.pattern import Block
 from nivel.kernels import static_entries, tangent_entries
 from nivel.kernels.record import NONE
 from nivel.kernels.status import OK
+from nivel.system.layout import reported
 from nivel.system.system import Array
 
 Sparse = Any  # a matrix of scipy.sparse, whose stubs do not know its operators
@@ -105,8 +106,13 @@ class StaticEquations:
         self.motion, self.system, self.duration = motion, system, duration
         self.record = system.record
         self.residual, self.newton = self.record.residual, self.record.newton
-        self.n, self.rows = len(self.residual.vdot), len(self.residual.lam)
+        self.n, self.rows, self.state_count = len(self.residual.vdot), len(self.residual.lam), len(system.states)
         self.positions = system.positions
+        self.first_state = self.positions + self.n
+        self.state_scale = np.array([fact.scale for fact in system.states])
+        # whether rates of states are equations beside those of the forces, see `nivel.analysis.statics.states`
+        self.states_move = False
+        self.record.sampled.at_rest[:] = 1
         self.place = self.newton.place.astype(np.int64)
         units = np.array(system.map.units)[self.place[:, 0]]
         self.length = np.where(units == "m", system.size, 1.0)
@@ -138,7 +144,8 @@ class StaticEquations:
         if tangent_entries.evaluate_residual(self.motion.handle.address, state.t) != OK:
             raise StateError
         value = self.residual.value
-        r, C = value[: self.n], value[self.n : self.n + self.rows]
+        first = self.n + self.state_count
+        r, C = value[: self.n], value[first : first + self.rows]
         if not (np.isfinite(r).all() and np.isfinite(C).all()):
             raise StateError
         return (r * self.length)[self.free] / self.energy - self.held, C / self.row_scale
@@ -171,19 +178,53 @@ class StaticEquations:
             K=inner.of(K, share),
             C=rows.of(M),
             slope=(slope[:n] * self.length)[self.free] / self.energy,
-            opening=slope[n : n + self.rows] / self.row_scale,
+            opening=slope[n + self.state_count :][: self.rows] / self.row_scale,
             inertia=lambda: inner.of(M, share),
             damping=lambda: inner.of(D, share),
         )
 
     @cached_property
+    def _places(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Rows and columns of the entries of a derivative; unknowns are velocities, states, multipliers."""
+        start = self.newton.row_start.astype(np.int64)
+        size = self.n + self.state_count + self.rows
+        return np.repeat(np.arange(size), np.diff(start)), self.newton.column.astype(np.int64)
+
+    def rates(self) -> Array:
+        """(S,) rates of the states, in the state last evaluated, in units."""
+        return self.residual.value[self.n : self.n + self.state_count].copy()
+
+    def whole_parts(self, state: Rest) -> tuple[Sparse, Sparse, Sparse]:
+        """Derivatives of (r, -ẋ, C) in units with respect to positions, to velocities and states, to accelerations and multipliers: each
+        (n + S + K, n + S + K)."""
+        self.evaluate(state)
+        if static_entries.find_parts(self.motion.handle.address, state.t) != OK:
+            raise StateError
+        row, column = self._places
+        size = self.n + self.state_count + self.rows
+        shifted = self.newton.shifted
+        K, D, M = (
+            csc_matrix((self._numbers(part), (row, column)), shape=(size, size))
+            for part in (shifted.K, shifted.D, shifted.M)
+        )
+        return K, D, M
+
+    def whole_matrix(self, state: Rest) -> Sparse:
+        """[K, D_x, C_qᵀ; -∂ẋ/∂q, -∂ẋ/∂x, 0; C_q, 0, 0] in units."""
+        K, D, M = self.whole_parts(state)
+        first = self.n + self.state_count
+        inner = bmat([[K[:first, : self.n], D[:first, self.n : first], M[:first, first:]]])
+        below = csc_matrix((self.rows, self.state_count + self.rows))
+        return csc_matrix(bmat([[inner], [bmat([[M[first:, : self.n], below]])]]))
+
+    @cached_property
     def _blocks(self) -> tuple[Block, Block]:
         """Forces over free unknowns, and constraints over free unknowns."""
-        start = self.newton.row_start.astype(np.int64)
-        row = np.repeat(np.arange(self.n + self.rows), np.diff(start))
-        column = self.newton.column.astype(np.int64)
-        by_row, by_column = np.append(self.length, 1.0 / self.row_scale), np.append(self.length, np.ones(self.rows))
-        constraints = self.n + np.arange(self.rows)
+        row, column = self._places
+        none = np.zeros(self.state_count)
+        by_row = np.concatenate([self.length, none, 1.0 / self.row_scale])
+        by_column = np.concatenate([self.length, none, np.ones(self.rows)])
+        constraints = self.n + self.state_count + np.arange(self.rows)
         inner = Block(row, column, self.free, self.free, (by_row, by_column))
         return inner, Block(row, column, constraints, self.free, (by_row, by_column))
 
@@ -207,15 +248,19 @@ class StaticEquations:
         """The state after a change: q ∘ exp, λ and t added."""
         psi = np.zeros(self.n)
         psi[self.free] = change.q * self.length[self.free]
-        y = state.y.copy()
+        lam = state.lam + self.force_of(change.lam)
+        return Rest(self.displaced(state.y, psi), lam, state.t + change.t * self.duration)
+
+    def displaced(self, y: Array, psi: Array) -> Array:
+        """The state q ∘ exp ψ, with the rest of y as it is."""
+        y = y.copy()
         plain = self.place[:, 1] == NONE
         y[self.place[plain, 0]] += psi[plain]
         first = np.flatnonzero(self.place[:, 1] == 0)
         if len(first):
             at = self.place[first, 0][:, None] + np.arange(4)
             y[at] = turned(y[at], psi[first[:, None] + np.arange(3)])
-        lam = state.lam + self.force_of(change.lam)
-        return Rest(y, lam, state.t + change.t * self.duration)
+        return y
 
     def force_of(self, lam: Array) -> Array:
         """Multipliers [N, N m] from those without units."""
@@ -252,13 +297,10 @@ class StaticEquations:
     def _pushed(self) -> float:
         """Largest effort that a force reports [N m]: forces times the machine's length."""
         outputs = self.record.outputs.value
-        variables = self.system.layout.variables
-        first = len(variables) - len(outputs) - (2 if self.system.modes else 0)
         scale = {"N": self.system.size, "N m": 1.0}
-        own = variables[first : first + len(outputs)]
         found = [
             abs(float(outputs[k])) * scale.get(each.units, 0.0)
-            for k, each in enumerate(own)
+            for k, each in enumerate(reported(self.system.layout, len(outputs)))
             if each.name.startswith("force.")
         ]
         return max(found, default=0.0)
@@ -266,7 +308,7 @@ class StaticEquations:
     def start(self, y: Array) -> Rest:
         """The state y at rest at t = 0, with the multipliers that leave the least residual."""
         y = y.copy()
-        y[self.positions :] = 0.0
+        y[self.positions : self.first_state] = 0.0
         state = Rest(y, np.zeros(self.rows), 0.0)
         self.weigh(state)
         return state

@@ -27,7 +27,12 @@ ELEMENTS = ("force.", "driver.", "coupling.")
 # name, dimensions, units, long name of what comes behind
 OWN: tuple[Entry, ...] = (
     ("path", ("time",), "s", "place along the path of equilibria: ascending also where time turns back"),
-    ("residual", ("time",), "1", "largest unbalanced force, over the largest load of the state"),
+    (
+        "residual",
+        ("time",),
+        "1",
+        "largest unbalanced force, over the largest load of the state; or rest of the rate of a state",
+    ),
     ("residual_round_off", ("time",), "1", "what round-off of the positions makes of the stiffest forces, likewise"),
     ("unstable_directions", ("time",), "1", "directions of negative stiffness; 0: the equilibrium is stable"),
     ("iterations", ("time",), "1", "iterations of Newton's method"),

@@ -15,6 +15,7 @@ import numpy as np
 from nivel.analysis.statics.equations import Change, Rest, StaticEquations, Tangent
 from nivel.analysis.statics.linear import PivotError, bordered, solve, solve_bordered
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
+from nivel.analysis.statics.states import equilibrate_states
 
 # Steps are halved so often, at most.
 HALVINGS = 12
@@ -80,6 +81,8 @@ def by_loads(equations: StaticEquations, first: Point, steps: Steps) -> Iterator
 
 def _load_step(equations: StaticEquations, before: Found, until: float, iteration: Iteration) -> Found:
     """The equilibrium at the time `until`, next to where the tangent leads. Raises EquilibriumError, also where it is on another path."""
+    if equations.states_move:
+        return equilibrate_states(equations, replace(before.state, t=until), iteration)
     tangent, dt = before.tangent, (until - before.state.t) / equations.duration
     try:
         ahead = solve(tangent, -dt * tangent.slope, -dt * tangent.opening)

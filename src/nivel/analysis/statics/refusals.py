@@ -28,6 +28,26 @@ def refuse_friction(machine: MachineRecord) -> None:
         raise ModelError(faults)
 
 
+def refuse_with_states(machine: MachineRecord, settings: StaticsSettings) -> None:
+    """What first-order states have no part in: paths by arc length, vibrations and buckling loads."""
+    names = [state.name for state in machine.states if state.rate is not None or state.every is not None]
+    asked = {"arc_length": settings.arc_length, "modes": settings.modes, "buckling": settings.buckling}
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"statics.{name}",
+            f"`{name.replace('_', '-')}` knows positions alone, and this machine has first-order states ({_named(names)}): leave it out; "
+            f"equilibria by load steps, and whether small motions about them grow, are found with the states",
+        )
+        for name, wanted in asked.items()
+        if wanted and names
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
 def at_rest(machine: MachineRecord) -> tuple[str, ...]:
     """Sentences on what makes no force at rest."""
     rubbing = [force.name for force in machine.forces if isinstance(force, Friction)]

@@ -23,10 +23,11 @@ from nivel.analysis.statics.heading import statics_attributes
 from nivel.analysis.statics.linear import PivotError, has_potential, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
-from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_friction
+from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_friction, refuse_with_states
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.settings import StaticsSettings
 from nivel.analysis.statics.stability import is_mechanism, softest
+from nivel.analysis.statics.states import growing_motions, restlessness
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
 from nivel.analysis.statics.words import direction_in_words
 from nivel.errors import SolveError
@@ -60,6 +61,7 @@ class Walk:
 def prepare_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Prepared, StaticEquations]:
     """The machine assembled, and its equations of rest. Raises ModelError."""
     refuse_friction(machine)
+    refuse_with_states(machine, settings)
     neutral, coordinates = for_statics(machine, settings)
     prepared = prepare(neutral, "newton-euler", coordinates)
     motion = equip(prepared.motion, prepared.start, coordinates, Wanted(shifted=True))
@@ -143,7 +145,7 @@ def _follow(
     except EquilibriumError as error:
         walk.outcome, walk.ended = "failed", no_start(equations, error)
         return
-    loose = softest(found.tangent)
+    loose = None if equations.states_move else softest(found.tangent)
     as_drawn = found.iterations == 0 and not settings.duration
     if loose is not None and is_mechanism(loose) and not (settings.modes and as_drawn):
         walk.outcome, walk.ended = "failed", without_stiffness(equations, loose)
@@ -170,9 +172,12 @@ def _take(
     settings: StaticsSettings,
 ) -> None:
     """Frames of the critical points before an equilibrium, and of itself."""
-    count = unstable_directions(point.found.tangent)
-    walk.without_potential |= not has_potential(point.found.tangent)
-    if walk.points and walk.counts[-1] != count:
+    if equations.states_move:
+        count = growing_motions(equations, point.state)
+    else:
+        count = unstable_directions(point.found.tangent)
+        walk.without_potential |= not has_potential(point.found.tangent)
+    if walk.points and walk.counts[-1] != count and not equations.states_move:
         iteration = Iteration(settings.tolerance, settings.most_iterations, settings.line_search)
         critical = critical_points(equations, walk.points[-1], point, (walk.counts[-1], count), iteration)
         walk.critical += critical
@@ -202,6 +207,7 @@ def _write(
     r, _ = equations.evaluate(state)
     loads = equations.loads(state)
     left = float(np.max(np.abs(r), initial=0.0)) * equations.energy
+    restless = restlessness(equations, state) if equations.states_move else 0.0
     found = None
     if settings.modes:
         try:
@@ -212,7 +218,7 @@ def _write(
     rounded = equations.round_off(point.found.tangent, state)
     # loads that are round-off themselves are none
     shares = [each / loads if loads > UNLOADED * rounded else 0.0 for each in (left, rounded)]
-    facts = Facts(point.along, shares[0], shares[1], count, point.found.iterations, found)
+    facts = Facts(point.along, max(shares[0], restless), shares[1], count, point.found.iterations, found)
     sink.take(writer.frame(state, facts))
 
 

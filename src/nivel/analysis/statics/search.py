@@ -19,6 +19,7 @@ from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEqu
 from nivel.analysis.statics.linear import PivotError, factors, negative_directions, solve
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.analysis.statics.stability import is_mechanism, softest
+from nivel.analysis.statics.states import equilibrate_states, find_moving_states
 from nivel.system.system import Array
 
 MOST_STEPS = 600
@@ -39,8 +40,33 @@ FAR = 50.0
 MOVES_ON = "the machine moves on for ever"
 
 
-def settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Found:
-    """The equilibrium at the time of `state` where the machine settles. Raises EquilibriumError."""
+def settle(equations: StaticEquations, start: Rest, iteration: Iteration) -> Found:
+    """The equilibrium at the time of `start` where the machine settles: with its first-order states held, and then with them.
+
+    Raises EquilibriumError.
+    """
+    if not equations.state_count:
+        return _settle(equations, start, iteration)
+    found, error = None, None
+    try:
+        found = _settle(equations, start, iteration)
+    except EquilibriumError as problem:
+        error = problem
+    begin = start if found is None else found.state
+    try:
+        find_moving_states(equations, begin)
+    except StateError:
+        raise EquilibriumError("a force, or the state, is not a number", begin) from None
+    if equations.states_move:
+        return equilibrate_states(equations, begin, iteration)
+    if error is not None:
+        raise error
+    assert found is not None
+    return found
+
+
+def _settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Found:
+    """The equilibrium of the positions alone. Raises EquilibriumError."""
     try:
         state, r = _balanced(equations, state)
         tangent = equations.tangent(state)

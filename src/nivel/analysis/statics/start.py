@@ -25,10 +25,12 @@ AT_REST = 1e-9
 
 @dataclass(frozen=True)
 class Settled:
-    """The positions q of all bodies (and modes) in equilibrium at t = 0, absolute coordinates, and the angles of joints there."""
+    """The positions q of all bodies (and modes) in equilibrium at t = 0, absolute coordinates, the angles of joints there, and the states
+    of elements."""
 
     q: Array
     reference: Array
+    states: Array
 
     def assembled(self, motion: MotionEquations, assembly: Assembly) -> Assembly:
         """The assembly with the bodies there, at rest. Raises ModelError where a driver moves at t = 0."""
@@ -65,13 +67,15 @@ def settled(machine: MachineRecord) -> Settled:
         raise SolveError(f"the run starts from equilibrium, and {message}", time=0.0, advice=advice) from None
     except StateError:
         raise SolveError("the forces at t = 0 are not numbers", time=0.0, advice="Look at their laws.") from None
-    loose = softest(found.tangent)
+    loose = None if equations.states_move else softest(found.tangent)
     if loose is not None and is_mechanism(loose):
         message, advice = without_stiffness(equations, loose)
         raise SolveError(f"the run starts from equilibrium, and {message}", time=0.0, advice=advice)
     equations.follow(found.state)
     reference = equations.record.coordinates.reference.copy()
-    return Settled(found.state.y[: equations.positions].copy(), reference)
+    y = found.state.y
+    states = y[equations.first_state :][: equations.state_count]
+    return Settled(y[: equations.positions].copy(), reference, states.copy())
 
 
 def _refuse_velocities(machine: MachineRecord) -> None:

@@ -10,6 +10,7 @@ from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.system.draft import GROUND, Draft
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
+from nivel.system.state_facts import StateFact
 
 
 def add_friction(draft: Draft, force: Friction) -> None:
@@ -25,8 +26,11 @@ def add_friction(draft: Draft, force: Friction) -> None:
     state = NONE
     if force.model == "lugre":
         entries.append(("bristle", "m", "deflection of the bristles"))
-        state = draft.elements.states
-        draft.elements.states += 1
+        assert force.bristle_stiffness is not None  # the record was checked
+        # deflection of the bristles in steady sliding
+        scale = force.coefficient / force.bristle_stiffness
+        name = f"{force.name}.bristle"
+        state = draft.own_state(StateFact(name, "m", f"deflection of the bristles of {force.name}", 0.0, scale))
     first = force_outputs(draft, force.name, *entries)
     model = {"coulomb": friction.COULOMB, "stiction": friction.STICTION, "lugre": friction.LUGRE}[force.model]
     loaded_by = NONE if force.normal_load is not None else [each.name for each in draft.machine.joints].index(joint)

@@ -20,7 +20,7 @@ from nivel.machine.shape import Mesh
 from nivel.system.elimination import plan
 from nivel.system.flexible import Bending, Frame, bending_bodies, first_modal_rows, flexible_tables
 from nivel.system.interfaces import marker_place
-from nivel.system.layout import with_modal_coordinates
+from nivel.system.layout import first_columns, with_modal_coordinates
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array
 
@@ -39,17 +39,8 @@ def arrange(
     Raises ModelError naming every marker of a flexible body that is at no interface of it.
     """
     del settings
-    return bent(machine, absolute.known_rank(rank), y)
-
-
-def bent(machine: MachineRecord, rigid: System, y: Array) -> tuple[System, Array]:
-    """A machine arranged in any coordinates of single bodies, with the rank of its rows known, and its modes, undeformed at the start.
-
-    Raises ModelError naming every marker of a flexible body that is at no interface of it.
-    """
     bending = bending_bodies(machine)
-    rank = int(rigid.record.control.rank[0])
-    return with_modes(rigid, y, rank, bending, carried_markers(rigid, machine, bending))
+    return with_modes(absolute, y, rank, bending, carried_markers(absolute, machine, bending))
 
 
 def carried_markers(absolute: System, machine: MachineRecord, bending: Sequence[Bending]) -> dict[int, tuple[int, int]]:
@@ -146,10 +137,11 @@ def with_modes(
     names = tuple(
         f"{absolute.bodies[each.body]}.{k + 1}" for each in bending for k in range(len(each.reduced.eigenvalues))
     )
+    layout = with_modal_coordinates(absolute.layout, names)
     system = replace(
         absolute,
-        record=record,
-        layout=with_modal_coordinates(absolute.layout, names),
+        record=record._replace(outputs=old.outputs._replace(column=index_array(first_columns(layout), 1))),
+        layout=layout,
         state_map=_map(absolute, modes),
         start=np.zeros(0),
         modes=names,
@@ -230,7 +222,7 @@ def _saddle(old: Record, count: int, bending: Sequence[Bending], at: dict[int, i
 
 def _end_of_velocities(rigid: System) -> int:
     """One past the last velocity in its state."""
-    return len(rigid.map.units) - len(rigid.record.elements.state) - 2
+    return len(rigid.map.units) - len(rigid.start_of_states)
 
 
 def _map(rigid: System, modes: int) -> StateMap:

@@ -139,7 +139,7 @@ def in_tree(
     record.hooks.address[COMPLETE] = _completion(machine, sliding=bool(sliders)).complete.address
     for n in sliders:
         record.bodies.theta[nodes[n].child] = start.turned[nodes[n].child]
-    x = np.zeros(len(old.elements.state) + 2)
+    x = absolute.start_of_states
     system = replace(absolute, record=record, state_map=_map(nodes, positions, len(x)))
     return system.known_rank(rank), np.concatenate([start.q, start.v, x])
 

@@ -1,0 +1,163 @@
+"""Equilibria of machines with first-order states: rates that are zero beside forces that balance.
+
+Positions q, multipliers λ and states x are found together by Newton's iteration with exact tangents:
+
+    [K  D_x  Cᵀ; -∂g/∂q  -∂g/∂x  0; C  0  0] (Δq, Δx, Δλ) = -(r, -g, C)        g = ẋ at rest
+
+A state whose rate depends on nothing that is at rest keeps its start value: a closed volume, a memory that an event changes.
+Sampled states are at rest where a sample would leave them as they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix, diags
+
+from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
+from nivel.analysis.statics.linear import PivotError, factors, free_directions
+from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration
+from nivel.system.system import Array
+
+# The longest change of one iteration, in lengths of the machine and radians; most iterations, of which the last ones are Newton's own.
+LONGEST, MOST = 0.3, 200
+# The least share of a step that is tried, and what a state may change by in one, as a share of its size.
+LEAST_SHARE = 1.0 / 1024.0
+# Motions that grow by less than this share of their own rate are vibrations that neither grow nor decay.
+GROWING = 1e-7
+# Rates below this share of the size of the state in the duration are none.
+STILL = 1e-12
+
+
+@dataclass(frozen=True)
+class _System:
+    """The equations at a state: matrix and right-hand side of scaled unknowns, and what a scaled unknown is in units."""
+
+    matrix: csc_matrix
+    right: Array
+    unit: Array
+    states: NDArray[np.intp]
+
+
+class RestlessStateError(EquilibriumError):
+    """The rate of a state is not zero whatever the machine does. name : of the state."""
+
+    def __init__(self, name: str, rate: float, state: Rest) -> None:
+        super().__init__(
+            f"the state {name} never rests: its rate is {rate:.6g} per second wherever the machine is", state
+        )
+
+
+def find_moving_states(equations: StaticEquations, state: Rest) -> None:
+    """Say in `equations.states_move` whether rates of states are equations at all. Raises StateError, RestlessStateError."""
+    equations.states_move = bool(len(_assembled(equations, state).states))
+
+
+def equilibrate_states(equations: StaticEquations, state: Rest, iteration: Iteration) -> Found:
+    """The equilibrium of positions and states next to `state`, at its time. Raises EquilibriumError."""
+    sizes: list[float] = []
+    moved = np.zeros(len(equations.free))
+    f = len(equations.free)
+    for number in range(1, MOST + 1):
+        try:
+            system = _assembled(equations, state)
+            x = factors(system.matrix).solve(system.right)
+        except StateError:
+            raise EquilibriumError("a force, or the state, is not a number", state, tuple(sizes)) from None
+        except PivotError:
+            raise EquilibriumError("nothing resists a motion, or holds a state", state, tuple(sizes)) from None
+        motion = float(np.max(np.abs(x[:f]), initial=0.0))
+        size = float(np.max(np.abs(x[: f + len(system.states)]), initial=0.0))
+        if not np.isfinite(size):
+            raise EquilibriumError("nothing resists a motion, or holds a state", state, tuple(sizes))
+        share = min(1.0, LONGEST / motion) if motion > 0.0 else 1.0
+        state, share = _nearer(equations, state, system, x, share)
+        moved += share * x[:f]
+        sizes.append(size)
+        stalled = len(sizes) > 1 and size > 0.3 * sizes[-2] and size <= 1e-7
+        if share == 1.0 and (size <= iteration.tolerance or stalled):
+            return Found(state, equations.tangent(state), number, moved, tuple(sizes))
+    raise EquilibriumError(f"{MOST} iterations are not enough", state, tuple(sizes))
+
+
+def _nearer(equations: StaticEquations, state: Rest, system: _System, x: Array, share: float) -> tuple[Rest, float]:
+    """The state after the largest share of the change that does not make what is left over larger; the least one where none does."""
+    left = float(np.linalg.norm(system.right))
+    while True:
+        after = _changed(equations, state, system, share * x)
+        try:
+            if float(np.linalg.norm(_assembled(equations, after).right)) <= max(2.0 * left, 1e-9):
+                return after, share
+        except StateError:
+            pass
+        if share <= LEAST_SHARE:
+            return after, share
+        share *= 0.5
+
+
+def _changed(equations: StaticEquations, state: Rest, system: _System, x: Array) -> Rest:
+    """The state after a change of the scaled unknowns."""
+    f, count = len(equations.free), len(system.states)
+    change = np.zeros(equations.n)
+    change[equations.free] = x[:f]
+    y = equations.displaced(state.y, change * equations.length)
+    y[equations.first_state + system.states] += (x * system.unit)[f : f + count]
+    return Rest(y, state.lam + (x * system.unit)[f + count :], state.t)
+
+
+def _assembled(equations: StaticEquations, state: Rest) -> _System:
+    """The equations at a state. Raises StateError, RestlessStateError."""
+    n, count, rows = equations.n, equations.state_count, equations.rows
+    r, C = equations.evaluate(state)
+    rate = equations.rates()
+    value = equations.whole_matrix(state)
+    size = np.maximum(equations.state_scale, np.abs(state.y[equations.first_state :][:count]))
+    unit = np.concatenate([equations.length, size, equations.energy / equations.row_scale])
+    weight = np.concatenate([equations.length / equations.energy, np.ones(count), 1.0 / equations.row_scale])
+    matrix = csc_matrix(diags(weight) @ value @ diags(unit))
+    own = abs(matrix[n : n + count]).tocsr()
+    largest = np.array([own[k].max() if own[k].nnz else 0.0 for k in range(count)])
+    moving = largest > 0.0
+    still = np.abs(rate) * equations.duration <= STILL * size
+    for k in np.flatnonzero(~moving & ~still):
+        raise RestlessStateError(equations.system.states[k].name, float(rate[k]), state)
+    states = np.flatnonzero(moving)
+    rescaled = np.ones(n + count + rows)
+    rescaled[n + states] = 1.0 / largest[states]
+    chosen = np.concatenate([equations.free, n + states, n + count + np.arange(rows)])
+    matrix = csc_matrix(diags(rescaled) @ matrix)[chosen][:, chosen]
+    right = np.concatenate([-r, rate[states] / largest[states], -C])
+    return _System(matrix, right, unit[chosen], states)
+
+
+def restlessness(equations: StaticEquations, state: Rest) -> float:
+    """What a state would change by within its own time, as a share of its size, at most: zero in equilibrium."""
+    system = _assembled(equations, state)
+    f = len(equations.free)
+    return float(np.max(np.abs(system.right[f : f + len(system.states)]), initial=0.0))
+
+
+def growing_motions(equations: StaticEquations, state: Rest) -> int:
+    """Number of small motions about an equilibrium, of positions and states together, that grow with time: eigenvalues λ of
+
+    M q̈ + D q̇ + K q + D_x x = 0,  ẋ = ∂g/∂v q̇ + ∂g/∂q q + ∂g/∂x x  on the motions that all constraints allow, with Re λ > 0.
+    """
+    tangent = equations.tangent(state)
+    n, count = equations.n, equations.state_count
+    K, D, M = (part.toarray() for part in equations.whole_parts(state))
+    free, Z = equations.free, free_directions(tangent)
+    Z = equations.length[free, None] * Z
+    own = slice(n, n + count)
+    m = Z.shape[1]
+    inertia = Z.T @ M[np.ix_(free, free)] @ Z
+    accelerations = np.hstack([-Z.T @ K[np.ix_(free, free)] @ Z, -Z.T @ D[np.ix_(free, free)] @ Z, -Z.T @ D[free, own]])
+    rates = np.hstack([-K[own][:, free] @ Z, -D[own][:, free] @ Z, -D[own, own]])
+    first = np.hstack([np.zeros((m, m)), np.eye(m), np.zeros((m, count))])
+    system = np.vstack([first, np.linalg.solve(inertia, accelerations) if m else accelerations, rates])
+    values: Any = np.linalg.eigvals(system)
+    return int(
+        np.sum(values.real > GROWING * np.maximum(np.abs(values), np.max(np.abs(values), initial=0.0) * GROWING))
+    )

@@ -1,0 +1,30 @@
+"""First-order states of elements as facts: all that the rest of nivel knows of a pressure, a bristle or a controller's memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+
+@dataclass(frozen=True)
+class StateFact:
+    """One first-order state x of an element.
+
+    name : result variable `state.NAME`, and signal where it has a dot. units, long_name : of the variable, SI. start : value at t = 0.
+    scale : what errors of x are measured by, at least; the largest |x| of the run counts where it is larger. sampled : x has no rate, it
+    changes at given times or events only.
+    """
+
+    name: str
+    units: str
+    long_name: str
+    start: float
+    scale: float
+    sampled: bool = False
+
+
+class Coupled(NamedTuple):
+    """What one element acts on or depends on: bodies, the ground included, and numbers of states."""
+
+    bodies: frozenset[int]
+    states: frozenset[int] = frozenset()

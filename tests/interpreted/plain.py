@@ -1,0 +1,120 @@
+"""The kernels as plain Python: every index is checked, nothing is compiled.
+
+`install` must run before a kernel is imported, in a process with NUMBA_DISABLE_JIT=1. Numba's decorators then leave a function as it is;
+what is left to replace is what reads machine addresses: views of records, calls of families and laws. Indices out of range fail as NumPy
+has it, and so do negative ones and slices that reach beyond their array, which compiled code would take for something else.
+"""
+
+import itertools
+import sys
+from functools import wraps
+from weakref import WeakValueDictionary
+
+import numpy as np
+
+FUNCTIONS = {}
+UNSIGNED = (np.uint32, np.uint64)
+# (file, first line) of the kernels that were called
+CALLED = set()
+_addresses = itertools.count(1_000_003, 16)
+
+
+class Checked(np.ndarray):
+    """An array whose indices must be within it; entries that are indices come as Python's integers, which do not wrap."""
+
+    def __getitem__(self, key):
+        if type(key) is not int or key < 0:
+            _check(self.shape, key)
+        found = _get(self, key)
+        return int(found) if type(found) in UNSIGNED else found
+
+    def __setitem__(self, key, value):
+        if type(key) is not int or key < 0:
+            _check(self.shape, key)
+        _set(self, key, value)
+
+
+_get, _set = np.ndarray.__getitem__, np.ndarray.__setitem__
+
+
+def _check(shape, key):
+    """Refuse what NumPy lets pass: negative indices, and slices that reach beyond the array."""
+    for k, part in enumerate(key if type(key) is tuple else (key,)):
+        if type(part) is slice:
+            first, last = part.start or 0, shape[k] if part.stop is None else part.stop
+            if not 0 <= first <= last <= shape[k]:
+                raise IndexError(f"slice {first}:{last} of axis {k} with {shape[k]} entries")
+        elif part < 0:
+            raise IndexError(f"index {part} of axis {k} with {shape[k]} entries")
+
+
+def checked(record):
+    """The record with checked views of its arrays."""
+    fields = [checked(field) if isinstance(field, tuple) else field.view(Checked) for field in record]
+    return type(record)(*fields)
+
+
+def noted(function):
+    """`function`, which leaves a note that it was called."""
+    code = function.__code__
+    place = code.co_filename, code.co_firstlineno
+
+    @wraps(function)
+    def called(*arguments):
+        CALLED.add(place)
+        return function(*arguments)
+
+    return called
+
+
+class PlainCode:
+    """What `numba.cfunc` makes of a function: something with an address."""
+
+    def __init__(self, function):
+        self.function = self.ctypes = noted(function)
+        self.address = next(_addresses)
+        FUNCTIONS[self.address] = self.function
+
+    def __call__(self, *arguments):
+        return self.function(*arguments)
+
+
+def install():
+    """Let everything that is imported from now on run as plain Python."""
+    assert not [name for name in sys.modules if name.startswith("nivel.kernels.")], "kernels are imported already"
+    import numba
+
+    assert numba.config.DISABLE_JIT, "set NUMBA_DISABLE_JIT=1"
+    numba.cfunc = lambda *_, **__: PlainCode  # of laws
+    from nivel.kernels import compile as compilers
+
+    compilers.leaf = compilers.stage = compilers.shared = noted
+    compilers.entry = lambda _: noted
+    compilers.address = lambda _: PlainCode
+    from nivel.kernels import handle
+
+    handles = WeakValueDictionary()
+    make = handle.Handle.__init__
+
+    def kept(self, record):
+        make(self, record)
+        self.checked = checked(record)
+        handles[int(self.address)] = self
+
+    def record_at(address):
+        return handles[int(address[0] if isinstance(address, tuple) else address)].checked
+
+    handle.Handle.__init__ = kept
+    handle.reader = lambda *_: record_at
+    from nivel.kernels import hook
+
+    def call_family(address, machine, number, t):
+        return FUNCTIONS[int(address)](machine, number, t)
+
+    hook.call_family = call_family
+    from nivel.kernels import function
+
+    def call_law(address, arguments, first):
+        return FUNCTIONS[int(address)](arguments[first:])
+
+    function.call_law = call_law

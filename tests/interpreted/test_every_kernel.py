@@ -1,0 +1,340 @@
+"""A few steps of every method on every kind of machine, in plain Python: no index leaves its array, and every kernel takes part."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import beams
+import force_zoo
+import gradient_beams
+import linked
+import machines
+import mixed_machines
+import nivel
+import plain
+import stiff_machines
+import tangent_zoo
+import test_contact_location
+import test_driver_corners
+import test_eliminated_rails
+import test_friction
+import test_rails
+import test_statics_closed_forms
+import tree_machines
+from nivel.analysis.implicit import find_tangent
+from nivel.machine import PointForce, Table
+from nivel.march.catalogue import INTEGRATORS
+from nivel.motion.catalogue import FLEXIBLE, PATHS
+from running import run
+from simulating import hinge, machine, solid
+from unknowns import SHARES
+
+STEP = 1e-3
+EXPLICIT = "rk4"
+# formulations and stabilisations that share the equations of a path
+WAYS = {
+    "penalty": {"formulation": "penalty"},
+    "augmented": {"formulation": "augmented-lagrangian"},
+    "geometric": {"stabilisation": "geometric"},
+    "baumgarte": {"stabilisation": "baumgarte", "baumgarte": {"alpha": 100.0, "beta": 100.0}},
+}
+LAW = """
+import math
+
+
+def pull(value, rate):
+    return -math.copysign(math.hypot(value, rate + 2.0), rate + 0.1) - (rate + 3.0) % 2.0
+"""
+# what no short run reaches, and why
+FAILURES = ["direct.are_open", "direct.name_lost", "step_control.too_small"]
+HARD_NEWTON = [f"friction_turns.{name}" for name in ("freeze", "next_seed", "release", "turn_some")]
+HARD_NEWTON += ["residual_newton.is_round_off"]
+FOR_TESTS = ["tangent_entries.solve_shifted"]
+LEFT_OUT = {*FAILURES, *HARD_NEWTON, *FOR_TESTS}
+
+
+def settings_of(path):
+    """The words of a path of the catalogue."""
+    coordinates, velocities, rotations = path
+    more = {"rotations": rotations} if velocities == "lagrange" else {}
+    return {"coordinates": coordinates, "formulation": velocities, **more}
+
+
+def short(record, integrator=EXPLICIT, *, steps=3, step=STEP, **settings):
+    """A run of a few steps."""
+    facts = INTEGRATORS[integrator]
+    given = {"tolerance": 1e-3} if facts.chooses_steps else {"step": step}
+    given |= {"stabilisation": "none"} if facts.whole else {}
+    given |= {"coordinates": "absolute", "integrator": integrator}
+    r = run(record, **{**given, "duration": steps * step, "output_interval": 2 * step, **settings})
+    assert r.finished.outcome == "done", r.finished.failure
+    return r
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    return tree_machines.write_beams(tmp_path_factory.mktemp("tree"))
+
+
+# --- elements ---
+
+
+@pytest.mark.parametrize("name", force_zoo.ELEMENTS)
+def test_elements(name, rng):
+    """Forces, couplings and drivers, and their exact derivatives."""
+    here = tangent_zoo.state_of(name, "absolute", rng)
+    status, _ = find_tangent(here.motion, 0.3, *SHARES)
+    assert status == 0
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("kind", machines.KINDS)
+def test_joints(kind, coordinates, rng):
+    here = tangent_zoo.state_of(kind, coordinates, rng)
+    status, _ = find_tangent(here.motion, 0.3, *SHARES)
+    assert status == 0
+
+
+@pytest.mark.parametrize("model", ["coulomb", "lugre"])
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_everything_at_once(model, coordinates):
+    short(linked.record(linked.every_element(model)), steps=2, coordinates=coordinates)
+
+
+@pytest.mark.parametrize("integrator", ["rk4", "generalised-alpha", "radau", "bdf", "ros2"])
+def test_stiction(integrator):
+    """A block that slides to rest."""
+    sections = test_friction.sled({"model": "stiction", "static_coefficient": 0.4, "stribeck_speed": 0.1}, 0.03)
+    short(machine(sections).record, integrator, steps=20)
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "generalised-alpha"])
+@pytest.mark.parametrize("model", [{"model": "coulomb", "transition_speed": 1e-3}, {"model": "stiction"}])
+def test_frictions_that_load_each_other(model, integrator):
+    sections = test_friction.two_sliders(0.9, -40.0, model)
+    short(machine(sections).record, integrator, steps=5)
+
+
+def test_functions_of_laws():
+    """Those that a law may name in Python are made analytic for exact derivatives."""
+    law = {"source": LAW, "function": "pull", "arguments": ["value", "rate"]}
+    spring = {"type": "joint-spring-damper", "coordinate": "j.angle", "law": law}
+    record = force_zoo.bed(force_zoo.Case(spring))
+    for integrator in (EXPLICIT, "generalised-alpha"):
+        short(record, integrator, steps=1)
+
+
+# --- methods ---
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_integrators(integrator, coordinates):
+    if INTEGRATORS[integrator].whole and coordinates != "absolute":
+        pytest.skip("absolute coordinates alone")
+    short(machines.slider_crank(), integrator, steps=6, coordinates=coordinates)
+
+
+@pytest.mark.parametrize("integrator", [name for name, facts in INTEGRATORS.items() if facts.implicit])
+def test_newton(integrator):
+    """The corrector with a matrix."""
+    facts = INTEGRATORS[integrator]
+    coordinates = "absolute" if facts.whole else "relative"
+    short(machines.slider_crank(), integrator, steps=2, coordinates=coordinates, corrector={"iteration": "newton"})
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "generalised-alpha", "radau"])
+@pytest.mark.parametrize("stabilisation", ["none", "direct"])
+@pytest.mark.parametrize("path", PATHS, ids="-".join)
+def test_paths(path, stabilisation, integrator):
+    short(machines.slider_crank(), integrator, steps=2, stabilisation=stabilisation, **settings_of(path))
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "generalised-alpha", "radau"])
+@pytest.mark.parametrize("way", WAYS)
+def test_ways(way, integrator):
+    short(machines.slider_crank(), integrator, steps=2, **WAYS[way])
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
+def test_redundant_joints(coordinates):
+    for integrator in (EXPLICIT, "generalised-alpha"):
+        short(machines.four_bar("revolute", "revolute"), integrator, steps=2, coordinates=coordinates)
+
+
+def test_steps_chosen_by_the_error():
+    """Of a stiff machine, with steps that are too long for its springs, and with a first one that is too long for all."""
+    short(stiff_machines.elastic_pendulum(1e8), "generalised-alpha", steps=40, step_control="error", tolerance=1e-3)
+    for integrator in ("dopri5", "radau", "bdf", "adams", "generalised-alpha"):
+        more = {"step_control": "error"} if INTEGRATORS[integrator].either else {}
+        short(machines.heavy_top(), integrator, steps=40, tolerance=1e-5, step=2e-2, **more, duration=0.04)
+
+
+def test_corners():
+    """Of drivers, whose speed jumps there, and of forces."""
+    times, values = (0.0, 3.3e-3, 5.037e-3, 8.013e-3), (0.0, 3.3e-3, -1e-3, 1e-3)
+    driven = test_driver_corners.cart_and_arm(Table(times, values))
+    push = PointForce(name="push", body="cart", vector=(Table(times, values, "linear"), 0, 0))
+    for record in (driven, driven.replace(drivers=(), forces=(push,))):
+        short(record, "generalised-alpha", steps=8)
+        short(record, "generalised-alpha", steps=8, step_control="error", tolerance=1e-4)
+    short(driven.replace(drivers=(), forces=(push,)), steps=8)
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "dopri5", "generalised-alpha", "abm4"])
+def test_states_and_samples(integrator):
+    """Continuous states, and samples at given times and at an event."""
+    sections = {
+        "bodies": {"wheel": solid(angular_velocity=[0, 0, 3])},
+        "joints": {"axle": hinge("ground", "wheel")},
+        "states": {
+            "slow": {"rate": "axle.angle - slow.value"},
+            "held": {"update": "slow.value + axle.angle_rate", "every": 2 * STEP},
+            "count": {"update": "count.value + 1", "event": "passed"},
+        },
+        "events": {"passed": {"when": "axle.angle - 0.005"}},
+    }
+    short(machine(sections).record, integrator, steps=5)
+
+
+@pytest.mark.parametrize("integrator", ["dopri5", "dop853", "adams", "gear", "radau", "bdf", "generalised-alpha"])
+def test_contacts_and_events(integrator):
+    """A ball that falls on a floor, where steps end."""
+    sections = test_contact_location.bouncing(1e4, 1.5)
+    sections["bodies"]["ball"] |= {"position": [0, 0, test_contact_location.RADIUS + 1e-4], "velocity": [0, 0, -1]}
+    more = {"step_control": "error", "tolerance": 1e-4} if INTEGRATORS[integrator].either else {}
+    short(machine(sections).record, integrator, steps=10, **more)
+
+
+# --- bodies that bend, beams, rails ---
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "generalised-alpha", "radau"])
+@pytest.mark.parametrize("stabilisation", ["none", "direct"])
+@pytest.mark.parametrize("path", FLEXIBLE, ids="-".join)
+def test_paths_of_flexible_bodies(folder, path, stabilisation, integrator):
+    if stabilisation == "none" and integrator != EXPLICIT:
+        pytest.skip("as with direct")
+    record = tree_machines.MACHINES["pendulum"](folder)
+    short(record, integrator, steps=1, step=1e-5, stabilisation=stabilisation, **settings_of(path))
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_ways_of_flexible_bodies(folder, way):
+    short(tree_machines.MACHINES["pendulum"](folder), steps=1, step=1e-5, **WAYS[way])
+
+
+def test_flexible_bodies_by_energy_and_momenta(folder):
+    short(tree_machines.MACHINES["loop"](folder), "energy-momentum", steps=2, step=1e-5)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative", "independent"])
+@pytest.mark.parametrize("name", ["chain", "loop", "flying", "spinning"])
+def test_flexible_machines(folder, name, coordinates):
+    short(tree_machines.MACHINES[name](folder), steps=1, step=1e-5, coordinates=coordinates, stabilisation="direct")
+
+
+@pytest.mark.parametrize("integrator", ["ros2", "bdf", "radau"])
+def test_stiffness_of_modes_alone(folder, integrator):
+    short(tree_machines.MACHINES["pendulum"](folder), integrator, steps=2, step=1e-4, coordinates="relative")
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "generalised-alpha", "radau", "energy-momentum"])
+@pytest.mark.parametrize("mass", ["lumped", "consistent"])
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_beams(integrator, mass, coordinates):
+    if INTEGRATORS[integrator].whole and coordinates != "absolute":
+        pytest.skip("absolute coordinates alone")
+    short(machine(beams.flying(2, mass, elements=2)).record, integrator, steps=2, step=1e-4, coordinates=coordinates)
+
+
+@pytest.mark.parametrize(
+    ("model", "integrator"),
+    [("ancf-beam", "generalised-alpha"), *(("ancf-cable", each) for each in ("generalised-alpha", "radau", "ros2"))],
+)
+def test_beams_in_absolute_nodal_coordinates(model, integrator):
+    short(machine(gradient_beams.flying(model, elements=1)).record, integrator, steps=1, step=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("kind", "integrator"),
+    [
+        *((kind, "generalised-alpha") for kind in test_rails.KINDS),
+        *((test_rails.KINDS[-1], each) for each in ("radau", "ros2")),
+    ],
+)
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_sliders(kind, integrator, coordinates):
+    short(machine(test_rails.bead(kind)).record, integrator, steps=1, coordinates=coordinates)
+
+
+def test_nodes_that_are_driven_and_joined():
+    short(machine(beams.hinged(4)).record, "generalised-alpha", steps=2)
+
+
+@pytest.mark.parametrize("model", ["segments", "damped", "total", "long"])
+def test_further_beams(model):
+    """Springs between rigid segments; elements with damping, of another interpolation, of four nodes."""
+    more = {
+        "segments": {"model": "segments", "order": 1},
+        "damped": {"damping": 0.01},
+        "total": {"interpolation": "total"},
+        "long": {"order": 3, "elements": 1, "angular_velocity": [0.0, 0.0, 0.0]},
+    }
+    record = machine(beams.flying(**{"order": 2, "mass": "lumped", "elements": 2, **more[model]})).record
+    short(record, "generalised-alpha", steps=2, step=1e-4)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_a_slider_passes_a_node(coordinates):
+    sections = test_rails.spinning(7, STEP)
+    place = 4.0 / 7 - 2e-3
+    sections["bodies"]["bead"] |= {"position": [place, 0, 0], "velocity": [1.0, 3 * place, 0]}
+    sections["joints"]["pad"]["point"] = [place, 0, 0]
+    short(machine(sections).record, "generalised-alpha", steps=5, coordinates=coordinates)
+
+
+def test_beams_that_slide_on_beams():
+    record = machine(test_eliminated_rails.telescope()).record
+    short(record, "generalised-alpha", steps=3, step=1e-2, coordinates="relative", stabilisation="direct")
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_flexible_bodies_beams_and_sliders(folder, coordinates):
+    record = machine(mixed_machines.mixed(folder, closed=True)).record
+    short(record, "generalised-alpha", steps=1, step=1e-4, coordinates=coordinates)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_statics(coordinates):
+    machine(test_statics_closed_forms.four_bar()).statics(coordinates=coordinates)
+
+
+# --- nothing is left out ---
+
+
+def kernels():
+    """(file, first line) → name of all functions that are compiled."""
+    found = {}
+    for package in ("kernels", "motion", "march"):
+        for path in sorted((Path(nivel.__file__).parent / package).rglob("*.py")):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.FunctionDef) and any(_name(each) in COMPILERS for each in node.decorator_list):
+                    found[str(path), node.decorator_list[0].lineno] = f"{path.stem}.{node.name}"
+    return found
+
+
+COMPILERS = ("leaf", "stage", "shared", "entry", "address", "family")
+
+
+def _name(decorator):
+    return getattr(decorator.func if isinstance(decorator, ast.Call) else decorator, "id", "")
+
+
+def test_every_kernel_was_called(request):
+    """The last test, where all others ran before it."""
+    if request.config.option.keyword or any("::" in each for each in request.config.args):
+        pytest.skip("not all tests ran")
+    idle = {name for place, name in kernels().items() if place not in plain.CALLED}
+    assert not idle - LEFT_OUT, " ".join(sorted(idle - LEFT_OUT))

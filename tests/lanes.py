@@ -1,0 +1,17 @@
+"""What runs by default, and what rests for `python tests/all.py --full`: see the marker `full` in `pyproject.toml`."""
+
+import os
+
+import pytest
+
+FULL = os.environ.get("NIVEL_TESTS_FULL") == "1"
+
+
+def tail(values, default):
+    """Values of a parameter; those not in `default` are for the full tests."""
+    return [each if each in default else pytest.param(each, marks=pytest.mark.full) for each in values]
+
+
+def thirds():
+    """A grid in three parts, of which the first is for all tests: the number of the part, and every so many."""
+    return pytest.mark.parametrize("third", tail(range(3), [0]))

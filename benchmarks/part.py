@@ -5,21 +5,18 @@ from __future__ import annotations
 import time
 
 import numpy as np
+from nivel.kernels.compile import OPTIONS
 from numba import njit, types
-
-from nivel.kernels.compile import OPTIONS, loops_as_written
-from nivel.kernels.handle import address_type
-from nivel.kernels.record import state_type
 
 REPEATS, ROUNDS = 20_000, 7
 # address of the machine, state, its rates, repeats
-SIGNATURE = types.void(address_type, state_type, state_type, types.int64)
+SIGNATURE = types.void(types.uint64, ROW, ROW, types.int64)
 
 
 def part(function):
     """Decorator: compiled like the kernels, but not cached."""
-    with loops_as_written():
-        return njit(SIGNATURE, **OPTIONS)(function)
+    binding.set_option("benchmark", "-unroll-runtime=false")  # as `nivel.native.with_numba.translate` has it
+    return njit(SIGNATURE, **OPTIONS)(function)
 
 
 def measure(function, *arguments, repeats: int = REPEATS) -> float:

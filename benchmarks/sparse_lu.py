@@ -12,8 +12,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, loops_as_written
 from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
+from nivel.native.function import leaf
 from nivel.system.factor_plan import FactorPlan, plan_factor
 from nivel.system.waiting import waiting
 
@@ -88,10 +88,9 @@ def main() -> None:
                 L, U, Dinv, work = plan.workspace(dtype)
                 b = rng.standard_normal(plan.size).astype(dtype)
                 x = b.copy()
-                with loops_as_written():
-                    if factorise(plan.tables, value, L, U, Dinv, work, 1) != -1:
-                        raise RuntimeError("a pivot failed")
-                    solve(plan.tables, L, U, Dinv, x, work, 1)
+                if factorise(plan.tables, value, L, U, Dinv, work, 1) != -1:
+                    raise RuntimeError("a pivot failed")
+                solve(plan.tables, L, U, Dinv, x, work, 1)
                 row = np.repeat(np.arange(plan.size), np.diff(plan.row_start.astype(np.int64)))
                 product = np.zeros(plan.size, dtype)
                 np.add.at(product, row, value * x[plan.column])

@@ -1,49 +1,32 @@
-"""How long Numba compiles, and what: `nivel warmup` has compiled all that tests use, so that no test waits for it."""
+"""What is compiled within tests: `nivel warmup` has compiled all entries of the package, so that no test waits for one."""
 
-import time
-from collections import Counter
 from contextlib import contextmanager
+from functools import wraps
 
 import pytest
-from numba.core import event
 
-MOST = 5.0  # seconds of the processor: laws and single functions that a test calls take tenths, entries at least ten
+from nivel.native import workers
 
-
-class Compiling(event.Listener):
-    """Seconds of the processor spent in the compiler, by the name of the function that was asked for."""
-
-    def __init__(self):
-        self.seconds = Counter()
-        self._depth, self._began = 0, 0.0
-
-    def on_start(self, event):
-        if self._depth == 0:
-            self._began = time.thread_time()
-        self._depth += 1
-
-    def on_end(self, event):
-        self._depth -= 1
-        if self._depth == 0:
-            self.seconds[_name(event.data)] += time.thread_time() - self._began
+COMPILED = []
 
 
-def _name(data):
-    dispatcher = data.get("dispatcher")
-    return dispatcher.py_func.__qualname__ if dispatcher is not None else data.get("qualname", "?")
+def _noted(compile_all):
+    @wraps(compile_all)
+    def noted(jobs, *more):
+        jobs = list(jobs)
+        COMPILED.extend(job["entry"] for job in jobs if "entry" in job and job["entry"].startswith("nivel."))
+        return compile_all(jobs, *more)
+
+    return noted
 
 
-COMPILING = Compiling()
-for kind in ("numba:compile", "numba:run_pass"):
-    event.register(kind, COMPILING)
+workers.compile_all = _noted(workers.compile_all)
 
 
 @contextmanager
 def fail_where_it_compiles(*, allowed):
-    """Fail what compiles for more than `MOST` seconds without being allowed to."""
-    before = COMPILING.seconds.copy()
+    """Fail what compiles an entry of the package without being allowed to."""
+    before = len(COMPILED)
     yield
-    spent = COMPILING.seconds - before
-    if spent.total() > MOST and not allowed:
-        names = ", ".join(f"{name} {seconds:.1f} s" for name, seconds in spent.most_common(5))
-        pytest.fail(f"compiled within the test, not by `nivel warmup`: {names}", pytrace=False)
+    if COMPILED[before:] and not allowed:
+        pytest.fail(f"compiled within the test, not by `nivel warmup`: {', '.join(COMPILED[before:])}", pytrace=False)

@@ -7,7 +7,7 @@ has it, and so do negative ones and slices that reach beyond their array, which 
 
 import itertools
 import sys
-from functools import wraps
+from functools import cached_property, wraps
 from weakref import WeakValueDictionary
 
 import numpy as np
@@ -67,16 +67,11 @@ def noted(function):
     return called
 
 
-class PlainCode:
-    """What `numba.cfunc` makes of a function: something with an address."""
-
-    def __init__(self, function):
-        self.function = self.ctypes = noted(function)
-        self.address = next(_addresses)
-        FUNCTIONS[self.address] = self.function
-
-    def __call__(self, *arguments):
-        return self.function(*arguments)
+def _address_of(function):
+    """A number that stands for the address of this function."""
+    address = next(_addresses)
+    FUNCTIONS[address] = function
+    return address
 
 
 def install():
@@ -85,12 +80,22 @@ def install():
     import numba
 
     assert numba.config.DISABLE_JIT, "set NUMBA_DISABLE_JIT=1"
-    numba.cfunc = lambda *_, **__: PlainCode  # of laws
-    from nivel.kernels import compile as compilers
+    from nivel.native import function, library
+    from nivel.native.entry import Entry
+    from nivel.native.signature import Signature
+    from nivel.native.with_numba.laws import law_of
 
-    compilers.leaf = compilers.stage = compilers.shared = noted
-    compilers.entry = lambda _: noted
-    compilers.address = lambda _: PlainCode
+    function.leaf = function.stage = function.shared = noted
+    # entries and laws are called by numbers that stand for their addresses
+    function.caller = lambda *_: lambda address, *arguments: FUNCTIONS[int(address)](*arguments)
+    Entry.plain = cached_property(lambda self: noted(self.py_func))
+    Entry.plain.__set_name__(Entry, "plain")
+    Entry.address = cached_property(lambda self: _address_of(self.plain))
+    Entry.address.__set_name__(Entry, "address")
+    Entry.__call__ = lambda self, *arguments: self.plain(*arguments)
+    Signature.function_at = lambda _, address: FUNCTIONS[int(address)]
+    library.missing = lambda _: []
+    library.address_of_law = lambda text, _: _address_of(noted(law_of(text, "<law>")))
     from nivel.kernels import handle
 
     handles = WeakValueDictionary()
@@ -106,15 +111,3 @@ def install():
 
     handle.Handle.__init__ = kept
     handle.reader = lambda *_: record_at
-    from nivel.kernels import hook
-
-    def call_family(address, machine, number, t):
-        return FUNCTIONS[int(address)](machine, number, t)
-
-    hook.call_family = call_family
-    from nivel.kernels import function
-
-    def call_law(address, arguments, first):
-        return FUNCTIONS[int(address)](arguments[first:])
-
-    function.call_law = call_law

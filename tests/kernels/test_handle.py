@@ -4,10 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from numba import njit
 
-from nivel.kernels.arrays import A1, F1, F2, F3, I1, U1, U2, numba_type
+from nivel.kernels.arrays import A1, F1, F2, F3, I1, U1, U2
 from nivel.kernels.handle import Handle, reader
+from nivel.native.function import leaf
 
 
 class Inner(NamedTuple):
@@ -24,10 +24,10 @@ class Outer(NamedTuple):
     address: A1
 
 
-read = reader(numba_type(Outer))
+read = reader(Outer)
 
 
-@njit
+@leaf
 def double_and_sum(address):
     record = read(address)
     record.matrix[1, 2] *= 2.0

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from numba import types
+from numba import njit, types
 
-from nivel.kernels.arrays import numba_type
-from nivel.kernels.compile import entry
 from nivel.kernels.sparse_lu import SparseLU, factorise_sparse_lu, solve_sparse_lu
+from nivel.native.function import OPTIONS
+from nivel.native.with_numba.kinds import record_type
 from nivel.system.factor_plan import plan_factor
 from saddle_points import chain, entries, linkage, matrix, random_linkage, ring, solved, sparse, star
 
@@ -129,5 +129,5 @@ def test_more_rows_than_motions_are_refused(rng):
 @pytest.mark.parametrize("number", [types.float64, types.complex128], ids=str)
 def test_kernels_compile_for_part_of_a_record(number):
     array = types.Array(number, 1, "C")
-    assert entry(types.int64(numba_type(SparseLU), *[array] * 5))(factorise_sparse_lu.py_func).signatures
-    assert entry(types.void(numba_type(SparseLU), *[array] * 5))(solve_sparse_lu.py_func).signatures
+    for function, result in ((factorise_sparse_lu, types.int64), (solve_sparse_lu, types.void)):
+        assert njit(result(record_type(SparseLU), *[array] * 5), **OPTIONS)(function.py_func).signatures

@@ -1,17 +1,18 @@
 """The integrator of docs/methods.md, "Adding a method"."""
 
-from nivel.kernels.compile import entry
-from nivel.march.run import EVALUATIONS, STEP, TIME, run_at, step_signature
+from nivel.kernels.hook import call_evaluate
+from nivel.march.run import EVALUATIONS, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.native.entry import entry
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def midpoint(evaluate, machine, history):
     """Explicit midpoint rule (Runge 1895), order 2."""
     run = run_at(history)
     t, h, y, k = run.clock[TIME], run.clock[STEP], run.y, run.stages[0]
     for i in range(y.shape[0]):
         run.trial[i] = y[i] + 0.5 * h * run.rate[i]
-    status = evaluate(machine, t + 0.5 * h, run.trial, k)
+    status = call_evaluate(evaluate, machine, t + 0.5 * h, run.trial, k)
     for i in range(y.shape[0]):
         y[i] += h * k[i]
     run.counter[EVALUATIONS] += 1

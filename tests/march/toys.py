@@ -6,30 +6,30 @@ from types import SimpleNamespace
 import numpy as np
 
 from nivel.analysis.equations import equations
-from nivel.kernels.compile import entry
 from nivel.kernels.handle import Handle
-from nivel.kernels.record import evaluate_signature
+from nivel.kernels.record import EVALUATE
 from nivel.kernels.status import OK
 from nivel.machine import Body, MachineRecord
 from nivel.march import run as names
 from nivel.march.catalogue import INTEGRATORS
+from nivel.native.entry import entry
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def oscillator(machine, t, y, ydot):
     """Circular motion in (0, 1), x'' = -x; two entries where machines have energies."""
     ydot[0], ydot[1], ydot[2], ydot[3] = y[1], -y[0], 0.0, 0.0
     return OK
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def swing(machine, t, y, ydot):
     """A pendulum whose support shakes, x'' = -(1 + cos(t)/2) sin x: not linear, and depends on time."""
     ydot[0], ydot[1], ydot[2], ydot[3] = y[1], -(1.0 + 0.5 * np.cos(t)) * np.sin(y[0]), 0.0, 0.0
     return OK
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def stiff(machine, t, y, ydot):
     """y' = -10⁶ (y - cos t) - sin t, whose smooth solution is cos t."""
     ydot[0], ydot[1], ydot[2], ydot[3] = -1e6 * (y[0] - np.cos(t)) - np.sin(t), y[2], -y[1], 0.0
@@ -85,7 +85,7 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
     while clock[names.TIME] < end:
         evaluate(machine.address, clock[names.TIME], y, run.rate)
         run.previous[:] = y
-        status = function(evaluate, machine.address, history.address)
+        status = function(evaluate.address, machine.address, history.address)
         assert status == OK, (status, clock[names.TIME])
         inside.append((run.previous.copy(), run.dense[: counter[names.DENSE]].copy(), int(counter[names.POWERS])))
         clock[names.TIME] = clock[names.REACHED]

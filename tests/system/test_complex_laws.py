@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from numba import njit
 
 from nivel.kernels.function import call_law
 from nivel.machine.expression import Expression
 from nivel.machine.python_law import PythonLaw
+from nivel.native.function import leaf
 from nivel.system.analytic_text import analytic_text
 from nivel.system.laws import complex_address, expression_address, law_address, motion_address
 
@@ -14,9 +14,9 @@ STEP = 1e-30
 TIMES = (-2.3, -1.0, -0.4, 0.0, 0.3, 1.0, 2.7)
 
 
-@njit
+@leaf
 def called(address, arguments):
-    return call_law(address, arguments, 0)
+    return call_law(address, arguments)
 
 
 def on_complex(address, *arguments, behind=0):

@@ -1,21 +1,22 @@
-"""The kernels that one run needs, compiled one after another; later processes load them from the cache."""
+"""The entries that one run needs; those without machine code are compiled together, and later processes find it."""
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from importlib import import_module
 from time import perf_counter
 
 from nivel.analysis.choice import slides
 from nivel.analysis.listener import Listener
 from nivel.analysis.modal_stiffness import integrator_of
-from nivel.kernels import cache
+from nivel.kernels.hook import Family
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import BY_MODES, INTEGRATORS, IntegratorFacts, chooses
 from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import BALANCED, BALANCED_CORRECTION, FLEXIBLE, PATHS, path_of
+from nivel.native import library
+from nivel.native.entry import Entry, entry_of
 from nivel.system.beams import ELASTIC as ELASTIC_FAMILY
 from nivel.system.beams import FAMILIES as BEAMS
 from nivel.system.beams import family_of
@@ -26,6 +27,7 @@ from nivel.system.user_states import FAMILY as STATE_FAMILY
 ASSEMBLY = "nivel.motion.newton_euler"
 FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
+TANGENT = "nivel.kernels.tangent_entries"
 MEASURE, FRICTION = "nivel.kernels.measure", "nivel.kernels.friction"
 GIVEN_FRICTION, RAIL = "nivel.kernels.friction_residual", "nivel.kernels.rail"
 ELASTIC, HELD = f"nivel.kernels.forces.{ELASTIC_FAMILY}", "nivel.kernels.forces.held_beam"
@@ -55,7 +57,7 @@ def compile_path(
     integrator: str = "",
     stabilisation: str = "",
 ) -> float:
-    """Import the kernel modules of a run of `machine`; tell the listener about each that is not in the cache.
+    """Compile what a run of `machine` needs and has no machine code yet; the listener is told.
 
     path : coordinates, formulation and rotations. A check has no integrator and no stabilisation. Unknown names are left alone.
     Returns the wall time [s].
@@ -84,17 +86,48 @@ def compile_path(
         parts.append((_facts(machine, path[0], integrator).module, f"the integrator {integrator}"))
         if facts is not None and facts.dependent and INTEGRATORS[integrator].accelerations:
             parts.append((facts.dependent, "dependent coordinates"))
-    missing = [part for part in parts if part[0] not in sys.modules and not cache.is_warm(part[0].rsplit(".", 1)[1])]
-    for module, what in parts:
-        if (module, what) in missing:
-            place = f"{missing.index((module, what)) + 1}/{len(missing)}"
-            listener.say(f"compiling {what} ({place}; only the first run does this)")
-        import_module(module)
+    entries = [entry for module, _ in parts for entry in entries_of(module)]
     if asks and integrator in INTEGRATORS and facts is not None and facts.residual:
         residual = INTEGRATORS[integrator].over_step(machine.is_flexible) or facts.residual
         plain = bool(INTEGRATORS[integrator].whole) or INTEGRATORS[integrator].along or path[1] == "lagrange"
-        _compile_derivatives(residual, [module for module, _ in parts], listener, held=not plain)
+        entries += _twins(residual, [module for module, _ in parts], held=not plain)
+    build(entries, listener)
     return perf_counter() - begin
+
+
+def build(entries: Iterable[Entry], listener: Listener) -> None:
+    """Compile those of these entries that have no machine code, and tell how far it is."""
+    missing = library.missing(entries)
+    if not missing:
+        return
+    count = len(missing)
+    listener.say(f"compiling {count} part{'s'[: count > 1]} of the machine code (only the first run does this)")
+    done: list[str] = []
+
+    def tell(name: str) -> None:
+        done.append(name)
+        listener.say(f"compiled {len(done)} of {count}: {_words(name)} (only the first run does this)")
+
+    library.build(missing, tell)
+
+
+def _words(name: str) -> str:
+    """What an entry is, for people: the end of its module's name."""
+    module, _, path = name.partition(":")
+    return module.rpartition(".")[2].replace("_", " ") + (", exact derivatives" if path.endswith(".twin") else "")
+
+
+def entries_of(module: str) -> list[Entry]:
+    """The entries of a module, on real numbers."""
+    parts = vars(import_module(module)).values()
+    entries = [part.code if isinstance(part, Family) else part for part in parts if isinstance(part, Family | Entry)]
+    return [entry for entry in entries if entry.name.startswith(f"{module}:")]
+
+
+def twins_of(module: str) -> list[Entry]:
+    """Those of its families on complex numbers."""
+    parts = vars(import_module(module)).values()
+    return [part.twin for part in parts if isinstance(part, Family) and part.module == module]
 
 
 def compile_statics(machine: MachineRecord, coordinates: str, listener: Listener) -> float:
@@ -106,12 +139,9 @@ def compile_statics(machine: MachineRecord, coordinates: str, listener: Listener
     facts = path_of(*path, flexible=machine.is_flexible, sliding=sliding)
     if facts is not None and facts.residual:
         parts = [*_rare_parts(machine, False), *_node_parts(machine, coordinates, sliding=sliding)]
-        used = [module for module, _ in parts]
-        if not cache.is_warm("static_entries"):
-            listener.say("compiling the equations of rest (only the first run does this)")
-        _compile_derivatives(facts.residual, used, listener)
-        import_module("nivel.kernels.tangent_entries")
-        import_module("nivel.kernels.static_entries")
+        entries = [entry_of(f"{TANGENT}:evaluate_residual"), *entries_of("nivel.kernels.static_entries")]
+        entries += [entry for module, _ in parts for entry in entries_of(module)]
+        build([*entries, *_twins(facts.residual, [module for module, _ in parts])], listener)
     return perf_counter() - begin
 
 
@@ -130,6 +160,20 @@ def _facts(machine: MachineRecord, coordinates: str, integrator: str) -> Integra
     return integrator_of(machine.replace(simulation=machine.simulation.replace(integrator=integrator)), coordinates)
 
 
+def all_entries() -> list[Entry]:
+    """Every entry that any run may need, those that take longest to compile first."""
+    paths, integrators = (*PATHS.values(), *FLEXIBLE.values()), INTEGRATORS.values()
+    modules = [facts.module for facts in integrators] + [facts.module for facts in BY_MODES.values()]
+    modules += [
+        module for facts in paths for module in (facts.module, facts.correction, facts.residual, facts.dependent)
+    ]
+    modules += [module for facts in integrators for module in (facts.whole, facts.whole_flexible)]
+    modules += [*rare_modules(), "nivel.march.loop", TANGENT, "nivel.kernels.static_entries", "nivel.kernels.observe"]
+    modules = [module for module in dict.fromkeys(modules) if module]
+    entries = [entry for module in modules for entry in entries_of(module)]
+    return [*entries, *(twin for module in complex_modules() for twin in twins_of(module))]
+
+
 def complex_modules() -> list[str]:
     """Modules of families that exact derivatives may need on complex numbers."""
     families = dict.fromkeys([*(family for kind in FORCES.values() for family in kind.families), *BEAMS, STATE_FAMILY])
@@ -139,21 +183,16 @@ def complex_modules() -> list[str]:
     return [*dict.fromkeys(residuals), MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS, *of_forces]
 
 
-def _compile_derivatives(residual: str, used: Sequence[str], listener: Listener, *, held: bool = True) -> None:
-    """The residual, and what a run uses of families, for exact derivatives. held : those of elements of beams are found by hand."""
+def _twins(residual: str, used: Sequence[str], *, held: bool = True) -> list[Entry]:
+    """What exact derivatives need: the residual, and what a run uses of families, on complex numbers. held : those of elements of beams are
+    found by hand."""
     needed = [residual, *(module for module in complex_modules() if module in used)]
     if ELASTIC in needed and held:
         needed[needed.index(ELASTIC)] = HELD
     if FRICTION in used:
         needed.append(GIVEN_FRICTION)
-    cold = [module for module in needed if not cache.is_warm_on_complex_numbers(module.rsplit(".", 1)[1])]
-    for module in needed:
-        if module in cold:
-            place = f"{cold.index(module) + 1}/{len(cold)}"
-            listener.say(
-                f"compiling exact derivatives of {module.rsplit('.', 1)[1]} ({place}; only the first run does this)"
-            )
-        import_module("nivel.kernels.hook").compile_on_complex_numbers(import_module(module))
+    residuals = entries_of(residual)
+    return [*residuals, *(twin for module in needed for twin in twins_of(module))]
 
 
 def rare_modules() -> list[str]:

@@ -140,7 +140,8 @@ def _compiled_loop(prepared: Prepared, run: Run, stabilisation: ModuleType) -> C
     step = getattr(import_module(facts.module), facts.function)
     advance = import_module("nivel.march.loop").advance
     machine, history = prepared.motion.handle, Handle(run)
-    return lambda: advance(kernels.evaluate, correct, step, machine.address, history.address)
+    evaluate, correct, step = kernels.evaluate.address, correct.address, step.address
+    return lambda: advance(evaluate, correct, step, machine.address, history.address)
 
 
 def _march_in_chunks(

@@ -12,39 +12,29 @@ from nivel.cli.options import quiet_option
 @click.command(short_help="Compile all kernels ahead of the first run.")
 @quiet_option
 def command(quiet: bool) -> None:
-    """Compile every formulation, integrator and kind of force into the user's cache, and say how long each took."""
-    from importlib import import_module
+    """Compile every formulation, integrator and kind of force into the user's cache, on all processors.
 
+    What is there already is not compiled again; an interrupted command goes on where it stopped.
+    """
     from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-    from nivel.analysis.compilation import complex_modules, rare_modules
-    from nivel.kernels import cache
-    from nivel.kernels.hook import compile_on_complex_numbers
-    from nivel.march.catalogue import INTEGRATORS
-    from nivel.motion.catalogue import FLEXIBLE, PATHS
+    from nivel.analysis.compilation import all_entries
+    from nivel.native import library, store
 
     console = Console(stderr=True, highlight=False, quiet=quiet)
-    modules = [
-        "nivel.kernels.observe",
-        "nivel.march.loop",
-        "nivel.kernels.tangent_entries",
-        "nivel.kernels.static_entries",
-    ]
-    modules += [
-        module for facts in (*PATHS.values(), *FLEXIBLE.values()) for module in (facts.module, facts.correction)
-    ]
-    modules += [facts.dependent for facts in (*PATHS.values(), *FLEXIBLE.values()) if facts.dependent]
-    modules += [facts.module for facts in INTEGRATORS.values()]
-    modules += rare_modules()
-    total = time.perf_counter()
-    for module in dict.fromkeys(modules):
-        begin = time.perf_counter()
-        with console.status(f"compiling {module}"):
-            import_module(module)
-        console.print(f"{module:36} {time.perf_counter() - begin:6.2f} s")
-    for module in complex_modules():
-        begin = time.perf_counter()
-        with console.status(f"compiling exact derivatives of {module}"):
-            compile_on_complex_numbers(import_module(module))
-        console.print(f"{module:36} {time.perf_counter() - begin:6.2f} s, exact derivatives")
-    console.print(f"ready in {time.perf_counter() - total:.1f} s; cache: {cache.directory()}", soft_wrap=True)
+    begin = time.perf_counter()
+    entries = all_entries()
+    missing = library.missing(entries)
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        task = progress.add_task("compiling", total=len(missing))
+
+        def done(name: str) -> None:
+            progress.update(task, advance=1, description=name)
+
+        library.build(missing, done)
+    spent = time.perf_counter() - begin
+    console.print(
+        f"{len(missing)} of {len(entries)} entries compiled in {spent:.1f} s; cache: {store.folder()}", soft_wrap=True
+    )

@@ -1,8 +1,1 @@
-"""Numba kernels: floats and arrays in, arrays and status codes out.
-
-Importing this package chooses the compilation cache before any kernel is decorated; see `nivel.kernels.cache`.
-"""
-
-from nivel.kernels import cache
-
-cache.install()
+"""Kernels: floats and arrays in, arrays and status codes out; see `nivel.native` for how they are compiled."""

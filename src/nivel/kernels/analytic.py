@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.native.function import leaf
 
 
 @leaf
@@ -64,6 +64,16 @@ def power(x, y):
     if beside != 0.0:
         slope += np.log(a) * value * beside
     return complex(value, slope)
+
+
+@leaf
+def real_power(x, exponent):
+    """x ** exponent of x ≥ 0 and a real exponent."""
+    n, along, slope = real(exponent), np.imag(x), 0.0
+    value = real(x) ** n
+    if along != 0.0:
+        slope = n * real(x) ** (n - 1.0)
+    return value + slope * (x - real(x))
 
 
 @leaf

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.newton_matrix import factorise_entries, solve_entries
 from nivel.kernels.record import MOMENTARY, NONE, record_at
@@ -16,6 +15,7 @@ from nivel.kernels.residual import acceleration_of
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.status import NOT_CONVERGED, NOT_FINITE, OK
 from nivel.kernels.tangent_parts import ACCELERATION, differentiate_part, own_rates
+from nivel.native.function import stage
 
 # A change this small against the accelerations is round-off; with the state's own matrix so is one that gets smaller by no more than SLOW.
 EXACT, SLOW, MOST = 1e-14, 0.2, 40

@@ -16,11 +16,11 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import stage
 from nivel.kernels.floating_frame import turn_factors
 from nivel.kernels.relative_rotation import rotation_vector
 from nivel.kernels.shared_mass import less, product, transposed_product
 from nivel.kernels.spatial import cross, dot
+from nivel.native.function import stage
 
 # columns of `columns`: markers of up to four nodes, how many they are, Gauss points, which of them is the reference node (MOST: none), the
 # marker from whose axes the sections turn

@@ -33,7 +33,6 @@ from nivel.kernels.beam_element import (
     tangent_product,
     turned,
 )
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.relative_rotation import rotation_vector
@@ -41,6 +40,7 @@ from nivel.kernels.shared_mass import less, product, transposed_product
 from nivel.kernels.spatial import cross, dot
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import inverse_tangent
+from nivel.native.function import leaf, stage
 
 # what `job` asks for: all parts as Newton's iteration combines them, or one of them
 TOTAL, ACCELERATIONS, VELOCITIES, POSITIONS = 0, 1, 2, 3

@@ -8,10 +8,10 @@ drivers.
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.coordinate import cosine, translation
 from nivel.kernels.function import evaluate_motion
 from nivel.kernels.record import NONE
+from nivel.native.function import stage
 
 
 @stage

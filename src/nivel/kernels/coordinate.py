@@ -21,8 +21,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import arctan2, real
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.spatial import cross, dot
+from nivel.native.function import leaf, stage
 
 ROTATION, CROSS_FIRST, CROSS_SECOND, POLAR, TRANSLATION, DISTANCE, COSINE, MOMENT, RADIUS = 0, 1, 2, 3, 4, 5, 6, 7, 8
 LAST_ANGLE = POLAR

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import leaf
+from nivel.native.function import leaf
 
 DEPENDENT = 1e-13
 # squares of round-off against the most mobile row

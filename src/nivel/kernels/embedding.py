@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, shared
 from nivel.kernels.flexible_partition import flexible_forces, moves_with_modes, times_flexible_mass
 from nivel.kernels.partition import solve_dependent
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import dot
 from nivel.kernels.status import OK
+from nivel.native.function import leaf, shared
 
 
 @leaf

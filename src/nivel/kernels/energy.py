@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.floating_dynamics import flexible_kinetic_energy
 from nivel.kernels.point_inertia import point_kinetic_energy
 from nivel.kernels.record import record_at
 from nivel.kernels.rigid import kinetic_energy, potential_energy
 from nivel.kernels.shared_mass import shared_kinetic_energy
+from nivel.native.function import stage
 
 
 @stage

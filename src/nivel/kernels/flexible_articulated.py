@@ -17,10 +17,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.articulated import eliminate_columns, hand_inertia, own_inertia, set_inertia, subtract_outer
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.floating_frame import modes_of
 from nivel.kernels.record import MODAL, OUTWARD, record_at
 from nivel.kernels.status import NO_MASS_LEFT, OK
+from nivel.native.function import leaf, stage
 
 
 @leaf

@@ -16,11 +16,11 @@ the mean of both places, which two bodies that meet there have in common, and on
 from __future__ import annotations
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.flexible_record import SHORTENING, TURNING
 from nivel.kernels.floating_frame import FACTORS, TURN, dot_modes, find_node, modes_of, turned
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import cross, dot
+from nivel.native.function import leaf, stage
 
 
 @stage

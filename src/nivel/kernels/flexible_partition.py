@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.floating_dynamics import flexible_row, forward, load_frame
 from nivel.kernels.floating_frame import dot_modes, modes_of
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import cross, dot, multiply
+from nivel.native.function import leaf
 
 
 @leaf

@@ -15,12 +15,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
 from nivel.kernels.floating_frame import AXES, SPIN, bend_body, find_node, modes_of, move_node, place_frame
 from nivel.kernels.record import MODAL, NONE, OUTWARD, record_at
 from nivel.kernels.rigid import turn_to_body_axes
 from nivel.kernels.spatial import cross, multiply
 from nivel.kernels.tree import move_child, product, swing
+from nivel.native.function import stage
 
 
 @stage

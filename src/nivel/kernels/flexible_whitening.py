@@ -6,11 +6,11 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.articulated import accelerate_column, applied, carry_motion, hand_wrench, transmit, whiten_bundles
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.floating_dynamics import velocity_forces
 from nivel.kernels.floating_frame import modes_of
 from nivel.kernels.record import MODAL, OUTWARD, record_at
 from nivel.kernels.spatial import cross, dot, multiply
+from nivel.native.function import leaf, stage
 
 
 @leaf

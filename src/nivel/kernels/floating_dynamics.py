@@ -9,13 +9,13 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.flexible_record import SHORTENING, TURNING
 from nivel.kernels.floating_frame import dot_modes, modes_of
 from nivel.kernels.geometric_stiffening import add_velocity_forces, multiply_rows
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.spatial import centripetal, cross, dot, multiply
 from nivel.kernels.status import NO_MASS_LEFT, OK
+from nivel.native.function import leaf, stage
 
 
 @stage

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.flexible_record import BULGING, SHORTENING, TURNING
 from nivel.kernels.geometric_stiffening import FIRST_AXIS, SECOND_AXIS, add_shortening, multiply_rows
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.spatial import centripetal, cross, dot, multiply
+from nivel.native.function import leaf, stage
 
 # terms of the series of the rotation of a node, exact to round-off up to two radians
 TERMS = 12

@@ -13,11 +13,11 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import absolute, real, tanh
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.saddle import solve_rows
 from nivel.kernels.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
+from nivel.native.function import leaf, stage
 
 # columns of `columns`; JOINT: whose reaction is the load, or NONE; FRAME: marker whose z axis is that of the motion;
 # BEARING: marker about whose point moments are taken

@@ -17,7 +17,6 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import stage
 from nivel.kernels.forces.push import push_coordinate
 from nivel.kernels.friction import (
     ARM,
@@ -37,6 +36,7 @@ from nivel.kernels.friction import (
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
+from nivel.native.function import stage
 
 # ε: the acceleration that is left of a joint that sticks is this share of what the change of the effort since F₀ would make.
 NEAR = 1e-4

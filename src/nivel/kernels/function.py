@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.extending import intrinsic
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.record import record_at
+from nivel.native.function import caller, leaf, stage
+from nivel.native.signature import COMPLEX_LAW, LAW
 
 # A table is past a knot where its argument comes within this share of it: times of steps are products and sums.
 NEAR = 16.0 * 2.220446049250313e-16
@@ -19,20 +17,8 @@ CONSTANT, TABLE_HELD, TABLE_EXTENDED, COMPILED = 0, 1, 2, 3
 NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY, STATE = 0, 1, 2, 3, 4, 5, 6, 7
 
 
-@intrinsic
-def call_law(typingctx, address, arguments, first):
-    """Call a C function double(double *) at `address` (uint64) with the array's entries from `first` on; about 3 ns. Of complex
-    arguments: one of complex numbers."""
-    signature = arguments.dtype(types.uint64, arguments, types.int64)
-
-    def generate(context, builder, sig, args):
-        number = context.get_value_type(arguments.dtype)
-        kind = ir.FunctionType(number, [number.as_pointer()])
-        data = context.make_array(sig.args[1])(context, builder, args[1]).data
-        pointer = builder.inttoptr(args[0], kind.as_pointer())
-        return builder.call(pointer, [builder.gep(data, [args[2]])])
-
-    return signature, generate
+# call_law(address, arguments): the value of a law or an expression; about 3 ns
+call_law = caller(LAW, COMPLEX_LAW)
 
 
 @leaf
@@ -101,7 +87,7 @@ def evaluate_function(machine, k, t):
     read_arguments(machine, k, t)
     first = np.int64(functions.span[k, 2])
     if kind == COMPILED:
-        return call_law(functions.address[k], functions.arguments, first)  # type: ignore[call-arg]
+        return call_law(functions.address[k], functions.arguments[first:])
     value, _, _ = table_value(functions, k, functions.arguments[first])
     return value
 
@@ -117,7 +103,7 @@ def evaluate_motion(machine, k, t):
     read_arguments(machine, k, t)
     first = np.int64(functions.span[k, 2])
     if kind == COMPILED:
-        value = call_law(functions.address[k], functions.arguments, first)  # type: ignore[call-arg]
+        value = call_law(functions.address[k], functions.arguments[first:])
         behind = first + np.int64(functions.span[k, 1]) - np.int64(functions.span[k, 0])
         return value, functions.arguments[behind], functions.arguments[behind + 1]
     return table_value(functions, k, functions.arguments[first])

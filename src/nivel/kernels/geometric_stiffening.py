@@ -12,7 +12,7 @@ an energy that is kept.
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf, stage
+from nivel.native.function import leaf, stage
 
 # axes of the six components of a symmetric tensor
 FIRST_AXIS, SECOND_AXIS = (0, 1, 2, 0, 1, 2), (0, 1, 2, 1, 2, 0)

@@ -9,7 +9,7 @@ are (place, gradients) of its first node, then of its second (Shabana, Yakoub 20
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
+from nivel.native.function import stage
 
 # columns of `columns`: markers of the node and of the tips of its gradients, of both nodes
 # columns of `number`: time of damping [s], reach of each node [m]; then work: vectors of the element (8 × 3), their rates, their forces

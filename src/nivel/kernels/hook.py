@@ -10,65 +10,46 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
-from llvmlite import ir
-from numba import types
-from numba.extending import intrinsic
-
-from nivel.kernels.compile import address, stage
-from nivel.kernels.handle import complex_address_type
-from nivel.kernels.record import FRICTION, MEASURE, complex_family_signature, family_signature, record_at
+from nivel.kernels.record import CORRECT, EVALUATE, FAMILY, FAMILY_ON_TWIN, FRICTION, MEASURE, record_at
 from nivel.kernels.status import OK
+from nivel.native.entry import Entry
+from nivel.native.function import Intrinsic, caller, stage
 
 
 class Family:
-    """A function `(machine, number, t) -> status` that kernels call by its address; on complex numbers it is compiled when first used."""
+    """A function `(machine, number, t) -> status` that kernels call by its address. code, twin : its entries, on real and on complex
+    numbers."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
-        self._function = function
-        self._code = address(family_signature)(function)
-        self.address = int(self._code.address)
-        FAMILIES[self.address] = self
-
-    @property
-    def module(self) -> str:
-        """Name of the module in which the function is written."""
-        return self._function.__module__
+        self.py_func, self.module = function, function.__module__
+        name = f"{function.__module__}:{function.__qualname__}"
+        self.code = Entry(function, FAMILY, f"{name}.code")
+        self.twin = Entry(function, FAMILY_ON_TWIN, f"{name}.twin")
 
     @cached_property
+    def address(self) -> int:
+        """Address of the function."""
+        FAMILIES[self.code.address] = self
+        return self.code.address
+
+    @property
     def complex_address(self) -> int:
         """Address of the function for records whose work is complex."""
-        self._complex_code = address(complex_family_signature)(self._function)
-        return int(self._complex_code.address)
+        return self.twin.address
 
 
+# those whose addresses are in use
 FAMILIES: dict[int, Family] = {}
 
 
-def compile_on_complex_numbers(module: Any) -> None:
-    """Compile the families of a module for exact derivatives, or load them from the cache."""
-    for part in vars(module).values():
-        if isinstance(part, Family) and part.module == module.__name__:
-            assert part.complex_address
-
-
 def family(function: Callable[..., Any]) -> Family:
-    """Decorator: `function(machine, family, t) -> status` compiled, now and cached, to something with an `address`."""
+    """Decorator: `function(machine, family, t) -> status`, a function of the module, as something with an address."""
     return Family(function)
 
 
-@intrinsic
-def call_family(typingctx, address, machine, number, t):
-    """Call a function of `family_signature` at `address` (uint64), or one on complex numbers where the machine is."""
-    is_complex = machine == complex_address_type
-    kind = complex_family_signature if is_complex else family_signature
-    signature = types.int64(types.uint64, *kind.args)
-
-    def generate(context, builder, sig, args):
-        values = [context.get_value_type(each) for each in kind.args]
-        code = ir.FunctionType(context.get_value_type(types.int64), values)
-        return builder.call(builder.inttoptr(args[0], code.as_pointer()), args[1:])
-
-    return signature, generate
+call_family: Intrinsic = caller(FAMILY, FAMILY_ON_TWIN)
+call_evaluate: Intrinsic = caller(EVALUATE)
+call_correct: Intrinsic = caller(CORRECT)
 
 
 # jobs of the hook MEASURE, see `nivel.kernels.measure`
@@ -80,7 +61,7 @@ def call_hook(machine, hook, job, t):
     """Call a hook of the machine where it has one."""
     record = record_at(machine)
     address = record.hooks.address[hook]
-    return call_family(address, machine, job, t) if address != 0 else OK  # type: ignore[call-arg]
+    return call_family(address, machine, job, t) if address != 0 else OK
 
 
 @stage
@@ -107,7 +88,7 @@ def apply_forces(machine, t, y):
         elements.state[i] = y[first + i]
         elements.state_rate[i] = 0.0
     for k in range(elements.address.shape[0]):
-        status = call_family(elements.address[k], machine, k, t)  # type: ignore[call-arg]
+        status = call_family(elements.address[k], machine, k, t)
         if status != OK:
             return status
     return OK

@@ -6,8 +6,8 @@ Both are real parts: they are used where no derivatives are taken.
 from __future__ import annotations
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import stage
 from nivel.kernels.spatial import cross, dot
+from nivel.native.function import stage
 
 # Of the trace of the inertia: masses on a line, about which nothing turns, have none about it. Its share of the angular momentum is lost to
 # the push, which is itself a small share of the forces; round-off of the solution is the inverse of it times that of numbers.

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.native.function import leaf
 
 
 @leaf

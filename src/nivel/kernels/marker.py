@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.spatial import centripetal, multiply
+from nivel.native.function import stage
 
 
 @stage

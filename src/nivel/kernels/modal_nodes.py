@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.articulated import carry_motion, hand_wrench
-from nivel.kernels.compile import stage
 from nivel.kernels.flexible_tree import carry_body, carry_frame, read_modes
 from nivel.kernels.flexible_whitening import bend_by
 from nivel.kernels.floating_dynamics import flexible_wrench, load_modes
@@ -13,6 +12,7 @@ from nivel.kernels.floating_frame import dot_modes, modes_of
 from nivel.kernels.hook import family
 from nivel.kernels.record import ACCELERATE, HAND, LOAD, MODAL, MOVE, record_at
 from nivel.kernels.status import OK
+from nivel.native.function import stage
 
 
 @stage

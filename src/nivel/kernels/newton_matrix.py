@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.lu import factorise_lu, solve_lu
 from nivel.kernels.record import record_at
 from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.native.function import leaf
 
 
 @leaf

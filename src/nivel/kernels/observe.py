@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf, stage
 from nivel.kernels.energy import energies
 from nivel.kernels.hook import ACCEPTED, SHOWN, call_hook
-from nivel.kernels.record import COMPLETE, MEASURE, NONE, SENSE, observe_signature, record_at
+from nivel.kernels.record import COMPLETE, MEASURE, NONE, OBSERVE, SENSE, record_at
+from nivel.native.entry import entry
+from nivel.native.function import leaf, stage
 
 # what elements report and their states, single numbers; then the variables of `nivel.system.layout`, in the same order
 (
@@ -179,7 +180,7 @@ def _write_modes(machine, frame):
         frame[coordinate + j], frame[rate + j] = flexible.p[j], flexible.pdot[j]
 
 
-@entry(observe_signature)
+@entry(OBSERVE)
 def observe(machine, t, y, frame):
     """Fill `frame[1:]` from the state last evaluated; the columns are those of `nivel.system.layout`."""
     call_hook(machine, COMPLETE, 0, t)

@@ -11,10 +11,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import leaf
 from nivel.kernels.flexible_partition import fill_flexible_rows, moves_with_modes, weigh_flexible_row
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK, SINGULAR
+from nivel.native.function import leaf
 
 # A pivot this small is round-off; squared, it is what pivots of S = C_q M⁻¹ C_qᵀ are held against.
 DEPENDENT = 3e-7

@@ -6,12 +6,12 @@ exact for any motion, without terms of velocities.
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.residual import acceleration_of
 from nivel.kernels.spatial import dot
 from nivel.kernels.status import OK
+from nivel.native.function import stage
 
 
 @family

@@ -18,12 +18,12 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.coordinate import ACROSS_Y, ACROSS_Z, ALONG, LEAN_X, TWIST
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import cross, dot
 from nivel.kernels.status import NOT_ON_RAIL, OK
+from nivel.native.function import leaf, stage
 
 MOST = 50  # iterations
 CLOSE = 1e-12  # of the length of the beam: the iteration after such a change is the last one

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import types
-
-from nivel.kernels.arrays import A1, F1, F2, F3, U1, U2, W1, W2, W3, numba_type
+from nivel.kernels.arrays import A1, F1, F2, F3, U1, U2, W1, W2, W3
 from nivel.kernels.beam_record import BeamTangent, PointInertia, SharedMass
 from nivel.kernels.flexible_record import Flexible, ModalTree
-from nivel.kernels.handle import address_type, complex_address_type, reader
+from nivel.kernels.handle import reader
 from nivel.kernels.implicit_record import Newton, Residual
+from nivel.native.signature import Signature
 
 
 class Bodies(NamedTuple):
@@ -142,7 +141,7 @@ class Functions(NamedTuple):
 
 
 class Elements(NamedTuple):
-    """Forces, sorted by family. A family is one compiled function, `family_signature`, called for all its elements.
+    """Forces, sorted by family. A family is one compiled function, `FAMILY`, called for all its elements.
 
     Columns of `columns` and `number` are named in the family's file.
     """
@@ -224,7 +223,7 @@ class Sampled(NamedTuple):
 
 
 class Hooks(NamedTuple):
-    """Addresses of what only some machines need, or zero: see `family_signature`."""
+    """Addresses of what only some machines need, or zero: see `FAMILY`."""
 
     address: (
         A1  # (HOOKS,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams,
@@ -411,21 +410,20 @@ class Record(NamedTuple):
     control: Control
 
 
-record_type = numba_type(Record)
-record_at = reader(record_type, numba_type(Record, types.complex128))
-state_type = types.Array(types.float64, 1, "C")
+record_at = reader(Record)
 # kinds of nodes
 REVOLUTE, TRANSLATIONAL, CYLINDRICAL, SCREW, UNIVERSAL, SPHERICAL, PLANAR, FIXED, FREE = 0, 1, 2, 3, 4, 5, 6, 7, 8
 # and of what lies between the frames of a flexible body, see `nivel.kernels.flexible_tree`
 MODAL, OUTWARD = 9, 10
 # and of a body that slides along a beam, carried by the two nodes beside it, see `nivel.kernels.slider`
 POINT_ON_BEAM, KEYED_ON_BEAM, CYLINDRICAL_ON_BEAM, TRANSLATIONAL_ON_BEAM = 11, 12, 13, 14
-evaluate_signature = types.int64(address_type, types.float64, state_type, state_type)
-observe_signature = types.void(address_type, types.float64, state_type, state_type)
-correct_signature = types.int64(address_type, types.float64, state_type)
+# (machine, t, y, ẏ), (machine, t, y, frame) and (machine, t, y)
+EVALUATE = Signature("status", ("machine", "number", "vector", "vector"))
+OBSERVE = Signature("nothing", ("machine", "number", "vector", "vector"))
+CORRECT = Signature("status", ("machine", "number", "vector"))
 # address of the record, number of the family (0 for a hook), time → status
-family_signature = types.int64(address_type, types.int64, types.float64)
-complex_family_signature = types.int64(complex_address_type, types.int64, types.complex128)
+FAMILY = Signature("status", ("machine", "count", "number"))
+FAMILY_ON_TWIN = Signature("status", ("twin", "count", "complex"))
 
 NONE = 0xFFFFFFFF  # an index that points nowhere
 EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations

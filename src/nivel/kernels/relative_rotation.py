@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import arctan2, real
-from nivel.kernels.compile import stage
 from nivel.kernels.spatial import dot
+from nivel.native.function import stage
 
 
 @stage

@@ -10,13 +10,13 @@ derivatives. Coordinates add only how accelerations of bodies come from v̇, and
 
 from __future__ import annotations
 
-from nivel.kernels.compile import shared, stage
 from nivel.kernels.hook import apply_forces, call_hook
 from nivel.kernels.record import GIVEN_FRICTION, record_at
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.shared_mass import add_shared_inertia
 from nivel.kernels.spatial import cross, dot
 from nivel.kernels.status import OK
+from nivel.native.function import shared, stage
 
 
 @stage

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.rotation import rotation_matrix
 from nivel.kernels.spatial import dot, multiply
+from nivel.native.function import stage
 
 
 @stage

@@ -6,7 +6,7 @@ velocity is ω̄ = Ḡ θ̇ with Ḡ = 2 Ē/|θ|² exactly, on and off the unit 
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf, stage
+from nivel.native.function import leaf, stage
 
 
 @leaf

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import leaf
+from nivel.native.function import leaf
 
 # Below this |ψ|² the closed forms cancel, and so many terms of the series are exact: the next is 1/20!.
 SMALL, TERMS = 1.0, 9

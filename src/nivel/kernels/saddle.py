@@ -9,11 +9,11 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.dense import factorise_pivoted, gather, solve_pivoted
 from nivel.kernels.record import record_at
 from nivel.kernels.sparse import factorise, solve
 from nivel.kernels.status import MULTIPLIERS_NOT_FOUND, OK, SINGULAR
+from nivel.native.function import leaf, stage
 
 CONTRADICTORY = 1e-3
 # The augmented Lagrangian has converged where what its last change does, squared, is below this share of what all forces do.

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.coordinate import measure
 from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.spatial import cross
 from nivel.kernels.status import OK
+from nivel.native.function import stage
 
 # columns of `columns`; WHAT: marker, coordinate, function or output; FRAME: marker that it is seen from, or NONE
 OUTPUT, KIND, WHAT, FRAME = 0, 1, 2, 3

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import stage
 from nivel.kernels.record import record_at
 from nivel.kernels.shared_mass import product, shared_momenta, transposed_product
+from nivel.native.function import stage
 
 
 @stage

@@ -11,9 +11,9 @@ bodies in their own axes only: it is a metric on the group of motions, invariant
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import cross, dot
+from nivel.native.function import stage
 
 
 @stage

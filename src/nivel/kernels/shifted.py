@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_family
 from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import NONE, record_at
@@ -22,6 +21,7 @@ from nivel.kernels.residual import known_multiplier
 from nivel.kernels.rotation import angular_velocity, rates_of_parameters
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import ACCELERATIONS, EPSILON, differentiate, load_twin
+from nivel.native.function import leaf
 
 
 @leaf
@@ -75,7 +75,7 @@ def solve_shifted(machine, t, r, s, ahead):
     n, states, rows = residual.vdot.shape[0], newton.state.shape[0], residual.lam.shape[0]
     positions = np.int64(r.shape[0]) - n - states - 2
     move_along(newton, residual, moving, r, s)
-    status = call_family(newton.address[1], twin, 0, complex(t, EPSILON * ahead))  # type: ignore[call-arg]
+    status = call_family(newton.address[1], twin, 0, complex(t, EPSILON * ahead))
     if status != OK:
         return status
     b = newton.b

@@ -13,12 +13,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.newton_matrix import factorise_entries, solve_entries
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.residual import known_multiplier
 from nivel.kernels.rotation import angular_velocity
 from nivel.kernels.tangent_parts import differentiate_parts
+from nivel.native.function import leaf
 
 
 @leaf

@@ -19,7 +19,6 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.marker import move_marker, place_marker
 from nivel.kernels.rail import (
     BEYOND,
@@ -44,6 +43,7 @@ from nivel.kernels.record import (
 from nivel.kernels.spatial import cross, dot, multiply
 from nivel.kernels.status import NOT_ON_RAIL, OK
 from nivel.kernels.tree import plus, set_column, times, turn_by_parameters
+from nivel.native.function import leaf, stage
 
 # columns of `Tree.frame`: σ, e1, e2, e3, k0 … k5; of the four nodes about σ the weights of their places in X, of their x axes in X, and of
 # their axes in x and y

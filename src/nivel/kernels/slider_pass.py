@@ -18,13 +18,13 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.balance import find_matrix
-from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_hook, family
 from nivel.kernels.lu import solve_lu
 from nivel.kernels.record import GO_ON, HOLD, NONE, RESIDUAL, record_at
 from nivel.kernels.slider import element_of
 from nivel.kernels.sparse_lu import solve_sparse_lu
 from nivel.kernels.status import OK
+from nivel.native.function import stage
 
 
 @stage

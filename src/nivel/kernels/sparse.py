@@ -7,7 +7,7 @@ is known, so there is no search and no allocation.
 from __future__ import annotations
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import stage
+from nivel.native.function import stage
 
 # A pivot this small against its diagonal is round-off: the row depends on the rows before it.
 DEPENDENT = 1e-13

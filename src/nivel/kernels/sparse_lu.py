@@ -21,8 +21,8 @@ from typing import NamedTuple
 import numpy as np
 
 from nivel.kernels.arrays import U1
-from nivel.kernels.compile import leaf
 from nivel.kernels.lu import magnitude
+from nivel.native.function import leaf
 
 # A pivot this small against the sum of what was taken from it is round-off: the row depends on those before it.
 DEPENDENT = 1e-13

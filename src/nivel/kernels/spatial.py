@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf
+from nivel.native.function import leaf
 
 
 @leaf

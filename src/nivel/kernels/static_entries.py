@@ -2,33 +2,29 @@
 
 from __future__ import annotations
 
-from numba import types
-
-from nivel.kernels.compile import entry
-from nivel.kernels.handle import address_type
 from nivel.kernels.hook import call_family
 from nivel.kernels.observe import accept
-from nivel.kernels.record import record_at, state_type
+from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import EPSILON, load_twin
 from nivel.kernels.tangent_parts import differentiate_parts
+from nivel.native.entry import entry
+from nivel.native.signature import Signature
 
-_number = types.float64
 
-
-@entry(types.int64(address_type, _number))
+@entry(Signature("status", ("machine", "number")))
 def find_parts(machine, t):
     """Fill newton.shifted.M, D and K for `residual.y`, `vdot` and `lam`. Returns a status."""
     return differentiate_parts(machine, t)
 
 
-@entry(types.int64(address_type, _number, state_type))
+@entry(Signature("status", ("machine", "number", "vector")))
 def find_time_slope(machine, t, out):
     """out := ∂/∂t of all entries of `residual.value`, of functions of time alone, by complex step. Returns a status."""
     record = record_at(machine)
     newton = record.newton
     twin, moving = load_twin(newton, record.residual)
-    status = call_family(newton.address[1], twin, 0, t + 1j * EPSILON)  # type: ignore[call-arg]
+    status = call_family(newton.address[1], twin, 0, t + 1j * EPSILON)
     if status != OK:
         return status
     for k in range(out.shape[0]):
@@ -36,7 +32,7 @@ def find_time_slope(machine, t, out):
     return OK
 
 
-@entry(types.void(address_type, _number))
+@entry(Signature("nothing", ("machine", "number")))
 def accept_state(machine, t):
     """Follow the angles of joints, and keep what forces remember, in the state last evaluated."""
     accept(machine, t)

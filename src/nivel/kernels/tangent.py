@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_family, call_hook
 from nivel.kernels.record import NONE, TANGENT, record_at
 from nivel.kernels.spatial import cross, dot
 from nivel.kernels.status import OK
+from nivel.native.function import leaf
 
 # far below round-off in every product with a real number, far above the smallest number in every product with a small direction
 EPSILON = 1e-30
@@ -122,7 +122,7 @@ def differentiate(machine, t, cq, cv, cx, level):
         first, last = np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])
         for m in range(first, last):
             move_unknown(newton, moving, np.int64(newton.group[m]), 1j * EPSILON, cq, cv, cx)
-        status = call_family(newton.address[1], twin, 0, complex(t))  # type: ignore[call-arg]
+        status = call_family(newton.address[1], twin, 0, complex(t))
         if status != OK:
             return status
         for m in range(first, last):

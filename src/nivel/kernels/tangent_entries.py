@@ -2,33 +2,29 @@
 
 from __future__ import annotations
 
-from numba import types
-
-from nivel.kernels.compile import entry
-from nivel.kernels.handle import address_type
 from nivel.kernels.hook import call_hook
-from nivel.kernels.record import RESIDUAL, record_at, state_type
+from nivel.kernels.record import RESIDUAL, record_at
 from nivel.kernels.shifted_parts import factorise_shifted, find_parts, keep_multipliers, solve_shifted_parts
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import POSITIONS, differentiate
+from nivel.native.entry import entry
+from nivel.native.signature import Signature
 
-_number = types.float64
 
-
-@entry(types.int64(address_type, _number))
+@entry(Signature("status", ("machine", "number")))
 def evaluate_residual(machine, t):
     """Fill `residual.value` for the state, accelerations and multipliers there. Returns a status."""
     return call_hook(machine, RESIDUAL, 0, t)
 
 
-@entry(types.int64(address_type, _number, _number, _number, _number))
+@entry(Signature("status", ("machine", "number", "number", "number", "number")))
 def find_tangent(machine, t, cq, cv, cx):
     """Fill `newton.value`, see `nivel.kernels.tangent.differentiate`. Returns a status."""
     status = call_hook(machine, RESIDUAL, 0, t)
     return status if status != OK else differentiate(machine, t, cq, cv, cx, POSITIONS)
 
 
-@entry(types.int64(address_type, _number, state_type, state_type, _number, types.complex128))
+@entry(Signature("status", ("machine", "number", "vector", "vector", "number", "complex")))
 def solve_shifted(machine, t, y, rate, s, z):
     """Overwrite `newton.shifted.real.r` and `pair.r` by the solutions of (1 - s ∂f/∂y) x = r and (1 - z ∂f/∂y) x = r, at the state y last
     evaluated, whose rate it is. Returns a status."""

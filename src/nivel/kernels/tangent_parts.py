@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_family, call_hook
 from nivel.kernels.record import NONE, TANGENT, record_at
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import EPSILON, add_compliance, load_twin, still
+from nivel.native.function import leaf
 
 ACCELERATION, VELOCITY, POSITION = 0, 1, 2
 
@@ -88,7 +88,7 @@ def differentiate_part(machine, t, part, out):
                 count += 1
         if count == 0:
             continue
-        status = call_family(newton.address[2], twin, 0, complex(t))  # type: ignore[call-arg]
+        status = call_family(newton.address[2], twin, 0, complex(t))
         if status != OK:
             return status
         for m in range(first, last):

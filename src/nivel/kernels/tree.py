@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.record import (
     CYLINDRICAL,
     FIXED,
@@ -28,6 +27,7 @@ from nivel.kernels.record import (
 )
 from nivel.kernels.spatial import cross, dot, multiply
 from nivel.kernels.trigonometry import cosine_and_sine
+from nivel.native.function import leaf, stage
 
 
 @leaf

@@ -3,7 +3,6 @@ and the rows of the joints that carry bodies."""
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.constraint import combine, constraint_rows
 from nivel.kernels.coordinate import ALONG
 from nivel.kernels.hook import call_hook
@@ -13,6 +12,7 @@ from nivel.kernels.rigid import turn_to_body_axes
 from nivel.kernels.spatial import cross, dot
 from nivel.kernels.tree import swing
 from nivel.kernels.tree_orientation import orient, quaternion_product
+from nivel.native.function import stage
 
 
 @stage

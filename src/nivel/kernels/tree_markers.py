@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.constraint import constraint_rows
 from nivel.kernels.hook import measure_active
 from nivel.kernels.marker import move_marker, place_point, turn_axes
 from nivel.kernels.record import record_at
+from nivel.native.function import stage
 
 
 @stage

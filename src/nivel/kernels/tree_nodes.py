@@ -10,11 +10,11 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.articulated import carry_motion, hand_wrench
-from nivel.kernels.compile import stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import ACCELERATE, FREE, HAND, MODES, MOVE, OUTWARD, SLIDERS, record_at
 from nivel.kernels.status import OK
 from nivel.kernels.tree import move_child
+from nivel.native.function import stage
 
 
 @stage

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.floating_frame import TURN
 from nivel.kernels.record import (
     FIXED,
@@ -19,6 +18,7 @@ from nivel.kernels.record import (
     UNIVERSAL,
     record_at,
 )
+from nivel.native.function import leaf, stage
 
 
 @leaf

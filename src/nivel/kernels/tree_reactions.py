@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.articulated import hand_wrench
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import cross
 from nivel.kernels.tree import swing
+from nivel.native.function import leaf, stage
 
 
 @stage

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import stage
+from nivel.native.function import stage
 
 # π/2 in three parts; the first two have 33 bits, so that their products with less than 2²⁰ quarter turns are exact.
 FIRST, SECOND, THIRD = 0x1921FB544 / 2**32, 0x10B4611A6 / 2**66, 2.02226624879595063154e-21

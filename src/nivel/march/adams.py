@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.status import OK
 from nivel.march.adams_weights import BASHFORTH, MOULTON, add_rates, predict_moulton, rates_before
 from nivel.march.multistep import begin, remember
-from nivel.march.run import EVALUATIONS, ITERATIONS, ORDER, REACHED, STEP, run_at, step_signature
+from nivel.march.run import EVALUATIONS, ITERATIONS, ORDER, REACHED, STEP, STEP_SIGNATURE, run_at
 from nivel.march.workspace import KNOWN, RATE
+from nivel.native.entry import entry
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def bashforth(evaluate, machine, history):
     """One step of Adams–Bashforth of counter[ORDER]."""
     run = run_at(history)
@@ -21,7 +22,7 @@ def bashforth(evaluate, machine, history):
     return OK
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def predict_correct(evaluate, machine, history):
     """One step of Adams–Bashforth–Moulton of counter[ORDER]: predict, evaluate, correct; the loop evaluates at the accepted state."""
     run = run_at(history)
@@ -31,7 +32,7 @@ def predict_correct(evaluate, machine, history):
         return begin(evaluate, machine, history, order)
     predict_moulton(history, order)
     known, rate, share = run.stages[KNOWN], run.stages[RATE], run.clock[STEP] * MOULTON[order, 0]
-    status = evaluate(machine, run.clock[REACHED], run.y, rate)
+    status = call_evaluate(evaluate, machine, run.clock[REACHED], run.y, rate)
     run.counter[EVALUATIONS] += 1
     run.counter[ITERATIONS] += 1
     if status != OK:

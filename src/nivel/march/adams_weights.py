@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.march.run import STEP, run_at
 from nivel.march.workspace import KNOWN, RATES
+from nivel.native.function import leaf
 
 # [order, j]
 BASHFORTH = np.zeros((6, 5))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 from nivel.march.alpha_error import SHARE, filtered_error, part_of, plain_error
@@ -26,10 +26,10 @@ from nivel.march.run import (
     REACHED,
     RESTART,
     STEP,
+    STEP_SIGNATURE,
     TIME,
     TOLERANCE,
     run_at,
-    step_signature,
 )
 from nivel.march.step_control import (
     EXACT,
@@ -44,6 +44,8 @@ from nivel.march.step_control import (
     too_small,
     turned_too_far,
 )
+from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 # A step grows only by so much at least; after an iteration that found nothing it is halved.
 WORTH, AFTER_FAILURE = 1.3, 0.5
@@ -65,7 +67,7 @@ def end_at_corner(evaluate, machine, history, t, fresh):
     status = OK
     inside = run.event_values.shape[1] > 0 or (run.counter[ALL_STEPS] == 0 and wanted(run))
     if t == clock[REACHED] and inside:
-        status = evaluate(machine, before(t), run.y, run.scratch)
+        status = call_evaluate(evaluate, machine, before(t), run.y, run.scratch)
         run.counter[EVALUATIONS] += 1
         clock[LENGTH] = t - clock[TIME]
         cubic(run, run.rate, run.scratch)
@@ -107,7 +109,7 @@ def fixed_step(evaluate, machine, history):
         if status != OK or t >= target:
             break
         # another part follows
-        status = evaluate(machine, t, run.y, run.rate)
+        status = call_evaluate(evaluate, machine, t, run.y, run.rate)
         run.counter[EVALUATIONS] += 1
         if status != OK:
             break
@@ -181,7 +183,7 @@ def controlled_step(evaluate, machine, history):
         reject(run, h, factor)
         if fresh:
             # `start` takes the multipliers of the accepted state from the record
-            evaluate(machine, t, run.y, run.scratch)
+            call_evaluate(evaluate, machine, t, run.y, run.scratch)
             run.counter[EVALUATIONS] += 1
         if leap:
             clock[STEP], leap = usual, False
@@ -199,7 +201,7 @@ def controlled_step(evaluate, machine, history):
     return status
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def alpha(evaluate, machine, history):
     """One step."""
     run = run_at(history)

@@ -15,13 +15,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.status import OK
 from nivel.march.alpha_step import ALPHA_F, ALPHA_M, BEFORE, BETA, DELTA_F, DELTA_M, GAMMA, LAST_STEP, THETA, VDOT, XDOT
 from nivel.march.error_filter import find_filter, keep_slow
 from nivel.march.run import END, FACTORISATIONS, START, TOLERANCE, run_at
 from nivel.march.step_control import EXACT, fastest_turn
+from nivel.native.function import leaf
 
 # What steps may be wrong by in all, as a share of the tolerance.
 SHARE = 0.3

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
-from nivel.kernels.hook import call_family
+from nivel.kernels.hook import call_evaluate, call_family
 from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import record_at
 from nivel.kernels.residual import known_multiplier
@@ -36,6 +35,7 @@ from nivel.march.alpha_step import (
 )
 from nivel.march.corners import before, jump_at
 from nivel.march.run import ALL_STEPS, EVALUATIONS, FACTORISATIONS, RESTART, STEP, run_at
+from nivel.native.function import leaf
 
 # a difference over this share of a step gives slopes to half the digits
 DIFFERENCE = 1e-4
@@ -73,7 +73,7 @@ def keep_fast(machine, t, cq, cv, cx, x):
         move_unknown(newton, moving, k, 1j * EPSILON * x[k], cq, cv, cx)
     for k in range(n):
         moving.vdot[k] = here.vdot[k]
-    status = call_family(newton.address[1], twin, 0, complex(t))  # type: ignore[call-arg]
+    status = call_family(newton.address[1], twin, 0, complex(t))
     if status != OK:
         return status
     for k in range(n + states):
@@ -158,7 +158,7 @@ def find_slope(evaluate, machine, history, t, rate, ahead):
     for i in range(run.y.shape[0]):
         run.trial[i] = run.y[i] + ahead * rate[i]
     run.counter[EVALUATIONS] += 1
-    return evaluate(machine, t + ahead, run.trial, run.stages[AHEAD])
+    return call_evaluate(evaluate, machine, t + ahead, run.trial, run.stages[AHEAD])
 
 
 @leaf
@@ -209,7 +209,7 @@ def go_on_beyond(evaluate, machine, history, t):
     for sign in (-1.0, 1.0):
         at = before(begin) if sign < 0.0 else t
         if status == OK:
-            status = evaluate(machine, at, run.y, run.scratch)
+            status = call_evaluate(evaluate, machine, at, run.y, run.scratch)
             run.counter[EVALUATIONS] += 1
         if status == OK:
             for k in range(residual.lam.shape[0]):

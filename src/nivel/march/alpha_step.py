@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import GO_ON, HOLD, LEAVE, PASS, RESIDUAL, record_at
 from nivel.kernels.status import NOT_CONVERGED, OK, SINGULAR
 from nivel.kernels.tree import has_passed
 from nivel.march.residual_newton import iterate
 from nivel.march.run import run_at
+from nivel.native.function import leaf
 
 # entries of run.numbers: the constants; the step before, 0 after a start (then BEFORE is what it would have been a step earlier)
 ALPHA_M, ALPHA_F, BETA, GAMMA, DELTA_M, DELTA_F, THETA = 0, 1, 2, 3, 4, 5, 6

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.function import NEAR
 from nivel.kernels.hook import call_hook
 from nivel.kernels.newton_matrix import factorise, solve
@@ -16,6 +15,7 @@ from nivel.kernels.record import RESIDUAL, record_at
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import POSITIONS, differentiate
 from nivel.march.run import run_at
+from nivel.native.function import leaf
 
 # [s] steps for which stiffness and damping are nothing beside the mass
 INSTANT = 1e-12

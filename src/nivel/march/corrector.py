@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.newton import newton
 from nivel.march.run import CORRECTOR_TOLERANCE, EVALUATIONS, ITERATIONS, MOST_ITERATIONS, NEWTON, run_at
 from nivel.march.workspace import KNOWN, RATE, larger
+from nivel.native.function import leaf
 
 # A change this many times the first one grows without bound.
 DIVERGED = 1e3
@@ -36,7 +37,7 @@ def functional(evaluate, machine, history, t, share):
     y, known, rate = run.y, run.stages[KNOWN], run.stages[RATE]
     first = 0.0
     for m in range(run.counter[MOST_ITERATIONS]):
-        status = evaluate(machine, t, y, rate)
+        status = call_evaluate(evaluate, machine, t, y, rate)
         run.counter[EVALUATIONS] += 1
         run.counter[ITERATIONS] += 1
         if status != OK:

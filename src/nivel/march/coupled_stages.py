@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.lu import factorise_lu, solve_lu
 from nivel.kernels.newton_matrix import factorise_entries, solve_entries
 from nivel.kernels.record import NONE, record_at
@@ -27,6 +26,7 @@ from nivel.kernels.rotation import angular_velocity
 from nivel.kernels.shifted_parts import find_parts, keep_multipliers
 from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.radau_constants import AA, A
+from nivel.native.function import leaf
 
 # row of the derivatives put aside
 BEGIN = 3

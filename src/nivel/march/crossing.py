@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
-from nivel.kernels.hook import call_hook
+from nivel.kernels.hook import call_correct, call_evaluate, call_hook
 from nivel.kernels.record import BOTH, DIRECTION, RISING, WATCH, record_at
 from nivel.kernels.status import EVENT_NOT_FINITE, OK
 from nivel.march.dense import inside
@@ -27,6 +26,7 @@ from nivel.march.run import (
     WHEN,
     run_at,
 )
+from nivel.native.function import leaf
 
 # A value is located to this share of its step, or to the round-off of the time where that is larger.
 SHARE, ROUND_OFF = 1e-12, 2.220446049250313e-16
@@ -67,12 +67,12 @@ def probe(evaluate, correct, machine, history, theta):
     run = run_at(history)
     t = run.clock[TIME] + theta * run.clock[LENGTH]
     inside(run, theta, run.trial)
-    status = correct(machine, t, run.trial)
+    status = call_correct(correct, machine, t, run.trial)
     if status != OK:
         return status
     run.counter[EVALUATIONS] += 1
     run.counter[KNOWN] = 0
-    return evaluate(machine, t, run.trial, run.scratch)
+    return call_evaluate(evaluate, machine, t, run.trial, run.scratch)
 
 
 @leaf

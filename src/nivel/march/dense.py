@@ -7,8 +7,8 @@ rates at both ends is taken, whose error falls with h⁴.
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf
 from nivel.march.run import DENSE, END, INTERVAL, LAST_FRAME, LENGTH, POWERS, REACHED, START
+from nivel.native.function import leaf
 
 
 @leaf

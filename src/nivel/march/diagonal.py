@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.status import OK
 from nivel.march.multistep import begin
 from nivel.march.newton import newton
 from nivel.march.run import NEWTON, STEP, TIME, run_at
 from nivel.march.workspace import KNOWN, WORK
+from nivel.native.function import leaf
 
 STAGES = 5
 GAMMA = 0.25

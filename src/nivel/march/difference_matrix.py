@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.lu import solve_lu
 from nivel.kernels.status import OK
 from nivel.march.newton import renew
 from nivel.march.run import REACHED, run_at
+from nivel.native.function import leaf
 
 
 @leaf

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf
 from nivel.kernels.status import OK
 from nivel.march.dense import wanted
 from nivel.march.dop853_coefficients import ALL_STAGES, E3, E5, STAGES, A, C, D
 from nivel.march.embedded import add_stages, evaluate_stages, fill_cubic, sum_stages, take_step
-from nivel.march.run import DENSE, POWERS, run_at, step_signature
+from nivel.march.run import DENSE, POWERS, STEP_SIGNATURE, run_at
 from nivel.march.step_control import size
+from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 ORDER = 8.0  # of the error of one step with its estimate
 SHARE = 0.3
@@ -50,7 +51,7 @@ def _fill_dense(evaluate, machine, history, h):
     return OK
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def dop853(evaluate, machine, history):
     """One accepted step."""
     run = run_at(history)

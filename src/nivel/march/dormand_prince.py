@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf
 from nivel.kernels.status import OK
 from nivel.march.dense import wanted
 from nivel.march.embedded import evaluate_stages, fill_cubic, sum_stages, take_step
-from nivel.march.run import DENSE, POWERS, run_at, step_signature
+from nivel.march.run import DENSE, POWERS, STEP_SIGNATURE, run_at
 from nivel.march.step_control import size
+from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 STAGES = 7
 ORDER = 5.0  # of the error of one step with its estimate
@@ -64,7 +65,7 @@ def _fill_dense(run, h):
     run.counter[DENSE], run.counter[POWERS] = 4, 0
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def dopri5(evaluate, machine, history):
     """One accepted step."""
     run = run_at(history)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf, shared
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.status import OK
 from nivel.march.run import EVALUATIONS, RESTART, STEP, TIME, run_at
 from nivel.march.step_control import (
@@ -16,6 +16,7 @@ from nivel.march.step_control import (
     too_small,
     turned_too_far,
 )
+from nivel.native.function import leaf, shared
 
 # entries of run.numbers: the error of the last accepted step; whether this step was rejected before
 LAST_ERROR, REPEATED = 0, 1
@@ -49,7 +50,7 @@ def evaluate_stages(evaluate, machine, history, h, A, c, first, last):
             run.trial[i] = run.previous[i]
         add_stages(run, h, A[s], s, run.trial)
         run.counter[EVALUATIONS] += 1
-        status = evaluate(machine, run.clock[TIME] + c[s] * h, run.trial, run.stages[s])
+        status = call_evaluate(evaluate, machine, run.clock[TIME] + c[s] * h, run.trial, run.stages[s])
         if status != OK:
             return status
     return OK

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.energy import energies
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.record import record_at
 from nivel.kernels.rigid import turn_to_body_axes
 from nivel.kernels.status import OK
 from nivel.march.run import EVALUATIONS, TIME, UNCONSERVED, run_at
+from nivel.native.function import leaf
 
 # The energy that is missing is a small share of the kinetic energy; near rest it is not, and no scale factor is meant by it.
 LARGEST_SHARE = 0.1
@@ -42,4 +43,4 @@ def conserve(evaluate, machine, history):
         for i in range(3):
             y[run.turns[k, 1] + i] *= factor
     run.counter[EVALUATIONS] += 1
-    return evaluate(machine, run.clock[TIME], y, run.rate)
+    return call_evaluate(evaluate, machine, run.clock[TIME], y, run.rate)

@@ -9,15 +9,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import RESIDUAL, record_at
 from nivel.kernels.status import OK
 from nivel.march.newton_state import set_state
 from nivel.march.residual_newton import TOLERANCE as NEWTON_TOLERANCE
 from nivel.march.residual_newton import find_change, iterate, take_change
-from nivel.march.run import EVALUATIONS, REACHED, STEP, run_at, step_signature
+from nivel.march.run import EVALUATIONS, REACHED, STEP, STEP_SIGNATURE, run_at
 from nivel.motion.energy_momentum_residual import begin_interval
+from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 # Changes after those that the tolerance asks for: what the iteration leaves in the velocities is energy. A smaller tolerance might be one
 # that the round-off of the positions never lets it meet.
@@ -46,7 +47,7 @@ def prepare(machine, history, h):
         residual.lam[k] = record.constraints.lam[residual.row[k]]
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def energy_momentum(evaluate, machine, history):
     """One step."""
     run, record = run_at(history), record_at(machine)

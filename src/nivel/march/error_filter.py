@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_family
 from nivel.kernels.newton_matrix import factorise_entries, solve_entries
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import EPSILON, POSITIONS, differentiate, load_twin
 from nivel.march.residual_newton import apply_turns
+from nivel.native.function import leaf
 
 
 @leaf
@@ -40,7 +40,7 @@ def keep_slow(machine, t, x):
     twin, moving = load_twin(newton, here)
     for k in range(n):
         moving.vdot[k] += 1j * EPSILON * x[k]
-    status = call_family(newton.address[1], twin, 0, complex(t))  # type: ignore[call-arg]
+    status = call_family(newton.address[1], twin, 0, complex(t))
     if status != OK:
         return status
     for k in range(n):

@@ -7,7 +7,7 @@ step to step, never found anew from the state, so an event is found once whateve
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.record import ENDS_RUN, NOTED, STOP, record_at
 from nivel.kernels.status import BUFFER_FULL, OK
 from nivel.march.crossing import NEVER, end_at, find_crossings, read_values, side_of
@@ -31,6 +31,7 @@ from nivel.march.run import (
     run_at,
 )
 from nivel.march.surfaces import find_contacts
+from nivel.native.function import leaf
 
 
 @leaf
@@ -65,7 +66,7 @@ def find_events(evaluate, correct, machine, history):
     run, watched = run_at(history), record_at(machine).watched
     values, clock, counter = run.event_values, run.clock, run.counter
     events, count = watched.event.shape[0], run.event_values.shape[1]
-    status = evaluate(machine, clock[REACHED], run.y, run.scratch)
+    status = call_evaluate(evaluate, machine, clock[REACHED], run.y, run.scratch)
     counter[EVALUATIONS] += 1
     counter[KNOWN] = 1
     if status == OK:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.shifted import prepare_shifted, solve_shifted
 from nivel.march.run import REACHED, run_at
 from nivel.march.variable_workspace import SHARE
+from nivel.native.function import leaf
 
 
 @leaf

@@ -12,10 +12,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import RESIDUAL, record_at
 from nivel.kernels.status import OK
+from nivel.native.function import leaf
 
 # Turns in one iteration after which not all frictions turn at once.
 MOST_TURNS = 3.0

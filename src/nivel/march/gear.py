@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf
 from nivel.march.adams_weights import predict, rates_before
 from nivel.march.corrector import solve
 from nivel.march.diagonal import begin_implicit
 from nivel.march.multistep import remember
-from nivel.march.run import NEWTON, ORDER, REACHED, STEP, run_at, step_signature
+from nivel.march.run import NEWTON, ORDER, REACHED, STEP, STEP_SIGNATURE, run_at
 from nivel.march.workspace import KNOWN, STATES
+from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 # [order, j]
 BACKWARD = np.zeros((5, 4))
@@ -44,7 +45,7 @@ def combine_states(history, weights, count, y):
             y[i] += weight * state[i]
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def gear(evaluate, machine, history):
     """One step of Gear's method of counter[ORDER]."""
     run = run_at(history)

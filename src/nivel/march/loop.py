@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf
 from nivel.kernels.function import NEAR
-from nivel.kernels.handle import address_type
-from nivel.kernels.hook import call_hook
+from nivel.kernels.hook import call_correct, call_evaluate, call_hook
 from nivel.kernels.observe import accept, observe
 from nivel.kernels.record import GO_ON, LEAVE, PASS, record_at
 from nivel.kernels.saddle import contradicts, exceeds
@@ -18,6 +16,7 @@ from nivel.march.energy import conserve
 from nivel.march.events import begin_events, find_events, hand_out_events
 from nivel.march.run import (
     ACCEPTED,
+    ADVANCE,
     ALL_STEPS,
     BUDGET,
     CONSERVE,
@@ -41,12 +40,12 @@ from nivel.march.run import (
     STOPPED,
     SWITCHED,
     TIME,
-    correct_type,
-    evaluate_type,
+    call_step,
     run_at,
-    step_type,
 )
 from nivel.march.samples import find_bound, take_samples
+from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 
 @leaf
@@ -105,7 +104,7 @@ def unfed_evaluation(evaluate, machine, t, y, history):
     if twice_alpha == 0.0 and beta_squared == 0.0:
         return OK
     feedback[0], feedback[1] = 0.0, 0.0
-    status = evaluate(machine, t, y, run.scratch)
+    status = call_evaluate(evaluate, machine, t, y, run.scratch)
     feedback[0], feedback[1] = twice_alpha, beta_squared
     run.counter[EVALUATIONS] += 1
     return status
@@ -136,16 +135,16 @@ def write_inside(evaluate, correct, machine, history):
         if counter[FRAMES] == run.frames.shape[0]:
             return BUFFER_FULL
         if counter[DENSE] == 0:
-            status = evaluate(machine, clock[REACHED], run.y, run.scratch)
+            status = call_evaluate(evaluate, machine, clock[REACHED], run.y, run.scratch)
             counter[EVALUATIONS] += 1
             if status != OK:
                 return status
             cubic(run, run.rate, run.scratch)
         counter[KNOWN] = 0
         inside(run, (t - clock[TIME]) / clock[LENGTH], run.trial)
-        status = correct(machine, t, run.trial)
+        status = call_correct(correct, machine, t, run.trial)
         if status == OK:
-            status = evaluate(machine, t, run.trial, run.scratch)
+            status = call_evaluate(evaluate, machine, t, run.trial, run.scratch)
             counter[EVALUATIONS] += 1
         if status == OK:
             status = unfed_evaluation(evaluate, machine, t, run.trial, history)
@@ -165,7 +164,7 @@ def evaluate_accepted(evaluate, machine, history):
             run.rate[i] = run.scratch[i]
         return OK
     run.counter[EVALUATIONS] += 1
-    return evaluate(machine, run.clock[TIME], run.y, run.rate)
+    return call_evaluate(evaluate, machine, run.clock[TIME], run.y, run.rate)
 
 
 @leaf
@@ -243,7 +242,7 @@ def correct_reached(correct, machine, history):
             run.trial[i] = run.y[i]
     status = pass_nodes(machine, run)
     if status == OK:
-        status = correct(machine, run.clock[REACHED], run.y)
+        status = call_correct(correct, machine, run.clock[REACHED], run.y)
     if dense:
         for i in range(run.y.shape[0]):
             run.dense[0, i] += run.y[i] - run.trial[i]
@@ -262,7 +261,7 @@ def take_step(evaluate, correct, step, machine, history):
         clock[STEP] = clock[REACHED] - clock[TIME] if n + 1 == counter[ALL_STEPS] else h
     find_bound(machine, run)
     counter[DENSE] = 0
-    status = step(evaluate, machine, history)
+    status = call_step(step, evaluate, machine, history)
     if fixed:
         clock[STEP] = h
     counter[EVALUATED] = 0
@@ -276,7 +275,7 @@ def take_step(evaluate, correct, step, machine, history):
     return status
 
 
-@entry((evaluate_type, correct_type, step_type, address_type, address_type))
+@entry(ADVANCE)
 def advance(evaluate, correct, step, machine, history):
     """March until something has to be done outside; returns a status of `nivel.kernels.status`.
 

@@ -9,14 +9,15 @@ costs no order, and saves keeping the factors while the second stage is evaluate
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.status import OK
 from nivel.march.rosenbrock import FIRST, GAMMA, SECOND
-from nivel.march.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, run_at, step_signature
+from nivel.march.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, run_at
 from nivel.motion.modal_shift import factorise_shifted_modes, solve_shifted_modes
+from nivel.native.entry import entry
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def ros2(evaluate, machine, history):
     """One step."""
     run = run_at(history)
@@ -32,7 +33,7 @@ def ros2(evaluate, machine, history):
         return status
     for i in range(y.shape[0]):
         run.trial[i] = y[i] + h * first[i]
-    status = evaluate(machine, run.clock[REACHED], run.trial, second)
+    status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, second)
     run.counter[EVALUATIONS] += 1
     if status == OK:
         status = factorise_shifted_modes(machine, share)

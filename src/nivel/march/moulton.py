@@ -3,15 +3,15 @@ trapezoidal rule."""
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry
 from nivel.march.adams_weights import MOULTON, predict_moulton, rates_before
 from nivel.march.corrector import solve
 from nivel.march.diagonal import begin_implicit
 from nivel.march.multistep import remember
-from nivel.march.run import ORDER, REACHED, STEP, run_at, step_signature
+from nivel.march.run import ORDER, REACHED, STEP, STEP_SIGNATURE, run_at
+from nivel.native.entry import entry
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def moulton(evaluate, machine, history):
     """One step of Adams–Moulton of counter[ORDER]."""
     run = run_at(history)

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.status import OK
 from nivel.march.run import EVALUATIONS, RESTART, STEP, TIME, run_at
 from nivel.march.runge_kutta import explicit
 from nivel.march.workspace import PAST, RATES, SPACING, STATES, WORK
+from nivel.native.function import leaf
 
 # Steps that differ by less are equal: their times carry round-off of up to 1e-16 of the time since the start.
 SAME = 1e-6
@@ -57,7 +58,7 @@ def begin(evaluate, machine, history, order):
     status = explicit(evaluate, machine, history, 4, t, 0.5 * h, WORK)
     if status != OK:
         return status
-    status = evaluate(machine, t + 0.5 * h, run.y, run.stages[WORK])
+    status = call_evaluate(evaluate, machine, t + 0.5 * h, run.y, run.stages[WORK])
     run.counter[EVALUATIONS] += 1
     if status != OK:
         return status

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.native.function import leaf
 
 ADAMS, BDF = 0, 1
 

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.lu import factorise_lu, solve_lu
 from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.run import CORRECTOR_TOLERANCE, EVALUATIONS, ITERATIONS, MOST_ITERATIONS, run_at
 from nivel.march.workspace import KNOWN, PREDICTED, RATE, SHARE, larger
+from nivel.native.function import leaf
 
 SLOW = 0.25
 # Differences of this share of a scale: half the digits are left for the change of the rate.
@@ -33,7 +34,7 @@ def renew(evaluate, machine, history, t, share, y, rate):
         value = y[j]
         y[j] += DIFFERENCE * max(run.scale[j], np.abs(value))
         width = y[j] - value
-        status = evaluate(machine, t, y, run.scratch)
+        status = call_evaluate(evaluate, machine, t, y, run.scratch)
         run.counter[EVALUATIONS] += 1
         y[j] = value
         if status != OK:
@@ -55,7 +56,7 @@ def newton(evaluate, machine, history, t, share):
         predicted[i] = y[i]
     stale, own, last = run.numbers[SHARE] != share, False, np.inf
     for _ in range(run.counter[MOST_ITERATIONS]):
-        status = evaluate(machine, t, y, rate)
+        status = call_evaluate(evaluate, machine, t, y, rate)
         run.counter[EVALUATIONS] += 1
         run.counter[ITERATIONS] += 1
         if status == OK and stale:

@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import DEPENDENT, NONE, record_at
 from nivel.kernels.spatial import dot
 from nivel.kernels.status import OK
+from nivel.native.function import leaf
 
 
 @leaf

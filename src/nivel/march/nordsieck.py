@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf
 from nivel.march.run import DENSE, ORDER, POWERS
 from nivel.march.variable_workspace import CORRECTION, PREDICTED, Z
+from nivel.native.function import leaf
 
 
 @leaf

@@ -14,10 +14,12 @@ X a second integral of it, (q, X) is one system ÿ = f(t, y, ẏ), and the order
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.rotation import angular_velocity, rates_of_parameters
 from nivel.kernels.status import OK
-from nivel.march.run import EVALUATIONS, STEP, TIME, run_at, step_signature
+from nivel.march.run import EVALUATIONS, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 # Rows of run.stages: four for the stages, each with q̈ where q stands and the rates of all else; then q̇ at the start of the step.
 VELOCITY = 4
@@ -55,7 +57,7 @@ def second_derivatives(history, y, slope):
             slope[i] -= 0.25 * square * y[i]
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def rkn4(evaluate, machine, history):
     """Nyström's method of order 4."""
     run = run_at(history)
@@ -70,7 +72,7 @@ def rkn4(evaluate, machine, history):
         share = 1.0 if stage == 3 else 0.5
         curvature = before if stage == 3 else first
         place(history, trial, share * h, curvature, before)
-        status = evaluate(machine, t + share * h, trial, run.stages[stage])
+        status = call_evaluate(evaluate, machine, t + share * h, trial, run.stages[stage])
         run.counter[EVALUATIONS] += 1
         if status != OK:
             return status

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.record import record_at
 from nivel.kernels.shifted_parts import keep_multipliers, solve_shifted_parts
 from nivel.kernels.status import NOT_CONVERGED, OK
@@ -48,10 +48,10 @@ from nivel.march.run import (
     REACHED,
     RESTART,
     STEP,
+    STEP_SIGNATURE,
     TIME,
     TOLERANCE,
     run_at,
-    step_signature,
 )
 from nivel.march.step_control import (
     AFTER_FAILURE,
@@ -66,6 +66,8 @@ from nivel.march.step_control import (
     too_small,
     turned_too_far,
 )
+from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 # of the error of one step with its estimate
 ORDER = 4.0
@@ -123,7 +125,7 @@ def estimate(evaluate, machine, history, h, tolerance):
         for i in range(run.y.shape[0]):
             run.trial[i] = run.y[i] + run.stages[ERROR, i]
         run.counter[EVALUATIONS] += 1
-        if evaluate(machine, run.clock[TIME], run.trial, run.scratch) == OK:
+        if call_evaluate(evaluate, machine, run.clock[TIME], run.trial, run.scratch) == OK:
             smooth(machine, history, h, run.scratch)
             settled = size(run, run.stages[ERROR]) / tolerance
             error = settling if settled < settling else settled
@@ -184,7 +186,7 @@ def attempt(evaluate, machine, history, h, end, tolerance):
     return OK, estimate(evaluate, machine, history, h, tolerance), shorter
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def radau(evaluate, machine, history):
     """One accepted step."""
     run = run_at(history)

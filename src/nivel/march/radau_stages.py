@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.record import record_at
 from nivel.kernels.shifted_parts import factorise_shifted, find_parts, solve_shifted_parts
 from nivel.kernels.status import NOT_CONVERGED, OK
@@ -17,6 +17,7 @@ from nivel.march.coupled_stages import bring_back, factorise_stages, find_stage_
 from nivel.march.radau_constants import GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, A, C
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, TIME, run_at
 from nivel.march.workspace import larger
+from nivel.native.function import leaf
 
 # Rows of run.stages: Z_i; ω₁, Re ω₂, Im ω₂; rates at the stages; d_1 … d_4 of the last accepted step; estimated error; d_1 … d_3 of this
 # step are made in the rows of the rates.
@@ -97,7 +98,7 @@ def evaluate_stages(evaluate, machine, history, h, end, renewed):
         for i in range(run.y.shape[0]):
             run.trial[i] = run.y[i] + run.stages[Z + m, i]
         t = run.clock[TIME] + C[m] * h if m < 2 else end
-        status = evaluate(machine, t, run.trial, run.stages[RATES + m])
+        status = call_evaluate(evaluate, machine, t, run.trial, run.stages[RATES + m])
         run.counter[EVALUATIONS] += 1
         if status == OK and renewed:
             status = find_stage_parts(machine, m, t, run.trial, run.stages[RATES + m])

@@ -33,7 +33,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.hook import call_hook
 from nivel.kernels.newton_matrix import factorise, solve
 from nivel.kernels.record import RESIDUAL, record_at
@@ -43,6 +42,7 @@ from nivel.march.friction_turns import begin_turns, follow_turns, keep_made, nex
 from nivel.march.newton_state import find_state
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, run_at
 from nivel.march.step_control import ROUND_OFF
+from nivel.native.function import leaf
 
 GROWTH = 2.0
 # Iterations that a new matrix costs, for each evaluation on complex numbers, and at most.

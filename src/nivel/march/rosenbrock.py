@@ -13,10 +13,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.shifted import prepare_shifted, solve_shifted
 from nivel.kernels.status import OK
-from nivel.march.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, TIME, run_at, step_signature
+from nivel.march.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.native.entry import entry
 
 GAMMA = 1.0 - np.sqrt(0.5)
 # rows of run.stages: k₁ and k₂
@@ -24,7 +25,7 @@ FIRST, SECOND = 0, 1
 ROWS = 2
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def ros2(evaluate, machine, history):
     """One step."""
     run = run_at(history)
@@ -40,7 +41,7 @@ def ros2(evaluate, machine, history):
         return status
     for i in range(y.shape[0]):
         run.trial[i] = y[i] + h * first[i]
-    status = evaluate(machine, run.clock[REACHED], run.trial, second)
+    status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, second)
     run.counter[EVALUATIONS] += 1
     if status != OK:
         return status

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import types
-
-from nivel.kernels.arrays import F1, F2, I1, U1, U2, numba_type
-from nivel.kernels.handle import address_type, reader
-from nivel.kernels.record import correct_signature, evaluate_signature
+from nivel.kernels.arrays import F1, F2, I1, U1, U2
+from nivel.kernels.handle import reader
+from nivel.native.function import caller
+from nivel.native.signature import Signature
 
 # entries of Run.clock
 TIME, STEP, START, END, REACHED, INTERVAL, TOLERANCE, LARGEST, CORRECTOR_TOLERANCE = 0, 1, 2, 3, 4, 5, 6, 7, 8
@@ -68,8 +67,8 @@ class Run(NamedTuple):
     events: F2  # (capacity, 3) time [s], number of the event, direction 1 or -1
 
 
-run_at = reader(numba_type(Run))
-evaluate_type = types.FunctionType(evaluate_signature)
-correct_type = types.FunctionType(correct_signature)
-step_signature = types.int64(evaluate_type, address_type, address_type)
-step_type = types.FunctionType(step_signature)
+run_at = reader(Run)
+# (evaluate, machine, history) and (evaluate, correct, step, machine, history)
+STEP_SIGNATURE = Signature("status", ("entry", "machine", "machine"))
+ADVANCE = Signature("status", ("entry", "entry", "entry", "machine", "machine"))
+call_step = caller(STEP_SIGNATURE)

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.status import OK
-from nivel.march.run import EVALUATIONS, ORDER, STEP, TIME, run_at, step_signature
+from nivel.march.run import EVALUATIONS, ORDER, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 HIGHEST = 4
 # [order]: node of each stage, its share of the slope of the stage before it, and weights
@@ -38,7 +40,7 @@ def explicit(evaluate, machine, history, order, t, h, row):
         node, before = NODES[order, stage], run.stages[row + stage - 1]
         for i in range(n):
             trial[i] = y[i] + node * h * before[i]
-        status = evaluate(machine, t + node * h, trial, run.stages[row + stage])
+        status = call_evaluate(evaluate, machine, t + node * h, trial, run.stages[row + stage])
         run.counter[EVALUATIONS] += 1
         if status != OK:
             return status
@@ -49,7 +51,7 @@ def explicit(evaluate, machine, history, order, t, h, row):
     return OK
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def step(evaluate, machine, history):
     """One step of the method of counter[ORDER]."""
     run = run_at(history)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.function import NEAR
-from nivel.kernels.hook import call_hook
+from nivel.kernels.hook import call_evaluate, call_hook
 from nivel.kernels.record import NONE, SAMPLE, record_at
 from nivel.kernels.status import OK
 from nivel.march.crossing import read_values
 from nivel.march.run import BEFORE, BOUND, DONE_STEPS, END, EVALUATIONS, RESTART, TIME, run_at
+from nivel.native.function import leaf
 
 
 @leaf
@@ -63,7 +63,7 @@ def take_samples(evaluate, machine, history):
     if status != OK or not changed:
         return status
     run.counter[EVALUATIONS] += 1
-    status = evaluate(machine, run.clock[TIME], run.y, run.rate)
+    status = call_evaluate(evaluate, machine, run.clock[TIME], run.y, run.rate)
     if run.counter[DONE_STEPS] > 0:
         run.counter[RESTART] = 1
         if status == OK and run.event_values.shape[1] > 0:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.record import record_at
 from nivel.kernels.status import NOT_FINITE, OK, STEP_TOO_SMALL
 from nivel.march.run import (
@@ -31,6 +31,7 @@ from nivel.march.run import (
     TOLERANCE,
     run_at,
 )
+from nivel.native.function import leaf
 
 ROUND_OFF = 2.220446049250313e-16
 # A step below this many units in the last place of the time gets nowhere.
@@ -111,7 +112,7 @@ def first_step(evaluate, machine, history, order, tolerance):
     for i in range(run.y.shape[0]):
         run.trial[i] = run.y[i] + ahead * run.rate[i]
     run.counter[EVALUATIONS] += 1
-    if evaluate(machine, run.clock[TIME] + ahead, run.trial, run.scratch) != OK:
+    if call_evaluate(evaluate, machine, run.clock[TIME] + ahead, run.trial, run.scratch) != OK:
         return min(h, ahead)
     for i in range(run.y.shape[0]):
         run.scratch[i] -= run.rate[i]

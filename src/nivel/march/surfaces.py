@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 from nivel.march.crossing import NEVER, SHARE, end_at, find_crossings, locate, side_of, value_at
 from nivel.march.run import AFTER, BEFORE, LENGTH, RATE_AFTER, RATE_BEFORE, RESTART, SIDE, SWITCHED, WHEN, run_at
+from nivel.native.function import leaf
 
 # At most so many states are looked at within a step that may touch a surface and leave it; none nearer to others than this share.
 LOOKS, MARGIN = 30, 0.01

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry
 from nivel.march.exact_matrix import find_matrix, solve_matrix
 from nivel.march.multistep_polynomials import BDF
-from nivel.march.run import step_signature
+from nivel.march.run import STEP_SIGNATURE
 from nivel.march.variable_corrector import corrector
 from nivel.march.variable_gear import MOST_ORDER, of_step
 from nivel.march.variable_order import multistep
+from nivel.native.entry import entry
 
 variable_step = multistep(BDF, MOST_ORDER, *corrector(find_matrix, solve_matrix))
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def bdf(evaluate, machine, history):
     """One accepted step."""
     return variable_step(evaluate, machine, history, of_step(history))

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.kernels.hook import call_evaluate
 from nivel.kernels.status import NOT_CONVERGED, OK
 from nivel.march.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, MOST_ITERATIONS, NEWTON, REACHED, run_at
 from nivel.march.step_control import size
 from nivel.march.variable_workspace import CHANGE, CONTRACTION, CORRECTION, PREDICTED, RATE, SHARE, C
+from nivel.native.function import leaf
 
 # More iterations than this are dearer than a shorter step.
 MOST = 4
@@ -39,7 +40,7 @@ def corrector(find_matrix, solve_matrix):
             run.trial[i] = predicted[i]
         before = 0.0
         for m in range(min(MOST, run.counter[MOST_ITERATIONS])):
-            status = evaluate(machine, run.clock[REACHED], run.trial, rate)
+            status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, rate)
             run.counter[EVALUATIONS] += 1
             run.counter[ITERATIONS] += 1
             if status != OK:
@@ -75,7 +76,7 @@ def corrector(find_matrix, solve_matrix):
         for i in range(run.y.shape[0]):
             run.trial[i] = run.stages[PREDICTED, i]
         run.numbers[SHARE] = 0.0
-        status = evaluate(machine, run.clock[REACHED], run.trial, run.stages[RATE])
+        status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, run.stages[RATE])
         run.counter[EVALUATIONS] += 1
         if status == OK:
             status = find_matrix(evaluate, machine, history, share, run.stages[RATE])

@@ -6,13 +6,14 @@ for all the steps so far, a share of TOTAL. After many periods the errors have t
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, leaf
 from nivel.march.difference_matrix import find_matrix, solve_matrix
 from nivel.march.multistep_polynomials import BDF
-from nivel.march.run import DONE_STEPS, run_at, step_signature
+from nivel.march.run import DONE_STEPS, STEP_SIGNATURE, run_at
 from nivel.march.step_control import allowed
 from nivel.march.variable_corrector import corrector
 from nivel.march.variable_order import multistep
+from nivel.native.entry import entry
+from nivel.native.function import leaf
 
 MOST_ORDER = 5
 SHARE, TOTAL = 0.001, 0.3
@@ -27,7 +28,7 @@ def of_step(history):
     return allowed(run, min(SHARE, TOTAL / (1.0 + run.counter[DONE_STEPS])))
 
 
-@entry(step_signature)
+@entry(STEP_SIGNATURE)
 def gear(evaluate, machine, history):
     """One accepted step."""
     return variable_step(evaluate, machine, history, of_step(history))

@@ -20,7 +20,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
 from nivel.kernels.status import OK
 from nivel.march.dense import wanted
 from nivel.march.multistep_polynomials import ADAMS, correction, monic
@@ -56,6 +55,7 @@ from nivel.march.variable_workspace import (
     C,
     Z,
 )
+from nivel.native.function import leaf
 
 # Errors are expected to be that much larger than estimated: with the order less one, the same, one more.
 LOWER, SAME, HIGHER = 6.0, 4.0, 8.0

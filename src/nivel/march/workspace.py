@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf
+from nivel.native.function import leaf
 
 # Rows of run.stages, all (ny,): the known part of an implicit equation, the rate of its iterate, its prediction; five stages of a
 # one-step method; rates and states accepted, newest first.

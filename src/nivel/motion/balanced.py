@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.balance import balance, write_balanced_rates
-from nivel.kernels.compile import entry, stage
-from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import CORRECT, EVALUATE, record_at
 from nivel.kernels.status import OK
+from nivel.native.entry import entry
+from nivel.native.function import stage
 
 
 @stage
@@ -22,7 +23,7 @@ def normalise(machine, y):
                 y[p + i] /= np.sqrt(square)
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ of y = (q, v, x). Leaves everything else in the record."""
     status = balance(machine, t, y)
@@ -34,7 +35,7 @@ def evaluate(machine, t, y, ydot):
     return status
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def keep(machine, t, y):
     """No correction; Euler parameters are brought back to length one, which moves nothing."""
     normalise(machine, y)

@@ -7,14 +7,15 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.balance import find_matrix
-from nivel.kernels.compile import entry, stage
 from nivel.kernels.hook import call_hook
 from nivel.kernels.newton_matrix import solve_entries
-from nivel.kernels.record import NONE, RESIDUAL, correct_signature, record_at
+from nivel.kernels.record import CORRECT, NONE, RESIDUAL, record_at
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.status import OK
 from nivel.motion.balanced import normalise
 from nivel.motion.direct import LOST, MOST_CORRECTIONS, NOTHING, POSITIONS, VELOCITIES, name_lost, open_level
+from nivel.native.entry import entry
+from nivel.native.function import stage
 
 
 @stage
@@ -44,7 +45,7 @@ def move_positions(newton, y, change, theta):
                 y[p + i] += theta[i]
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def correct(machine, t, y):
     """Direct correction of the state onto the constraints: positions (eq. 127), then velocities (eq. 137)."""
     record = record_at(machine)

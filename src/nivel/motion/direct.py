@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import shared, stage
 from nivel.kernels.record import record_at
 from nivel.kernels.saddle import CONTRADICTORY, correction, exceeds
 from nivel.kernels.status import NOT_CLOSED, OK
+from nivel.native.function import shared, stage
 
 # Passes for the positions; and as many where they are visibly open after these, in a step too long or a position that there is not.
 MAX_CORRECTIONS, MOST_CORRECTIONS = 3, 20

@@ -18,7 +18,6 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.flexible_interval import begin_flexible_interval, push_modes
 from nivel.kernels.floating_frame import modes_of
 from nivel.kernels.hook import apply_forces, family
@@ -31,6 +30,7 @@ from nivel.kernels.shared_mass import transposed_product
 from nivel.kernels.spatial import cross, dot, multiply
 from nivel.kernels.status import OK
 from nivel.motion.newton_euler import read_markers, read_state
+from nivel.native.function import leaf, stage
 
 # entries of Interval.numbers
 STEP, STORED, LEAST, FREE = 0, 1, 2, 3

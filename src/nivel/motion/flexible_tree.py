@@ -5,18 +5,19 @@ As `nivel.motion.relative`, whose recursion also passes through the modes: see `
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, stage
 from nivel.kernels.flexible_articulated import factorise_flexible_tree
 from nivel.kernels.flexible_tree import clear_frames, move_flexible_tree
 from nivel.kernels.flexible_whitening import accelerate_flexible, whiten_flexible_efforts, whiten_flexible_tree_rows
 from nivel.kernels.floating_dynamics import load_modes
 from nivel.kernels.hook import apply_forces
-from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import CORRECT, EVALUATE, record_at
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.saddle import factorise_rows
 from nivel.kernels.status import OK
 from nivel.kernels.tree_markers import read_markers
 from nivel.motion.tree_motion import WIDTH, evaluate_tree, normalise
+from nivel.native.entry import entry
+from nivel.native.function import stage
 
 
 @stage
@@ -47,7 +48,7 @@ def factorise_flexible(machine):
     return factorise_rows(machine, WIDTH)
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ. Leaves everything else in the record but what `nivel.kernels.carried_flexible` adds for frames."""
     return evaluate_tree(
@@ -63,7 +64,7 @@ def evaluate(machine, t, y, ydot):
     )
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def keep(machine, t, y):
     """No correction; |θ| is brought back to one, which moves nothing."""
     normalise(machine, y)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry
 from nivel.kernels.flexible_whitening import accelerate_flexible
-from nivel.kernels.record import correct_signature
+from nivel.kernels.record import CORRECT
 from nivel.motion.flexible_tree import factorise_flexible, read_flexible_tree
 from nivel.motion.tree_correction import correct_tree
+from nivel.native.entry import entry
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def correct(machine, t, y):
     """Direct correction of the state onto the constraints."""
     return correct_tree(machine, t, y, read_flexible_tree, factorise_flexible, accelerate_flexible)

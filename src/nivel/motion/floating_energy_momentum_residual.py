@@ -15,7 +15,6 @@ between rigid bodies, where the momenta belonging to that motion are those of th
 from __future__ import annotations
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import stage
 from nivel.kernels.flexible_interval import (
     balance_modes,
     central_momentum,
@@ -44,6 +43,7 @@ from nivel.motion.energy_momentum_residual import (
     push,
 )
 from nivel.motion.floating_frame import read_flexible_state
+from nivel.native.function import stage
 
 
 @stage

@@ -5,11 +5,10 @@ State y = (R, θ of every body; p; Ṙ, ω̄ of every body; ṗ; states of force
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, shared, stage
 from nivel.kernels.floating_dynamics import gather, unwhiten_flexible, whiten_flexible_forces, whiten_flexible_rows
 from nivel.kernels.floating_frame import accelerate_frames, add_bias, bend
 from nivel.kernels.hook import apply_forces, finish_forces
-from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import CORRECT, EVALUATE, record_at
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.kernels.status import OK
@@ -23,6 +22,8 @@ from nivel.motion.newton_euler import (
     whiten_rows,
     write_rate,
 )
+from nivel.native.entry import entry
+from nivel.native.function import shared, stage
 
 
 @stage
@@ -96,7 +97,7 @@ def write_rates(machine, ydot):
         ydot[7 * nb + j], ydot[first + 6 * nb + j] = own.pdot[j], own.pddot[j]
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ. Leaves everything else in the record."""
     status = read_flexible_state(machine, t, y)
@@ -107,7 +108,7 @@ def evaluate(machine, t, y, ydot):
     return status
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def keep(machine, t, y):
     """No correction; |θ| is brought back to one, which moves nothing because A is taken of θ/|θ|."""
     normalise(machine, y)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, stage
-from nivel.kernels.record import correct_signature, record_at
+from nivel.kernels.record import CORRECT, record_at
 from nivel.motion.direct import POSITIONS, correct_levels
 from nivel.motion.floating_frame import factorise, read_flexible_state, unwhiten_all
 from nivel.motion.newton_euler import WIDTH, change_body, normalise
+from nivel.native.entry import entry
+from nivel.native.function import stage
 
 
 @stage
@@ -30,7 +31,7 @@ def change(machine, y, what):
         y[at + j] += record.flexible.pddot[j]
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def correct(machine, t, y):
     """Direct correction of the state onto the constraints, see `nivel.motion.direct.correct_levels`."""
     return correct_levels(machine, t, y, WIDTH, read_normalised, factorise, change)

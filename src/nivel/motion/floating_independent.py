@@ -6,16 +6,17 @@ velocities. The state is that of `nivel.motion.floating_frame`, which finds the 
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, stage
 from nivel.kernels.floating_dynamics import factorise_frames, gather
 from nivel.kernels.floating_frame import accelerate_frames
 from nivel.kernels.hook import apply_forces, finish_forces
-from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import CORRECT, EVALUATE, record_at
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.status import OK
 from nivel.motion.floating_frame import evaluate as evaluate_newton_euler
 from nivel.motion.floating_frame import read_flexible_state, write_rates
 from nivel.motion.independent import embedded_accelerations, keep_independent, take_accelerations
+from nivel.native.entry import entry
+from nivel.native.function import stage
 
 
 @stage
@@ -36,7 +37,7 @@ def take_all_accelerations(machine):
     accelerate_frames(machine)
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ of y = (q, v, x). Leaves everything else in the record."""
     record = record_at(machine)
@@ -59,7 +60,7 @@ def evaluate(machine, t, y, ydot):
     return status
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def keep(machine, t, y):
     """What depends on the independent coordinates, see `nivel.motion.independent.keep_independent`."""
     return keep_independent(machine, t, y, read_factorised)

@@ -13,16 +13,17 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import entry, leaf, shared, stage
 from nivel.kernels.embedding import embed, generalised_forces
 from nivel.kernels.hook import apply_forces, finish_forces
 from nivel.kernels.partition import divide, solve_dependent, solve_multipliers
-from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import CORRECT, EVALUATE, record_at
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.rotation import rates_of_parameters
 from nivel.kernels.status import OK, SINGULAR
 from nivel.motion.newton_euler import evaluate as evaluate_newton_euler
 from nivel.motion.newton_euler import normalise, read_state, write_rate
+from nivel.native.entry import entry
+from nivel.native.function import leaf, shared, stage
 
 # Positions: passes at most, and shares of the scales of the rows: closed; near enough that the factor serves for the next pass; lost.
 MOST_PASSES = 10
@@ -53,7 +54,7 @@ def embedded_accelerations(machine):
     return OK
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ of y = (q, v, x): x are the states of forces, the work of external forces and the dissipated energy [J].
 
@@ -161,7 +162,7 @@ def keep_independent(machine, t, y, read):
     return status
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def keep(machine, t, y):
     """What depends on the independent coordinates, see `keep_independent`."""
     return keep_independent(machine, t, y, read_state)

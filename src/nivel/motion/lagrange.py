@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import entry, leaf, stage
 from nivel.kernels.hook import apply_forces, finish_forces
-from nivel.kernels.record import NONE, correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import CORRECT, EVALUATE, NONE, record_at
 from nivel.kernels.rigid import load_weight, place_body
 from nivel.kernels.rotation import angular_velocity, transformation
 from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.kernels.spatial import dot, multiply
 from nivel.kernels.status import OK
 from nivel.motion.newton_euler import read_markers
+from nivel.native.entry import entry
+from nivel.native.function import leaf, stage
 
 WIDTH = 7
 
@@ -254,7 +255,7 @@ def write_rates(machine, y, ydot):
         write_rate(machine, y, ydot, b)
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ of y = (q, q̇, x): x are the states of forces, the work of external forces and the dissipated energy [J].
 
@@ -280,7 +281,7 @@ def evaluate(machine, t, y, ydot):
     return status
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def keep(machine, t, y):
     """No correction: the normalisation rows drift like all others."""
     return OK

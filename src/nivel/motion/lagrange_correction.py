@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, stage
-from nivel.kernels.record import correct_signature, record_at
+from nivel.kernels.record import CORRECT, record_at
 from nivel.motion.direct import POSITIONS, correct_levels
 from nivel.motion.lagrange import WIDTH, factorise, read_state, unwhiten
+from nivel.native.entry import entry
+from nivel.native.function import stage
 
 
 @stage
@@ -20,7 +21,7 @@ def change(machine, y, what):
             y[first + 7 * b + i] += record.saddle.z[b, i]
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def correct(machine, t, y):
     """Direct correction of the state onto the constraints, see `nivel.motion.direct.correct_levels`."""
     return correct_levels(machine, t, y, WIDTH, read_state, factorise, change)

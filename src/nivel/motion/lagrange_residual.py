@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import leaf, stage
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.residual import find_wrenches, write_rows
@@ -17,6 +16,7 @@ from nivel.kernels.rotation import angular_velocity, rates_of_parameters
 from nivel.kernels.spatial import multiply
 from nivel.kernels.status import OK
 from nivel.motion.lagrange import WIDTH, augmentation, radial_rate, read_state
+from nivel.native.function import leaf, stage
 
 
 @leaf

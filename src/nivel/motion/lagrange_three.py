@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from nivel.kernels import euler_angles, rotation_vector
 from nivel.kernels.analytic import real
-from nivel.kernels.compile import entry, leaf, stage
-from nivel.kernels.record import EULER_ANGLES, correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import CORRECT, EULER_ANGLES, EVALUATE, record_at
 from nivel.kernels.rigid import set_axes
 from nivel.kernels.rotation import product
 from nivel.kernels.spatial import multiply, solve
 from nivel.kernels.status import OK, ROTATION_SINGULAR
 from nivel.motion.newton_euler import accelerate, read_markers, unwhiten
+from nivel.native.entry import entry
+from nivel.native.function import leaf, stage
 
 # Nearer to a singular position φ turns so much faster than the body that steps no longer follow it: where the body turns by 0.01 rad
 # a step, passing at this distance (2.9° from parallel axes, 17° from a full turn) leaves an error of about 1e-5 rad with RK4.
@@ -117,7 +118,7 @@ def write_rates(machine, y, ydot):
         write_rate(machine, y, ydot, b)
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ of y = (q, q̇, x): x are the states of forces, the work of external forces and the dissipated energy [J].
 
@@ -131,7 +132,7 @@ def evaluate(machine, t, y, ydot):
     return status
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def keep(machine, t, y):
     """No correction: three coordinates have nothing to keep."""
     return OK

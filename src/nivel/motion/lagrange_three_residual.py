@@ -5,13 +5,13 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.residual import find_wrenches, write_rows
 from nivel.kernels.spatial import multiply
 from nivel.kernels.status import OK
 from nivel.motion.lagrange_three import read_state
+from nivel.native.function import stage
 
 
 @stage

@@ -6,16 +6,17 @@ diag(m, J̄_c): the same equations, and its factor costs nothing.
 
 from __future__ import annotations
 
-from nivel.kernels.compile import entry, shared, stage
 from nivel.kernels.constraint import constraint_rows
 from nivel.kernels.hook import apply_forces, finish_forces, measure_active
 from nivel.kernels.marker import move_markers, place_markers
-from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import CORRECT, EVALUATE, record_at
 from nivel.kernels.rigid import load_weight, place_body
 from nivel.kernels.rotation import normalise_parameters, rates_of_parameters
 from nivel.kernels.saddle import factorise_rows, multipliers
 from nivel.kernels.spatial import dot, multiply
 from nivel.kernels.status import OK
+from nivel.native.entry import entry
+from nivel.native.function import shared, stage
 
 WIDTH = 6
 
@@ -199,7 +200,7 @@ def accelerate(machine, t, y, ydot):
     return finish_forces(machine, t, ydot)
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ of y = (q, v, x): x are the states of forces, the work of external forces and the dissipated energy [J].
 
@@ -213,7 +214,7 @@ def evaluate(machine, t, y, ydot):
     return status
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def keep(machine, t, y):
     """No correction; |θ| is brought back to one, which moves nothing because A is taken of θ/|θ|."""
     normalise(machine, y)

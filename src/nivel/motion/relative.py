@@ -7,15 +7,16 @@ articulated-body recursion, which gives W and z; multipliers of the cut joints f
 from __future__ import annotations
 
 from nivel.kernels.articulated import accelerate, factorise_tree, whiten_efforts, whiten_tree_rows
-from nivel.kernels.compile import entry, stage
 from nivel.kernels.hook import apply_forces
-from nivel.kernels.record import correct_signature, evaluate_signature, record_at
+from nivel.kernels.record import CORRECT, EVALUATE, record_at
 from nivel.kernels.rigid import load_weight
 from nivel.kernels.saddle import factorise_rows
 from nivel.kernels.status import OK
 from nivel.kernels.tree import move_tree
 from nivel.kernels.tree_markers import read_markers
 from nivel.motion.tree_motion import WIDTH, evaluate_tree, normalise
+from nivel.native.entry import entry
+from nivel.native.function import stage
 
 
 @stage
@@ -44,13 +45,13 @@ def factorise(machine):
     return factorise_rows(machine, WIDTH)
 
 
-@entry(evaluate_signature)
+@entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
     """ẏ. Leaves everything else in the record but what `nivel.kernels.carried` adds for frames."""
     return evaluate_tree(machine, t, y, ydot, read_state, load_tree, factorise, whiten_efforts, accelerate)
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def keep(machine, t, y):
     """No correction; |θ| is brought back to one, which moves nothing."""
     normalise(machine, y)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from nivel.kernels.articulated import accelerate
-from nivel.kernels.compile import entry
-from nivel.kernels.record import correct_signature
+from nivel.kernels.record import CORRECT
 from nivel.motion.relative import factorise, read_state
 from nivel.motion.tree_correction import correct_tree
+from nivel.native.entry import entry
 
 
-@entry(correct_signature)
+@entry(CORRECT)
 def correct(machine, t, y):
     """Direct correction of the state onto the constraints."""
     return correct_tree(machine, t, y, read_state, factorise, accelerate)

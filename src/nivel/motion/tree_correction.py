@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import shared
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
 from nivel.motion.direct import (
@@ -18,6 +17,7 @@ from nivel.motion.direct import (
     open_level,
 )
 from nivel.motion.tree_motion import WIDTH, normalise, write_positions
+from nivel.native.function import shared
 
 
 @shared

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.compile import shared, stage
 from nivel.kernels.hook import finish_forces
 from nivel.kernels.record import FREE, SPHERICAL, record_at
 from nivel.kernels.rotation import normalise_parameters, rates_of_parameters
 from nivel.kernels.saddle import multipliers
 from nivel.kernels.status import OK
+from nivel.native.function import shared, stage
 
 WIDTH = 1
 

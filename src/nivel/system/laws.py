@@ -1,76 +1,41 @@
-"""Expressions and Python laws as machine code: C functions double(double *) of their arguments.
-
-Each is a module named by its content in the cache directory: a function made from a string could not be cached.
-"""
+"""Expressions and Python laws as machine code: functions of a row of arguments, `LAW` and `COMPLEX_LAW`."""
 
 from __future__ import annotations
 
-import ctypes
-import hashlib
-import importlib.util
-import sys
 from collections.abc import Sequence
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels import cache
 from nivel.machine.arithmetic import TIME
 from nivel.machine.expression import Expression
 from nivel.machine.python_law import PythonLaw
+from nivel.native.library import address_of_law
+from nivel.native.signature import COMPLEX_LAW, LAW
+from nivel.native.workers import CompilationError
 from nivel.system.analytic_text import analytic_text
 from nivel.system.expression_text import ANALYTIC, SPELLING, motion_lines, source
 
-EXPRESSION = '''"""A function written by nivel from an expression of a machine file."""
-
+EXPRESSION = """
 import numpy as np
-from numba import cfunc, types
 
 
-@cfunc(types.float64(types.CPointer(types.float64)), cache=True, error_model="numpy")
-def nivel_law(x):
-{body}
-'''
-
-# Functions of the text are compiled when the law calls them; division by zero gives infinity, as in the rest of a run.
-LAW = """{source}
-
-
-import types as _nivel_python_types
-
-import numba as _nivel_numba
-import numpy as _nivel_numpy
-
-for _nivel_name, _nivel_part in list(globals().items()):
-    if isinstance(_nivel_part, _nivel_python_types.FunctionType) and _nivel_part.__module__ == __name__:
-        globals()[_nivel_name] = _nivel_numba.njit(error_model="numpy")(_nivel_part)
-
-
-@_nivel_numba.cfunc(
-    _nivel_numba.types.float64(_nivel_numba.types.CPointer(_nivel_numba.types.float64)), cache=True, error_model="numpy"
-)
 def nivel_law(x):
 {body}
 """
 # The same on complex numbers, for exact derivatives.
-COMPLEX_EXPRESSION = '''"""A function written by nivel from an expression of a machine file, for exact derivatives."""
-
+COMPLEX_EXPRESSION = """
 import numpy as np
-from numba import cfunc, types
-
 from nivel.kernels.analytic import absolute, arctan2, maximum, minimum, power, tanh
 
 
-@cfunc(types.complex128(types.CPointer(types.complex128)), cache=True, error_model="numpy")
 def nivel_law(x):
 {body}
-'''
-
-# A Python law on complex numbers: its text made analytic, or where that is not possible, its derivative along the imaginary parts of its
-# arguments by differences of order four, whose steps are shares of the arguments.
-COMPLEX_LAW = """{source}
+"""
+# Functions of the text are compiled when the law calls them; division by zero gives infinity, as in the rest of a run. On complex
+# numbers: the text made analytic, or where that is not possible, its derivative along the imaginary parts of its arguments by
+# differences of order four, whose steps are shares of the arguments.
+LAW_TEXT = """{source}
 
 
 import types as _nivel_python_types
@@ -83,9 +48,6 @@ for _nivel_name, _nivel_part in list(globals().items()):
         globals()[_nivel_name] = _nivel_numba.njit(error_model="numpy")(_nivel_part)
 
 
-@_nivel_numba.cfunc(
-    _nivel_numba.types.complex128(_nivel_numba.types.CPointer(_nivel_numba.types.complex128)), cache=True, error_model="numpy"
-)
 def nivel_law(x):
 {body}
 """
@@ -95,7 +57,7 @@ SHARE = 1e-4
 def expression_address(expression: Expression, signals: Sequence[str]) -> int:
     """Address of the code of an expression of `signals`, of which the first is the time."""
     places = {path: place for place, path in enumerate(signals)}
-    address = _address(EXPRESSION.format(body=f"    return {source(expression.tree, places)}"))
+    address = _real_address(EXPRESSION.format(body=f"    return {source(expression.tree, places)}"))
     _twins[address] = (COMPLEX_EXPRESSION.format(body=f"    return {source(expression.tree, places, ANALYTIC)}"),)
     return address
 
@@ -106,15 +68,15 @@ def complex_address(address: int) -> int:
     first, *others = _twins[address]
     for other in others:
         try:
-            return _address(first)
-        except Exception:  # whatever a foreign text does on complex numbers, there is another way
+            return address_of_law(first, COMPLEX_LAW)
+        except CompilationError:  # there is another way
             first = other
-    return _address(first)
+    return address_of_law(first, COMPLEX_LAW)
 
 
 def motion_address(expression: Expression) -> int:
     """Address of the code of an expression of time alone, which leaves its two derivatives behind its argument."""
-    address = _address(EXPRESSION.format(body=motion_lines(expression, SPELLING)))
+    address = _real_address(EXPRESSION.format(body=motion_lines(expression, SPELLING)))
     _twins[address] = (COMPLEX_EXPRESSION.format(body=motion_lines(expression, ANALYTIC)),)
     return address
 
@@ -125,8 +87,8 @@ def law_address(law: PythonLaw, *, motion: bool) -> int:
     Raises ModelError where it cannot be compiled.
     """
     try:
-        address = _address(_law_text(law, motion=motion))
-    except Exception as problem:  # whatever a foreign text does while it is compiled is the user's fault to mend
+        address = _real_address(_law_text(law, motion=motion))
+    except CompilationError as problem:
         where = f" in {law.file}" if law.file else ""
         message = f"the law `{law.function}`{where} cannot be compiled: {_telling(problem)}"
         raise ModelError(Fault("", 0, 0, "", message)) from problem
@@ -147,7 +109,7 @@ def _law_text(law: PythonLaw, *, motion: bool) -> str:
         ]
     else:
         lines = [f"return {call}"]
-    return LAW.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
+    return LAW_TEXT.format(source=law.source, body="\n".join(f"    {line}" for line in lines))
 
 
 def _complex_law_texts(law: PythonLaw, *, motion: bool) -> tuple[str, ...]:
@@ -159,7 +121,7 @@ def _complex_law_texts(law: PythonLaw, *, motion: bool) -> tuple[str, ...]:
         return f"{law.function}({', '.join(f'x[{n}].real + {step} * x[{n}].imag' for n in range(count))})"
 
     def module(text: str, lines: list[str]) -> str:
-        return COMPLEX_LAW.format(source=text, body="\n".join(f"    {line}" for line in lines))
+        return LAW_TEXT.format(source=text, body="\n".join(f"    {line}" for line in lines))
 
     if motion:
         lines = [
@@ -194,14 +156,14 @@ def false_derivative(law: PythonLaw, end: float) -> str:
 
     Empty where both fit their functions at nine of ten times: at corners they may not.
     """
-    function = _module(_law_text(law, motion=True)).nivel_law.ctypes
+    function = LAW.function_at(_real_address(_law_text(law, motion=True)))
     count = len(law.arguments)
 
     def at(time: float) -> tuple[float, float, float]:
         places = [time if argument == TIME else float(argument) for argument in law.arguments]
-        arguments = (ctypes.c_double * (count + 2))(*places)
+        arguments = np.array([*places, 0.0, 0.0])
         value = function(arguments)
-        return value, arguments[count], arguments[count + 1]
+        return value, float(arguments[count]), float(arguments[count + 1])
 
     grid = np.linspace(0.0, end, 2001)
     values, rates = np.array([at(t)[:2] for t in grid]).T
@@ -224,40 +186,17 @@ def false_derivative(law: PythonLaw, end: float) -> str:
     return ""
 
 
-def _telling(problem: Exception) -> str:
+def _telling(problem: CompilationError) -> str:
     """The part of an error of the compiler that says what is wrong."""
     lines = [line.strip() for line in str(problem).splitlines() if line.strip()]
     noise = ("Failed in nopython", "During: ", "This error may", "- argument", "File ", "<source")
     told = [line for line in lines if not line.startswith(noise) and set(line) - set("^~ ")]
-    return f"{type(problem).__name__}: {' '.join(told)[:400]}" if told else type(problem).__name__
+    return f"{problem.kind}: {' '.join(told)[:400]}" if told else problem.kind
 
 
 # texts of the code on complex numbers for the addresses handed out
 _twins: dict[int, tuple[str, ...]] = {}
 
 
-def _address(text: str) -> int:
-    return int(_module(text).nivel_law.address)
-
-
-def _module(text: str) -> Any:
-    """The module with this text, from the cache directory."""
-    name = f"law_{hashlib.sha256(text.encode()).hexdigest()[:20]}"
-    if name in sys.modules:
-        return sys.modules[name]
-    path = Path(cache.directory()) / f"{name}.py"
-    if not path.exists():
-        draft = path.with_suffix(f".{id(text)}.tmp")
-        draft.write_text(text, encoding="utf-8")
-        draft.replace(path)
-    spec = importlib.util.spec_from_file_location(name, path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    try:
-        spec.loader.exec_module(module)
-    except BaseException:
-        del sys.modules[name]
-        raise
-    return module
+def _real_address(text: str) -> int:
+    return address_of_law(text, LAW)

@@ -12,7 +12,6 @@ energy at the nodes, between which linear gradients shorten without reason where
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.gradients import (
     DAMPING,
     FORCE,
@@ -28,6 +27,7 @@ from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import dot
 from nivel.kernels.status import OK
+from nivel.native.function import stage
 
 WIDTH = 4  # vectors of a node
 POINTS = 3

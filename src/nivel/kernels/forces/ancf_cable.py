@@ -12,12 +12,12 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import arctan2
-from nivel.kernels.compile import stage
 from nivel.kernels.gradients import DAMPING, OWN, RATE, VECTOR, add_along_line, along_line, push_vectors, read_vectors
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.spatial import cross, dot
 from nivel.kernels.status import OK
+from nivel.native.function import stage
 
 WIDTH = 2  # vectors of a node
 # columns of `columns`, behind the points: markers with the axes of the nodes

@@ -10,12 +10,12 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import maximum, real, tanh
-from nivel.kernels.compile import stage
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.push import push_point
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
+from nivel.native.function import stage
 
 # columns of `columns`; MARKER: centre and axes of the shape (a cylinder's is z); OTHER: the plane (z outwards), or the other sphere
 # outputs: magnitude, power, deepest overlap, normal force

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from nivel.kernels.compile import stage
 from nivel.kernels.record import record_at
+from nivel.native.function import stage
 
 
 @stage

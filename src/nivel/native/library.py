@@ -1,0 +1,95 @@
+"""Addresses of entries: from the object files of the user's cache, compiled first where there is none."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable
+from functools import cache
+from typing import Any
+
+from nivel.native import store, workers
+from nivel.native.entry import Entry
+from nivel.native.signature import Signature
+from nivel.native.sources import fingerprint
+
+
+def address_of(entry: Entry) -> int:
+    """Address of an entry; compiled first where there is no object file, which is said."""
+    if (found := _loaded.get(entry.name)) is not None:
+        return found
+    path = _path(entry)
+    code = store.read(path)
+    if code is None:
+        print(f"compiling {entry.name} (only the first run does this)", file=sys.stderr)
+        workers.compile_all([_job(entry)])
+        code = store.read(path)
+    assert code is not None, f"{path} cannot be read"
+    return _loaded.setdefault(entry.name, _link(entry.symbol, code))
+
+
+def missing(entries: Iterable[Entry]) -> list[Entry]:
+    """Those without machine code."""
+    return [entry for entry in dict.fromkeys(entries) if entry.name not in _loaded and not _path(entry).exists()]
+
+
+def build(entries: Iterable[Entry], done: Callable[[str], None] = lambda name: None) -> None:
+    """Compile those that have no machine code, in parallel; done(name) is called as each is finished."""
+    jobs = [_job(entry) for entry in missing(entries)]
+    workers.compile_all(jobs, lambda job: done(job["entry"]))
+
+
+def address_of_law(text: str, signature: Signature) -> int:
+    """Address of the function `nivel_law` of the text of a module, for `LAW` or `COMPLEX_LAW`. Raises CompilationError."""
+    path = store.path_of("nivel_law", text, str(signature), fingerprint("nivel.kernels.analytic"))
+    if (found := _loaded.get(path.name)) is not None:
+        return found
+    code = store.read(path)
+    if code is None:
+        job = {"text": text, "file": f"<{path.stem}>", "symbol": "nivel_law", "path": str(path)}
+        try:
+            workers.compile_all([{**job, "result": signature.result, "arguments": signature.arguments}])
+        except workers.CompilationError as problem:
+            if problem.kind != workers.NEEDS_NUMBA:
+                raise
+            from nivel.native.with_numba.laws import address_here
+
+            return _loaded.setdefault(path.name, address_here(text, f"<{path.stem}>", signature))
+        code = store.read(path)
+    assert code is not None, f"{path} cannot be read"
+    return _loaded.setdefault(path.name, _link("nivel_law", code))
+
+
+def _path(entry: Entry) -> Any:
+    return store.path_of(entry.symbol, str(entry.signature), fingerprint(entry.name.partition(":")[0]))
+
+
+def _job(entry: Entry) -> dict[str, Any]:
+    return {"entry": entry.name, "symbol": entry.symbol, "path": str(_path(entry))}
+
+
+# addresses of what is in memory
+_loaded: dict[str, int] = {}
+# linked libraries; they stay in memory as long as they are here
+_linked: list[Any] = []
+
+
+@cache
+def _linker() -> Any:
+    from llvmlite import binding
+
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    return binding.create_lljit_compiler()
+
+
+def _link(symbol: str, code: bytes) -> int:
+    """Load an object file; returns the address of its symbol."""
+    from llvmlite import binding
+
+    linker = _linker()
+    name = f"{symbol}-{len(_linked)}"
+    library = (
+        binding.JITLibraryBuilder().add_object_img(code).add_current_process().export_symbol(symbol).link(linker, name)
+    )
+    _linked.append(library)
+    return int(library[symbol])

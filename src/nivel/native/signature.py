@@ -1,0 +1,74 @@
+"""What an entry takes and returns, in words, and how that looks to C.
+
+machine   the address of a record              uint64_t
+twin      the same, its work complex           uint64_t
+entry     the address of another entry         uint64_t
+number    a real number                        double
+complex   a complex number                     double, double
+count     an integer                           int64_t
+vector    a row of real numbers                double *, int64_t
+pairs     a row of complex numbers             double *, int64_t
+status    of `nivel.kernels.status`            int64_t
+nothing                                        void
+"""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, NamedTuple
+
+import numpy as np
+
+IN_C: dict[str, tuple[Any, ...]] = {
+    "machine": (ctypes.c_uint64,),
+    "twin": (ctypes.c_uint64,),
+    "entry": (ctypes.c_uint64,),
+    "number": (ctypes.c_double,),
+    "complex": (ctypes.c_double, ctypes.c_double),
+    "count": (ctypes.c_int64,),
+    "vector": (ctypes.c_void_p, ctypes.c_int64),
+    "pairs": (ctypes.c_void_p, ctypes.c_int64),
+}
+ROWS = {"vector": np.float64, "pairs": np.complex128}
+RESULT_IN_C: dict[str, Any] = {"status": ctypes.c_int64, "number": ctypes.c_double, "nothing": None}
+
+
+class Signature(NamedTuple):
+    """Kinds of the result and of the arguments."""
+
+    result: str
+    arguments: tuple[str, ...]
+
+    def __str__(self) -> str:
+        return f"{self.result}({', '.join(self.arguments)})"
+
+    def function_at(self, address: int) -> Any:
+        """The entry at this address as a function of Python; it runs without the interpreter's lock."""
+        kinds = [kind for argument in self.arguments for kind in IN_C[argument]]
+        function = ctypes.CFUNCTYPE(RESULT_IN_C[self.result], *kinds)(address)
+
+        def call(*arguments: Any) -> Any:
+            if len(arguments) != len(self.arguments):
+                raise TypeError(f"{len(self.arguments)} arguments are needed, {len(arguments)} given")
+            return function(
+                *(part for kind, value in zip(self.arguments, arguments, strict=True) for part in _parts(kind, value))
+            )
+
+        return call
+
+
+def _parts(kind: str, value: Any) -> tuple[Any, ...]:
+    """An argument as C takes it."""
+    if kind in ROWS:
+        if value.dtype != ROWS[kind] or value.ndim != 1 or not value.flags.c_contiguous:
+            raise TypeError(f"a {kind} is a contiguous row of {ROWS[kind].__name__}")
+        return value.ctypes.data, value.size
+    if kind == "complex":
+        value = complex(value)
+        return value.real, value.imag
+    return (float(value),) if kind == "number" else (int(value),)
+
+
+# the code of laws and expressions, of all that they depend on
+LAW = Signature("number", ("vector",))
+COMPLEX_LAW = Signature("complex", ("pairs",))

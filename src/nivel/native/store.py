@@ -1,0 +1,108 @@
+"""Object files that were compiled once: the user's cache of machine code.
+
+A file is named by its entry and by a digest of everything the machine code depends on, so a changed source, compiler or processor
+finds no file and nothing is ever stale. It is written beside its place and moved there, so it is whole or absent; its first bytes are
+a digest of the rest, so a damaged file is found out and compiled again. Files stand in a folder that only the user can write; where
+there is none, in a new folder for this process.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import stat
+import sys
+import tempfile
+import warnings
+from contextlib import suppress
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+DIGEST = 32  # bytes
+
+
+@cache
+def folder() -> Path:
+    """``<user cache>/nivel/objects``, or a new temporary folder where that cannot be used. ``NIVEL_CACHE_DIR`` names another place for the
+    user cache."""
+    path = Path(os.environ.get("NIVEL_CACHE_DIR") or _user_cache()) / "objects"
+    try:
+        path.mkdir(parents=True, exist_ok=True, mode=0o700)
+        if open_to_others(path):
+            warnings.warn(f"{path} can be written by others; machine code is kept for this process only", stacklevel=2)
+        else:
+            with tempfile.TemporaryFile(dir=path):
+                return path
+    except OSError:
+        pass
+    return Path(tempfile.mkdtemp(prefix="nivel-objects-"))
+
+
+def open_to_others(path: Path) -> bool:
+    """Whether somebody else owns or may write this folder."""
+    if os.name != "posix":
+        return False
+    facts = path.stat()
+    return facts.st_uid != os.getuid() or bool(facts.st_mode & (stat.S_IWGRP | stat.S_IWOTH))
+
+
+def path_of(symbol: str, *depends_on: str) -> Path:
+    """Where the object file with this symbol is kept, for the text it is made of."""
+    digest = hashlib.sha256("\0".join((symbol, *depends_on, *compiler())).encode()).hexdigest()
+    return folder() / f"{symbol[-80:]}-{digest[:24]}.o"
+
+
+def read(path: Path) -> bytes | None:
+    """The object file; None where there is none, or a damaged one, which is removed with a warning."""
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return None
+    code = content[DIGEST:]
+    if code and hashlib.sha256(code).digest() == content[:DIGEST]:
+        return code
+    warnings.warn(f"{path} is damaged; it is compiled again", stacklevel=2)
+    with suppress(OSError):
+        path.unlink()
+    return None
+
+
+def write(path: Path, code: bytes) -> None:
+    """Keep an object file."""
+    handle, draft = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
+    with os.fdopen(handle, "wb") as file:
+        file.write(hashlib.sha256(code).digest() + code)
+    os.replace(draft, path)
+
+
+@cache
+def compiler() -> tuple[str, ...]:
+    """What makes machine code, and for which processor."""
+    versions = []
+    for package in ("numba", "llvmlite", "numpy"):
+        try:
+            versions.append(version(package))
+        except PackageNotFoundError:
+            versions.append("none")
+    return (*versions, f"{sys.version_info[:2]}", platform.machine(), _processor())
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        return platform.processor()
+    wanted = ("model name", "flags", "Features")
+    return "\n".join(next((line for line in lines if line.startswith(key)), "") for key in wanted)
+
+
+def _user_cache() -> Path:
+    if sys.platform == "win32":
+        base = os.environ.get("LOCALAPPDATA") or str(Path.home() / "AppData" / "Local")
+    elif sys.platform == "darwin":
+        base = str(Path.home() / "Library" / "Caches")
+    else:
+        base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+    return Path(base) / "nivel"

@@ -1,0 +1,91 @@
+"""How entries look to C, seen from both sides: calls at addresses, and the functions that stand there."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+from nivel.native.signature import ROWS, Signature
+from nivel.native.with_numba.arrays import WORD, array_of, item_pointer, item_size
+from nivel.native.with_numba.kinds import ARGUMENTS, RESULTS, arguments_of
+
+_DOUBLE = ir.DoubleType()
+_IN_C: dict[str, tuple[Any, ...]] = {
+    "machine": (WORD,),
+    "twin": (WORD,),
+    "entry": (WORD,),
+    "number": (_DOUBLE,),
+    "complex": (_DOUBLE, _DOUBLE),
+    "count": (WORD,),
+    "vector": (_DOUBLE.as_pointer(), WORD),
+    "pairs": (_DOUBLE.as_pointer(), WORD),
+}
+_RESULT_IN_C: dict[str, Any] = {"status": WORD, "number": _DOUBLE, "nothing": ir.VoidType()}
+
+
+def function_type(signature: Signature) -> Any:
+    """The type of the C function of an entry. A complex result is written to an address that goes before the arguments."""
+    arguments = [part for kind in signature.arguments for part in _IN_C[kind]]
+    if signature.result == "complex":
+        return ir.FunctionType(ir.VoidType(), [_DOUBLE.as_pointer(), *arguments])
+    return ir.FunctionType(_RESULT_IN_C[signature.result], arguments)
+
+
+def to_c(context: Any, builder: Any, kind: str, value: Any) -> list[Any]:
+    """An argument as C takes it."""
+    if kind == "twin":
+        return [builder.extract_value(value, 0)]
+    if kind == "complex":
+        return [builder.extract_value(value, 0), builder.extract_value(value, 1)]
+    if kind in ROWS:
+        array = context.make_array(ARGUMENTS[kind])(context, builder, value)
+        return [builder.bitcast(array.data, _DOUBLE.as_pointer()), builder.extract_value(array.shape, 0)]
+    return [value]
+
+
+def from_c(context: Any, builder: Any, kind: str, parts: list[Any]) -> Any:
+    """An argument as Numba has it."""
+    if kind == "twin":
+        return builder.insert_value(ir.Constant(ir.ArrayType(WORD, 1), ir.Undefined), parts[0], 0)
+    if kind == "complex":
+        value = context.make_complex(builder, types.complex128)
+        value.real, value.imag = parts
+        return value._getvalue()
+    if kind in ROWS:
+        array: Any = ARGUMENTS[kind]
+        data = builder.bitcast(parts[0], item_pointer(context, array))
+        return array_of(context, builder, array, data, [parts[1]], [ir.Constant(WORD, item_size(context, array))])
+    return parts[0]
+
+
+def caller(plain: Signature, twin: Signature | None = None) -> Any:
+    """An intrinsic `call(address, ...)` for the entry of this signature at an address. twin : the signature of its code on complex numbers,
+    taken where the first argument is the address of a twin or a row of complex numbers."""
+    twins = None if twin is None else ARGUMENTS[twin.arguments[0]]
+
+    def call(arguments: tuple[Any, ...]) -> tuple[Any, Any]:
+        signature = twin if twin is not None and arguments[0] == twins else plain
+        kinds = arguments_of(signature)
+
+        def generate(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+            parts = []
+            for kind, value, given, wanted in zip(signature.arguments, args[1:], sig.args[1:], kinds, strict=True):
+                parts += to_c(context, builder, kind, context.cast(builder, value, given, wanted))
+            function = builder.inttoptr(args[0], function_type(signature).as_pointer())
+            if signature.result == "complex":
+                place = context.make_complex(builder, types.complex128)
+                builder.call(function, [builder.bitcast(place._getpointer(), _DOUBLE.as_pointer()), *parts])
+                return place._getvalue()
+            result = builder.call(function, parts)
+            return context.get_dummy_value() if signature.result == "nothing" else result
+
+        return RESULTS[signature.result](types.uint64, *arguments), generate
+
+    # Numba reads off the function how many arguments there are
+    names = ", ".join(f"argument_{k}" for k in range(len(plain.arguments)))
+    function = eval(f"lambda typingctx, address, {names}: call(({names},))", {"call": call})
+    function.__name__ = function.__qualname__ = f"call_{plain.result}"
+    return intrinsic(function)

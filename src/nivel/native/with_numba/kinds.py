@@ -1,0 +1,54 @@
+"""Numba's types of what entries take and return, and of records."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+from numba import types
+
+from nivel.native.signature import Signature
+
+# The address of a record whose work is complex: a type of its own, so that kernels compile for it, and never take one for the other.
+TWIN = types.UniTuple(types.uint64, 1)
+ROW, PAIRS = types.Array(types.float64, 1, "C"), types.Array(types.complex128, 1, "C")
+ARGUMENTS: dict[str, types.Type] = {
+    "machine": types.uint64,
+    "twin": TWIN,
+    "entry": types.uint64,
+    "number": types.float64,
+    "complex": types.complex128,
+    "count": types.int64,
+    "vector": ROW,
+    "pairs": PAIRS,
+}
+RESULTS: dict[str, types.Type] = {
+    "status": types.int64,
+    "number": types.float64,
+    "complex": types.complex128,
+    "nothing": types.void,
+}
+SCALARS: dict[str, types.Type] = {
+    "real": types.float64,
+    "complex": types.complex128,
+    "index": types.uint32,
+    "count": types.int64,
+    "address": types.uint64,
+}
+
+
+def arguments_of(signature: Signature) -> tuple[types.Type, ...]:
+    """Types of the arguments."""
+    return tuple(ARGUMENTS[kind] for kind in signature.arguments)
+
+
+def record_type(record_class: type, work: types.Type = types.float64) -> Any:
+    """Numba's type of a record class; `work` is the type of what an evaluation leaves (complex128 for exact derivatives)."""
+    hints = get_type_hints(record_class, include_extras=True)
+    return types.BaseTuple.from_types([_field(hint, work) for hint in hints.values()], record_class)
+
+
+def _field(hint: Any, work: types.Type) -> types.Type:
+    if get_origin(hint) is Annotated:
+        _, dimensions, kind = get_args(hint)
+        return types.Array(work if kind == "work" else SCALARS[kind], dimensions, "C")
+    return record_type(hint, work)

@@ -1,0 +1,43 @@
+"""Laws and expressions: the function `nivel_law` of the text of a module."""
+
+from __future__ import annotations
+
+import linecache
+from types import ModuleType
+from typing import Any
+
+from numba import cfunc, njit, types
+
+from nivel.native.signature import Signature
+
+# laws may allocate
+LAW_OPTIONS: dict[str, Any] = {"error_model": "numpy"}
+_REAL, _COMPLEX = types.CPointer(types.float64), types.CPointer(types.complex128)
+_kept: list[Any] = []
+
+
+def law_of(text: str, file: str) -> Any:
+    """The function as Python has it. file : what stands for its file where errors are told."""
+    module = ModuleType("nivel_text")
+    linecache.cache[file] = (len(text), None, text.splitlines(keepends=True), file)
+    exec(compile(text, file, "exec"), module.__dict__)
+    return module.__dict__["nivel_law"]
+
+
+def address_here(text: str, file: str, signature: Signature) -> int:
+    """Its address, compiled in this process: for laws that call functions of Numba when they run, those that allocate arrays among them."""
+    law = njit(error_model="numpy")(law_of(text, file))
+    if signature.result == "complex":
+
+        def call_complex(out, x, n):
+            out[0] = law(x)
+
+        code: Any = cfunc(types.void(_COMPLEX, _COMPLEX, types.int64), error_model="numpy")(call_complex)
+    else:
+
+        def call(x, n):
+            return law(x)
+
+        code: Any = cfunc(types.float64(_REAL, types.int64), error_model="numpy")(call)
+    _kept.append(code)
+    return int(code.address)

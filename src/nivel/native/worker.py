@@ -1,0 +1,52 @@
+"""A process that compiles: it reads jobs, one line of JSON each, and answers with one line when the object file is written.
+
+A job is the name of an entry, or the text of a module whose function `nivel_law` is one; and the file to write.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+
+def main() -> None:
+    """Compile until the input ends."""
+    answers = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)  # what foreign code prints is no answer
+    machine: Any = None
+    for line in sys.stdin:
+        job = json.loads(line)
+        sys.path[:] = job["places"]
+        try:
+            from nivel.native.with_numba import translate
+
+            machine = machine or translate.target_machine(*translate.host())
+            _compile(job, machine)
+            answer = {}
+        except Exception as problem:  # whatever it is, the process that asked has to say it
+            answer = {"problem": str(problem), "kind": type(problem).__name__}
+        print(json.dumps(answer), file=answers, flush=True)
+
+
+def _compile(job: dict[str, Any], machine: Any) -> None:
+    from nivel.native import store
+    from nivel.native.entry import entry_of
+    from nivel.native.signature import Signature
+    from nivel.native.with_numba import translate
+    from nivel.native.with_numba.laws import LAW_OPTIONS, law_of
+
+    path = Path(job["path"])
+    if job.get("text"):
+        signature = Signature(job["result"], tuple(job["arguments"]))
+        function, options = law_of(job["text"], job["file"]), LAW_OPTIONS
+    else:
+        entry = entry_of(job["entry"])
+        function, signature, options = entry.py_func, entry.signature, {}
+    store.write(path, translate.object_code(function, signature, job["symbol"], machine, **options))
+
+
+if __name__ == "__main__":
+    main()

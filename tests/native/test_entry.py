@@ -1,0 +1,116 @@
+"""Entries from a module outside the package, compiled by workers, called by Python and by each other."""
+
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import toy_entries as toys
+
+from nivel.native import library, store
+from nivel.native.with_numba.translate import BROKEN
+from nivel.native.workers import CompilationError
+
+X = np.array([3.0, 4.0, 5.0])
+HERE = Path(__file__).parent
+
+
+def test_python_calls_it():
+    assert toys.squares(X, 1) == 41.0
+    assert toys.sine(np.array([0.5])) == math.sin(0.5)
+
+
+def test_entries_call_each_other_by_address():
+    assert toys.twice(toys.squares.address, X) == 82.0
+
+
+def test_functions_made_of_others_are_told_apart():
+    assert toys.made(X, 0) == 27.0 + 64.0 + 125.0 + 1000.0 * 50.0
+
+
+def test_rows_and_complex_numbers_are_passed():
+    x, z = X.copy(), X + 1j
+    assert toys.scale(x, z, 2 + 1j) == 3
+    np.testing.assert_array_equal(x, 2.0 * X)
+    np.testing.assert_array_equal(z, (X + 1j) * (2 + 1j))
+    assert toys.fill(x) is None
+    np.testing.assert_array_equal(x, 7.0)
+
+
+def test_what_raises_returns_a_status():
+    assert toys.careful(3) == 3
+    assert toys.careful(-1) == BROKEN
+
+
+@pytest.mark.parametrize("wrong", [np.arange(3), np.zeros((2, 2)), np.arange(6.0)[::2], np.zeros(3, complex)])
+def test_other_arrays_are_refused(wrong):
+    with pytest.raises(TypeError, match="contiguous row"):
+        toys.squares(wrong, 0)
+    with pytest.raises(TypeError, match="2 arguments"):
+        toys.squares(X)
+
+
+def test_what_cannot_be_compiled_is_told():
+    with pytest.raises(CompilationError, match="missing"):
+        assert toys.wrong.address
+
+
+def test_what_is_compiled_is_found_by_the_next_process():
+    assert toys.squares.address
+    assert store.read(library._path(toys.squares))
+    code = "import toy_entries as t, numpy as np, sys; print(t.squares(np.arange(3.0), 0), 'numba' in sys.modules)"
+    assert _run(code).stdout.split() == ["5.0", "False"]
+
+
+def test_processes_that_compile_the_same_at_once(tmp_path):
+    code = "import toy_entries as t, numpy as np; print(t.made(np.arange(3.0), 0))"
+    started = [_start(code, tmp_path / "cache") for _ in range(3)]
+    answers = [process.communicate() for process in started]
+    assert [out.strip() for out, _ in answers] == ["5009.0"] * 3, answers
+
+
+@pytest.mark.parametrize("damage", [lambda p: p.write_bytes(b"\x7fELF"), lambda p: p.write_bytes(p.read_bytes()[:-9])])
+def test_a_damaged_file_is_compiled_again(tmp_path, damage):
+    code = "import toy_entries as t, numpy as np; print(t.squares(np.arange(3.0), 0))"
+    assert _run(code, tmp_path).stdout.strip() == "5.0"
+    (path,) = (tmp_path / "objects").glob("*.o")
+    damage(path)
+    again = _run(code, tmp_path)
+    assert again.stdout.strip() == "5.0"
+    assert "is damaged; it is compiled again" in again.stderr
+    assert "damaged" not in _run(code, tmp_path).stderr
+
+
+def test_a_worker_that_dies_is_told(tmp_path):
+    code = """
+import os, signal
+from nivel.native import workers
+worker = workers._Worker()
+worker._process.send_signal(signal.SIGKILL)
+workers._idle.put(worker)
+import toy_entries
+try:
+    toy_entries.fill.address
+except workers.CompilationError as problem:
+    print(problem)
+"""
+    assert "ended with status -9" in _run(code, tmp_path).stdout
+
+
+def _start(code, cache=None):
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path])}
+    if cache is not None:
+        environment["NIVEL_CACHE_DIR"] = str(cache)
+    return subprocess.Popen(
+        [sys.executable, "-c", code], env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+
+
+def _run(code, cache=None):
+    process = _start(code, cache)
+    out, err = process.communicate()
+    assert process.returncode == 0, err
+    return subprocess.CompletedProcess(process.args, 0, out, err)

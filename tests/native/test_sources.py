@@ -1,0 +1,50 @@
+"""The digest of an entry's sources changes with every module that its module imports, and with no other."""
+
+import pytest
+
+from nivel.native import sources
+
+FILES = {
+    "pack/__init__.py": "",
+    "pack/a.py": "from pack.b import x\nfrom pack import c\n",
+    "pack/b.py": "x = 1\n",
+    "pack/c.py": "def f():\n    from pack.deep.d import y\n    return y\n",
+    "pack/deep/__init__.py": "",
+    "pack/deep/d.py": "y = 2\n",
+    "pack/other.py": "z = 3\n",
+}
+
+
+@pytest.fixture
+def digest(tmp_path, monkeypatch):
+    for name, text in FILES.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
+        (tmp_path / name).write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+
+    def of(module, **changes):
+        for name, text in changes.items():
+            (tmp_path / "pack" / f"{name.replace('_', '/')}.py").write_text(text)
+        for function in (sources.fingerprint, sources._imported, sources._file):
+            function.cache_clear()
+        return sources.fingerprint(module)
+
+    yield of
+    for function in (sources.fingerprint, sources._imported, sources._file):
+        function.cache_clear()
+
+
+@pytest.mark.parametrize("module", ["a", "b", "c", "deep_d"])
+def test_it_follows_all_imports(digest, module):
+    assert digest("pack.a") != digest("pack.a", **{module: "x = y = f = 5\n"})
+
+
+def test_it_ignores_the_rest(digest):
+    assert digest("pack.a") == digest("pack.a", other="z = 4\n")
+    assert digest("pack.b") == digest("pack.b", c="x = 4\n")
+
+
+def test_kernels_depend_on_the_way_they_are_translated():
+    found = sources.modules("nivel.kernels.observe")
+    assert "nivel.native.with_numba.views" in found
+    assert not {"nivel.native.store", "nivel.march.radau"} & set(found)

@@ -5,8 +5,12 @@ from __future__ import annotations
 import time
 
 import numpy as np
-from nivel.kernels.compile import OPTIONS
+from llvmlite import binding
 from numba import njit, types
+
+from nivel.native.function import OPTIONS
+from nivel.native.with_numba import functions  # noqa: F401 - tells Numba what kernels are
+from nivel.native.with_numba.kinds import ROW
 
 REPEATS, ROUNDS = 20_000, 7
 # address of the machine, state, its rates, repeats

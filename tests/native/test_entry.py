@@ -90,6 +90,7 @@ import os, signal
 from nivel.native import workers
 worker = workers._Worker()
 worker._process.send_signal(signal.SIGKILL)
+workers._Worker.is_alive = True  # it dies as the job comes
 workers._idle.put(worker)
 import toy_entries
 try:

@@ -8,8 +8,8 @@ import os
 import subprocess
 import sys
 import threading
+from collections import deque
 from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from queue import SimpleQueue
 from typing import Any
 
@@ -37,18 +37,43 @@ def processors() -> int:
 def compile_all(jobs: Iterable[dict[str, Any]], done: Callable[[dict[str, Any]], None] = lambda job: None) -> None:
     """Let workers write the object files of these jobs; done(job) is called, here, as each is finished.
 
-    What was written before an interruption stays. Raises CompilationError of the first job that fails.
+    Jobs that stand near each other in the list have functions in common, which a worker translates once: half of the workers begin at
+    its end. What was written before an interruption stays. Raises CompilationError of the first job that fails.
     """
-    jobs = list(jobs)
-    with ThreadPoolExecutor(min(len(jobs), processors()) or 1) as threads:
-        running = {threads.submit(_compile, job): job for job in jobs}
+    left = deque(jobs)
+    count = min(len(left), processors())
+    finished: SimpleQueue[dict[str, Any] | BaseException | None] = SimpleQueue()
+
+    def work(take: Callable[[], dict[str, Any]]) -> None:
+        worker = _take_worker()
         try:
-            for finished in as_completed(running):
-                finished.result()
-                done(running[finished])
-        except BaseException:
-            threads.shutdown(wait=False, cancel_futures=True)
-            raise
+            while True:
+                job = take()
+                worker.compile(job)
+                finished.put(job)
+        except IndexError:
+            finished.put(None)  # nothing is left
+        except BaseException as problem:
+            left.clear()
+            finished.put(problem)
+        _idle.put(worker)
+
+    for k in range(count):
+        threading.Thread(target=work, args=(left.pop if k % 2 else left.popleft,), daemon=True).start()
+    problem = None
+    try:
+        while count:
+            match finished.get():
+                case None:
+                    count -= 1
+                case BaseException() as found:
+                    problem, count = problem or found, count - 1
+                case job:
+                    done(job)
+    finally:
+        left.clear()
+    if problem is not None:
+        raise problem
 
 
 class _Worker:
@@ -59,7 +84,8 @@ class _Worker:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=own, encoding="utf-8"
         )
 
-    def compile(self, job: dict[str, Any]) -> dict[str, Any]:
+    def compile(self, job: dict[str, Any]) -> None:
+        """Raises CompilationError."""
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         try:
@@ -71,7 +97,13 @@ class _Worker:
         if not answer:
             status = self._process.wait()
             raise CompilationError(f"the process that compiled {job['symbol']} ended with status {status}", "died")
-        return json.loads(answer)
+        if problem := json.loads(answer):
+            raise CompilationError(problem["problem"], problem["kind"])
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether it can take a job."""
+        return self._process.poll() is None
 
     def end(self) -> None:
         """Stop it, whatever it does."""
@@ -84,15 +116,14 @@ _started: list[_Worker] = []
 _lock = threading.Lock()
 
 
-def _compile(job: dict[str, Any]) -> None:
+def _take_worker() -> _Worker:
     with _lock:
-        worker = _Worker() if _idle.empty() else _idle.get()
-        if worker not in _started:
-            _started.append(worker)
-    answer = worker.compile(job)
-    _idle.put(worker)
-    if "problem" in answer:
-        raise CompilationError(answer["problem"], answer["kind"])
+        while not _idle.empty():
+            if (worker := _idle.get()).is_alive:
+                return worker
+        worker = _Worker()
+        _started.append(worker)
+        return worker
 
 
 @atexit.register

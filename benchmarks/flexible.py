@@ -16,6 +16,7 @@ import numpy as np
 
 import nivel
 from nivel.analysis.dynamics import march
+from nivel.analysis.plan import methods_of
 from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
 from nivel.flexible.body_file import write_body
@@ -114,7 +115,7 @@ def run_time(machine) -> tuple[float, dict[str, float], float]:
     best = np.inf
     for _ in range(3):
         settings = complete(machine.simulation)
-        prepared = prepare(machine, settings.formulation, settings.coordinates)
+        prepared = prepare(methods_of(machine, settings.formulation, settings.coordinates))
         kept = []
 
         class Sink:
@@ -133,7 +134,7 @@ def run_time(machine) -> tuple[float, dict[str, float], float]:
 
 def evaluation_time(machine, coordinates: str) -> float:
     """µs of one evaluation."""
-    prepared = prepare(machine, "newton-euler", coordinates)
+    prepared = prepare(methods_of(machine, "newton-euler", coordinates))
     from part import part
 
     evaluate = prepared.motion.kernels.evaluate

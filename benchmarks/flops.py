@@ -27,6 +27,7 @@ from numba.core.registry import CPUDispatcher
 
 import nivel
 from chain import chain
+from nivel.analysis.plan import methods_of
 from nivel.analysis.preparation import Prepared, prepare
 from part import measure
 
@@ -148,7 +149,11 @@ def main() -> None:
         "slider-crank": nivel.load(EXAMPLES / "slider-crank.yaml").record,
         "chain of 256": chain(256),
     }
-    cases = [(name, way, prepare(record, "newton-euler", way)) for name, record in records.items() for way in WAYS]
+    cases = [
+        (name, way, prepare(methods_of(record, "newton-euler", way)))
+        for name, record in records.items()
+        for way in WAYS
+    ]
     times = [nanoseconds(prepared, way) for _, way, prepared in cases]
     limit = peak()
     print(f"peak {limit / 1e9:.1f} GF/s")

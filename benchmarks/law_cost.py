@@ -15,6 +15,7 @@ import numpy as np
 
 import nivel
 from nivel.analysis.dynamics import march
+from nivel.analysis.plan import methods_of
 from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
 from nivel.machine import Body, MachineRecord, SimulationSettings, SpringDamper
@@ -59,7 +60,7 @@ def machine(kind: str) -> MachineRecord:
 def main() -> None:
     """Measure and print."""
     kinds = ("built-in", "expression", "python")
-    prepared = {kind: (prepare(machine(kind), "newton-euler"), complete(machine(kind).simulation)) for kind in kinds}
+    prepared = {kind: (prepare(methods_of(machine(kind))), complete(machine(kind).simulation)) for kind in kinds}
     times: dict[str, list[float]] = {kind: [] for kind in kinds}
     for _ in range(REPEATS):
         for kind, (ready, settings) in prepared.items():

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import nivel
+from nivel.analysis.plan import methods_of
 from nivel.analysis.preparation import prepare
 from nivel.kernels.observe import accept, observe
 from part import REPEATS, measure, part
@@ -32,7 +33,7 @@ def main() -> None:
     parser.add_argument("machine", nargs="?", type=Path, default=EXAMPLE)
     parser.add_argument("--coordinates", choices=("absolute", "relative"), default="absolute")
     options = parser.parse_args()
-    prepared = prepare(nivel.load(options.machine).record, "newton-euler", options.coordinates)
+    prepared = prepare(methods_of(nivel.load(options.machine).record, "newton-euler", options.coordinates))
     parts = import_module(f"{options.coordinates}_parts")
     system, address = prepared.motion.system, prepared.motion.handle.address
     system.record.control.stabilise[2:] = 1e-13

@@ -6,7 +6,7 @@ from typing import get_args
 
 import pytest
 
-from nivel.analysis.check import check
+from checking import check
 from nivel.cli.failures import fault_line
 from nivel.errors import ModelError
 from nivel.files import parse_machine

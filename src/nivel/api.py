@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from nivel.analysis.changes import changed
-from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
-from nivel.analysis.compilation import compile_path, compile_statics
-from nivel.analysis.idle import idle_settings
+from nivel.analysis.compilation import assembly_entries, build, preparation_entries, run_entries, statics_entries
 from nivel.analysis.listener import Listener
+from nivel.analysis.plan import Plan, methods_of, plan_run
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
@@ -108,20 +107,17 @@ class Machine:
     @checked_arguments
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
-        settings, coordinates = self.record.simulation, self._coordinates()
-        self._refuse_settings(self.origin.settings_outside)
-        path = (coordinates, settings.formulation, settings.rotations)
-        compile_path(self.record, path, listener or Listener())
+        plan = self._plan(self.origin.settings_outside)
+        build(preparation_entries(plan.methods), listener or Listener())
         from nivel.analysis.check import check
 
         with self._faults_in_file():
-            return check(self.record)
+            return check(plan)
 
     @checked_arguments
     def posed(self, *, listener: Listener | None = None) -> Posing:
         """The assembled machine, to be moved by hand. Raises ModelError where it cannot be assembled."""
-        simulation = self.record.simulation
-        compile_path(self.record, ("absolute", "newton-euler", simulation.rotations), listener or Listener())
+        build(assembly_entries(self.record), listener or Listener())
         from nivel.analysis.posing import Posing
 
         with self._faults_in_file():
@@ -205,18 +201,14 @@ class Machine:
         }
         given = {key: value for key, value in given.items() if value is not None}
         chosen = self.with_settings(given)
-        settings = chosen.record.simulation
-        chosen._refuse_settings({*given, *self.origin.settings_outside})
-        compile_seconds = compile_path(
-            chosen.record,
-            (chosen._coordinates(), settings.formulation, settings.rotations),
-            listener or Listener(),
-            integrator=settings.integrator,
-            stabilisation=settings.stabilisation,
-        )
-        if settings.start == "equilibrium":
-            compile_seconds += compile_statics(chosen.record, "absolute", listener or Listener())
-        # after the kernels: what follows imports them
+        plan = chosen._plan({*given, *self.origin.settings_outside})
+        entries = run_entries(plan)
+        if plan.settings.start == "equilibrium":
+            from nivel.analysis.statics.start import methods_at_rest
+
+            entries += statics_entries(methods_at_rest(chosen.record))
+        compile_seconds = build(entries, listener or Listener())
+        # what follows takes longer to import
         from nivel.analysis.simulate import simulate
         from nivel.results.target import keep_sources
 
@@ -224,7 +216,7 @@ class Machine:
             keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
         with chosen._faults_in_file():
             return simulate(
-                chosen.record,
+                plan,
                 source=self.origin.source,
                 out=out,
                 force=force,
@@ -277,9 +269,11 @@ class Machine:
         settings = statics_settings(given, simulation.coordinates)
         from nivel.analysis.statics.refusals import for_statics
 
-        chosen = for_statics(self.record, settings)[1]
-        compile_seconds = compile_statics(self.record, chosen, listener or Listener())
-        # after the kernels: what follows imports them
+        neutral, chosen = for_statics(self.record, settings)
+        with self._faults_in_file():
+            methods = methods_of(neutral, "newton-euler", chosen)
+        compile_seconds = build(statics_entries(methods), listener or Listener())
+        # what follows takes longer to import
         from nivel.analysis.statics.run import statics
         from nivel.results.target import keep_sources
 
@@ -339,25 +333,17 @@ class Machine:
         chosen = self.with_settings(given)
         grid = lay_out(chosen.record, axes, given)
         compile_grid(chosen.record, grid, listener or Listener())
-        # after the kernels: what follows imports them
+        # what follows takes longer to import
         from nivel.analysis.compare import compare
 
         with chosen._faults_in_file():
             return compare(chosen.record, grid, repeat=repeat, listener=listener)
 
-    def _refuse_settings(self, given: Collection[str]) -> None:
-        """Raise ModelError where the settings do not go together, or those `given` would have no effect."""
-        from nivel.analysis.agreement import disagreements  # imports what builds machines
-
-        coordinates = self._coordinates()
-        faults = [*idle_settings(given, self.record.simulation, coordinates), *disagreements(self.record)]
-        if faults:
-            raise ModelError(self.origin.placed(faults))
-
-    def _coordinates(self) -> str:
-        """The coordinates of a run. Raises ModelError where joints do not meet the beams that they slide along."""
+    def _plan(self, given: Collection[str]) -> Plan:
+        """What a run will be. Raises ModelError where settings do not go together or have no effect though `given`, or joints do not
+        meet the beams that they slide along."""
         with self._faults_in_file():
-            return choose_coordinates(self.record)
+            return plan_run(self.record, given)
 
     @contextmanager
     def _faults_in_file(self) -> Iterator[None]:

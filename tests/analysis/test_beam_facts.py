@@ -8,8 +8,8 @@ import pytest
 from click.testing import CliRunner
 
 import machines
+from checking import check
 from nivel.analysis.beam_facts import beam_facts
-from nivel.analysis.check import check
 from nivel.cli import main
 from nivel.files import parse_machine
 from nivel.machine import Beam

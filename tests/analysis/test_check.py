@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.check import check
+from checking import check
 from nivel.analysis.choice import _absolute_cost, _relative_cost, choose_coordinates
 from nivel.analysis.settings import complete
 from nivel.errors import ModelError

@@ -271,7 +271,7 @@ def test_an_axis_that_is_given_and_empty_is_refused(axis, values):
 def test_frames_are_at_a_common_multiple_of_all_steps(steps, interval):
     grid = lay_out(pendulum(duration=1).record, Axes(steps=steps))
     assert grid.interval == pytest.approx(interval, rel=1e-12)
-    assert all(cell.settings is not None for cell in grid.cells)
+    assert all(cell.plan is not None for cell in grid.cells)
 
 
 def test_the_interval_of_the_machine_is_taken_where_it_fits():
@@ -283,8 +283,8 @@ def test_the_interval_of_the_machine_is_taken_where_it_fits():
 def test_steps_that_do_not_divide_the_interval_asked_for_are_refused_cells():
     record = pendulum(output_interval=0.1).record
     fitting, other = lay_out(record, Axes(steps=[0.02, 0.03]), {"output_interval"}).cells
-    assert fitting.settings is not None
-    assert other.settings is None
+    assert fitting.plan is not None
+    assert other.plan is None
     assert "not a multiple of the step" in other.reason
 
 

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.preparation import prepare
+from nivel.analysis.plan import plan_run
 from nivel.errors import ModelError
 from nivel.machine import Body, Contact, Driver, Friction, Joint, MachineRecord, Marker, SimulationSettings, Stop
 from nivel.machine.time_function import Expression, PythonLaw, Table
+from preparing import prepare
 from running import run
 
 RUB = {"model": "coulomb", "coefficient": 0.2, "transition_speed": 1e-3, "radius": 0.02}
@@ -50,10 +51,10 @@ def test_table_of_a_driver_holds_for_the_whole_run(times, refused):
     machine = MachineRecord(name="m", bodies=(body,), joints=(hub,), drivers=(drive,), simulation=settings)
     if refused:
         with pytest.raises(ModelError, match="speed jumps to zero") as caught:
-            prepare(machine, "newton-euler")
+            plan_run(machine)
         assert caught.value.faults[0].path == "drivers.drive.value"
     else:
-        prepare(machine, "newton-euler")
+        plan_run(machine)
 
 
 def wheel(**sections):
@@ -82,10 +83,10 @@ def test_law_of_a_driver_returns_its_own_derivatives(law, wrong):
     )
     if wrong:
         with pytest.raises(ModelError, match=wrong) as caught:
-            prepare(machine, "newton-euler")
+            plan_run(machine)
         assert caught.value.faults[0].path == "drivers.drive.value"
     else:
-        prepare(machine, "newton-euler")
+        plan_run(machine)
 
 
 def test_stop_that_starts_far_inside_is_refused():

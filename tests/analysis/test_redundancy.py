@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.preparation import prepare
+from preparing import prepare
 from running import run
 
 

@@ -3,9 +3,9 @@
 import pytest
 
 import machines
-from nivel.analysis.preparation import prepare
 from nivel.analysis.unknowns import unknown_name
 from nivel.machine import Friction
+from preparing import prepare
 from running import run
 
 

@@ -6,7 +6,6 @@ from scipy.spatial.transform import Rotation
 
 from models import bar, reduced
 from nivel.analysis.implicit import evaluate_residual, find_tangent
-from nivel.analysis.preparation import prepare
 from nivel.errors import ModelError
 from nivel.flexible import reference
 from nivel.flexible.body_file import write_body
@@ -23,6 +22,7 @@ from nivel.machine import (
     SpringDamper,
 )
 from nivel.system.flexible import bending_bodies
+from preparing import prepare
 from running import reference_run, run
 
 GRAVITY = (0.0, -9.81, 0.0)

@@ -10,7 +10,7 @@ import pytest
 import simulating
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.implicit import evaluate_residual
-from nivel.analysis.preparation import prepare
+from nivel.analysis.plan import plan_run
 from nivel.analysis.simulate import simulate
 from nivel.analysis.statics.newton import Iteration
 from nivel.analysis.statics.run import prepare_statics
@@ -20,6 +20,7 @@ from nivel.flexible import reference
 from nivel.flexible.body_file import read_body
 from nivel.machine import PointForce, SimulationSettings
 from observing import assert_same_frame, observed, of_absolute
+from preparing import prepare
 from running import reference_run, run
 from tree_machines import MACHINES, beam, hinge, machine, write_beams
 from unknowns import Unknowns, error_of
@@ -296,7 +297,7 @@ def test_neglect_is_told_by_the_trust_report(folder):
     body = beam(folder, "a", (0, 0, 0), angular_velocity=(0.0, 1.0, 2.0), modes=3)
     record = machine("free", [body.replace(flexible=body.flexible.replace(neglect=("I5", "I9")))], [])
     record = record.replace(simulation=SimulationSettings(duration=0.1, step=1e-4, output_interval=0.01))
-    result = simulate(record)
+    result = simulate(plan_run(record))
     item = next(item for item in result.trust.items if item.name == "neglected")
     assert "without I5 and I9 the mass matrix of a lacks" in item.text
     its = read_body(folder / "beam.nc").keeping([0, 1, 2]).invariants

@@ -10,9 +10,9 @@ from numpy.testing import assert_allclose
 import gradient_beams
 import simulating
 from mixed_machines import mixed, sprung
-from nivel.analysis.preparation import prepare
 from nivel.kernels.record import TANGENT
 from observing import assert_same_frame, observed, of_absolute
+from preparing import prepare
 from test_rails import KINDS
 from tree_machines import write_beams
 from unknowns import Unknowns, error_of

@@ -7,11 +7,11 @@ from scipy.linalg import block_diag
 from models import bar, reduced
 from nivel.analysis.mobility import mobility
 from nivel.analysis.modal_rows import modal_rows
-from nivel.analysis.preparation import prepare
 from nivel.errors import ModelError
 from nivel.flexible import reference
 from nivel.flexible.body_file import write_body
 from nivel.machine import Body, Friction, Joint, MachineRecord
+from preparing import prepare
 from running import run
 
 ALONG = "reference: mean-axis, modes: given, shapes: [{y: x^2}, {y: x^3}, {y: x^4}]"

@@ -5,13 +5,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from beams import flying, general
+from checking import check
 from nivel.analysis.beam_facts import beam_facts
-from nivel.analysis.check import check
-from nivel.analysis.preparation import prepare
 from nivel.errors import ModelError
 from nivel.machine import Beam
 from nivel.system.beam_elements import skew
 from nivel.system.beam_segments import segments_of
+from preparing import prepare
 from simulating import machine, simulate
 
 STEEL = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850}

@@ -5,7 +5,6 @@ import pytest
 
 import machines
 from nivel.analysis.history import start_history
-from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
 from nivel.kernels.handle import Handle
 from nivel.machine import Body, Joint, MachineRecord, SpringDamper
@@ -13,6 +12,7 @@ from nivel.march.catalogue import INTEGRATORS
 from nivel.march.multistep import remember
 from nivel.march.run import RESTART, STEP
 from nivel.march.workspace import SHARE
+from preparing import prepare
 from references import stick_slip
 from running import run
 from simulating import G, simulate, slide, solid

@@ -5,7 +5,7 @@ import json
 import numpy as np
 
 from nivel.analysis import implicit
-from nivel.analysis.preparation import prepare
+from preparing import prepare
 from simulating import machine
 
 RAMP = {"times": [0, 0.5, 100], "values": [0, 1.5, 1.5], "interpolation": "linear"}

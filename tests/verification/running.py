@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from nivel.analysis.dynamics import march
-from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
+from preparing import prepare
 
 
 class Frames:

@@ -9,11 +9,11 @@ from assembled import TIME, random_states
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.implicit import Wanted, equip
-from nivel.analysis.preparation import prepare
 from nivel.errors import SolveError
 from nivel.kernels.observe import observe
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.states.relative import arrange
+from preparing import prepare
 from simulating import machine, simulate, solid
 from test_rails import KINDS, bead, girder, loaded, spinning
 from unknowns import Unknowns, at_state, error_of

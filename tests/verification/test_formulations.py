@@ -6,7 +6,7 @@ import pytest
 import machines
 from nivel.analysis.assemble import assemble
 from nivel.analysis.equations import equations
-from nivel.analysis.preparation import prepare
+from preparing import prepare
 
 MACHINES = {
     "slider-crank": machines.slider_crank,

@@ -13,11 +13,11 @@ from assembled import TIME, random_states
 from nivel.analysis.dynamics import march
 from nivel.analysis.equations import moved
 from nivel.analysis.implicit import evaluate_residual, find_tangent
-from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
 from nivel.errors import ModelError, SolveError
 from nivel.kernels.record import DEPENDENT
 from nivel.kernels.status import OK
+from preparing import prepare
 from references import slider_crank
 from running import Frames, reference_run, run
 from simulating import machine as machine_of

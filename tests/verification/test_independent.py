@@ -13,12 +13,12 @@ import nivel
 from assembled import TIME, mass_matrix, random_states
 from nivel.analysis.dynamics import march
 from nivel.analysis.equations import change_between, moved
-from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import complete
 from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine
 from nivel.kernels.status import OK
 from nivel.march.catalogue import INTEGRATORS
+from preparing import prepare
 from running import Frames, run
 from simulating import simulate
 

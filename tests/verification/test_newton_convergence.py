@@ -6,7 +6,7 @@ import numpy as np
 
 import machines
 from nivel.analysis.implicit import equip, evaluate_residual, find_tangent
-from nivel.analysis.preparation import prepare
+from preparing import prepare
 
 
 def defect(motion, start, unknowns, cq, cv):

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.preparation import prepare
 from nivel.errors import ModelError
 from nivel.machine import MachineRecord
 from nivel.machine.settings import Baumgarte
+from preparing import prepare
 from references import slider_crank as slider_crank_reference
 from running import run
 from simulating import hinge, simulate, slopes, solid, wheel

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.preparation import prepare
 from nivel.kernels.status import OK
 from nivel.machine import Body, Bushing, Friction, Joint, MachineRecord, Marker, SpringDamper
+from preparing import prepare
 from unknowns import ROTATIONS
 
 

@@ -10,13 +10,13 @@ from scipy.spatial.transform import Rotation
 from assembled import TIME, random_states
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.implicit import Wanted, equip, evaluate_residual, find_tangent
-from nivel.analysis.preparation import prepare
 from nivel.kernels.record import EULER_ANGLES, NONE, ROTATION_VECTOR
 from nivel.kernels.status import OK
 from nivel.motion.catalogue import path_of
 from nivel.system.states import parameters
 from nivel.system.states.relative import arrange
 from nivel.system.states.three_coordinates import arranged
+from preparing import prepare
 
 # [s², s, s] by how much an acceleration moves positions and velocities, and a rate its state: as in a step of about 0.3 s
 SHARES = (0.04, 0.2, 0.2)

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.analysis.beam_facts import BeamFacts, beam_facts
-from nivel.analysis.choice import choose_coordinates, choose_cut
 from nivel.analysis.elements import (
     coupling_in_words,
     driver_in_words,
@@ -17,11 +16,11 @@ from nivel.analysis.elements import (
     sensor_in_words,
     state_in_words,
 )
+from nivel.analysis.plan import Methods, Plan
 from nivel.analysis.preparation import prepare
-from nivel.analysis.settings import RunSettings, complete
+from nivel.analysis.settings import RunSettings
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.beam_nodes import with_nodes
 from nivel.system.flexible import bending_bodies
 from nivel.system.joints import JOINTS
 from nivel.system.states.relative import tree_of
@@ -197,11 +196,10 @@ def _vector(values: tuple[float, ...]) -> str:
     return "(" + ", ".join(f"{value if abs(value) > 1e-12 * largest else 0.0:.6g}" for value in values) + ")"
 
 
-def check(machine: MachineRecord) -> Check:
-    """Check and assemble `machine`. Raises ModelError with what is wrong."""
-    own, machine = machine, with_nodes(machine)
-    settings = complete(machine.simulation, choose_coordinates(machine))
-    prepared = prepare(machine, settings.formulation, settings.coordinates)
+def check(plan: Plan) -> Check:
+    """Assemble the machine of a plan. Raises ModelError with what is wrong."""
+    own, machine, settings = plan.machine, plan.methods.machine, plan.settings
+    prepared = prepare(plan.methods)
     system = prepared.absolute.system
     record, redundancy, assembly = system.record, prepared.redundancy, prepared.assembly
     from nivel.kernels.observe import observe
@@ -245,14 +243,14 @@ def check(machine: MachineRecord) -> Check:
         gap_row=assembly.gap_row,
         moved=assembly.moved,
         velocity_change=assembly.velocity_change,
-        cut=_cut(machine) if settings.coordinates == "relative" else (),
+        cut=_cut(plan.methods) if settings.coordinates == "relative" else (),
         settings=settings,
     )
 
 
-def _cut(machine: MachineRecord) -> tuple[str, ...]:
+def _cut(methods: Methods) -> tuple[str, ...]:
     """Joints that stay constraints in relative coordinates."""
-    return tuple(machine.joints[k].name for k in tree_of(machine, choose_cut(machine)).cut)
+    return tuple(methods.machine.joints[k].name for k in tree_of(methods.machine, methods.cut).cut)
 
 
 def _modes(machine: MachineRecord) -> list[str]:

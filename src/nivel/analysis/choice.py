@@ -72,14 +72,14 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
     return settings.replace(cut=tuple(machine.joints[k].name for k in tree.cut))
 
 
-def slides(machine: MachineRecord, coordinates: str, formulation: str) -> bool:
-    """Whether with these methods a beam carries a body that slides along it."""
+def slides(machine: MachineRecord, coordinates: str, formulation: str, cut: SimulationSettings | None = None) -> bool:
+    """Whether with these methods a beam carries a body that slides along it. cut : as `choose_cut` has it, where it is known."""
     from nivel.system.states.relative import has_sliders
 
     if coordinates != "relative" or not any(JOINT_KINDS[joint.type].rail for joint in machine.joints):
         return False
     machine = with_nodes(machine)
-    return has_sliders(machine, choose_cut(machine).replace(formulation=formulation))
+    return has_sliders(machine, (cut or choose_cut(machine)).replace(formulation=formulation))
 
 
 def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:

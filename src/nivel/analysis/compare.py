@@ -74,20 +74,20 @@ class _Bench:
     def add(self, cell: Cell, place: str) -> None:
         """Run a cell and add its row; `place` among the others is shown."""
         row = Row(*cell.method, step=cell.step, tolerance=cell.tolerance)
-        if cell.machine is None or cell.settings is None:
+        if cell.plan is None:
             self.rows.append(replace(row, outcome="refused", reason=cell.reason))
             return
         what = f"step {seconds(row.step)}" if row.step else f"tolerance {number(row.tolerance)}"
-        self.listener.say(f"{place} {', '.join(dict.fromkeys(cell.method))}, {what}", cell.settings.duration)
+        self.listener.say(f"{place} {', '.join(dict.fromkeys(cell.method))}, {what}", cell.plan.settings.duration)
         try:
-            result, finished = run_in_memory(cell.machine, cell.settings, self.listener.progress)
+            result, finished = run_in_memory(cell.plan, self.listener.progress)
         except ModelError as error:
             self.rows.append(replace(row, outcome="refused", reason=reasons(error)))
             return
         times = [finished.timing["loop_seconds"]]
         try:
             for _ in range(self.repeat - 1 if finished.failure is None else 0):
-                again = run_in_memory(cell.machine, cell.settings, self.listener.progress)[1]
+                again = run_in_memory(cell.plan, self.listener.progress)[1]
                 times.append(again.timing["loop_seconds"])
         finally:  # also where the repeats were interrupted
             self.rows.append(self._measured(_timed(row, result, finished, min(times)), result))

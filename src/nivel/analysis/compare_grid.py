@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
@@ -12,10 +13,10 @@ from typing import Annotated, Any, Final, TypeVar
 from pydantic import BeforeValidator
 
 from nivel.analysis.changes import changed
-from nivel.analysis.choice import choose_coordinates
-from nivel.analysis.compilation import compile_path
+from nivel.analysis.compilation import build, run_entries
 from nivel.analysis.listener import Listener
-from nivel.analysis.settings import FRAMES, RunSettings, complete
+from nivel.analysis.plan import Plan, plan_run
+from nivel.analysis.settings import FRAMES
 from nivel.arguments import plain
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
@@ -75,16 +76,12 @@ class Axes(Record):
 
 @dataclass(frozen=True)
 class Cell:
-    """One run of the grid: step or tolerance, whichever its integrator has; the machine with its settings, and these completed.
-
-    Where it is refused, `machine` and `settings` are None and `reason` says why.
-    """
+    """One run of the grid: step or tolerance, whichever its integrator has. Where it is refused, `plan` is None and `reason` says why."""
 
     method: Method
     step: float | None
     tolerance: float | None
-    machine: MachineRecord | None = None
-    settings: RunSettings | None = None
+    plan: Plan | None = None
     reason: str = ""
 
 
@@ -123,13 +120,13 @@ def lay_out(machine: MachineRecord, axes: Axes, given: Collection[str] = ()) -> 
 
 
 def compile_grid(machine: MachineRecord, grid: Grid, listener: Listener) -> None:
-    """Import, and where needed compile, the kernels of all cells and of the references, so that no time has compiling in it."""
-    reference = ("newton-euler", "absolute", "euler-parameters", "direct")
-    methods = [cell.method for cell in grid.cells if cell.settings is not None]
-    methods += [Method(integrator, *reference) for integrator in REFERENCES]
-    for method in dict.fromkeys(methods):
-        path = (method.coordinates, method.formulation, method.rotations)
-        compile_path(machine, path, listener, integrator=method.integrator, stabilisation=method.stabilisation)
+    """Compile, where needed, what all cells and the references need, so that no time has compiling in it."""
+    entries = [entry for cell in grid.cells if cell.plan is not None for entry in run_entries(cell.plan)]
+    for integrator in REFERENCES:
+        words = {"integrator": integrator, "formulation": "newton-euler", "coordinates": "absolute"}
+        with suppress(ModelError):  # where there is no reference, cells are compared without one
+            entries += run_entries(plan_run(machine.replace(simulation=changed(machine.simulation, words))))
+    build(entries, listener)
 
 
 def _methods(axes: Axes, own: SimulationSettings) -> Iterator[Method]:
@@ -164,12 +161,10 @@ def _cell(machine: MachineRecord, method: Method, step: float | None, tolerance:
     if tolerance is not None:
         changes["tolerance"] = tolerance
     try:
-        with_settings = machine.replace(simulation=changed(own, changes))
-        coordinates = choose_coordinates(with_settings)
-        settings = complete(with_settings.simulation, coordinates)
+        planned = plan_run(machine.replace(simulation=changed(own, changes)))
     except ModelError as error:
         return Cell(method, step, tolerance, reason=reasons(error))
-    return Cell(method._replace(coordinates=coordinates), step, tolerance, with_settings, settings)
+    return Cell(method._replace(coordinates=planned.settings.coordinates), step, tolerance, planned)
 
 
 def reasons(error: ModelError) -> str:

@@ -9,26 +9,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nivel.analysis.assemble import Assembly, assemble
-from nivel.analysis.choice import choose_cut, slides
-from nivel.analysis.combinations import refuse_combinations
 from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.ground import touches_ground
 from nivel.analysis.implicit import Wanted, constraint_index, equip
 from nivel.analysis.mobility import bound_pivots
 from nivel.analysis.modal_rows import modal_rows
-from nivel.analysis.modal_stiffness import integrator_of
 from nivel.analysis.penalties import penalise
+from nivel.analysis.plan import Methods
 from nivel.analysis.redundancy import Redundancy, analyse
 from nivel.analysis.refusals import (
-    refuse_conserved_drivers,
     refuse_deep_starts,
-    refuse_flexible_lagrange,
-    refuse_for_shared_mass,
-    refuse_friction_at_jumps,
     refuse_moved_nodes,
-    refuse_rough_motions,
-    refuse_stiction_over_steps,
     refuse_struck_nodes,
     refuse_uncertain_loads,
     refuse_unsettled_multipliers,
@@ -36,33 +28,12 @@ from nivel.analysis.refusals import (
 from nivel.errors import Fault, ModelError
 from nivel.machine.beam import Beam
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import IntegratorFacts, chooses
-from nivel.motion.catalogue import BALANCED, FORMULATIONS, PathFacts, path_of
-from nivel.system.beam_nodes import with_nodes
+from nivel.march.catalogue import IntegratorFacts
+from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.system.system import Array, System
 
 if TYPE_CHECKING:
     from nivel.analysis.statics.start import Settled
-
-
-@dataclass(frozen=True)
-class _Methods:
-    """How the machine is to be run: names, where the equations of motion are, the integrator."""
-
-    formulation: str
-    coordinates: str
-    path: PathFacts
-    integrator: IntegratorFacts
-
-    @property
-    def balanced(self) -> bool:
-        """Whether accelerations are found by the residual."""
-        return self.path.module == BALANCED
-
-    @property
-    def penalised(self) -> bool:
-        """Whether constraints enter by penalties."""
-        return FORMULATIONS[self.formulation].factor > 0.0
 
 
 @dataclass(frozen=True)
@@ -81,31 +52,23 @@ class Prepared:
     beams: tuple[Beam, ...] = ()
 
 
-def prepare(machine: MachineRecord, formulation: str = "newton-euler", coordinates: str = "absolute") -> Prepared:
-    """Build and assemble `machine`, for the rotations, cut joints and penalties of its own settings.
+def prepare(methods: Methods) -> Prepared:
+    """Build and assemble the machine of these methods.
 
     Raises ModelError where it cannot be closed, starts in a singular position, or has friction of no certain load.
     """
-    machine = with_nodes(machine)
-    refuse_for_shared_mass(machine, formulation, coordinates)
-    refuse_flexible_lagrange(machine, formulation)
+    machine, path, integrator = methods.machine, methods.path, methods.integrator
     motion = equations(machine)
     assembly, rest = _assembled(machine, motion)
     redundancy, absolute = _independent_rows(machine, motion, assembly.y)
     refuse_uncertain_loads(machine, redundancy)
-    refuse_conserved_drivers(machine)
-    refuse_stiction_over_steps(machine)
-    refuse_rough_motions(machine)
-    refuse_friction_at_jumps(machine)
     refuse_deep_starts(machine, absolute, assembly.y)
-    methods = _methods(machine, formulation, coordinates)
-    path, integrator = methods.path, methods.integrator
     motion.system.record.coordinates.reference[:] = assembly.reference
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
-    system, y = _arranged(machine, motion.system, assembly.y, rest, rank, methods)
-    prepared = _formulated(machine, MotionEquations(system, import_module(path.module)), y, methods)
+    system, y = _arranged(motion.system, assembly.y, rest, rank, methods)
+    prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
     if integrator.residual:
-        prepared = equip(prepared, y, coordinates, _wanted(machine, prepared, methods), path)
+        prepared = equip(prepared, y, methods.coordinates, _wanted(prepared, methods), path)
     return Prepared(path, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator, machine.beams)
 
 
@@ -144,27 +107,16 @@ def _independent_rows(machine: MachineRecord, motion: MotionEquations, y: Array)
     return redundancy, MotionEquations(known, motion.kernels)
 
 
-def _methods(machine: MachineRecord, formulation: str, coordinates: str) -> _Methods:
-    """The methods of the run. Raises ModelError where they do not go together."""
-    sliding = slides(machine, coordinates, formulation)
-    kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass, "sliding": sliding}
-    path = path_of(coordinates, formulation, machine.simulation.rotations, **kinds)
-    if path is None:
-        raise ModelError(refuse_combinations(machine.simulation.replace(formulation=formulation), coordinates))
-    return _Methods(formulation, coordinates, path, integrator_of(machine, coordinates))
-
-
-def _arranged(
-    machine: MachineRecord, absolute: System, y: Array, rest: Settled | None, rank: int, methods: _Methods
-) -> tuple[System, Array]:
+def _arranged(absolute: System, y: Array, rest: Settled | None, rank: int, methods: Methods) -> tuple[System, Array]:
     """The system and its state y, given in absolute coordinates, in those of the path; with the modes bent by the loads of the equilibrium
     `rest` from which the run starts."""
     arrangement: Any = import_module(methods.path.arrangement)
-    system, start = arrangement.arrange(machine, absolute, y, rank, choose_cut(machine))
+    machine = methods.machine
+    system, start = arrangement.arrange(machine, absolute, y, rank, methods.cut)
     if rest is None:
         return system, start
     if machine.is_flexible and methods.coordinates == "relative":
-        system, start = arrangement.arrange_deformed(machine, absolute, rest.q, rank, choose_cut(machine))
+        system, start = arrangement.arrange_deformed(machine, absolute, rest.q, rank, methods.cut)
     elif machine.is_flexible:
         # the bodies are there already
         start[system.positions - len(system.modes) : system.positions] = rest.q[7 * system.body_count :]
@@ -172,20 +124,20 @@ def _arranged(
     return system, start
 
 
-def _formulated(machine: MachineRecord, motion: MotionEquations, y: Array, methods: _Methods) -> MotionEquations:
+def _formulated(motion: MotionEquations, y: Array, methods: Methods) -> MotionEquations:
     """The equations, with constraints as the formulation has them enter, or mass as bodies have it in common."""
     if methods.balanced:
-        return _balanced(machine, motion, y, methods)
+        return _balanced(motion, y, methods)
     if methods.penalised:
-        return penalise(motion, y, machine.simulation, FORMULATIONS[methods.formulation])
+        return penalise(motion, y, methods.machine.simulation, FORMULATIONS[methods.formulation])
     bound_pivots(motion, y)
     return motion
 
 
-def _balanced(machine: MachineRecord, motion: MotionEquations, y: Array, methods: _Methods) -> MotionEquations:
+def _balanced(motion: MotionEquations, y: Array, methods: Methods) -> MotionEquations:
     """The equations of a machine whose bodies have mass in common, or are carried by beams along which they slide. Pivots, which the latter
     have none of, are judged by the masses lumped at the bodies."""
-    coordinates = methods.coordinates
+    machine, coordinates = methods.machine, methods.coordinates
     if not len(motion.system.record.tree.slider):
         lumped = path_of(coordinates, "newton-euler", machine.simulation.rotations, flexible=machine.is_flexible)
         assert lumped is not None
@@ -195,9 +147,10 @@ def _balanced(machine: MachineRecord, motion: MotionEquations, y: Array, methods
     return equip(motion, y, coordinates, Wanted(balance=True))
 
 
-def _wanted(machine: MachineRecord, motion: MotionEquations, methods: _Methods) -> Wanted:
+def _wanted(motion: MotionEquations, methods: Methods) -> Wanted:
     """What the integrator asks of the residual. Raises ModelError where multipliers would never settle."""
-    simulation, saddle, integrator = machine.simulation, motion.system.record.saddle, methods.integrator
+    machine, saddle, integrator = methods.machine, motion.system.record.saddle, methods.integrator
+    simulation = machine.simulation
     if constraint_index(methods.formulation, simulation.stabilisation, methods.path) == 3:
         refuse_unsettled_multipliers(machine, len(saddle.row))
     return Wanted(
@@ -207,7 +160,7 @@ def _wanted(machine: MachineRecord, motion: MotionEquations, methods: _Methods) 
         balance=methods.balanced,
         along=integrator.along,
         free=not touches_ground(machine, motion.system) if integrator.whole else None,
-        filtered=integrator.either and chooses(simulation.integrator, simulation.step_control),
+        filtered=integrator.either and methods.chooses_steps,
         accelerations=integrator.accelerations,
         compliance=saddle.shift if methods.penalised else None,
     )

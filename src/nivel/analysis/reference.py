@@ -17,7 +17,7 @@ from nivel.analysis.compare_grid import REFERENCES, Grid
 from nivel.analysis.dynamics import Finished
 from nivel.analysis.in_memory import run_in_memory
 from nivel.analysis.listener import Listener
-from nivel.analysis.settings import complete
+from nivel.analysis.plan import plan_run
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.comparison import Reference
 from nivel.results.comparison_table import seconds
@@ -144,5 +144,4 @@ def _run(machine: MachineRecord, grid: Grid, listener: Listener, **settings: obj
         else f"tolerance {settings['tolerance']:.0e}"
     )
     listener.say(f"reference: {settings['integrator']}, {what}", own.duration)
-    machine = machine.replace(simulation=own)
-    return run_in_memory(machine, complete(own), listener.progress)
+    return run_in_memory(plan_run(machine.replace(simulation=own)), listener.progress)

@@ -8,13 +8,12 @@ from dataclasses import replace
 from os import PathLike
 
 from nivel.analysis.attributes import run_attributes
-from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.dynamics import Finished, march
 from nivel.analysis.held_friction import resting_frictions
 from nivel.analysis.listener import Listener
+from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
-from nivel.analysis.refusals import refuse_samples_between_steps
-from nivel.analysis.settings import RunSettings, complete
+from nivel.analysis.settings import RunSettings
 from nivel.errors import SolveError
 from nivel.machine.machine_record import MachineRecord
 from nivel.march.catalogue import INTEGRATORS
@@ -35,7 +34,7 @@ SMALL = 0.01
 
 
 def simulate(
-    machine: MachineRecord,
+    plan: Plan,
     *,
     source: str = "",
     out: str | PathLike[str] | None = None,
@@ -44,19 +43,18 @@ def simulate(
     listener: Listener | None = None,
     compile_seconds: float = 0.0,
 ) -> Result:
-    """Run `machine` with its own simulation settings; the result is in memory, or streamed to the file `out`.
+    """Run as planned; the result is in memory, or streamed to the file `out`.
 
     compile_seconds : what was spent on compiling before, for the result's timing.
     verify : run again with half the step, or a tenth of the tolerance, and estimate the accuracy from the difference.
     Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails.
     """
     listener = listener or Listener()
-    settings = complete(machine.simulation, choose_coordinates(machine))
-    refuse_samples_between_steps(machine, settings.step, fixed=settings.steps > 0)
+    machine, settings = plan.machine, plan.settings
     sink = Memory() if out is None else Store(out, force)
     begin = time.perf_counter()
     listener.say("preparing")
-    prepared = prepare(machine, settings.formulation, settings.coordinates)
+    prepared = prepare(plan.methods)
     sink.begin(Header(prepared.motion.system.layout, run_attributes(machine, source, prepared, settings)))
     resting = resting_frictions(machine, prepared.absolute, prepared.assembly.y)
     prepare_seconds = time.perf_counter() - begin
@@ -65,7 +63,7 @@ def simulate(
     accuracy = None
     if verify and finished.outcome == "done" and not finished.asked_to_stop:
         listener.say(f"verifying with {_finer(settings)[1]}", settings.duration)
-        accuracy = _estimate(machine, sink.result(), settings, listener)
+        accuracy = _estimate(plan, sink.result(), listener)
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
     return _close(sink, machine, prepared, finished, accuracy, _finer(settings)[1], resting, seconds)
 
@@ -147,11 +145,11 @@ def _finer(settings: RunSettings) -> tuple[RunSettings, str, float]:
     return halved, "half the step", 0.5 ** INTEGRATORS[settings.integrator].order
 
 
-def _estimate(machine: MachineRecord, coarse: Result, settings: RunSettings, listener: Listener) -> Peak | None:
+def _estimate(plan: Plan, coarse: Result, listener: Listener) -> Peak | None:
     """Estimated error of `coarse`, from its largest difference from a finer run; None where that was broken off."""
-    finer, _, left = _finer(settings)
+    finer, _, left = _finer(plan.settings)
     sink = Memory()
-    prepared = prepare(machine, settings.formulation, settings.coordinates)
+    prepared = prepare(plan.methods)
     sink.begin(Header(prepared.motion.system.layout, {}))
     if march(prepared, finer, [sink], progress=listener.progress).asked_to_stop:
         return None

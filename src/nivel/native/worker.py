@@ -12,6 +12,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from nivel.native.signature import Signature
+
 # objects after a job from which on garbage is collected: some hundred megabytes
 MOST_LEFT = 3_000_000
 
@@ -41,18 +43,16 @@ def main() -> None:
 def _compile(job: dict[str, Any], machine: Any) -> None:
     from nivel.native import store
     from nivel.native.entry import entry_of
-    from nivel.native.signature import Signature
     from nivel.native.with_numba import translate
-    from nivel.native.with_numba.laws import LAW_OPTIONS, law_of
+    from nivel.native.with_numba.laws import object_code_of_law
 
     path = Path(job["path"])
     if job.get("text"):
-        signature = Signature(job["result"], tuple(job["arguments"]))
-        function, options = law_of(job["text"], job["file"]), LAW_OPTIONS
+        code = object_code_of_law(job["text"], job["file"], Signature(job["result"], tuple(job["arguments"])), machine)
     else:
         entry = entry_of(job["entry"])
-        function, signature, options = entry.py_func, entry.signature, {}
-    store.write(path, translate.object_code(function, signature, job["symbol"], machine, **options))
+        code = translate.object_code(entry.py_func, entry.signature, job["symbol"], machine)
+    store.write(path, code)
 
 
 if __name__ == "__main__":

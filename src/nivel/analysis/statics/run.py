@@ -14,7 +14,9 @@ from nivel.analysis.implicit import Wanted, equip
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Listener
 from nivel.analysis.outcome import broken_function
+from nivel.analysis.plan import methods_of
 from nivel.analysis.preparation import Prepared, prepare
+from nivel.analysis.refusals import refuse_rough_motions
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
@@ -63,7 +65,8 @@ def prepare_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[
     refuse_friction(machine)
     refuse_with_states(machine, settings)
     neutral, coordinates = for_statics(machine, settings)
-    prepared = prepare(neutral, "newton-euler", coordinates)
+    refuse_rough_motions(neutral)
+    prepared = prepare(methods_of(neutral, "newton-euler", coordinates))
     motion = equip(prepared.motion, prepared.start, coordinates, Wanted(shifted=True))
     motion.system.record.coordinates.reference[:] = prepared.assembly.reference
     return replace(prepared, motion=motion), StaticEquations(motion, settings.duration or 1.0)

@@ -8,9 +8,11 @@ import numpy as np
 
 from nivel.analysis.assemble import Assembly
 from nivel.analysis.equations import MotionEquations
+from nivel.analysis.plan import Methods, methods_of
 from nivel.analysis.statics.ends import no_start, without_stiffness
 from nivel.analysis.statics.equations import StateError
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
+from nivel.analysis.statics.refusals import for_statics
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.settings import StaticsSettings
@@ -53,13 +55,21 @@ class Settled:
         return replace(assembly, y=y, reference=self.reference.copy(), velocity_change=())
 
 
+SETTINGS = StaticsSettings(duration=0.0, step=1.0, coordinates="absolute")
+
+
+def methods_at_rest(machine: MachineRecord) -> Methods:
+    """The methods by which `settled` finds the equilibrium."""
+    return methods_of(for_statics(machine, SETTINGS)[0])
+
+
 def settled(machine: MachineRecord) -> Settled:
     """The equilibrium of `machine` at t = 0.
 
     Raises ModelError where bodies or joints are given velocities, SolveError where there is no equilibrium.
     """
     _refuse_velocities(machine)
-    prepared, equations = prepare_statics(machine, StaticsSettings(duration=0.0, step=1.0, coordinates="absolute"))
+    prepared, equations = prepare_statics(machine, SETTINGS)
     try:
         found = settle(equations, equations.start(prepared.start), Iteration())
     except EquilibriumError as error:

@@ -7,13 +7,28 @@ from types import ModuleType
 from typing import Any
 
 from numba import cfunc, njit, types
+from numba.core.errors import NumbaError
 
 from nivel.native.signature import Signature
+from nivel.native.with_numba import functions  # noqa: F401 - tells Numba what kernels are
+from nivel.native.with_numba.translate import NeedsNumbaError, object_code
 
 # laws may allocate
 LAW_OPTIONS: dict[str, Any] = {"error_model": "numpy"}
 _REAL, _COMPLEX = types.CPointer(types.float64), types.CPointer(types.complex128)
 _kept: list[Any] = []
+
+
+def object_code_of_law(text: str, file: str, signature: Signature, machine: Any) -> bytes:
+    """The object file with `nivel_law`. Raises what is wrong with the text, NeedsNumbaError where it allocates arrays."""
+    law = law_of(text, file)
+    try:
+        return object_code(law, signature, "nivel_law", machine, **LAW_OPTIONS)
+    except NeedsNumbaError as problem:  # to count references to its arguments, or to allocate
+        try:
+            return object_code(law, signature, "nivel_law", machine)
+        except NumbaError:
+            raise problem from None
 
 
 def law_of(text: str, file: str) -> Any:

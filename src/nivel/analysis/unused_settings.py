@@ -16,7 +16,7 @@ from nivel.motion.catalogue import FORMULATIONS
 CONSTANTS = {"newmark": "newmark", "hht": "hht", "generalised_alpha": "generalised-alpha"}
 
 
-def idle_settings(given: Collection[str], settings: SimulationSettings, coordinates: str) -> list[Fault]:
+def unused_settings(given: Collection[str], settings: SimulationSettings, coordinates: str) -> list[Fault]:
     """Faults for those of the settings `given` that the methods of `settings` have no use for.
 
     coordinates : of the run, `auto` resolved. Methods that are not known are left to others.
@@ -24,11 +24,11 @@ def idle_settings(given: Collection[str], settings: SimulationSettings, coordina
     return [
         Fault("", 0, 0, f"simulation.{name}", f"`{name}` has no effect here: {reason}")
         for name in given
-        if (reason := _idle(name, settings, coordinates))
+        if (reason := _unused(name, settings, coordinates))
     ]
 
 
-def _idle(name: str, settings: SimulationSettings, coordinates: str) -> str:
+def _unused(name: str, settings: SimulationSettings, coordinates: str) -> str:
     """Why the setting `name` has no effect; empty where it has one."""
     integrator, formulation = INTEGRATORS.get(settings.integrator), FORMULATIONS.get(settings.formulation)
     if name in ("tolerance", "largest_step") and integrator and not chooses(settings.integrator, settings.step_control):

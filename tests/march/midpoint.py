@@ -1,4 +1,4 @@
-"""The integrator of docs/methods.md, "Adding a method"."""
+"""The integrator of docs/extending.md, "An integrator"."""
 
 from nivel.kernels.hook import call_evaluate
 from nivel.march.run import EVALUATIONS, STEP, STEP_SIGNATURE, TIME, run_at

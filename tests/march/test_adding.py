@@ -9,7 +9,7 @@ from nivel.march.catalogue import INTEGRATORS, IntegratorFacts
 from running import run
 
 HERE = Path(__file__).parent
-PAGE = (HERE.parents[1] / "docs" / "methods.md").read_text(encoding="utf-8")
+PAGE = (HERE.parents[1] / "docs" / "extending.md").read_text(encoding="utf-8")
 
 
 def test_integrator_of_the_documentation_runs_with_its_order(monkeypatch):

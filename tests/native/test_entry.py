@@ -115,3 +115,13 @@ def _run(code, cache=None):
     out, err = process.communicate()
     assert process.returncode == 0, err
     return subprocess.CompletedProcess(process.args, 0, out, err)
+
+
+@pytest.mark.parametrize("end", ["", "raise SystemExit(3)", "raise KeyError"])
+def test_a_process_ends_as_it_means_to(end):
+    """Machine code is not taken away while the interpreter still runs."""
+    process = _start(
+        f"import toy_entries as t, numpy as np\nt.squares(np.arange(3.0), 0), t.made(np.arange(3.0), 0)\n{end}"
+    )
+    process.communicate()
+    assert process.returncode == {"": 0, "raise SystemExit(3)": 3, "raise KeyError": 1}[end]

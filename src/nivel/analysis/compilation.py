@@ -8,6 +8,8 @@ from time import perf_counter
 
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Methods, Plan
+from nivel.kernels.forces.held_beam import hold
+from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.hook import Family
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
@@ -15,11 +17,9 @@ from nivel.march.catalogue import BY_MODES, INTEGRATORS
 from nivel.motion.catalogue import BALANCED, BALANCED_CORRECTION, FLEXIBLE, PATHS
 from nivel.native import library
 from nivel.native.entry import Entry, entry_of
-from nivel.system.beams import ELASTIC as ELASTIC_FAMILY
+from nivel.system.beams import ELASTIC, family_of
 from nivel.system.beams import FAMILIES as BEAMS
-from nivel.system.beams import family_of
 from nivel.system.forces import FORCES
-from nivel.system.user_states import FAMILY as STATE_FAMILY
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
@@ -30,8 +30,7 @@ LOADS = ("force", "torque")
 MEASURE, FRICTION = "nivel.kernels.measure", "nivel.kernels.friction"
 SENSOR, WATCH, SAMPLING = "nivel.kernels.sensor", "nivel.kernels.watch", "nivel.kernels.sampling"
 GIVEN_FRICTION, RAIL = "nivel.kernels.friction_residual", "nivel.kernels.rail"
-ELASTIC, HELD = f"nivel.kernels.forces.{ELASTIC_FAMILY}", "nivel.kernels.forces.held_beam"
-OF_BEAMS = (HELD, "nivel.kernels.beam_tangent")
+OF_BEAMS = "nivel.kernels.beam_tangent"
 POINTS = "nivel.kernels.point_inertia"
 # nodes of trees that are no joints, for residuals in relative coordinates
 OF_MODES, OF_SLIDERS = "nivel.kernels.modal_nodes", "nivel.kernels.slider_nodes"
@@ -65,7 +64,7 @@ def in_words(name: str) -> str:
 
 def assembly_entries(machine: MachineRecord) -> list[Entry]:
     """What it takes to assemble `machine`, and to say where everything is."""
-    return _entries([ASSEMBLY, OUTPUT, *_rare_modules(machine)])
+    return [*_entries([ASSEMBLY, OUTPUT, *_rare_modules(machine)]), *(family.code for family in _families(machine))]
 
 
 def preparation_entries(methods: Methods) -> list[Entry]:
@@ -77,8 +76,8 @@ def preparation_entries(methods: Methods) -> list[Entry]:
         modules += _node_modules(methods)
         plain = bool(integrator.whole) or integrator.along or methods.formulation == "lagrange"
         residual = integrator.over_step(machine.is_flexible) or path.residual
-        twins = _with_twins(residual, modules, held=not plain)
-        twins += _with_twins(path.residual, [], held=not plain) if methods.balanced else []
+        twins = _with_twins(residual, modules, _families(machine), held=not plain)
+        twins += _with_twins(path.residual, [], []) if methods.balanced else []
         twins.append(entry_of(RESIDUAL))
     if integrator.accelerations and path.dependent:
         modules.append(path.dependent)
@@ -100,7 +99,8 @@ def run_entries(plan: Plan) -> list[Entry]:
 def statics_entries(methods: Methods) -> list[Entry]:
     """What statics takes, in these coordinates."""
     modules = [*_rare_modules(methods.machine), *_node_modules(methods)]
-    return [*preparation_entries(methods), *_entries([STATICS]), *_with_twins(methods.path.residual, modules)]
+    twins = _with_twins(methods.path.residual, modules, _families(methods.machine))
+    return [*preparation_entries(methods), *_entries([STATICS]), *twins]
 
 
 def all_entries() -> list[Entry]:
@@ -111,19 +111,22 @@ def all_entries() -> list[Entry]:
         module for facts in paths for module in (facts.module, facts.correction, facts.residual, facts.dependent)
     ]
     modules += [module for facts in integrators for module in (facts.whole, facts.whole_flexible)]
+    modules += [MEASURE, FRICTION, RAIL, POINTS, SENSOR, WATCH, SAMPLING, BALANCED, BALANCED_CORRECTION, *COMPLETIONS]
     modules += [
-        *(f"nivel.kernels.forces.{family}" for family in _families()),
-        MEASURE,
-        FRICTION,
-        RAIL,
-        POINTS,
-        SENSOR,
-        WATCH,
+        OF_BEAMS,
+        GIVEN_FRICTION,
+        OF_MODES,
+        OF_SLIDERS,
+        PASSING,
+        LOOP,
+        STATICS,
+        RESIDUAL.partition(":")[0],
+        OUTPUT,
     ]
-    modules += [SAMPLING, BALANCED, BALANCED_CORRECTION, *COMPLETIONS, *OF_BEAMS, GIVEN_FRICTION, OF_MODES, OF_SLIDERS]
-    modules += [PASSING, LOOP, STATICS, RESIDUAL.partition(":")[0], OUTPUT]
+    families = dict.fromkeys([*(each for kind in FORCES.values() for each in kind.families), *BEAMS, state_rate])
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
-    return [*_entries(module for module in modules if module), *twins]
+    twins += [family.twin for family in (*families, hold)]
+    return [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
 
 
 def _entries(modules: Iterable[str]) -> list[Entry]:
@@ -144,27 +147,27 @@ def _twins(module: str) -> list[Entry]:
     return [part.twin for part in parts if isinstance(part, Family) and part.module == module]
 
 
-def _with_twins(residual: str, used: Sequence[str], *, held: bool = True) -> list[Entry]:
-    """A residual, and on complex numbers it and what a run uses of families. held : those of elements of beams are found by hand."""
+def _with_twins(residual: str, used: Sequence[str], families: Iterable[Family], *, held: bool = True) -> list[Entry]:
+    """A residual, and on complex numbers it and what a run uses: modules, families. held : elements of beams are found by hand."""
     needed = [residual, *(module for module in _with_derivatives() if module in used)]
-    if ELASTIC in needed and held:
-        needed[needed.index(ELASTIC)] = HELD
     if FRICTION in used:
         needed.append(GIVEN_FRICTION)
-    return [*_entries(needed), *(twin for module in needed for twin in _twins(module))]
-
-
-def _families() -> list[str]:
-    """All families of forces, of beams and of states."""
-    return [*dict.fromkeys([*(name for kind in FORCES.values() for name in kind.families), *BEAMS, STATE_FAMILY])]
+    of_forces = [(hold if held and family is ELASTIC else family).twin for family in families]
+    return [*_entries(needed), *of_forces, *(twin for module in needed for twin in _twins(module))]
 
 
 def _with_derivatives() -> list[str]:
-    """Modules of families that exact derivatives may need on complex numbers."""
+    """Modules, besides those of forces, that exact derivatives may need on complex numbers."""
     residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values()) if path.residual]
     residuals += [module for facts in INTEGRATORS.values() for module in (facts.whole, facts.whole_flexible) if module]
-    of_forces = [f"nivel.kernels.forces.{family}" for family in _families()]
-    return [*dict.fromkeys(residuals), MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS, HELD, *of_forces]
+    return [*dict.fromkeys(residuals), MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS]
+
+
+def _families(machine: MachineRecord) -> list[Family]:
+    """The families of forces that a machine has."""
+    families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
+    families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
+    return [*families, *([state_rate] if machine.states else [])]
 
 
 def _node_modules(methods: Methods) -> list[str]:
@@ -179,11 +182,8 @@ def _watches(machine: MachineRecord, chooses_steps: bool) -> bool:
 
 
 def _rare_modules(machine: MachineRecord) -> list[str]:
-    """Modules of what only some machines have: kinds of forces, measured coordinates, friction, sensors, samples."""
+    """Modules of what only some machines have, besides forces: measured coordinates, friction, sensors, samples."""
     types = {force.type for force in machine.forces}
-    families = dict.fromkeys(family for force in types for family in FORCES[force].families)
-    families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
-    families |= {STATE_FAMILY: None} if machine.states else {}
     measured = machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}
     needed = {
         MEASURE: bool(measured),
@@ -192,7 +192,6 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
         POINTS: any(beam.has_gradients for beam in machine.beams),
         SENSOR: bool(machine.sensors),
         SAMPLING: any(state.update is not None for state in machine.states),
+        OF_BEAMS: ELASTIC in map(family_of, machine.beams),
     }
-    of_beams = OF_BEAMS if ELASTIC_FAMILY in families else ()
-    of_forces = [f"nivel.kernels.forces.{family}" for family in families]
-    return [*of_forces, *of_beams, *(module for module, asked in needed.items() if asked)]
+    return [module for module, asked in needed.items() if asked]

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from types import ModuleType
-from typing import Any
 
 import numpy as np
 
@@ -21,6 +20,7 @@ from nivel.analysis.penalties import feedback
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.settings import RunSettings
 from nivel.kernels.handle import Handle
+from nivel.kernels.observe import observe
 from nivel.kernels.status import (
     BUDGET_SPENT,
     BUFFER_FULL,
@@ -34,6 +34,7 @@ from nivel.kernels.status import (
     SINGULAR,
     STEP_TOO_SMALL,
 )
+from nivel.march.loop import advance
 from nivel.march.run import (
     ACCEPTED,
     BUDGET,
@@ -138,7 +139,6 @@ def _compiled_loop(prepared: Prepared, run: Run, stabilisation: ModuleType) -> C
     kernels, facts = prepared.motion.kernels, prepared.integrator
     correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.keep
     step = getattr(import_module(facts.module), facts.function)
-    advance = import_module("nivel.march.loop").advance
     machine, history = prepared.motion.handle, Handle(run)
     evaluate, correct, step = kernels.evaluate.address, correct.address, step.address
     return lambda: advance(evaluate, correct, step, machine.address, history.address)
@@ -241,7 +241,6 @@ def _keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None
     if motion.holds(t, run.previous):
         frame = np.zeros((1, motion.system.layout.width))
         frame[0, 0] = t
-        observe: Any = import_module("nivel.kernels.observe").observe
         observe(motion.handle.address, t, run.previous, frame[0])
         if np.isfinite(frame).all():
             for sink in sinks:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
-
 import numpy as np
 
 from nivel.analysis.equations import MotionEquations
+from nivel.kernels.observe import observe
 from nivel.system.layout import reported
 from nivel.system.system import Array, System
 
@@ -20,7 +18,6 @@ def grown_motion(motion: MotionEquations, time: float, step: float, y: Array) ->
     dampers take in a step, and bodies that move by more than the length of the machine in a step of fixed size; None where it has not."""
     system, control = motion.system, motion.system.record.control
     motion.evaluate(time, y)
-    observe: Any = import_module("nivel.kernels.observe").observe
     observe(motion.handle.address, time, y, np.zeros(system.layout.width))
     kinetic, potential, start = (float(each) for each in control.energy)
     work, dissipated = float(y[-2]), float(y[-1])

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.freedoms import coordinate_derivatives
+from nivel.kernels import friction as columns
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.machine.machine_record import MachineRecord
@@ -32,7 +30,6 @@ def resting_frictions(
         return (), ()
     system = motion.system
     motion.evaluate(0.0, y)
-    columns: Any = import_module("nivel.kernels.friction")
     places = [
         int(system.record.friction.columns[system.frictions.index(force.name), columns.COORDINATE]) for force in rubbing
     ]

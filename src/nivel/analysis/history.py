@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,8 +9,11 @@ from nivel.analysis.implicit import constraint_index
 from nivel.analysis.jam import can_be_asked
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.settings import RunSettings
+from nivel.kernels import friction as columns
+from nivel.kernels.observe import observe
 from nivel.kernels.record import WATCH
 from nivel.kernels.saddle import CONTRADICTORY, MOST_UNSETTLED
+from nivel.kernels.watch import watch
 from nivel.march.catalogue import IntegratorFacts
 from nivel.march.run import (
     ALL_STEPS,
@@ -142,7 +142,6 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     follows = settings.steps == 0 or facts.residual
     record.control.stick[:] = STICK_STEPS * settings.step, 0.0 if follows else STICK_STEPS * settings.step
     if len(record.friction.columns):
-        columns: Any = import_module("nivel.kernels.friction")
         turns = record.friction.columns[:, columns.ROTATES] == 1
         record.friction.number[:, columns.REST] = (
             STILL * np.where(turns, 1.0, prepared.motion.system.size) / settings.duration
@@ -155,7 +154,6 @@ def _refer_energies(prepared: Prepared, y: Array) -> None:
     energy = motion.system.record.control.energy
     energy[:] = 0.0
     motion.evaluate(0.0, y)
-    observe: Any = import_module("nivel.kernels.observe").observe
     observe(motion.handle.address, 0.0, y, np.zeros(motion.system.layout.width))
     energy[2] = energy[0] + energy[1]
 
@@ -167,7 +165,7 @@ def _watch(system: System, *, chosen: bool) -> int:
         watched.followed[0] = int(len(watched.surface) > 0)
     count = len(watched.event) + (len(watched.surface) if watched.followed[0] else 0)
     if count:
-        system.record.hooks.address[WATCH] = import_module("nivel.kernels.watch").watch.address
+        system.record.hooks.address[WATCH] = watch.address
     return count
 
 

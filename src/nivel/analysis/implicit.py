@@ -12,10 +12,15 @@ from scipy.linalg import qr
 
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.unknown_groups import frictions_with_stiction, unknown_groups
+from nivel.kernels import tangent_entries as entries
 from nivel.kernels.arrays import complex_twin
+from nivel.kernels.beam_tangent import tangent
+from nivel.kernels.forces.held_beam import hold
+from nivel.kernels.friction_residual import rub
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES, Family
 from nivel.kernels.implicit_record import Newton, Residual
+from nivel.kernels.modal_nodes import pass_modes
 from nivel.kernels.record import (
     DEPENDENT,
     GIVEN_FRICTION,
@@ -32,6 +37,8 @@ from nivel.kernels.record import (
     Hooks,
     Record,
 )
+from nivel.kernels.slider_nodes import pass_sliders
+from nivel.kernels.slider_pass import pass_nodes
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.system.beam_tangent import (
     elastic_family,
@@ -228,16 +235,16 @@ def _hooks(system: System, path: PathFacts, wanted: Wanted, *, by_hand: bool) ->
     family, instant = _families(path, wanted)
     address[RESIDUAL], address[MOMENTARY] = family.address, instant.address
     if by_hand:
-        address[TANGENT] = import_module("nivel.kernels.beam_tangent").tangent.address
+        address[TANGENT] = tangent.address
     if len(record.modal.carrier):
-        address[MODES] = import_module("nivel.kernels.modal_nodes").pass_modes.address
+        address[MODES] = pass_modes.address
     if len(record.tree.slider):
-        address[PASS] = import_module("nivel.kernels.slider_pass").pass_nodes.address
-        address[SLIDERS] = import_module("nivel.kernels.slider_nodes").pass_sliders.address
+        address[PASS] = pass_nodes.address
+        address[SLIDERS] = pass_sliders.address
     if wanted.accelerations and path.dependent:
         address[DEPENDENT] = import_module(path.dependent).depend.address
     if len(system.frictions):
-        address[GIVEN_FRICTION] = import_module("nivel.kernels.friction_residual").rub.address
+        address[GIVEN_FRICTION] = rub.address
     return record.hooks._replace(address=address)
 
 
@@ -260,7 +267,7 @@ def _twin(record: Record, *, held: bool) -> Handle:
         address[hook] = _complex(record.hooks.address[hook])
     families = np.array([_complex(each) for each in record.elements.address], dtype=np.uint64)
     if held:
-        families[elastic_family(record)] = import_module("nivel.kernels.forces.held_beam").hold.complex_address
+        families[elastic_family(record)] = hold.complex_address
     laws = np.array([complex_address(int(each)) if each else 0 for each in record.functions.address], dtype=np.uint64)
     return Handle(
         twin._replace(
@@ -278,14 +285,14 @@ def _complex(address: Any) -> int:
 
 def evaluate_residual(motion: MotionEquations, t: float) -> int:
     """Status of the residual for what its record asks; its value is left there."""
-    return int(import_module("nivel.kernels.tangent_entries").evaluate_residual(motion.handle.address, t))
+    return int(entries.evaluate_residual(motion.handle.address, t))
 
 
 def find_tangent(
     motion: MotionEquations, t: float, position: float, velocity: float, state: float
 ) -> tuple[int, Array]:
     """Status and matrix (N, N) of Newton's iteration; unknowns move positions, velocities and states by these shares [s², s, s]."""
-    entries, newton = import_module("nivel.kernels.tangent_entries"), motion.system.record.newton
+    newton = motion.system.record.newton
     status = int(entries.find_tangent(motion.handle.address, t, position, velocity, state))
     size = len(newton.b)
     row = np.repeat(np.arange(size), np.diff(newton.row_start.astype(np.int64)))

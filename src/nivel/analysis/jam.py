@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from nivel.analysis.closing import close_positions
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.redundancy import scaled_jacobian
 from nivel.errors import ModelError
+from nivel.kernels.observe import observe
 from nivel.system.system import Array, System
 
 # How far beyond a failure a jam is looked for, in steps: methods that solve for accelerations fail some steps before it, and a driver may
@@ -111,7 +111,6 @@ class _Nearby:
         self.reference = motion.system.record.coordinates.reference.copy()
         system, count = self.absolute.system, self.absolute.system.body_count
         motion.evaluate(time, y)
-        observe: Any = import_module("nivel.kernels.observe").observe
         observe(motion.handle.address, time, y, frame := np.zeros(motion.system.layout.width))
         R, theta = frame[1 : 1 + 3 * count].reshape(count, 3), frame[1 + 3 * count : 1 + 7 * count].reshape(count, 4)
         still = np.zeros((count, 3))

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib import import_module
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +12,7 @@ from nivel.analysis.fast_beams import too_fast
 from nivel.analysis.growth import grown_motion
 from nivel.analysis.jam import named_row, unit_of
 from nivel.analysis.unknowns import unknown_name
+from nivel.kernels import friction as columns
 from nivel.kernels.status import (
     BRISTLE_TOO_FAST,
     CONTRADICTION,
@@ -236,7 +235,6 @@ def _slow_multipliers(motion: MotionEquations) -> tuple[str, str]:
 
 def _fast_bristles(motion: MotionEquations, number: int, step: float) -> tuple[str, str]:
     record, name = motion.system.record, motion.system.frictions[number]
-    columns: Any = import_module("nivel.kernels.friction")
     numbers = record.friction.number[number]
     rate = record.coordinates.rate[int(record.friction.columns[number, columns.COORDINATE])]
     speed = abs(float(rate * numbers[columns.ARM]))

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from importlib import import_module
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.carrying import Carrying
+from nivel.kernels import friction as columns
 from nivel.kernels.coordinate import ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.record import NONE
 from nivel.system.rails import stretches
@@ -147,7 +147,6 @@ def frictions_with_stiction(system: System) -> list[int]:
     """Numbers of the frictions whose efforts are unknowns."""
     if not system.frictions:
         return []
-    columns = import_module("nivel.kernels.friction")
     return np.flatnonzero(system.record.friction.columns[:, columns.MODEL] == columns.STICTION).tolist()
 
 
@@ -155,7 +154,7 @@ def _frictions(system: System) -> list[tuple[set[int], int, str]]:
     """Bodies, state or NONE, and the joint whose reaction is the load (empty: none), of each friction."""
     if not system.frictions:
         return []
-    record, columns = system.record, import_module("nivel.kernels.friction")
+    record = system.record
     out = []
     for index in record.friction.columns.tolist():
         start = record.coordinates.start[index[columns.COORDINATE] :]

@@ -9,15 +9,17 @@ import numpy as np
 
 from nivel.files.placement import AXIAL_Z, POLAR_Z
 from nivel.files.scene import Scene
-from nivel.files.substitution import Linear, mixed, negative, substituted
+from nivel.files.substitution import Linear, NotRepresentableError, mixed, negative, substituted
 from nivel.machine import (
     Bushing,
     Contact,
+    Expression,
     Friction,
     JointSpringDamper,
     Motor,
     PairForce,
     PointForce,
+    PythonLaw,
     Record,
     SpringDamper,
     Stop,
@@ -25,17 +27,29 @@ from nivel.machine import (
     Torque,
     TorsionalSpringDamper,
 )
-from nivel.machine.forces import Between
+from nivel.machine.forces import Between, ForceElement
 
 Changes = dict[str, Any]
 
 
 def placed_force(force: Any, scene: Scene) -> Any:
-    """`force` in the placed part.
+    """`force` in the placed part, by the rule of its kind, or of what its kind is made of.
 
     Raises NotRepresentableError.
     """
-    return force.replace(**_RULES[type(force)](force, scene))
+    rule = next(_RULES[kind] for kind in type(force).__mro__ if kind in _RULES)
+    return force.replace(**rule(force, scene))
+
+
+def _any_force(force: ForceElement, scene: Scene) -> Changes:
+    """Functions of signals follow the part; a coordinate that counts the other way would need a rule of the kind."""
+    coordinate = getattr(force, "coordinate", None)
+    if coordinate is not None and scene.is_opposite(coordinate):
+        raise NotRepresentableError(
+            f"what a {force.type} on a coordinate that counts the other way would be is not known"
+        )
+    changes = _ends(force, scene, with_axes=True) if isinstance(force, Between) else {}
+    return changes | {name: scene.varied(value) for name, value in force if isinstance(value, Expression | PythonLaw)}
 
 
 def _point_force(force: PointForce, scene: Scene) -> Changes:
@@ -143,6 +157,7 @@ def _varied(force: Record, scene: Scene, *fields: str) -> Changes:
 
 
 _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
+    ForceElement: _any_force,
     PointForce: _point_force,
     Torque: _torque,
     SpringDamper: _spring_damper,

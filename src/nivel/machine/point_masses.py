@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from nivel.machine.checked import Problem
-from nivel.machine.forces.between import Between
-from nivel.machine.forces.load import PointForce
+from nivel.machine.forces import FORCES, Between, PointForce
 from nivel.machine.index import Index, Place, as_list, elements
 from nivel.machine.marker import Marker
 from nivel.machine.record import entry
@@ -22,7 +21,6 @@ Triple = tuple[float, float, float]
 
 ON_EITHER: Final = ("spherical", "distance", "spherical-spherical")
 ON_SECOND: Final = ("point-on-line", "point-on-plane", "revolute-spherical")
-TURNING: Final = ("torque", "torsional-spring-damper", "bushing")  # forces that turn what they act on
 NEAR: Final = 1e-9  # by which a point may miss the origin, relative to where the point mass is and to 1 m
 
 _TURN: Final = "a point mass does not turn"
@@ -34,8 +32,9 @@ def point_mass_faults(machine: Any, index: Index) -> Faults:
         return
     for at, joint in enumerate(elements(machine, "joints")):
         yield from _of_joint(joint, index, ("joints", at))
+    turning = [kind.model_fields["type"].default for kind in FORCES if kind.turns]
     for at, force in enumerate(elements(machine, "forces")):
-        if entry(force, "type") in TURNING:
+        if entry(force, "type") in turning:
             for place, body in _bodies(force, index):
                 if body in index.point_masses:
                     yield ("forces", at, *place), f"`{body}`: {_TURN}; a {entry(force, 'type')} cannot act on it"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import sys
 from collections.abc import Callable, Iterable
 from functools import cache
@@ -69,8 +70,6 @@ def _job(entry: Entry) -> dict[str, Any]:
 
 # addresses of what is in memory
 _loaded: dict[str, int] = {}
-# linked libraries; they stay in memory as long as they are here
-_linked: list[Any] = []
 
 
 @cache
@@ -79,7 +78,11 @@ def _linker() -> Any:
 
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
-    return binding.create_lljit_compiler()
+    linker = binding.create_lljit_compiler()
+    atexit.register(
+        linker.detach
+    )  # the end of the process takes it away, not the interpreter, which may do so too early
+    return linker
 
 
 def _link(symbol: str, code: bytes) -> int:
@@ -87,9 +90,10 @@ def _link(symbol: str, code: bytes) -> int:
     from llvmlite import binding
 
     linker = _linker()
-    name = f"{symbol}-{len(_linked)}"
+    name = f"{symbol}-{len(_loaded)}"
     library = (
         binding.JITLibraryBuilder().add_object_img(code).add_current_process().export_symbol(symbol).link(linker, name)
     )
-    _linked.append(library)
-    return int(library[symbol])
+    address = int(library[symbol])
+    library.detach()  # it stays in memory as long as the process does
+    return address

@@ -11,19 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nivel.machine.forces import FORCES
 from nivel.results.scales import Readable, largest_mechanical_energy
 
-# What can be stiff; a load that is given, or dry friction, changes no faster than what makes it.
-STIFF = (
-    "spring-damper",
-    "torsional-spring-damper",
-    "joint-spring-damper",
-    "bushing",
-    "contact",
-    "stop",
-    "motor",
-    "pair-force",
-)
 # Work in a step as a share of the largest energy from which on it is not followed, and of the energy error that it can explain.
 FOLLOWED, EXPLAINS = 0.5, 0.01
 
@@ -57,10 +47,12 @@ def unresolved_force(result: Readable, error: float) -> Unresolved | None:
 def _works(result: Readable, step: float) -> list[tuple[str, float, float]]:
     """(name, largest work in a step [J], its time [s]) of the forces that can be stiff and do any."""
     record = json.loads(str(result.attributes.get("machine_record", "{}")))
+    # a load that is given, or dry friction, changes no faster than what makes it
+    steady = [kind.model_fields["type"].default for kind in FORCES if not kind.stiff]
     out = []
     for force in record.get("forces", ()):
         variable = f"force.{force['name']}.power"
-        if force["type"] not in STIFF or variable not in result.variables:
+        if force["type"] in steady or variable not in result.variables:
             continue
         work = step * np.abs(result.array(variable))
         work[~np.isfinite(work)] = 0.0

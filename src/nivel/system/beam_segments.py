@@ -9,11 +9,11 @@ energy of linear elements with one point of integration: errors fall with l².
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
 from itertools import pairwise
 
 import numpy as np
 
+from nivel.kernels.forces import bushing
 from nivel.kernels.record import NONE
 from nivel.machine.beam import Beam
 from nivel.system.beam_elements import Array, gauss, relative_turns
@@ -66,7 +66,6 @@ def segments_of(beam: Beam) -> Segments:
 
 def add_segments(draft: Draft, beam: Beam) -> None:
     """The springs between the segments of a beam, whose frames are bodies; they report nothing."""
-    bushing = import_module("nivel.kernels.forces.bushing")
     K, (place, axes) = beam.properties.stiffness, beam.frames(beam.shares)
     meeting, turned = beam.frames(boundaries(beam))
     lengths = beam.line.length * np.diff(beam.shares)
@@ -79,7 +78,7 @@ def add_segments(draft: Draft, beam: Beam) -> None:
         numbers = np.zeros(bushing.EFFORT + 6)
         numbers[bushing.STIFFNESS : bushing.DAMPING] = stiffness
         numbers[bushing.DAMPING : bushing.X] = beam.damping * stiffness
-        draft.elements.add("bushing", [NONE, *ends], numbers.tolist())
+        draft.elements.add(bushing.apply, [NONE, *ends], numbers.tolist())
         draft.noted.append(Coupled(frozenset(draft.markers.body[end] for end in ends)))
 
 

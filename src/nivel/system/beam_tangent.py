@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from importlib import import_module
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.beam_record import BeamTangent
+from nivel.kernels.forces.elastic_beam import apply as elastic_beam
 from nivel.kernels.record import FREE, NONE, Record
 from nivel.system.beams import empty_tangent
 from nivel.system.system import System
@@ -25,8 +25,7 @@ def elastic_family(record: Record) -> int:
     """Number of the family of elements without damping among the families of forces; -1: there are none."""
     if not len(record.elements.address):
         return -1
-    address = import_module("nivel.kernels.forces.elastic_beam").apply.address
-    found = np.flatnonzero(record.elements.address == np.uint64(address))
+    found = np.flatnonzero(record.elements.address == np.uint64(elastic_beam.address))
     return int(found[0]) if len(found) else -1
 
 

@@ -7,7 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from nivel.kernels.beam_record import BeamTangent, SharedMass
+from nivel.kernels.forces.beam import apply as beam_family
+from nivel.kernels.forces.bushing import apply as bushing
+from nivel.kernels.forces.elastic_beam import apply as elastic_beam
 from nivel.kernels.hook import FAMILIES as COMPILED
+from nivel.kernels.hook import Family
 from nivel.kernels.record import NONE, Record
 from nivel.machine.beam import Beam
 from nivel.machine.orientation import matrix_from_euler_parameters
@@ -22,11 +26,11 @@ from nivel.system.tables import index_array
 
 MOST_NODES = 4
 # kernels of elements: those without damping, whose derivatives are found by hand, and all others; of springs between segments
-ELASTIC, OTHER, SPRINGS = "elastic_beam", "beam", "bushing"
+ELASTIC, OTHER, SPRINGS = elastic_beam, beam_family, bushing
 FAMILIES = (ELASTIC, OTHER, SPRINGS, *OF_GRADIENTS)
 
 
-def family_of(beam: Beam) -> str:
+def family_of(beam: Beam) -> Family:
     """The kernel of its elements, or of the springs between its segments."""
     if beam.has_gradients:
         return family_of_gradients(beam)
@@ -70,9 +74,9 @@ def _add_elements(draft: Draft, beam: Beam) -> None:
 
 def nodes_of_elements(record: Record) -> list[int]:
     """Markers that are nodes of geometrically exact beams."""
-    names, out = {f"nivel.kernels.forces.{name}" for name in (ELASTIC, OTHER)}, set[int]()
+    out = set[int]()
     for address, (first, last) in zip(record.elements.address, record.elements.span.tolist(), strict=True):
-        if COMPILED[int(address)].module in names:
+        if COMPILED[int(address)] in (ELASTIC, OTHER):
             for row in record.elements.columns[first:last].tolist():
                 out.update(row[: row[MOST_NODES]])
     return sorted(out)

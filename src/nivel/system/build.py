@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 
+from nivel.kernels.friction import rub
+from nivel.kernels.measure import measure
+from nivel.kernels.point_inertia import resist
+from nivel.kernels.rail import slide
 from nivel.kernels.record import (
     BOTH,
     ENDS_RUN,
@@ -31,12 +34,14 @@ from nivel.kernels.record import (
     Sensors,
     Watched,
 )
+from nivel.kernels.sampling import sample
+from nivel.kernels.sensor import sense
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams import add_beam, no_tangent, shared_mass
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
 from nivel.system.draft import Draft
 from nivel.system.flexible import no_flexible, no_modal_tree
-from nivel.system.forces import FORCES, family_addresses
+from nivel.system.forces import FORCES
 from nivel.system.gradient_beams import point_inertia
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.interfaces import refuse_unknown_interfaces
@@ -143,7 +148,7 @@ def _record(draft: Draft, rows: RowTable, units: list[str], equations: Equations
             coordinate=index_array(list(draft.joint_coordinates.values()), 1),
         ),
         functions=draft.functions.arrays(),
-        elements=draft.elements.arrays(family_addresses(list(draft.elements.families))),
+        elements=draft.elements.arrays(),
         friction=friction_tables(draft, saddle, extra, count),
         saddle=saddle,
         tree=empty_tree(constraints),
@@ -192,17 +197,17 @@ def _hooks(draft: Draft, sensors: bool) -> Hooks:
     """Addresses of the compiled functions that only some machines need."""
     address = np.zeros(HOOKS, dtype=np.uint64)
     if draft.coordinates.what:
-        address[MEASURE] = import_module("nivel.kernels.measure").measure.address
+        address[MEASURE] = measure.address
     if draft.coordinates.rails:
-        address[RAIL] = import_module("nivel.kernels.rail").slide.address
+        address[RAIL] = slide.address
     if any(beam.has_gradients for beam in draft.machine.beams):
-        address[POINTS] = import_module("nivel.kernels.point_inertia").resist.address
+        address[POINTS] = resist.address
     if draft.frictions:
-        address[FRICTION] = import_module("nivel.kernels.friction").rub.address
+        address[FRICTION] = rub.address
     if any(state.update is not None for state in draft.machine.states):
-        address[SAMPLE] = import_module("nivel.kernels.sampling").sample.address
+        address[SAMPLE] = sample.address
     if sensors:
-        address[SENSE] = import_module("nivel.kernels.sensor").sense.address
+        address[SENSE] = sense.address
     return Hooks(address)
 
 

@@ -7,6 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from nivel.kernels.beam_record import PointInertia
+from nivel.kernels.forces.ancf_beam import apply as ancf_beam
+from nivel.kernels.forces.ancf_cable import apply as ancf_cable
+from nivel.kernels.hook import Family
 from nivel.kernels.record import NONE
 from nivel.machine.beam import Beam
 from nivel.system.beam_elements import gauss
@@ -29,14 +32,14 @@ from nivel.system.gradient_elements import (
 from nivel.system.state_facts import Coupled
 from nivel.system.tables import index_array
 
-CABLE, BEAM = FAMILIES = ("ancf_cable", "ancf_beam")
+FAMILIES = ancf_cable, ancf_beam
 MOST_VECTORS = 8
 VECTORS = 72  # places, rates and forces of an element
 
 
-def family_of_gradients(beam: Beam) -> str:
+def family_of_gradients(beam: Beam) -> Family:
     """The kernel of the elements of a beam in absolute nodal coordinates."""
-    return CABLE if beam.model == "ancf-cable" else BEAM
+    return ancf_cable if beam.model == "ancf-cable" else ancf_beam
 
 
 def add_gradient_beam(draft: Draft, beam: Beam) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.linalg import eigh
 
 from nivel.machine.beam import Beam
 from nivel.system.beam_elements import gauss
@@ -34,6 +33,8 @@ def fastest_of_gradients(beam: Beam) -> float:
     length = whole.line.length
     stiffness = _cable_stiffness(whole, length) if beam.model == "ancf-cable" else _beam_stiffness(whole, length)
     mass = np.kron(consistent_mass(whole, length), np.eye(3))
+    from scipy.linalg import eigh
+
     fastest = float(eigh(stiffness, mass, eigvals_only=True)[-1])
     if beam.model == "ancf-cable":
         own = whole.properties

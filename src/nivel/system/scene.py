@@ -37,7 +37,7 @@ import numpy as np
 from nivel.flexible.picture import moving_surface
 from nivel.machine.beam import Beam
 from nivel.machine.body import Body
-from nivel.machine.forces import Bushing, Contact, Force, PairForce, SpringDamper, TorsionalSpringDamper
+from nivel.machine.forces import Between, BetweenMarkers, Contact, Force, TorsionalSpringDamper
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.shape import Box, Extrusion, Mesh, Sphere, Tube
@@ -169,7 +169,7 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
 def _ends(draft: Draft, force: Force) -> tuple[int, int] | None:
     """Markers between which a force acts; None where it acts elsewhere."""
     match force:
-        case SpringDamper() | TorsionalSpringDamper() | PairForce() | Bushing():
+        case Between() | BetweenMarkers():
             return draft.ends(force.ends)
         case Contact(body=str(body), plane=plane) if plane is not None:
             return _centre(draft, body), draft.end(plane)

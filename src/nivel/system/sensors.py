@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-
 from nivel.errors import Fault, ModelError
+from nivel.kernels import sensor as kernel
 from nivel.kernels.coordinate import DISTANCE, LAST_ANGLE, ROTATION
 from nivel.kernels.record import NONE
 from nivel.machine.coordinate_reference import resolve
@@ -27,7 +26,6 @@ def sensor_columns(draft: Draft) -> list[list[int]]:
     """Columns of `nivel.kernels.sensor` for all sensors; their outputs are added."""
     columns: list[list[int]] = []
     if draft.machine.sensors:
-        kernel = import_module("nivel.kernels.sensor")
         quantities = ("position", "velocity", "acceleration", "angular_velocity", "angular_acceleration")
         vectors = {name: getattr(kernel, name.upper()) for name in quantities}
         scalars = {"value": kernel.VALUE, "rate": kernel.RATE, "acceleration": kernel.SECOND}

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.coordinate import ALONG, LAST_ANGLE
+from nivel.kernels.hook import Family
 from nivel.kernels.record import NONE, Coordinates, Elements, Markers
 from nivel.system.state_facts import StateFact
 
@@ -127,12 +128,12 @@ class CoordinateTable:
 class ElementTable:
     """Forces by family, a family being named by its kernel's module, and the first-order states of all elements."""
 
-    families: dict[str, list[tuple[list[int], list[float], int, tuple[int, ...]]]] = field(default_factory=dict)
+    families: dict[Family, list[tuple[list[int], list[float], int, tuple[int, ...]]]] = field(default_factory=dict)
     _states: dict[str, StateFact | None] = field(default_factory=dict)
 
     def add(
         self,
-        family: str,
+        family: Family,
         index: list[int],
         number: list[float] | None = None,
         memory: int = 0,
@@ -164,14 +165,14 @@ class ElementTable:
         elements = [element for family in self.families.values() for element in family]
         return [(k, place) for k, element in enumerate(elements) for place in element[3]]
 
-    def arrays(self, addresses: dict[str, int]) -> Elements:
-        """`addresses` : of the compiled function of each family."""
+    def arrays(self) -> Elements:
+        """The tables of all elements."""
         elements = [element for family in self.families.values() for element in family]
         stops = np.cumsum([0, *(len(family) for family in self.families.values())])
         index = padded([element[0] for element in elements], NONE)
         kept = (len(elements), max((element[2] for element in elements), default=0))
         return Elements(
-            address=np.array([addresses[family] for family in self.families], dtype=np.uint64),
+            address=np.array([family.address for family in self.families], dtype=np.uint64),
             span=index_array(list(pairwise(stops)), 2),
             columns=index.astype(np.uint32),
             number=padded([element[1] for element in elements], 0.0),

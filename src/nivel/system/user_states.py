@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.record import NONE, Sampled
 from nivel.machine.state import State
 from nivel.system.draft import Draft
 from nivel.system.located import located
 from nivel.system.state_facts import StateFact
 from nivel.system.tables import index_array
-
-FAMILY = "state_rate"
 
 
 def add_states(draft: Draft) -> None:
@@ -23,7 +22,7 @@ def add_states(draft: Draft) -> None:
             with located(f"states.{state.name}.{key}"):
                 function = draft.function(getattr(state, key))
             if state.rate is not None or state.every is not None:
-                draft.elements.add(FAMILY, [own, function, int(state.rate is None)])
+                draft.elements.add(state_rate, [own, function, int(state.rate is None)])
 
 
 def _fact(state: State) -> StateFact:

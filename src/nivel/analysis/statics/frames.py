@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import import_module
-from typing import Any
 
 import numpy as np
 
 from nivel.analysis.statics.equations import Rest, StaticEquations
 from nivel.analysis.statics.vibrations import Vibrations
+from nivel.kernels.observe import observe
+from nivel.kernels.tangent_entries import evaluate_residual
 from nivel.motion.catalogue import BALANCED
 from nivel.system.layout import Entry, FrameLayout, Variable, laid_out
 from nivel.system.system import Array
@@ -75,7 +75,6 @@ class FrameWriter:
         self._columns = np.array([k for each in kept for k in range(each.columns.start, each.columns.stop)], dtype=int)
         self._bending = len(self._full.coordinates.get("mode", ()))
         self.layout = _layout(self._full, kept, modes)
-        self._observe: Any = import_module("nivel.kernels.observe").observe
 
     def frame(self, state: Rest, facts: Facts) -> Array:
         """The frame (1, width) of an equilibrium."""
@@ -99,7 +98,7 @@ class FrameWriter:
         if np.any(velocity):
             equations.residual.y[equations.positions : equations.positions + equations.n] = velocity
             address = equations.motion.handle.address
-            import_module("nivel.kernels.tangent_entries").evaluate_residual(address, state.t)
+            evaluate_residual(address, state.t)
         record.constraints.lam[:] = 0.0
         record.constraints.lam[equations.residual.row] = state.lam
         record.friction.force[:] = 0.0
@@ -107,7 +106,7 @@ class FrameWriter:
             still[:] = 0.0
         record.tree.Rddot0[:] = 0.0
         frame = np.zeros(self._full.width)
-        self._observe(equations.motion.handle.address, state.t, equations.residual.y, frame)
+        observe(equations.motion.handle.address, state.t, equations.residual.y, frame)
         return frame
 
     def _vibrating(self, state: Rest, found: Vibrations | None) -> Array:

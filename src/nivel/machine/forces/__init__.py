@@ -1,8 +1,11 @@
 """Forces in words, one file for each kind."""
 
-from typing import Annotated
+from functools import reduce
+from operator import or_
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import Field
+from pydantic import Field, GetCoreSchemaHandler
+from pydantic_core import CoreSchema
 
 from nivel.machine.forces.between import Between, BetweenMarkers, End, GlobalPoint
 from nivel.machine.forces.bushing import Bushing
@@ -18,21 +21,7 @@ from nivel.machine.forces.spring_damper import SpringDamper
 from nivel.machine.forces.stop import Stop
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
 
-Force = Annotated[
-    PointForce
-    | Torque
-    | SpringDamper
-    | TorsionalSpringDamper
-    | JointSpringDamper
-    | Stop
-    | Friction
-    | Motor
-    | PairForce
-    | Bushing
-    | Contact,
-    Field(discriminator="type"),
-]
-FORCES: tuple[type[ForceElement], ...] = (
+FORCES: list[type[ForceElement]] = [
     PointForce,
     Torque,
     SpringDamper,
@@ -44,7 +33,27 @@ FORCES: tuple[type[ForceElement], ...] = (
     PairForce,
     Bushing,
     Contact,
-)
+]
+
+
+class _AnyForce:
+    """A record of one of FORCES, told apart by its `type`."""
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, _: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return handler.generate_schema(Annotated[reduce(or_, FORCES), Field(discriminator="type")])
+
+
+if TYPE_CHECKING:
+    Force = ForceElement
+else:
+    Force = _AnyForce
+
+
+def register(kind: type[ForceElement]) -> None:
+    """Add a kind of force. Machines know it from when their record is built anew (`MachineRecord.model_rebuild`)."""
+    FORCES.append(kind)
+
 
 __all__ = [
     "FORCES",
@@ -70,4 +79,5 @@ __all__ = [
     "Torque",
     "TorqueTable",
     "TorsionalSpringDamper",
+    "register",
 ]

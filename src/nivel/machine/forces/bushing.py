@@ -29,6 +29,8 @@ class Bushing(Between):
         *(f"torque_{axis}" for axis in "xyz"),
     )
 
+    turns: ClassVar[bool] = True
+
     type: Literal["bushing"] = "bushing"
     stiffness: Stiffness = Field(
         description="three in N/m, three in N*m/rad, along and about x, y, z of the first marker; or 6×6"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from nivel.machine.checked import Checked
 from nivel.machine.record import Name
@@ -13,10 +13,15 @@ OUTPUTS: Final = ("magnitude", "power")
 class ForceElement(Checked):
     """A named element that loads bodies.
 
-    outputs : what a sensor can read of it.
+    outputs : what a sensor can read of it. turns : it may turn a body, which a point mass cannot be. stiff : it may be stiff, that is, do
+    much work in a short time.
     """
 
     collection: ClassVar[str] = "forces"
     outputs: ClassVar[tuple[str, ...]] = OUTPUTS
+    turns: ClassVar[bool] = False
+    stiff: ClassVar[bool] = True
 
     name: Name
+    if TYPE_CHECKING:  # the word of every kind
+        type: Any

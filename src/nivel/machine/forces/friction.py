@@ -31,6 +31,8 @@ class Friction(ForceElement):
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "normal_load", "bristle")  # bristle: of the lugre model
 
+    stiff: ClassVar[bool] = False
+
     type: Literal["friction"] = "friction"
     coordinate: CoordinateReference
     model: Literal["coulomb", "stiction", "lugre"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
@@ -18,6 +18,8 @@ Axes = Annotated[Literal["global", "body"], Field(description="axes of the vecto
 
 class PointForce(ForceElement):
     """A force on a point of a body: `body` and `position`, or a `marker`."""
+
+    stiff: ClassVar[bool] = False
 
     type: Literal["force"] = "force"
     body: BodyName | None = None
@@ -38,6 +40,9 @@ class PointForce(ForceElement):
 
 class Torque(ForceElement):
     """A pure torque on a body."""
+
+    turns: ClassVar[bool] = True
+    stiff: ClassVar[bool] = False
 
     type: Literal["torque"] = "torque"
     body: BodyName

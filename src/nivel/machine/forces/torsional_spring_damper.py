@@ -26,6 +26,8 @@ class TorsionalSpringDamper(BetweenMarkers):
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "angle", "rate")
 
+    turns: ClassVar[bool] = True
+
     type: Literal["torsional-spring-damper"] = "torsional-spring-damper"
     stiffness: TorsionalStiffness | None = None
     damping: TorsionalDamping = 0.0

@@ -1,46 +1,28 @@
-"""Forces in numbers: for every kind, the family of kernels that computes it and the columns that it fills there.
+"""Forces in numbers: every module of this folder says in KINDS which kinds of forces it makes, of which words and with which kernels.
 
-A new kind of force is its words (`nivel.machine.forces`), its kernel (`nivel.kernels.forces`), its columns and its entry of FORCES.
+A new kind of force is its words (`nivel.machine.forces`), its kernel (`nivel.kernels.forces`) and a module here; see `docs/extending.md`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from importlib import import_module
-from typing import Any, Final
+from pkgutil import iter_modules
 
-from nivel.system.draft import Draft
-from nivel.system.forces.actuators import add_motor, add_stop
-from nivel.system.forces.contacts import add_bushing, add_contact
-from nivel.system.forces.frictions import add_friction
-from nivel.system.forces.loads import add_load, add_pair
-from nivel.system.forces.springs import add_joint_spring_damper, add_spring_damper, add_torsional_spring_damper
+from nivel.machine.forces import register as register_words
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.forces.kind import ForceKind
 
-
-@dataclass(frozen=True)
-class ForceKind:
-    """How a kind of force becomes numbers, and the families of kernels (`nivel.kernels.forces`) that it may need."""
-
-    add: Callable[[Draft, Any], None]
-    families: tuple[str, ...]
-
-
-FORCES: Final[dict[str, ForceKind]] = {
-    "force": ForceKind(add_load, ("load",)),
-    "torque": ForceKind(add_load, ("load",)),
-    "pair-force": ForceKind(add_pair, ("load", "motor")),
-    "spring-damper": ForceKind(add_spring_damper, ("spring",)),
-    "torsional-spring-damper": ForceKind(add_torsional_spring_damper, ("spring",)),
-    "joint-spring-damper": ForceKind(add_joint_spring_damper, ("spring",)),
-    "stop": ForceKind(add_stop, ("stop",)),
-    "motor": ForceKind(add_motor, ("motor",)),
-    "bushing": ForceKind(add_bushing, ("bushing",)),
-    "contact": ForceKind(add_contact, ("contact",)),
-    "friction": ForceKind(add_friction, ()),
+FORCES: dict[str, ForceKind] = {
+    kind.type: kind
+    for module in iter_modules(__path__)
+    for kind in getattr(import_module(f"{__name__}.{module.name}"), "KINDS", ())
 }
 
 
-def family_addresses(families: list[str]) -> dict[str, int]:
-    """Address of the compiled function of every family."""
-    return {name: int(import_module(f"nivel.kernels.forces.{name}").apply.address) for name in families}
+def register_force(kind: ForceKind) -> None:
+    """Let machines have a kind of force that is not of the package. Raises ValueError where its word is taken."""
+    if kind.type in FORCES:
+        raise ValueError(f"there is a force of type '{kind.type}' already")
+    register_words(kind.words)
+    FORCES[kind.type] = kind
+    MachineRecord.model_rebuild(force=True)

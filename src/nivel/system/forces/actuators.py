@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 
+from nivel.kernels.forces.motor import apply as motor
+from nivel.kernels.forces.stop import apply as stop
 from nivel.machine.forces import Motor, Stop
 from nivel.system.draft import Draft
+from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 from nivel.system.forces.restitution import damping_of_restitution
 
@@ -23,7 +26,7 @@ def add_stop(draft: Draft, force: Stop) -> None:
     lower = -math.inf if force.lower is None else force.lower
     upper = math.inf if force.upper is None else force.upper
     numbers = [lower, upper, force.stiffness, force.exponent, damping_of_restitution(force.restitution)]
-    draft.elements.add("stop", [first, coordinate], numbers, 2, tuple(k for k in range(2) if math.isfinite(numbers[k])))
+    draft.elements.add(stop, [first, coordinate], numbers, 2, tuple(k for k in range(2) if math.isfinite(numbers[k])))
 
 
 def add_motor(draft: Draft, force: Motor) -> None:
@@ -41,4 +44,10 @@ def add_motor(draft: Draft, force: Motor) -> None:
     assert command is not None  # the record was checked
     limit = math.inf if force.limit is None else force.limit
     numbers = [0.0 if force.speed is None else force.gain or 0.0, limit]
-    draft.elements.add("motor", [first, coordinate, draft.function(command)], numbers)
+    draft.elements.add(motor, [first, coordinate, draft.function(command)], numbers)
+
+
+KINDS = (
+    ForceKind(Stop, add_stop, (stop,)),
+    ForceKind(Motor, add_motor, (motor,)),
+)

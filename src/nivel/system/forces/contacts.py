@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import math
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 
+from nivel.kernels.forces import bushing, contact
 from nivel.machine.body import Body
 from nivel.machine.forces import Bushing, Contact
 from nivel.machine.placement import frame_from_axes
 from nivel.machine.shape import Box, Cylinder, Sphere
 from nivel.machine.solids import box_size, length
 from nivel.system.draft import Draft
+from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
 
 
 def add_bushing(draft: Draft, force: Bushing) -> None:
     """An elastic connection in six directions."""
-    bushing = import_module("nivel.kernels.forces.bushing")
     first = force_outputs(
         draft,
         force.name,
@@ -30,12 +30,11 @@ def add_bushing(draft: Draft, force: Bushing) -> None:
     )
     matrices = [*force.stiffness_matrix.ravel().tolist(), *force.damping_matrix.ravel().tolist()]
     work = [0.0] * (bushing.EFFORT + 6 - len(matrices))
-    draft.elements.add("bushing", [first, *draft.ends(force.ends)], [*matrices, *work])
+    draft.elements.add(bushing.apply, [first, *draft.ends(force.ends)], [*matrices, *work])
 
 
 def add_contact(draft: Draft, force: Contact) -> None:
     """A shape against a plane, or two spheres."""
-    contact = import_module("nivel.kernels.forces.contact")
     first = force_outputs(
         draft,
         force.name,
@@ -66,7 +65,7 @@ def add_contact(draft: Draft, force: Contact) -> None:
     numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
     numbers += [0.0] * (contact.NUMBERS - len(numbers))
     points = contact.POINTS if kind in (contact.BOX, contact.CYLINDER) else 1
-    draft.elements.add("contact", [first, kind, *markers], numbers, contact.POINTS, tuple(range(points)))
+    draft.elements.add(contact.apply, [first, kind, *markers], numbers, contact.POINTS, tuple(range(points)))
 
 
 def _radius(body: Body) -> float:
@@ -94,3 +93,9 @@ def _shape_marker(draft: Draft, body: Body) -> int:
     if isinstance(shape, Cylinder):
         axes = frame_from_axes(np.eye(3)["xyz".index(shape.along or "x")])
     return draft.place((body.name, np.array(shape.centre or (0.0, 0.0, 0.0), dtype=float), axes))
+
+
+KINDS = (
+    ForceKind(Bushing, add_bushing, (bushing.apply,)),
+    ForceKind(Contact, add_contact, (contact.apply,)),
+)

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-
+from nivel.kernels import friction
 from nivel.kernels.coordinate import ALONG, CROSS_SECOND
 from nivel.kernels.record import NONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.system.draft import GROUND, Draft
+from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 from nivel.system.state_facts import StateFact
 
 
 def add_friction(draft: Draft, force: Friction) -> None:
     """Friction in a joint coordinate: an extra row, see `nivel.kernels.friction`."""
-    friction = import_module("nivel.kernels.friction")
     joint, _ = resolve(force.coordinate, draft.machine.joints)
     coordinate = draft.coordinate(force.coordinate)
     angle = is_angle(draft, coordinate)
@@ -62,3 +61,6 @@ def _bearing(draft: Draft, first: int, second: int) -> int:
     """Which of two markers is at the bearing: that of the second body, unless this is the ground and the first is not."""
     ground = draft.body(GROUND)
     return first if draft.markers.body[second] == ground != draft.markers.body[first] else second
+
+
+KINDS = (ForceKind(Friction, add_friction, ()),)

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
-from importlib import import_module
 
 import numpy as np
 
 from nivel.kernels.coordinate import DISTANCE
+from nivel.kernels.forces import load
+from nivel.kernels.forces.motor import apply as motor
 from nivel.kernels.function import COORDINATE, RATE
 from nivel.kernels.record import NONE
 from nivel.machine.forces import PairForce, PointForce, Torque
 from nivel.system.draft import Draft
+from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.interfaces import marker_place
 
 
 def add_load(draft: Draft, force: PointForce | Torque) -> None:
     """A force or torque on one body."""
-    load = import_module("nivel.kernels.forces.load")
     units = "N" if isinstance(force, PointForce) else "N m"
     first = force_outputs(draft, force.name, *magnitude_and_power(units))
     point, body = np.zeros(3), force.body
@@ -31,7 +32,7 @@ def add_load(draft: Draft, force: PointForce | Torque) -> None:
     functions = [draft.function(component) for component in force.vector]
     kind = load.FORCE if isinstance(force, PointForce) else load.TORQUE
     axes = marker if force.axes == "body" else NONE
-    draft.elements.add("load", [first, kind, marker, axes, *functions, NONE, NONE])
+    draft.elements.add(load.apply, [first, kind, marker, axes, *functions, NONE, NONE])
 
 
 def add_pair(draft: Draft, force: PairForce) -> None:
@@ -43,9 +44,15 @@ def add_pair(draft: Draft, force: PairForce) -> None:
     if force.vector is None:
         assert force.magnitude is not None  # the record was checked
         law = draft.function(force.magnitude, {"length": (COORDINATE, coordinate, 0), "rate": (RATE, coordinate, 0)})
-        draft.elements.add("motor", [first, coordinate, law], [0.0, math.inf])
+        draft.elements.add(motor, [first, coordinate, law], [0.0, math.inf])
         return
     functions = [draft.function(component) for component in force.vector]
-    load = import_module("nivel.kernels.forces.load")
     axes = i if force.axes == "first" else NONE
-    draft.elements.add("load", [first, load.FORCE, j, axes, *functions, i, coordinate])
+    draft.elements.add(load.apply, [first, load.FORCE, j, axes, *functions, i, coordinate])
+
+
+KINDS = (
+    ForceKind(PointForce, add_load, (load.apply,)),
+    ForceKind(Torque, add_load, (load.apply,)),
+    ForceKind(PairForce, add_pair, (load.apply, motor)),
+)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.coordinate import DISTANCE, ROTATION
+from nivel.kernels.forces.spring import apply as spring
 from nivel.kernels.function import COORDINATE, RATE
 from nivel.kernels.record import NONE
 from nivel.machine.forces import Characteristic, JointSpringDamper, SpringDamper, TorsionalSpringDamper
 from nivel.system.draft import Draft
+from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 
 
@@ -50,7 +52,7 @@ def _add_spring(
     if force.law is not None:
         law = draft.function(force.law, {symbol: (COORDINATE, coordinate, 0), "rate": (RATE, coordinate, 0)})
     numbers = [force.stiffness or 0.0, force.damping, free, force.preload]
-    draft.elements.add("spring", [first, coordinate, table, energy, law], numbers)
+    draft.elements.add(spring, [first, coordinate, table, energy, law], numbers)
 
 
 def _characteristic(draft: Draft, table: Characteristic) -> tuple[int, int]:
@@ -66,3 +68,10 @@ def _characteristic(draft: Draft, table: Characteristic) -> tuple[int, int]:
     force = draft.functions.add_table(x.tolist(), np.column_stack([effort, slope, nothing, nothing]))
     stored = draft.functions.add_table(x.tolist(), np.column_stack([energy, effort, 0.5 * slope, nothing]))
     return force, stored
+
+
+KINDS = (
+    ForceKind(SpringDamper, add_spring_damper, (spring,)),
+    ForceKind(TorsionalSpringDamper, add_torsional_spring_damper, (spring,)),
+    ForceKind(JointSpringDamper, add_joint_spring_damper, (spring,)),
+)

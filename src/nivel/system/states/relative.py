@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from importlib import import_module
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.kernels import carried, carried_balance, carried_flexible
 from nivel.kernels.coordinate import ALONG
+from nivel.kernels.hook import Family
 from nivel.kernels.record import COMPLETE, NONE, Bodies, Constraints, Frames, Markers, Record, Saddle
 from nivel.kernels.record import Friction as FrictionTables
 from nivel.machine.coordinate_reference import resolve
@@ -136,7 +136,7 @@ def in_tree(
         frames=Frames(*(np.zeros((absolute.body_count + 1, width)) for width in (3, 4, 3, 3))),
         hooks=old.hooks._replace(address=old.hooks.address.copy()),
     )
-    record.hooks.address[COMPLETE] = _completion(machine, sliding=bool(sliders)).complete.address
+    record.hooks.address[COMPLETE] = _completion(machine, sliding=bool(sliders)).address
     for n in sliders:
         record.bodies.theta[nodes[n].child] = start.turned[nodes[n].child]
     x = absolute.start_of_states
@@ -144,10 +144,10 @@ def in_tree(
     return system.known_rank(rank), np.concatenate([start.q, start.v, x])
 
 
-def _completion(machine: MachineRecord, *, sliding: bool) -> Any:
-    """The module that completes frames: for accelerations found by the residual, or by a recursion over rigid or flexible bodies."""
-    kind = "balance" if machine.shares_mass or sliding else "flexible" if machine.is_flexible else ""
-    return import_module(f"nivel.kernels.carried_{kind}" if kind else "nivel.kernels.carried")
+def _completion(machine: MachineRecord, *, sliding: bool) -> Family:
+    """What completes frames: for accelerations found by the residual, or by a recursion over rigid or flexible bodies."""
+    kind = carried_balance if machine.shares_mass or sliding else carried_flexible if machine.is_flexible else carried
+    return kind.complete
 
 
 def has_sliders(machine: MachineRecord, settings: SimulationSettings) -> bool:

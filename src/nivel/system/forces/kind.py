@@ -1,0 +1,25 @@
+"""What makes a kind of force."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from nivel.kernels.hook import Family
+from nivel.machine.forces import ForceElement
+from nivel.system.draft import Draft
+
+
+@dataclass(frozen=True)
+class ForceKind:
+    """words : its record. add(draft, record) : gives the tables of a machine its numbers. families : kernels that it may need."""
+
+    words: type[ForceElement]
+    add: Callable[[Draft, Any], None]
+    families: tuple[Family, ...]
+
+    @property
+    def type(self) -> str:
+        """The word for it in machine files."""
+        return str(self.words.model_fields["type"].default)

@@ -14,8 +14,8 @@ import numpy as np
 
 from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.native.function import leaf
+from nivel.system.elimination_hubs import waiting
 from nivel.system.factor_plan import FactorPlan, plan_factor
-from nivel.system.waiting import waiting
 
 LINKS = (1, 8, 64, 256, 2000)
 

@@ -23,7 +23,7 @@ from rich.console import Console
 from rich.table import Table
 
 import nivel
-from nivel.march.catalogue import INTEGRATORS
+from nivel.integrate.catalogue import INTEGRATORS
 from step_time import DURATIONS, PEER_SOLVERS, ROOT, call_peer, peer_command, reference_position
 
 # integrator, coordinates, stabilisation

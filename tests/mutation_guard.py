@@ -4,13 +4,11 @@
 
 Of each line the tests that are said to cover it run on a copy of the sources in which it is spoilt: first those of the default lane, until
 one fails; where none does, those marked `full`. A line that only these notice is a reason to take one of them into the default lane; one
-that nobody notices is a test that is missing. Kernels that do not depend on the file spoilt are taken from the user's cache, where
-`nivel warmup` has left them; the others compile: about a minute each. The working tree is left alone.
+that nobody notices is a test that is missing. Machine code that does not depend on the file spoilt is taken from a copy of the user's
+cache, where `nivel warmup` has left it; what depends on it compiles. The working tree is left alone.
 """
 
 import argparse
-import ast
-import hashlib
 import os
 import re
 import shutil
@@ -19,12 +17,12 @@ import sys
 import tempfile
 import time
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
+
+from nivel.native import store
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "src" / "nivel"
-KERNELS = ("kernels", "motion", "march")
 # outcomes of pytest: all tests passed; none was selected
 PASSED, NONE_THERE = 0, 5
 
@@ -60,7 +58,7 @@ MUTATIONS = [
              _verification("springs", "consistency")),
     Mutation("motor: speed held the wrong way", "kernels/forces/motor.py", "gain * (effort - coordinates.rate[q])",
              "gain * (effort - 0.9 * coordinates.rate[q])", _verification("motors")),
-    Mutation("push: lever of a point", "kernels/forces/push.py", "n0, n1, n2 = u1 * z - u2 * y, u2 * x - u0 * z,",
+    Mutation("push: lever of a point", "kernels/forces/wrench.py", "n0, n1, n2 = u1 * z - u2 * y, u2 * x - u0 * z,",
              "n0, n1, n2 = u1 * z - u2 * y, u2 * x + u0 * z,", _verification("loads")),
     Mutation("table: its slope", "kernels/function.py", "c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]),",
              "c[1] + s * (2.0 * c[2] + 2.0 * s * c[3]),",
@@ -105,81 +103,24 @@ MUTATIONS = [
     Mutation("flexible body: stiffening of a node", "kernels/floating_frame.py", "second -= pdot * across[j]", "second += pdot * across[j]",
              ("flexible/test_interfaces.py", "flexible/test_stiffening.py", "flexible/test_flexible_tree.py")),
     # integrators, events
-    Mutation("rk4: a weight", "march/runge_kutta.py", "1 / 6, 1 / 3, 1 / 3, 1 / 6", "1 / 6, 1 / 3, 1 / 6, 1 / 3",
-             ("march/test_orders.py",)),
-    Mutation("ros2: second stage", "march/rosenbrock.py", "second[i] -= 2.0 * first[i]", "second[i] -= 1.9 * first[i]",
+    Mutation("rk4: a weight", "integrate/runge_kutta.py", "1 / 6, 1 / 3, 1 / 3, 1 / 6", "1 / 6, 1 / 3, 1 / 6, 1 / 3",
+             ("integrate/test_orders.py",)),
+    Mutation("ros2: second stage", "integrate/rosenbrock.py", "second[i] -= 2.0 * first[i]", "second[i] -= 1.9 * first[i]",
              _verification("ros2")),
-    Mutation("generalised-alpha: order of positions", "march/alpha_step.py", "(0.5 - c[BETA]) * a", "(0.55 - c[BETA]) * a",
+    Mutation("generalised-alpha: order of positions", "integrate/alpha_step.py", "(0.5 - c[BETA]) * a", "(0.55 - c[BETA]) * a",
              _verification("alpha")),
-    Mutation("geometric stabilisation: the factor", "march/energy.py", "np.sqrt(1.0 + missing / kinetic)", "1.0 + missing / kinetic",
-             (*_verification("motion", "long_runs", "relative_runs"), "march/test_loop.py")),
-    Mutation("events: sides are kept", "march/events.py", "values[SIDE, k] = -values[SIDE, k]", "values[SIDE, k] = values[SIDE, k]",
+    Mutation("geometric stabilisation: the factor", "integrate/energy.py", "np.sqrt(1.0 + missing / kinetic)", "1.0 + missing / kinetic",
+             (*_verification("motion", "long_runs", "relative_runs"), "integrate/test_loop.py")),
+    Mutation("events: sides are kept", "integrate/events.py", "values[SIDE, k] = -values[SIDE, k]", "values[SIDE, k] = values[SIDE, k]",
              _verification("events")),
 ]  # fmt: skip
-
-
-@cache
-def imported(path):
-    """Modules of kernels that a file names: those imported, and those in strings, which are imported when they are asked for."""
-    found = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        names = []
-        if isinstance(node, ast.ImportFrom):
-            names = [node.module or "", *(f"{node.module}.{each.name}" for each in node.names)]
-        elif isinstance(node, ast.Import):
-            names = [each.name for each in node.names]
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            names = [node.value] if re.fullmatch(r"nivel(\.\w+)+", node.value) else []
-        for name in names:
-            file = PACKAGE.parent / f"{name.replace('.', '/')}.py"
-            if file.exists():
-                found.add(file)
-    return found
-
-
-def dependent(path):
-    """Files of kernels that are compiled from `path`, among others."""
-    files = [file for package in KERNELS for file in (PACKAGE / package).rglob("*.py")]
-    found, grown = {path}, True
-    while grown:
-        more = {file for file in files if file not in found and imported(file) & found}
-        found |= more
-        grown = bool(more)
-    return found
-
-
-def cache_of(source):
-    """The directory of compiled kernels of a copy of the sources."""
-    code = "from nivel.kernels import cache; print(cache.directory())"
-    environment = {**os.environ, "PYTHONPATH": str(source)}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    return Path(done.stdout.strip())
-
-
-def folder_name(source, file):
-    """How Numba names the folder of the kernels of a file of the package."""
-    folder = (source / "nivel" / file.relative_to(PACKAGE)).parent
-    return f"{folder.name}_{hashlib.sha1(str(folder).encode()).hexdigest()}"
-
-
-def hand_over(source, spoilt):
-    """Give the copy what is compiled already of files that do not depend on the one spoilt."""
-    old, new = cache_of(PACKAGE.parent), cache_of(source)
-    affected = dependent(spoilt)
-    for package in KERNELS:
-        for file in (PACKAGE / package).rglob("*.py"):
-            if file not in affected:
-                (new / folder_name(source, file)).mkdir(exist_ok=True)
-                for kept in (old / folder_name(PACKAGE.parent, file)).glob(f"{file.stem}.*"):
-                    shutil.copy2(kept, new / folder_name(source, file))
-    return new, len(affected)
 
 
 def tests_of(mutation, source, marker):
     """Outcome of pytest, and its last lines."""
     files = [str(ROOT / "tests" / each) for each in mutation.tests]
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-m", marker, "-p", "no:cacheprovider", *files]
-    environment = {**os.environ, "PYTHONPATH": str(source)}
+    environment = {**os.environ, "PYTHONPATH": str(source), "NIVEL_CACHE_DIR": str(source.parent / "cache")}
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
     failed = re.findall(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.MULTILINE)
     if done.returncode not in (PASSED, 1, NONE_THERE):
@@ -188,26 +129,23 @@ def tests_of(mutation, source, marker):
 
 
 def check(mutation):
-    """(verdict, test that noticed it, files compiled again, seconds)."""
+    """(verdict, test that noticed it, seconds)."""
     begin = time.perf_counter()
     path = PACKAGE / mutation.file
     text = path.read_text(encoding="utf-8")
     if text.count(mutation.before) != 1:
-        return "stale: its line is not there once", "", 0, 0.0
+        return "stale: its line is not there once", "", 0.0
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / "src"
         shutil.copytree(PACKAGE.parent, source, ignore=shutil.ignore_patterns("__pycache__"))
         (source / "nivel" / mutation.file).write_text(text.replace(mutation.before, mutation.after), encoding="utf-8")
-        compiled, again = hand_over(source, path)
-        try:
-            verdict = "caught by default"
-            caught, by = tests_of(mutation, source, "not full")
-            if not caught:
-                caught, by = tests_of(mutation, source, "full")
-                verdict = "only by full" if caught else "survived"
-        finally:
-            shutil.rmtree(compiled)
-    return verdict, by, again, time.perf_counter() - begin
+        shutil.copytree(store.folder(), source.parent / "cache" / "objects")
+        verdict = "caught by default"
+        caught, by = tests_of(mutation, source, "not full")
+        if not caught:
+            caught, by = tests_of(mutation, source, "full")
+            verdict = "only by full" if caught else "survived"
+    return verdict, by, time.perf_counter() - begin
 
 
 def main():
@@ -219,9 +157,9 @@ def main():
     chosen = [each for each in MUTATIONS if options.only in each.name][options.first :][: options.count]
     missed = 0
     for mutation in chosen:
-        verdict, by, again, seconds = check(mutation)
+        verdict, by, seconds = check(mutation)
         missed += verdict != "caught by default"
-        print(f"{mutation.name:45} {verdict:18} {again:3} files again {seconds:5.0f} s  {by}", flush=True)
+        print(f"{mutation.name:45} {verdict:18} {seconds:5.0f} s  {by}", flush=True)
     sys.exit(f"{missed} of {len(chosen)} not caught by the default tests" if missed else 0)
 
 

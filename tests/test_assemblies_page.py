@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from nivel.analysis.check import check
+from checking import check
 from nivel.errors import ModelError
 from nivel.files import read_machine
 from nivel.files.assembly import Assembly

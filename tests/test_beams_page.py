@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.analysis.check import check
+from checking import check
 from nivel.api import Machine
 from nivel.files import parse_machine
 

@@ -2,12 +2,12 @@
 
 from typing import get_args
 
+from nivel.integrate import variable_workspace, workspace
+from nivel.integrate.catalogue import INTEGRATORS
+from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings import CHOOSING, EITHER, SimulationSettings
-from nivel.march import variable_workspace, workspace
-from nivel.march.catalogue import INTEGRATORS
-from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
 from nivel.system.forces import FORCES
 from nivel.system.joints import JOINTS
@@ -26,7 +26,7 @@ def test_every_joint_that_a_file_may_name_is_built_and_the_other_way_round():
 def test_every_method_that_a_file_may_name_exists_and_the_other_way_round():
     assert words("integrator") == set(INTEGRATORS)
     assert set(CHOOSING) == {name for name, facts in INTEGRATORS.items() if facts.chooses_steps}
-    assert set(EITHER) == {name for name, facts in INTEGRATORS.items() if facts.either}
+    assert set(EITHER) == {name for name, facts in INTEGRATORS.items() if facts.optional_control}
     assert words("formulation") == set(FORMULATIONS)
     assert words("stabilisation") == set(STABILISATIONS)
 

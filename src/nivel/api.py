@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from nivel.analysis.posing import Posing
     from nivel.results.comparison import Comparison
     from nivel.results.result import Result
-    from nivel.view.sources import Hand
+    from nivel.view.sources import PosedMachine
 
 
 class Machine:
@@ -128,15 +128,15 @@ class Machine:
         """Show the assembled machine in a browser, with a slider for each joint that can move; returns after Ctrl-C."""
         from nivel.view.opening import serve
 
-        serve(self.shown(), host="127.0.0.1", port=port, browser=browser, say=print)
+        serve(self.viewer_source(), host="127.0.0.1", port=port, browser=browser, say=print)
 
     @checked_arguments
-    def shown(self, *, listener: Listener | None = None) -> Hand:
+    def viewer_source(self, *, listener: Listener | None = None) -> PosedMachine:
         """What the viewer shows of the machine before any run."""
-        from nivel.view.sources import Hand
+        from nivel.view.sources import PosedMachine
 
         posed = self.posed(listener=listener)
-        return Hand(self.name, posed, self.record.model_dump(mode="json", by_alias=True, exclude_none=True))
+        return PosedMachine(self.name, posed, self.record.model_dump(mode="json", by_alias=True, exclude_none=True))
 
     @checked_arguments
     def simulate(
@@ -166,7 +166,7 @@ class Machine:
         verify: bool = False,
         listener: Listener | None = None,
     ) -> Result:
-        """Motion in time. Options given here go before those of the machine's `simulation`.
+        """Motion in time. Options given here override those of the machine's `simulation`.
 
         duration, step, output_interval, largest_step : [s], or texts with units. start : as-given, or equilibrium: at rest where the
         machine settles. step_control : fixed, or error: steps chosen for the
@@ -175,7 +175,7 @@ class Machine:
         hht, generalised_alpha : mappings as in a machine file.
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : estimate the accuracy with a second
         run, at half the step or a tenth of the tolerance. A setting given here that has no effect with the methods of the run is
-        refused; in a file it rests.
+        refused; set in the file, it is ignored.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
         given = {
@@ -313,7 +313,7 @@ class Machine:
 
         steps [s] : of integrators with a fixed one; tolerances : of the others. duration, output_interval, largest_step [s], cut : of
         all runs. repeat : every cell runs so often, its time is the least. Times are numbers in seconds, or texts with units.
-        A cell that fails or has no meaning is told in its row. Interrupted, it returns what was computed.
+        Failed or invalid combinations are reported in their row. Interrupted, it returns what was computed.
         Raises ModelError where words are not known, or the machine cannot be run at all.
         """
         if repeat < 1:

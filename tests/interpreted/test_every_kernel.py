@@ -23,8 +23,8 @@ import test_rails
 import test_statics_closed_forms
 import tree_machines
 from nivel.analysis.implicit import find_tangent
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.machine import PointForce, Table
-from nivel.march.catalogue import INTEGRATORS
 from nivel.motion.catalogue import FLEXIBLE, PATHS
 from running import run
 from simulating import hinge, machine, solid
@@ -65,7 +65,7 @@ def short(record, integrator=EXPLICIT, *, steps=3, step=STEP, **settings):
     """A run of a few steps."""
     facts = INTEGRATORS[integrator]
     given = {"tolerance": 1e-3} if facts.chooses_steps else {"step": step}
-    given |= {"stabilisation": "none"} if facts.whole else {}
+    given |= {"stabilisation": "none"} if facts.step_residual else {}
     given |= {"coordinates": "absolute", "integrator": integrator}
     r = run(record, **{**given, "duration": steps * step, "output_interval": 2 * step, **settings})
     assert r.finished.outcome == "done", r.finished.failure
@@ -131,7 +131,7 @@ def test_functions_of_laws():
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_integrators(integrator, coordinates):
-    if INTEGRATORS[integrator].whole and coordinates != "absolute":
+    if INTEGRATORS[integrator].step_residual and coordinates != "absolute":
         pytest.skip("absolute coordinates alone")
     short(machines.slider_crank(), integrator, steps=6, coordinates=coordinates)
 
@@ -140,7 +140,7 @@ def test_integrators(integrator, coordinates):
 def test_newton(integrator):
     """The corrector with a matrix."""
     facts = INTEGRATORS[integrator]
-    coordinates = "absolute" if facts.whole else "relative"
+    coordinates = "absolute" if facts.step_residual else "relative"
     short(machines.slider_crank(), integrator, steps=2, coordinates=coordinates, corrector={"iteration": "newton"})
 
 
@@ -167,7 +167,7 @@ def test_steps_chosen_by_the_error():
     """Of a stiff machine, with steps that are too long for its springs, and with a first one that is too long for all."""
     short(stiff_machines.elastic_pendulum(1e8), "generalised-alpha", steps=40, step_control="error", tolerance=1e-3)
     for integrator in ("dopri5", "radau", "bdf", "adams", "generalised-alpha"):
-        more = {"step_control": "error"} if INTEGRATORS[integrator].either else {}
+        more = {"step_control": "error"} if INTEGRATORS[integrator].optional_control else {}
         short(machines.heavy_top(), integrator, steps=40, tolerance=1e-5, step=2e-2, **more, duration=0.04)
 
 
@@ -203,7 +203,7 @@ def test_contacts_and_events(integrator):
     """A ball that falls on a floor, where steps end."""
     sections = test_contact_location.bouncing(1e4, 1.5)
     sections["bodies"]["ball"] |= {"position": [0, 0, test_contact_location.RADIUS + 1e-4], "velocity": [0, 0, -1]}
-    more = {"step_control": "error", "tolerance": 1e-4} if INTEGRATORS[integrator].either else {}
+    more = {"step_control": "error", "tolerance": 1e-4} if INTEGRATORS[integrator].optional_control else {}
     short(machine(sections).record, integrator, steps=10, **more)
 
 
@@ -244,7 +244,7 @@ def test_stiffness_of_modes_alone(folder, integrator):
 @pytest.mark.parametrize("mass", ["lumped", "consistent"])
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 def test_beams(integrator, mass, coordinates):
-    if INTEGRATORS[integrator].whole and coordinates != "absolute":
+    if INTEGRATORS[integrator].step_residual and coordinates != "absolute":
         pytest.skip("absolute coordinates alone")
     short(machine(beams.flying(2, mass, elements=2)).record, integrator, steps=2, step=1e-4, coordinates=coordinates)
 
@@ -317,7 +317,7 @@ def test_statics(coordinates):
 def kernels():
     """(file, first line) → name of all functions that are compiled."""
     found = {}
-    for package in ("kernels", "motion", "march"):
+    for package in ("kernels", "motion", "integrate"):
         for path in sorted((Path(nivel.__file__).parent / package).rglob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.FunctionDef) and any(_name(each) in COMPILERS for each in node.decorator_list):

@@ -47,4 +47,4 @@ def test_it_ignores_the_rest(digest):
 def test_kernels_depend_on_the_way_they_are_translated():
     found = sources.modules("nivel.kernels.observe")
     assert "nivel.native.with_numba.views" in found
-    assert not {"nivel.native.store", "nivel.march.radau"} & set(found)
+    assert not {"nivel.native.store", "nivel.integrate.radau"} & set(found)

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from nivel.march.sink import Header
+from nivel.integrate.sink import Header
 from nivel.report.beam_shapes import SHAPES, beam_shapes
 from nivel.report.panels import panels
 from nivel.report.story import facts

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import synthetic_run as pendulum
-from nivel.march.sink import Header
+from nivel.integrate.sink import Header
 from nivel.report.panel import TOGETHER
 from nivel.report.panels import panels
 from nivel.report.write import report_html

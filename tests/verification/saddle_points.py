@@ -6,8 +6,8 @@ import numpy as np
 import scipy.sparse
 
 from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
+from nivel.system.elimination_hubs import waiting
 from nivel.system.factor_plan import plan_factor
-from nivel.system.waiting import waiting
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import beams
 from assembled import TIME, random_states
 from nivel.analysis.choice import choose_coordinates
 from nivel.analysis.equations import MotionEquations
-from nivel.analysis.implicit import Wanted, equip
+from nivel.analysis.implicit import ResidualOptions, with_residual
 from nivel.errors import SolveError
 from nivel.kernels.observe import observe
 from nivel.system.beam_nodes import with_nodes
@@ -40,10 +40,10 @@ def frames(sections, rng, count=2, size=0.03):
         absolute = eliminated.absolute.system
         system, own = arrange(record, absolute, y, int(absolute.record.control.rank[0]), record.simulation)
         motion = MotionEquations(system, eliminated.motion.kernels)
-        wanted = Wanted(balance=True)
+        wanted = ResidualOptions(balance=True)
         yield (
-            shown(equip(MotionEquations(kept.absolute.system, kept.motion.kernels), y, "absolute", wanted), y),
-            shown(equip(motion, own, "relative", wanted), own),
+            shown(with_residual(MotionEquations(kept.absolute.system, kept.motion.kernels), y, "absolute", wanted), y),
+            shown(with_residual(motion, own, "relative", wanted), own),
             system,
         )
 

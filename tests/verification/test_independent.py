@@ -16,8 +16,8 @@ from nivel.analysis.equations import change_between, moved
 from nivel.analysis.settings import complete
 from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.kernels.status import OK
-from nivel.march.catalogue import INTEGRATORS
 from preparing import prepare
 from running import Frames, run
 from simulating import simulate
@@ -124,7 +124,7 @@ def test_dependent_coordinates_are_solved_and_independent_ones_stay(name, rng):
         off[:nq] = moved(y[:nq], change)
         off[nq : nq + len(change)] += 1e-3 * rng.standard_normal(len(change)) * partition.unit
         kept = off.copy()
-        assert motion.kernels.keep(motion.handle.address, TIME, kept) == OK
+        assert motion.kernels.normalise_state(motion.handle.address, TIME, kept) == OK
         motion.evaluate(TIME, kept)
         assert np.all(np.abs(constraints.C) <= 2e-12 * constraints.scale)  # rows left out are closed as the start is
         speed = np.abs(kept[nq : nq + len(change)]).max() + 1
@@ -146,7 +146,7 @@ def make_independent(prepared, y, body, component):
 
 
 def marched(prepared, y, step, count):
-    """States of `count` RK4 steps from y, written here (Kutta's formula), each followed by `keep`; rates and multipliers at them;
+    """States of `count` RK4 steps from y, written here (Kutta's formula), each then normalised; rates and multipliers at them;
     partitions counted until then."""
     motion, y = prepared.motion, y.copy()
     record = motion.system.record
@@ -160,7 +160,7 @@ def marched(prepared, y, step, count):
         k3 = motion.evaluate(0.0, y + step / 2 * k2)[1]
         k4 = motion.evaluate(0.0, y + step * k3)[1]
         y += step / 6 * (k1 + 2 * (k2 + k3) + k4)
-        assert motion.kernels.keep(motion.handle.address, 0.0, y) == OK
+        assert motion.kernels.normalise_state(motion.handle.address, 0.0, y) == OK
     return np.array(states), np.array(rates), np.array(partitions)
 
 

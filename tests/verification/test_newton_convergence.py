@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 import machines
-from nivel.analysis.implicit import equip, evaluate_residual, find_tangent
+from nivel.analysis.implicit import evaluate_residual, find_tangent, with_residual
 from preparing import prepare
 
 
@@ -26,7 +26,7 @@ def test_digits_double():
     """The slider-crank with its pin cut (joint coordinates are plain numbers), a step of 10 ms from a state in motion."""
     machine = machines.slider_crank(integrator="generalised-alpha", cut=("pin",))
     prepared = prepare(machine, coordinates="relative")
-    motion = equip(prepared.motion, prepared.start, "relative")
+    motion = with_residual(prepared.motion, prepared.start, "relative")
     residual = motion.system.record.residual
     n, positions = len(residual.vdot), motion.system.positions
     start = prepared.start.copy()

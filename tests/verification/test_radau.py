@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 import machines
 import nivel
 from nivel.errors import ModelError
+from nivel.integrate.radau_constants import BEND, GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
 from nivel.machine import (
     Body,
     Event,
@@ -20,7 +21,6 @@ from nivel.machine import (
     SimulationSettings,
     SpringDamper,
 )
-from nivel.march.radau_constants import BEND, GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
 from references import andrews, four_bar, heavy_top, pendulum, slider_crank
 from running import reference_run, run
 from stiff_machines import double_pendulum

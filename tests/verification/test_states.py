@@ -10,7 +10,7 @@ from scipy.linalg import expm
 from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine
 from nivel.files.writer import write_machine
-from nivel.march.catalogue import INTEGRATORS
+from nivel.integrate.catalogue import INTEGRATORS
 from running import run
 from simulating import G, hinge, machine, simulate, slide, solid
 

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from assembled import TIME, random_states
 from nivel.analysis.equations import MotionEquations
-from nivel.analysis.implicit import Wanted, equip, evaluate_residual, find_tangent
+from nivel.analysis.implicit import ResidualOptions, evaluate_residual, find_tangent, with_residual
 from nivel.kernels.record import EULER_ANGLES, NONE, ROTATION_VECTOR
 from nivel.kernels.status import OK
 from nivel.motion.catalogue import path_of
@@ -63,9 +63,9 @@ def at_state(record, prepared, coordinates, y, rng):
     states = len(system.record.elements.state)
     own[len(own) - 2 - states : -2] = 1e-4 * rng.uniform(-1, 1, states)
     # bodies that beams carry have no accelerations but by the residual
-    wanted = Wanted(balance=len(system.record.tree.slider) > 0)
+    wanted = ResidualOptions(balance=len(system.record.tree.slider) > 0)
     of_bodies = "relative" if coordinates == "relative" else "absolute"
-    motion = equip(MotionEquations(system, kernels), own, of_bodies, wanted, path)
+    motion = with_residual(MotionEquations(system, kernels), own, of_bodies, wanted, path)
     return SimpleNamespace(
         record=record,
         prepared=prepared,
@@ -149,7 +149,7 @@ def tangent_of_vector(psi):
 
 
 class Unknowns:
-    """The state as a function of z = (v̇, ẋ, λ), as `nivel.march.residual_newton` has it: at z of the state given, positions are turned
+    """The state as a function of z = (v̇, ẋ, λ), as `nivel.integrate.residual_newton` has it: at z of the state given, positions are turned
     from the base by `change` (n,) [m or rad]."""
 
     def __init__(self, here, change=None):

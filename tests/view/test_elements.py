@@ -99,7 +99,7 @@ def test_pitch_circles_touch_and_are_as_their_teeth(stage):
 
 
 def test_an_internal_gear_is_as_much_larger_as_its_axes_are_apart():
-    ring = nivel.load(EXAMPLES / "gear-train.yaml").shown()
+    ring = nivel.load(EXAMPLES / "gear-train.yaml").viewer_source()
     couplings = named(from_bytes(ring.package())[0]["stages"][0]["couplings"])
     planet, wheel = couplings["ring_1"]["wheels"]
     arm = 2e-3 * (24 + 21) / 2
@@ -324,7 +324,7 @@ joints:
 )
 def test_a_beam_is_drawn_with_its_section(section, area, height, tmp_path):
     (tmp_path / "beam.yaml").write_text(BEAM.replace("SECTION", section), encoding="utf-8")
-    shown = nivel.load(tmp_path / "beam.yaml").shown()
+    shown = nivel.load(tmp_path / "beam.yaml").viewer_source()
     stage = from_bytes(shown.package())[0]["stages"][0]
     (sweep,) = stage["sweeps"]
     assert [stage["bodies"][k]["name"] for k in sweep["bodies"]] == [

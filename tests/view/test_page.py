@@ -68,7 +68,7 @@ def test_a_ball_and_a_free_body_are_moved_by_their_sliders(browser):
         ],
         joints=[nivel.Joint(name="ball", type="spherical", bodies=("ground", "bob"), point=(0, 0, 0))],
     )
-    with served(machine.shown()) as viewing, watched(browser) as seen:
+    with served(machine.viewer_source()) as viewing, watched(browser) as seen:
         page = seen.open(viewing.address.url)
         names = [each.get_attribute("aria-label") for each in page.locator(".coordinates input").all()]
         turns = ["angle_x", "angle_y", "angle_z"]
@@ -80,7 +80,7 @@ def test_a_ball_and_a_free_body_are_moved_by_their_sliders(browser):
 
 
 def test_a_machine_is_moved_by_its_sliders(browser):
-    source = nivel.load(EXAMPLES / "four-bar.yaml").shown()
+    source = nivel.load(EXAMPLES / "four-bar.yaml").viewer_source()
     with served(source) as viewing, watched(browser) as seen:
         page = seen.open(viewing.address.url)
         before = np.array(seen.pose(1))
@@ -131,7 +131,10 @@ def test_a_body_moved_out_of_the_picture_is_followed(browser):
         "(() => { const { x, y } = nivel.app.actor.bodies[0].position.clone().project(nivel.app.world.camera);"
         "return Math.abs(x) < 1 && Math.abs(y) < 1 })()"
     )
-    with served(nivel.Machine("far", bodies=bodies, joints=joints).shown()) as viewing, watched(browser) as seen:
+    with (
+        served(nivel.Machine("far", bodies=bodies, joints=joints).viewer_source()) as viewing,
+        watched(browser) as seen,
+    ):
         page = seen.open(viewing.address.url)
         slider = page.get_by_role("slider", name="kite.z", exact=True)
         for share, looks_closer in ((1.0, False), (-1.0, True)):
@@ -155,7 +158,7 @@ def test_fit_finds_a_machine_that_was_moved_away(browser):
     kite = nivel.Body(
         name="kite", mass=1, inertia=(0.1, 0.1, 0.1), position=(0, 0, 0), shape={"type": "sphere", "radius": 0.05}
     )
-    with served(nivel.Machine("far", bodies=[kite]).shown()) as viewing, watched(browser) as seen:
+    with served(nivel.Machine("far", bodies=[kite]).viewer_source()) as viewing, watched(browser) as seen:
         page = seen.open(viewing.address.url)
         page.get_by_role("slider", name="kite.x", exact=True).fill("1")
         until(page, "Math.abs(nivel.app.actor.bodies[0].position.x - 1) < 1e-5")

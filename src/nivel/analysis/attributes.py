@@ -19,7 +19,7 @@ from nivel.system.scene import scene
 def run_attributes(
     machine: MachineRecord, source: str, prepared: Prepared, settings: RunSettings
 ) -> dict[str, str | float | int]:
-    """The attributes of a result, see `nivel.march.sink.Header`; `source` is the text of the machine's file."""
+    """The attributes of a result, see `nivel.integrate.sink.Header`; `source` is the text of the machine's file."""
     system, assembly = prepared.motion.system, prepared.assembly
     coordinates = system.layout.coordinates["joint_coordinate"]
     return {

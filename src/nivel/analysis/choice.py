@@ -13,12 +13,12 @@ from collections import Counter
 from collections.abc import Iterable
 
 from nivel.analysis.modal_stiffness import only_modes_are_stiff
+from nivel.integrate.catalogue import BY_MODES, INTEGRATORS
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
-from nivel.march.catalogue import BY_MODES, INTEGRATORS
 from nivel.system.beam_nodes import with_nodes
 
 # relative: a body, a row, a row and a joint velocity, an entry of S; absolute: a body, a row and a body, an entry of S
@@ -44,7 +44,7 @@ def choose_coordinates(machine: MachineRecord) -> str:
     if machine.is_flexible:
         # there ROS2 needs no matrix of all modes
         return "relative" if settings.integrator in BY_MODES and only_modes_are_stiff(machine) else "absolute"
-    if facts.whole or (facts.residual and len(machine.bodies) > MOST_DENSE):
+    if facts.step_residual or (facts.residual and len(machine.bodies) > MOST_DENSE):
         return "absolute"
     if not (facts.residual or machine.shares_mass) and slides(machine, "relative", settings.formulation):
         # accelerations by the residual, which explicit methods need for nothing else, cost three times as much or more
@@ -66,7 +66,7 @@ def choose_cut(machine: MachineRecord) -> SimulationSettings:
         # friction needs forces that explicit methods, and with stiction all, know one by one, and bodies carried by beams have none
         sliders = (joint.name for joint in machine.joints if JOINT_KINDS[joint.type].rail)
         settings = settings.replace(cut=tuple(dict.fromkeys((*settings.cut, *sliders))))
-    if machine.simulation.cut or not facts.residual or facts.rates:
+    if machine.simulation.cut or not facts.residual or facts.first_order:
         return settings
     tree = tree_of(machine, settings, heavy_first=True)
     return settings.replace(cut=tuple(machine.joints[k].name for k in tree.cut))

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from nivel.errors import Fault
+from nivel.integrate.catalogue import INTEGRATORS, chooses
 from nivel.machine.settings import SimulationSettings
-from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.motion.catalogue import FORMULATIONS, PATHS, path_of
 
 
@@ -53,9 +53,14 @@ def _refuse_residual(settings: SimulationSettings, coordinates: str) -> list[Fau
     if facts is None or not facts.residual:
         return faults
     name = f"`integrator: {settings.integrator}`"
-    if facts.whole:
+    if facts.step_residual:
         return faults + _refuse_beside_whole_steps(settings, coordinates)
-    if settings.stabilisation == "baumgarte" and settings.baumgarte is None and facts.rates and not facts.chooses_steps:
+    if (
+        settings.stabilisation == "baumgarte"
+        and settings.baumgarte is None
+        and facts.first_order
+        and not facts.chooses_steps
+    ):
         message = (
             f"'baumgarte' without coefficients takes α = 1/step and β = √2/step, as fast as a step of {name}, which does not iterate and "
             f"has order one there: take direct, or own coefficients `baumgarte: {{alpha: 20 1/s, beta: 20 1/s}}`"
@@ -100,7 +105,7 @@ def _refuse_beside_whole_steps(settings: SimulationSettings, coordinates: str) -
 def _refuse_matrix(settings: SimulationSettings) -> list[Fault]:
     """Newton's matrix made anew for every iteration, where the method has another use for it, or none."""
     facts = INTEGRATORS.get(settings.integrator)
-    if settings.corrector.matrix != "full" or facts is None or (facts.residual and not facts.rates):
+    if settings.corrector.matrix != "full" or facts is None or (facts.residual and not facts.first_order):
         return []
     if not (facts.implicit or facts.residual):
         return []  # no corrector at all
@@ -119,7 +124,7 @@ def _refuse_matrix(settings: SimulationSettings) -> list[Fault]:
 def _refuse_step_control(settings: SimulationSettings) -> list[Fault]:
     """Steps that the integrator cannot choose, or cannot but choose."""
     facts, wanted = INTEGRATORS.get(settings.integrator), settings.step_control
-    if facts is None or wanted == "own" or facts.either or facts.chooses_steps == (wanted == "error"):
+    if facts is None or wanted == "own" or facts.optional_control or facts.chooses_steps == (wanted == "error"):
         return []
     name = f"`integrator: {settings.integrator}`"
     if wanted == "fixed":

@@ -8,7 +8,7 @@ from itertools import combinations, pairwise
 
 import nivel
 from nivel.analysis.compare_grid import Cell, Grid, reasons
-from nivel.analysis.dynamics import Finished
+from nivel.analysis.dynamics import RunOutcome
 from nivel.analysis.in_memory import run_in_memory
 from nivel.analysis.listener import Listener
 from nivel.analysis.reference import Solution, solve
@@ -132,7 +132,7 @@ class _Bench:
         )
 
 
-def _timed(row: Row, result: Result, finished: Finished, loop_seconds: float) -> Row:
+def _timed(row: Row, result: Result, finished: RunOutcome, loop_seconds: float) -> Row:
     """`row` with what its run took, and when and why it stopped."""
     timing = finished.timing
     steps = int(timing["steps"])

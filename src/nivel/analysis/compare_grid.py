@@ -19,6 +19,7 @@ from nivel.analysis.plan import Plan, plan_run
 from nivel.analysis.settings import FRAMES
 from nivel.arguments import plain
 from nivel.errors import Fault, ModelError
+from nivel.integrate.catalogue import INTEGRATORS, chooses
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.quantity import Duration, fault, listed
 from nivel.machine.record import Record
@@ -31,7 +32,6 @@ from nivel.machine.settings import (
     Stabilisation,
     Tolerance,
 )
-from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.results.comparison import Method
 
 REFERENCES: Final = ("dop853", "rk4")  # integrators of the solutions that cells are held against

@@ -8,13 +8,13 @@ from time import perf_counter
 
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Methods, Plan
-from nivel.kernels.forces.held_beam import hold
+from nivel.integrate.catalogue import BY_MODES, INTEGRATORS
+from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.hook import Family
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import BY_MODES, INTEGRATORS
-from nivel.motion.catalogue import BALANCED, BALANCED_CORRECTION, FLEXIBLE, PATHS
+from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
 from nivel.native import library
 from nivel.native.entry import Entry, entry_of
 from nivel.system.beams import ELASTIC, family_of
@@ -23,7 +23,7 @@ from nivel.system.forces import FORCES
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
-OUTPUT, LOOP = "nivel.kernels.observe", "nivel.march.loop"
+OUTPUT, LOOP = "nivel.kernels.observe", "nivel.integrate.loop"
 STATICS, RESIDUAL = "nivel.kernels.static_entries", "nivel.kernels.tangent_entries:evaluate_residual"
 FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
@@ -34,9 +34,13 @@ OF_BEAMS = "nivel.kernels.beam_tangent"
 POINTS = "nivel.kernels.point_inertia"
 # nodes of trees that are no joints, for residuals in relative coordinates
 OF_MODES, OF_SLIDERS = "nivel.kernels.modal_nodes", "nivel.kernels.slider_nodes"
-PASSING = "nivel.kernels.slider_pass"
+PASSING = "nivel.kernels.element_crossing"
 # what completes the frames of runs in relative coordinates
-COMPLETIONS = ("nivel.kernels.carried", "nivel.kernels.carried_balance", "nivel.kernels.carried_flexible")
+COMPLETIONS = (
+    "nivel.kernels.tree_outputs",
+    "nivel.kernels.tree_outputs_implicit",
+    "nivel.kernels.tree_outputs_flexible",
+)
 
 
 def build(entries: Iterable[Entry], listener: Listener) -> float:
@@ -72,17 +76,17 @@ def preparation_entries(methods: Methods) -> list[Entry]:
     machine, path, integrator = methods.machine, methods.path, methods.integrator
     modules = [path.module, *_rare_modules(machine)]
     twins: list[Entry] = []
-    if integrator.residual or methods.balanced:
+    if integrator.residual or methods.solves_residual:
         modules += _node_modules(methods)
-        plain = bool(integrator.whole) or integrator.along or methods.formulation == "lagrange"
+        plain = bool(integrator.step_residual) or integrator.directional_tangent or methods.formulation == "lagrange"
         residual = integrator.over_step(machine.is_flexible) or path.residual
         twins = _with_twins(residual, modules, _families(machine), held=not plain)
-        twins += _with_twins(path.residual, [], []) if methods.balanced else []
+        twins += _with_twins(path.residual, [], []) if methods.solves_residual else []
         twins.append(entry_of(RESIDUAL))
     if integrator.accelerations and path.dependent:
         modules.append(path.dependent)
     if methods.coordinates == "relative":
-        modules += [COMPLETIONS[0]] * (not methods.balanced) + [COMPLETIONS[1]] * methods.balanced
+        modules += [COMPLETIONS[0]] * (not methods.solves_residual) + [COMPLETIONS[1]] * methods.solves_residual
         modules += [COMPLETIONS[2]] * machine.is_flexible
     return [*assembly_entries(machine), *_entries(modules), *twins]
 
@@ -110,8 +114,19 @@ def all_entries() -> list[Entry]:
     modules += [
         module for facts in paths for module in (facts.module, facts.correction, facts.residual, facts.dependent)
     ]
-    modules += [module for facts in integrators for module in (facts.whole, facts.whole_flexible)]
-    modules += [MEASURE, FRICTION, RAIL, POINTS, SENSOR, WATCH, SAMPLING, BALANCED, BALANCED_CORRECTION, *COMPLETIONS]
+    modules += [module for facts in integrators for module in (facts.step_residual, facts.step_residual_flexible)]
+    modules += [
+        MEASURE,
+        FRICTION,
+        RAIL,
+        POINTS,
+        SENSOR,
+        WATCH,
+        SAMPLING,
+        IMPLICIT_ACCELERATIONS,
+        IMPLICIT_CORRECTION,
+        *COMPLETIONS,
+    ]
     modules += [
         OF_BEAMS,
         GIVEN_FRICTION,
@@ -159,7 +174,12 @@ def _with_twins(residual: str, used: Sequence[str], families: Iterable[Family], 
 def _with_derivatives() -> list[str]:
     """Modules, besides those of forces, that exact derivatives may need on complex numbers."""
     residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values()) if path.residual]
-    residuals += [module for facts in INTEGRATORS.values() for module in (facts.whole, facts.whole_flexible) if module]
+    residuals += [
+        module
+        for facts in INTEGRATORS.values()
+        for module in (facts.step_residual, facts.step_residual_flexible)
+        if module
+    ]
     return [*dict.fromkeys(residuals), MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS]
 
 

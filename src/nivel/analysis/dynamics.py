@@ -1,4 +1,4 @@
-"""Motion in time: march in chunks, feed the sinks, say how it ended."""
+"""Motion in time: advance in chunks, feed the sinks, say how it ended."""
 
 from __future__ import annotations
 
@@ -13,29 +13,14 @@ import numpy as np
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.history import start_history
 from nivel.analysis.interrupt import interruptible
-from nivel.analysis.jam import Jam, can_be_asked, find_jam
 from nivel.analysis.listener import Progress
+from nivel.analysis.lockup import Jam, can_be_asked, find_jam
 from nivel.analysis.outcome import failure
 from nivel.analysis.penalties import feedback
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.settings import RunSettings
-from nivel.kernels.handle import Handle
-from nivel.kernels.observe import observe
-from nivel.kernels.status import (
-    BUDGET_SPENT,
-    BUFFER_FULL,
-    CONTRADICTION,
-    DONE,
-    MULTIPLIERS_NOT_FOUND,
-    NOT_CLOSED,
-    NOT_CONVERGED,
-    NOT_FINITE,
-    OPEN,
-    SINGULAR,
-    STEP_TOO_SMALL,
-)
-from nivel.march.loop import advance
-from nivel.march.run import (
+from nivel.integrate.loop import advance
+from nivel.integrate.run import (
     ACCEPTED,
     BUDGET,
     CONSERVE,
@@ -54,8 +39,23 @@ from nivel.march.run import (
     UNCONSERVED,
     Run,
 )
-from nivel.march.sink import Sink
-from nivel.march.stabilise.catalogue import STABILISATIONS
+from nivel.integrate.sink import Sink
+from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.kernels.handle import Handle
+from nivel.kernels.observe import observe
+from nivel.kernels.status import (
+    BUDGET_SPENT,
+    BUFFER_FULL,
+    CONTRADICTION,
+    DONE,
+    MULTIPLIERS_NOT_FOUND,
+    NOT_CLOSED,
+    NOT_CONVERGED,
+    NOT_FINITE,
+    OPEN,
+    SINGULAR,
+    STEP_TOO_SMALL,
+)
 from nivel.results.occurrence import Occurrence
 from nivel.system.system import System
 
@@ -67,7 +67,7 @@ BEFORE_A_JAM = (SINGULAR, NOT_CLOSED, OPEN, NOT_CONVERGED, NOT_FINITE, STEP_TOO_
 
 
 @dataclass
-class Finished:
+class RunOutcome:
     """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s]).
 
     events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
@@ -89,7 +89,7 @@ def march(
     *,
     progress: Progress | None = None,
     chunk_steps: int | None = None,
-) -> Finished:
+) -> RunOutcome:
     """Run `prepared` and give every frame to all `sinks` (already begun).
 
     progress : called with the time reached [s] after every chunk. chunk_steps : steps a chunk, instead of as many as fit into 50 ms;
@@ -100,7 +100,7 @@ def march(
     run = start_history(prepared, settings, prepared.integrator)
     run.counter[CONSERVE] = int(stabilisation.CONSERVES)
     advance = _compiled_loop(prepared, run, stabilisation)
-    finished = Finished("done")
+    finished = RunOutcome("done")
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
     while status in GOES_ON and finished.outcome == "done":
@@ -137,7 +137,7 @@ def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType)
 def _compiled_loop(prepared: Prepared, run: Run, stabilisation: ModuleType) -> Callable[[], int]:
     """The compiled loop of the run: goes on for the budget of steps in its counter, and returns a status."""
     kernels, facts = prepared.motion.kernels, prepared.integrator
-    correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.keep
+    correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
     step = getattr(import_module(facts.module), facts.function)
     machine, history = prepared.motion.handle, Handle(run)
     evaluate, correct, step = kernels.evaluate.address, correct.address, step.address
@@ -149,7 +149,7 @@ def _march_in_chunks(
     system: System,
     run: Run,
     sinks: Sequence[Sink],
-    finished: Finished,
+    finished: RunOutcome,
     progress: Progress | None,
     chunk_steps: int | None,
 ) -> tuple[int, float]:

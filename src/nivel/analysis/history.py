@@ -6,16 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.implicit import constraint_index
-from nivel.analysis.jam import can_be_asked
+from nivel.analysis.lockup import can_be_asked
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.settings import RunSettings
-from nivel.kernels import friction as columns
-from nivel.kernels.observe import observe
-from nivel.kernels.record import WATCH
-from nivel.kernels.saddle import CONTRADICTORY, MOST_UNSETTLED
-from nivel.kernels.watch import watch
-from nivel.march.catalogue import IntegratorFacts
-from nivel.march.run import (
+from nivel.integrate.catalogue import IntegratorFacts
+from nivel.integrate.run import (
     ALL_STEPS,
     CLOCKS,
     CORRECTOR_TOLERANCE,
@@ -36,7 +31,12 @@ from nivel.march.run import (
     TOLERANCE,
     Run,
 )
-from nivel.march.stabilise.catalogue import STABILISATIONS
+from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.kernels import friction as columns
+from nivel.kernels.observe import observe
+from nivel.kernels.record import WATCH
+from nivel.kernels.saddle import CONTRADICTORY, MOST_UNSETTLED
+from nivel.kernels.watch import watch
 from nivel.motion.direct import VISIBLE
 from nivel.results.held import STILL
 from nivel.system.partition import forget

@@ -12,11 +12,12 @@ from scipy.linalg import qr
 
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.unknown_groups import frictions_with_stiction, unknown_groups
+from nivel.kernels import friction_residual
 from nivel.kernels import tangent_entries as entries
 from nivel.kernels.arrays import complex_twin
 from nivel.kernels.beam_tangent import tangent
-from nivel.kernels.forces.held_beam import hold
-from nivel.kernels.friction_residual import rub
+from nivel.kernels.element_crossing import pass_nodes
+from nivel.kernels.forces import held_beam
 from nivel.kernels.handle import Handle
 from nivel.kernels.hook import FAMILIES, Family
 from nivel.kernels.implicit_record import Newton, Residual
@@ -38,7 +39,6 @@ from nivel.kernels.record import (
     Record,
 )
 from nivel.kernels.slider_nodes import pass_sliders
-from nivel.kernels.slider_pass import pass_nodes
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.system.beam_tangent import (
     elastic_family,
@@ -61,14 +61,15 @@ ROUNDINGS = 6.0
 
 
 @dataclass(frozen=True)
-class Wanted:
+class ResidualOptions:
     """What a method asks of a residual.
 
     whole : module of one over a whole step; empty: that at a time. corners : times [s] at which functions of time have corners.
-    shifted : with room for systems of shifted matrices, see `nivel.kernels.shifted_parts`. balance : with room to find accelerations, see
+    shifted : with room for systems of shifted matrices, see `nivel.kernels.shifted_matrix`. balance : with room to find accelerations, see
     `nivel.kernels.balance`. along : it asks for derivatives along directions, so that none may be found by hand. free : whether nothing
-    joins the machine to the ground, for a residual over a whole step. filtered : with room for `nivel.march.error_filter`. accelerations :
-    it solves for them, so that in independent coordinates all that depends on these has to be found. compliance : 1/α of penalty methods.
+    joins the machine to the ground, for a residual over a whole step. filtered : with room for `nivel.integrate.error_filter`.
+    accelerations : it solves for them, so that in independent coordinates all that depends on these has to be found. compliance : 1/α of
+    penalty methods.
     """
 
     whole: str = ""
@@ -82,7 +83,7 @@ class Wanted:
     compliance: Array | None = None
 
 
-INSTANT = Wanted()
+INSTANT = ResidualOptions()
 # A row this many times shorter than the longest one is round-off.
 NOTHING = 1e-9
 
@@ -96,8 +97,12 @@ def constraint_index(formulation: str, stabilisation: str, path: PathFacts) -> i
     return 1 if FORMULATIONS[formulation].factor > 0.0 or stabilisation == "baumgarte" else 3
 
 
-def equip(
-    motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted = INSTANT, path: PathFacts | None = None
+def with_residual(
+    motion: MotionEquations,
+    y: Array,
+    coordinates: str,
+    wanted: ResidualOptions = INSTANT,
+    path: PathFacts | None = None,
 ) -> MotionEquations:
     """The same equations, with the residual of implicit methods, its derivatives, and the record of its complex twin.
 
@@ -135,7 +140,7 @@ def _independent(C_q: Array, rank: int) -> Index:
 
 
 def _with_rows(
-    motion: MotionEquations, y: Array, coordinates: str, wanted: Wanted, path: PathFacts, kept: Index
+    motion: MotionEquations, y: Array, coordinates: str, wanted: ResidualOptions, path: PathFacts, kept: Index
 ) -> MotionEquations:
     """With the rows `kept` of those of the saddle."""
     system = motion.system
@@ -180,7 +185,7 @@ def _residual(
     velocities: int,
     row: NDArray[np.uint32],
     part: NDArray[np.uint32],
-    wanted: Wanted,
+    wanted: ResidualOptions,
 ) -> Residual:
     """Its tables, with what is known of the inertia of bodies where it is one over a whole step."""
     record, own = system.record, system.record.flexible
@@ -203,7 +208,7 @@ def _residual(
     return residual
 
 
-def _newton(system: System, y: Array, velocities: int, rows: int, plan: TangentPlan, wanted: Wanted) -> Newton:
+def _newton(system: System, y: Array, velocities: int, rows: int, plan: TangentPlan, wanted: ResidualOptions) -> Newton:
     """Tables of Newton's iteration for so many rows of constraints."""
     newton = newton_tables(
         places(system.map, velocities, system.positions),
@@ -222,13 +227,13 @@ def _newton(system: System, y: Array, velocities: int, rows: int, plan: TangentP
     return newton
 
 
-def _families(path: PathFacts, wanted: Wanted) -> tuple[Family, Family]:
+def _families(path: PathFacts, wanted: ResidualOptions) -> tuple[Family, Family]:
     """The residual, and the one at an instant where accelerations are found by it."""
     family = import_module(wanted.whole or path.residual).residual
     return family, import_module(path.residual).residual if wanted.balance else family
 
 
-def _hooks(system: System, path: PathFacts, wanted: Wanted, *, by_hand: bool) -> Hooks:
+def _hooks(system: System, path: PathFacts, wanted: ResidualOptions, *, by_hand: bool) -> Hooks:
     """Those of the system, with what the residual of this machine calls. by_hand : derivatives of elements of beams are."""
     record = system.record
     address = record.hooks.address.copy()
@@ -244,7 +249,7 @@ def _hooks(system: System, path: PathFacts, wanted: Wanted, *, by_hand: bool) ->
     if wanted.accelerations and path.dependent:
         address[DEPENDENT] = import_module(path.dependent).depend.address
     if len(system.frictions):
-        address[GIVEN_FRICTION] = rub.address
+        address[GIVEN_FRICTION] = friction_residual.apply.address
     return record.hooks._replace(address=address)
 
 
@@ -267,7 +272,7 @@ def _twin(record: Record, *, held: bool) -> Handle:
         address[hook] = _complex(record.hooks.address[hook])
     families = np.array([_complex(each) for each in record.elements.address], dtype=np.uint64)
     if held:
-        families[elastic_family(record)] = hold.complex_address
+        families[elastic_family(record)] = held_beam.apply.complex_address
     laws = np.array([complex_address(int(each)) if each else 0 for each in record.functions.address], dtype=np.uint64)
     return Handle(
         twin._replace(

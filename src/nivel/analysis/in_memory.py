@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from nivel.analysis.attributes import run_attributes
-from nivel.analysis.dynamics import Finished, march
+from nivel.analysis.dynamics import RunOutcome, march
 from nivel.analysis.listener import Progress
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import prepare
-from nivel.march.sink import Header
+from nivel.integrate.sink import Header
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 
 
-def run_in_memory(plan: Plan, progress: Progress | None = None) -> tuple[Result, Finished]:
+def run_in_memory(plan: Plan, progress: Progress | None = None) -> tuple[Result, RunOutcome]:
     """Prepare and run.
 
     The result holds the frames and what is known before the first of them, no trust report. Raises ModelError before anything is

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from nivel.integrate.catalogue import BY_MODES, INTEGRATORS, IntegratorFacts
 from nivel.machine.forces import PointForce, Torque
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import BY_MODES, INTEGRATORS, IntegratorFacts
 
 
 def only_modes_are_stiff(machine: MachineRecord) -> bool:

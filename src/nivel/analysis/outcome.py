@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.analysis.divergence import grown_motion
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.fast_beams import too_fast
-from nivel.analysis.growth import grown_motion
-from nivel.analysis.jam import named_row, unit_of
+from nivel.analysis.lockup import named_row, unit_of
 from nivel.analysis.unknowns import unknown_name
 from nivel.kernels import friction as columns
 from nivel.kernels.status import (

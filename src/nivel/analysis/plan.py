@@ -21,11 +21,11 @@ from nivel.analysis.refusals import (
 from nivel.analysis.settings import RunSettings, complete
 from nivel.analysis.unused_settings import unused_settings
 from nivel.errors import Fault, ModelError
+from nivel.integrate.catalogue import IntegratorFacts, chooses
+from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
-from nivel.march.catalogue import IntegratorFacts, chooses
-from nivel.march.stabilise.catalogue import STABILISATIONS
-from nivel.motion.catalogue import BALANCED, FORMULATIONS, PathFacts, path_of
+from nivel.motion.catalogue import FORMULATIONS, IMPLICIT_ACCELERATIONS, PathFacts, path_of
 from nivel.system.beam_nodes import with_nodes
 
 
@@ -46,9 +46,9 @@ class Methods:
     integrator: IntegratorFacts
 
     @property
-    def balanced(self) -> bool:
+    def solves_residual(self) -> bool:
         """Whether accelerations are found by the residual."""
-        return self.path.module == BALANCED
+        return self.path.module == IMPLICIT_ACCELERATIONS
 
     @property
     def penalised(self) -> bool:
@@ -71,7 +71,7 @@ class Plan:
 
     @property
     def stabilisation(self) -> ModuleType:
-        """The module of `nivel.march.stabilise`."""
+        """The module of `nivel.integrate.stabilise`."""
         return STABILISATIONS[self.settings.stabilisation]
 
 

@@ -12,7 +12,7 @@ from nivel.analysis.assemble import Assembly, assemble
 from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.ground import touches_ground
-from nivel.analysis.implicit import Wanted, constraint_index, equip
+from nivel.analysis.implicit import ResidualOptions, constraint_index, with_residual
 from nivel.analysis.mobility import bound_pivots
 from nivel.analysis.modal_rows import modal_rows
 from nivel.analysis.penalties import penalise
@@ -26,9 +26,9 @@ from nivel.analysis.refusals import (
     refuse_unsettled_multipliers,
 )
 from nivel.errors import Fault, ModelError
+from nivel.integrate.catalogue import IntegratorFacts
 from nivel.machine.beam import Beam
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import IntegratorFacts
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
 from nivel.system.system import Array, System
 
@@ -68,7 +68,7 @@ def prepare(methods: Methods) -> Prepared:
     system, y = _arranged(motion.system, assembly.y, rest, rank, methods)
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
     if integrator.residual:
-        prepared = equip(prepared, y, methods.coordinates, _wanted(prepared, methods), path)
+        prepared = with_residual(prepared, y, methods.coordinates, _wanted(prepared, methods), path)
     return Prepared(path, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator, machine.beams)
 
 
@@ -126,7 +126,7 @@ def _arranged(absolute: System, y: Array, rest: Settled | None, rank: int, metho
 
 def _formulated(motion: MotionEquations, y: Array, methods: Methods) -> MotionEquations:
     """The equations, with constraints as the formulation has them enter, or mass as bodies have it in common."""
-    if methods.balanced:
+    if methods.solves_residual:
         return _balanced(motion, y, methods)
     if methods.penalised:
         return penalise(motion, y, methods.machine.simulation, FORMULATIONS[methods.formulation])
@@ -144,23 +144,23 @@ def _balanced(motion: MotionEquations, y: Array, methods: Methods) -> MotionEqua
         bound_pivots(MotionEquations(motion.system, import_module(lumped.module)), y)
     if methods.integrator.residual:
         return motion
-    return equip(motion, y, coordinates, Wanted(balance=True))
+    return with_residual(motion, y, coordinates, ResidualOptions(balance=True))
 
 
-def _wanted(motion: MotionEquations, methods: Methods) -> Wanted:
+def _wanted(motion: MotionEquations, methods: Methods) -> ResidualOptions:
     """What the integrator asks of the residual. Raises ModelError where multipliers would never settle."""
     machine, saddle, integrator = methods.machine, motion.system.record.saddle, methods.integrator
     simulation = machine.simulation
     if constraint_index(methods.formulation, simulation.stabilisation, methods.path) == 3:
         refuse_unsettled_multipliers(machine, len(saddle.row))
-    return Wanted(
+    return ResidualOptions(
         whole=integrator.over_step(machine.is_flexible),
         corners=corners(machine),
-        shifted=integrator.shifted,
-        balance=methods.balanced,
-        along=integrator.along,
-        free=not touches_ground(machine, motion.system) if integrator.whole else None,
-        filtered=integrator.either and methods.chooses_steps,
+        shifted=integrator.complex_shift,
+        balance=methods.solves_residual,
+        along=integrator.directional_tangent,
+        free=not touches_ground(machine, motion.system) if integrator.step_residual else None,
+        filtered=integrator.optional_control and methods.chooses_steps,
         accelerations=integrator.accelerations,
         compliance=saddle.shift if methods.penalised else None,
     )

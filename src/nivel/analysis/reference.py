@@ -14,7 +14,7 @@ import numpy as np
 
 from nivel.analysis.changes import changed
 from nivel.analysis.compare_grid import REFERENCES, Grid
-from nivel.analysis.dynamics import Finished
+from nivel.analysis.dynamics import RunOutcome
 from nivel.analysis.in_memory import run_in_memory
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import plan_run
@@ -134,7 +134,7 @@ def _checked(first: Solution, second: Solution) -> list[Solution]:
     ]
 
 
-def _run(machine: MachineRecord, grid: Grid, listener: Listener, **settings: object) -> tuple[Result, Finished]:
+def _run(machine: MachineRecord, grid: Grid, listener: Listener, **settings: object) -> tuple[Result, RunOutcome]:
     fixed = {"formulation": "newton-euler", "coordinates": "absolute"}
     step = {"step": min(machine.simulation.step, grid.interval), "output_interval": grid.interval}
     own = changed(machine.simulation, {**fixed, **step, **settings})

@@ -8,13 +8,13 @@ from nivel.analysis.corners import corners_of
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.redundancy import Redundancy
 from nivel.errors import Fault, ModelError
+from nivel.integrate.catalogue import INTEGRATORS, chooses
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Contact, Friction, Stop
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.settings import SimulationSettings
 from nivel.machine.table import Table
-from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.system.laws import false_derivative
 from nivel.system.layout import reported
 from nivel.system.system import Array
@@ -85,7 +85,7 @@ def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> No
 
 def refuse_stiction_over_steps(machine: MachineRecord) -> None:
     """Stiction is a law of the acceleration at a time, of which a balance over a whole step knows nothing."""
-    if not INTEGRATORS[machine.simulation.integrator].whole:
+    if not INTEGRATORS[machine.simulation.integrator].step_residual:
         return
     faults = [
         Fault(
@@ -139,7 +139,7 @@ def refuse_rough_motions(machine: MachineRecord) -> None:
             message = (
                 f"the law `{table.function}` must return value, rate and acceleration that belong together: {wrong}"
             )
-        elif isinstance(table, Table) and not INTEGRATORS[settings.integrator].jumps:
+        elif isinstance(table, Table) and not INTEGRATORS[settings.integrator].velocity_jumps:
             message = _jump_of(table, settings)
         if message:
             faults.append(Fault("", 0, 0, f"drivers.{driver.name}.value", message))
@@ -206,7 +206,7 @@ def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates
     if formulation != "newton-euler":
         faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
     gradients = ", ".join(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)
-    if INTEGRATORS[machine.simulation.integrator].whole and gradients:
+    if INTEGRATORS[machine.simulation.integrator].step_residual and gradients:
         message = (
             f"'{machine.simulation.integrator}' does not go with {gradients}, whose velocities at the tips of gradients are no means of "
             f"those at both ends of a step: take generalised-alpha, or beams of another `model`"

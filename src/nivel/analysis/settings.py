@@ -7,10 +7,10 @@ from math import ceil
 
 from nivel.analysis.combinations import refuse_combinations
 from nivel.errors import Fault, ModelError
+from nivel.integrate.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
+from nivel.integrate.catalogue import INTEGRATORS, IntegratorFacts, chooses
+from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.machine.settings import Corrector, Penalty, SimulationSettings
-from nivel.march.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
-from nivel.march.catalogue import INTEGRATORS, IntegratorFacts, chooses
-from nivel.march.stabilise.catalogue import STABILISATIONS
 from nivel.motion.catalogue import FORMULATIONS
 
 # Without an output interval: the shortest multiple of the step that gives at most this many frames.

@@ -8,16 +8,16 @@ from dataclasses import replace
 from os import PathLike
 
 from nivel.analysis.attributes import run_attributes
-from nivel.analysis.dynamics import Finished, march
+from nivel.analysis.dynamics import RunOutcome, march
 from nivel.analysis.held_friction import resting_frictions
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
 from nivel.analysis.settings import RunSettings
 from nivel.errors import SolveError
+from nivel.integrate.catalogue import INTEGRATORS
+from nivel.integrate.sink import Header
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.catalogue import INTEGRATORS
-from nivel.march.sink import Header
 from nivel.results.accuracy import error_from_finer
 from nivel.results.held import Held, shared_loads
 from nivel.results.held_together import Sticking, loads_held_together
@@ -72,7 +72,7 @@ def _close(
     sink: Memory | Store,
     machine: MachineRecord,
     prepared: Prepared,
-    finished: Finished,
+    finished: RunOutcome,
     accuracy: Peak | None,
     refinement: str,
     resting: tuple[tuple[Held, ...], tuple[Sticking, ...]],
@@ -112,7 +112,7 @@ def _close(
 
 def _small_states(result: Result, prepared: Prepared) -> tuple[SmallState, ...]:
     """The states that stayed far below the scale by which their errors are measured."""
-    if not (prepared.integrator.chooses_steps or prepared.integrator.either or prepared.integrator.residual):
+    if not (prepared.integrator.chooses_steps or prepared.integrator.optional_control or prepared.integrator.residual):
         return ()
     out = []
     for fact in prepared.motion.system.states:

@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.carrying import Carrying
+from nivel.analysis.tree_paths import Carrying
 from nivel.kernels import friction as columns
 from nivel.kernels.coordinate import ALONG, LEAN_X, LEAN_Y, TWIST
 from nivel.kernels.record import NONE

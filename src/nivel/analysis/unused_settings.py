@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from nivel.errors import Fault
+from nivel.integrate.catalogue import INTEGRATORS, chooses
 from nivel.machine.settings import SimulationSettings
-from nivel.march.catalogue import INTEGRATORS, chooses
 from nivel.motion.catalogue import FORMULATIONS
 
 # settings that hold constants of one integrator each
@@ -33,7 +33,7 @@ def _unused(name: str, settings: SimulationSettings, coordinates: str) -> str:
     integrator, formulation = INTEGRATORS.get(settings.integrator), FORMULATIONS.get(settings.formulation)
     if name in ("tolerance", "largest_step") and integrator and not chooses(settings.integrator, settings.step_control):
         fitting = [each for each, facts in INTEGRATORS.items() if facts.chooses_steps]
-        more = "; `step_control: error` lets it choose its steps" if integrator.either else ""
+        more = "; `step_control: error` lets it choose its steps" if integrator.optional_control else ""
         return f"the step of `integrator: {settings.integrator}` is fixed; {_choice('it', fitting)}{more}"
     if name == "corrector" and integrator and not integrator.implicit:
         fitting = [each for each, facts in INTEGRATORS.items() if facts.implicit]

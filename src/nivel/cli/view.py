@@ -142,7 +142,7 @@ def _machine(file: str, ghosts: tuple[str, ...], overrides: dict[str, str], allo
         raise ModelError(f"{ghosts[0]} cannot be laid over a machine: only results are laid over each other")
     machine = load(file, overrides, allow_code=allow_code)
     with progress_listener(quiet) as listener:
-        return machine.shown(listener=listener)
+        return machine.viewer_source(listener=listener)
 
 
 def _results(

@@ -204,7 +204,7 @@ def push_node(bodies, markers, m, force, torque):
 
 
 @stage
-def feel_element(bodies, markers, index, n, control):
+def element_forces(bodies, markers, index, n, control):
     """What an element stores and asks of its nodes, on their bodies; forces and torques on the nodes stay in n[FORCE:], n[TORQUE:]."""
     find_turns(bodies, markers, index, n)
     m0, m1, m2 = 0.0 * n[0], 0.0 * n[0], 0.0 * n[0]

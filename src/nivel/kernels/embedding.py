@@ -137,14 +137,14 @@ def solve_definite(H, x):
 
 
 @shared
-def depend_on(machine, t, keep, read):
+def depend_on(machine, t, normalise_state, read):
     """Dependent positions, velocities and accelerations of `residual.y` and `vdot` from C = 0, Ċ = 0 and C̈ = 0; the independent ones stay.
 
-    keep(machine, t, y), read(machine, t, y) : the former two, and the state, compiled into this one. Returns a status: SINGULAR where the
-    positions cannot be found; control.failure is the row that is farthest open.
+    normalise_state(machine, t, y), read(machine, t, y) : the former two, and the state, compiled into this one. Returns a status: SINGULAR
+    where the positions cannot be found; control.failure is the row that is farthest open.
     """
     own = record_at(machine).residual
-    status = keep(machine, t, own.y)
+    status = normalise_state(machine, t, own.y)
     if status == OK:
         status = read(machine, t, own.y)
     if status == OK:

@@ -355,7 +355,7 @@ def report(machine, k, force):
 
 
 @family
-def rub(machine, number, t):
+def apply(machine, number, t):
     """Efforts of all frictions, consistent with the reactions that they cause; multipliers and accelerations are left with them.
 
     FRICTION_DIVERGES names the worst (control.failure) where no consistent effort is found: more friction than any load can carry;

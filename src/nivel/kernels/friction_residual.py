@@ -17,7 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.analytic import real
-from nivel.kernels.forces.push import push_coordinate
+from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.friction import (
     ARM,
     COORDINATE,
@@ -103,7 +103,7 @@ def hold(machine, k, place):
         branch = 1.0 if wanted > real(limit) else (-1.0 if wanted < -real(limit) else 0.0)
     row = missed if branch == 0.0 and np.isnan(way) else dry - branch * limit
     if tau == np.inf:
-        # forces do not jump where speeds do, see `nivel.march.corners`
+        # forces do not jump where speeds do, see `nivel.integrate.corners`
         row = change
     own.value[own.vdot.shape[0] + record.elements.state_rate.shape[0] + 2 * own.lam.shape[0] + place] = row
     own.branch[number] = 2.0 * branch if steep else branch
@@ -112,7 +112,7 @@ def hold(machine, k, place):
 
 
 @family
-def rub(machine, number, t):
+def apply(machine, number, t):
     """Add the efforts of all frictions for the multipliers of the constraints to the wrenches of the bodies, and report them."""
     record = record_at(machine)
     place = record.residual.row.shape[0]
@@ -122,6 +122,6 @@ def rub(machine, number, t):
             place += 1
         else:
             force = sliding_effort(machine, k)
-        push_coordinate(machine, record.friction.columns[k, COORDINATE], force)
+        add_coordinate_force(machine, record.friction.columns[k, COORDINATE], force)
         report(machine, k, force)
     return OK

@@ -1,4 +1,4 @@
-"""Calls to what only some machines need: families of forces, measured coordinates, friction, sensors.
+"""Optional components, called by address: families of forces, measured coordinates, friction, sensors.
 
 They are compiled apart, and only when a machine has them; the equations of motion reach them through their address, so they are
 the same machine code for every machine. A call costs about a nanosecond.

@@ -12,7 +12,7 @@ from nivel.kernels.arrays import A1, C1, C2, F1, F2, F3, U1, U2, W1, W2
 from nivel.kernels.sparse_lu import SparseLU
 
 
-class Interval(NamedTuple):
+class StepResidual(NamedTuple):
     """What residuals over a whole step know of it; see `nivel.motion.energy_momentum_residual`. Without numbers for other methods."""
 
     numbers: F1  # (4,) step [s], elastic energy at its start [J], least motion in it [J], 1 where the machine touches no ground
@@ -50,15 +50,15 @@ class Residual(NamedTuple):
     rate: F1  # (K - H,) [m/s or 1/s] of the coordinate, as last evaluated
     begun: F1  # (K - H,) [m/s or 1/s] rate of the coordinate at the begin of the step
     span: F1  # (1,) [s] the step where c̈ of frictions is its mean; 0: it is that at the time
-    tally: F1  # (3,) of the iteration: turns, evaluations where Stribeck's curve was steep, seed; see `nivel.march.friction_turns`
+    tally: F1  # (3,) of the iteration: turns, evaluations where Stribeck's curve was steep, seed; see `nivel.integrate.friction_turns`
     frozen: F1  # (K - H,) [m/s or 1/s] that for which Stribeck's curve is taken in place of it; not a number: none
     acceleration: W2  # (B+1, 6) (α, R̈) of the bodies, global axes
     wrench: W2  # (B+1, 6) (moment about the frame origin, force) that their joints have to transmit
-    interval: Interval
+    interval: StepResidual
 
 
 class RealFactors(NamedTuple):
-    """One system (1 - s ∂f/∂y) x = r for a real s, see `nivel.kernels.shifted_parts`."""
+    """One system (1 - s ∂f/∂y) x = r for a real s, see `nivel.kernels.shifted_matrix`."""
 
     value: F1  # (·,) entries of the matrix
     L: F1  # its factors where it is sparse
@@ -88,7 +88,7 @@ class ComplexFactors(NamedTuple):
 
 
 class Coupled(NamedTuple):
-    """The stages of a Runge–Kutta method as one system, each with derivatives of its own; see `nivel.march.coupled_stages`.
+    """The stages of a Runge–Kutta method as one system, each with derivatives of its own; see `nivel.integrate.coupled_stages`.
 
     Unknown u at stage s is number 3 u + s, and so in the pattern of one system every entry becomes three by three. T bodies that turn.
     """
@@ -165,7 +165,7 @@ class Newton(NamedTuple):
     # ground and a constraint, in units in the last place
     settings: F1
     balance: RealFactors  # of the accelerations, see `nivel.kernels.balance`; without numbers for most machines
-    filter: RealFactors  # of errors of chosen steps, see `nivel.march.error_filter`; without numbers where none are
+    filter: RealFactors  # of errors of chosen steps, see `nivel.integrate.error_filter`; without numbers where none are
     balanced: F1  # (2,) 1 where it has factors; length of the machine [m], which turns are measured by
     asked: F1  # (3,) cq and cv of derivatives by hand, 1 where they are of `balance`; see `nivel.kernels.beam_tangent`
     # (1,) 3: positions are closed by the multipliers; 2: velocities are, and positions by a correction; 1: accelerations are; 0: of

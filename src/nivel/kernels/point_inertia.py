@@ -15,7 +15,7 @@ from nivel.native.function import stage
 
 
 @family
-def resist(machine, job, t):
+def apply(machine, job, t):
     """Subtract what all sets of points ask for at their accelerations from the wrenches of the bodies."""
     record = record_at(machine)
     points, markers, wrench = record.points, record.markers, record.bodies.wrench

@@ -233,7 +233,7 @@ def turned_by(bodies, markers, coordinates, q, own, e, u, length, k, axis, rate,
 
 
 @family
-def slide(machine, q, t):
+def apply(machine, q, t):
     """Value, rate, second derivative and parts of coordinate q of a slider on a rail."""
     record = record_at(machine)
     bodies, markers, coordinates = record.bodies, record.markers, record.coordinates

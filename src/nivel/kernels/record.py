@@ -223,7 +223,7 @@ class Sampled(NamedTuple):
 
 
 class Hooks(NamedTuple):
-    """Addresses of what only some machines need, or zero: see `FAMILY`."""
+    """Addresses of optional components, or zero: see `FAMILY`."""
 
     address: (
         A1  # (HOOKS,) measure, friction, sense, complete, watch, residual, friction for given multipliers, tangent of beams,
@@ -320,7 +320,7 @@ class Tree(NamedTuple):
     column: W2  # (U, 6) motion of a joint velocity
     element: U2  # (S, 2) node before the element on which each slider is held, or NONE: where it is; where it was before it passed a node
     frame: W2  # (S, 28) of the beam at each slider
-    jump: W2  # (S, 6) added to the acceleration of each slider, see `nivel.kernels.slider_pass`
+    jump: W2  # (S, 6) added to the acceleration of each slider, see `nivel.kernels.element_crossing`
     before: F2  # (S, 12) its motion before it passed a node, its acceleration behind it
     inertia: F2  # (B+1, 27) articulated inertia: I (6), H (9), M (6); I of the body alone (6)
     U: F2  # (U, 6) inertia times column
@@ -446,7 +446,7 @@ EULER_ANGLES, ROTATION_VECTOR = 0, 1  # kinds of Rotations
     SAMPLE,
 ) = range(16)  # entries of Hooks.address
 HOOKS = 16
-HOLD, LEAVE, GO_ON = 0, 1, 2  # jobs of the hook PASS
+LOCK, DEPART, RESUME = 0, 1, 2  # jobs of the hook PASS
 # what the hooks MODES and SLIDERS do for a node, and MODES for all flexible bodies, see `nivel.kernels.tree_nodes`
 MOVE, ACCELERATE, HAND, LOAD, NEED = 0, 1, 2, 3, 4
 FUNCTION, DIRECTION, STOP = 0, 1, 2  # columns of Watched.event

@@ -67,7 +67,7 @@ def acceleration_of(machine, b):
 
 @stage
 def inertial_wrenches(machine):
-    """`residual.wrench` of all bodies: what their acceleration asks for, less all applied forces and those of the constraints.
+    """`residual.wrench` of all bodies: inertial minus applied and constraint wrenches.
 
     Force m (R̈ + α × c + ω × (ω × c)), moment about the frame origin A (J̄_O ᾱ + ω̄ × J̄_O ω̄) + m c × R̈.
     """

@@ -101,7 +101,7 @@ def second_derivative(machine, q):
 
 
 @family
-def sense(machine, number, t):
+def apply(machine, number, t):
     """All sensors, from the state last evaluated."""
     record = record_at(machine)
     sensors, out = record.sensors, record.outputs.value

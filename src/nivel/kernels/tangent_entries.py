@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nivel.kernels.hook import call_hook
 from nivel.kernels.record import RESIDUAL, record_at
-from nivel.kernels.shifted_parts import factorise_shifted, find_parts, keep_multipliers, solve_shifted_parts
+from nivel.kernels.shifted_matrix import factorise_shifted, find_parts, keep_multipliers, solve_shifted_parts
 from nivel.kernels.status import OK
 from nivel.kernels.tangent import POSITIONS, differentiate
 from nivel.native.entry import entry

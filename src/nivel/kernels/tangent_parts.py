@@ -2,7 +2,7 @@
 
     M δv̇ + C_qᵀ δλ        D (δv, δx)        K δq
 
-so that M + s D + s² K follows for any s, real or complex, without evaluations: see `nivel.kernels.shifted_parts`. Of the constraints the
+so that M + s D + s² K follows for any s, real or complex, without evaluations: see `nivel.kernels.shifted_matrix`. Of the constraints the
 rows are C̈, and turns of bodies are small rotations in body axes.
 """
 

@@ -232,7 +232,7 @@ def move_tree(bodies, tree, y):
 
 @leaf
 def has_passed(tree):
-    """Whether a slider has just passed a node of its beam, see `nivel.kernels.slider_pass`."""
+    """Whether a slider has just passed a node of its beam, see `nivel.kernels.element_crossing`."""
     for k in range(tree.element.shape[0]):
         if tree.element[k, 1] != NONE:
             return True

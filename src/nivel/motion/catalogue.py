@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 class PathFacts:
     """Where the equations of motion in some coordinates are.
 
-    module : its `evaluate` and `keep`; correction : its `correct`, the direct correction; arrangement : a module of `nivel.system.states`
-    that turns an assembled machine in absolute coordinates into the numbers and the state of this path.
-    residual : module of its residual for implicit methods, empty where there is none. dependent : module of its `depend`, what follows from
+    module : its `evaluate` and `normalise_state`; correction : its `correct`, the direct correction; arrangement : a module of
+    `nivel.system.states` that turns an assembled machine in absolute coordinates into the numbers and the state of this path. residual :
+    module of its residual for implicit methods, empty where there is none. dependent : module of its `depend`, what follows from
     independent coordinates, for those that solve for accelerations.
     """
 
@@ -115,7 +115,10 @@ FORMULATIONS: dict[str, FormulationFacts] = {
 
 # accelerations by the residual, where the mass matrix has no blocks of single bodies; corrections with its matrix, where beams carry bodies
 # that slide along them
-BALANCED, BALANCED_CORRECTION = "nivel.motion.balanced", "nivel.motion.balanced_correction"
+IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION = (
+    "nivel.motion.implicit_accelerations",
+    "nivel.motion.implicit_accelerations_correction",
+)
 
 
 def path_of(
@@ -138,4 +141,4 @@ def path_of(
         return path
     if not path.residual or formulation != "newton-euler":
         return None
-    return replace(path, module=BALANCED, correction=BALANCED_CORRECTION if sliding else path.correction)
+    return replace(path, module=IMPLICIT_ACCELERATIONS, correction=IMPLICIT_CORRECTION if sliding else path.correction)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from nivel.kernels.embedding import depend_on
 from nivel.kernels.hook import family
-from nivel.motion.independent import keep
+from nivel.motion.independent import normalise_state
 from nivel.motion.newton_euler import read_state
 
 
 @family
 def depend(machine, job, t):
     """What depends on the independent coordinates, see `nivel.kernels.embedding.depend_on`."""
-    return depend_on(machine, t, keep, read_state)
+    return depend_on(machine, t, normalise_state, read_state)

@@ -50,7 +50,7 @@ def factorise_flexible(machine):
 
 @entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
-    """ẏ. Leaves everything else in the record but what `nivel.kernels.carried_flexible` adds for frames."""
+    """ẏ. Leaves everything else in the record but what `nivel.kernels.tree_outputs_flexible` adds for frames."""
     return evaluate_tree(
         machine,
         t,
@@ -65,7 +65,7 @@ def evaluate(machine, t, y, ydot):
 
 
 @entry(CORRECT)
-def keep(machine, t, y):
+def normalise_state(machine, t, y):
     """No correction; |θ| is brought back to one, which moves nothing."""
     normalise(machine, y)
     return OK

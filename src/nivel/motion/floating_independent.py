@@ -61,10 +61,10 @@ def evaluate(machine, t, y, ydot):
 
 
 @entry(CORRECT)
-def keep(machine, t, y):
+def normalise_state(machine, t, y):
     """What depends on the independent coordinates, see `nivel.motion.independent.keep_independent`."""
     return keep_independent(machine, t, y, read_factorised)
 
 
 # the dependent coordinates are solved for with every stabilisation, so there is nothing left to correct directly
-correct = keep
+correct = normalise_state

@@ -114,8 +114,8 @@ def move_dependent(machine, y):
 
 @leaf
 def close(machine, y, attempt, factorised, before):
-    """One pass of `keep` from the state last read: dependent positions nearer to C = 0, or where these are closed, dependent velocities
-    from Ċ = 0.
+    """One pass of `normalise_state` from the state last read: dependent positions nearer to C = 0, or where these are closed, dependent
+    velocities from Ċ = 0.
 
     factorised : whether C_d of the last pass serves; before : the violation then. Returns (status, whether all is done, whether C_d serves
     for the next pass, the violation as a share of its scale).
@@ -163,10 +163,10 @@ def keep_independent(machine, t, y, read):
 
 
 @entry(CORRECT)
-def keep(machine, t, y):
+def normalise_state(machine, t, y):
     """What depends on the independent coordinates, see `keep_independent`."""
     return keep_independent(machine, t, y, read_state)
 
 
 # the dependent coordinates are solved for with every stabilisation, so there is nothing left to correct directly
-correct = keep
+correct = normalise_state

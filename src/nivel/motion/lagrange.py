@@ -282,6 +282,6 @@ def evaluate(machine, t, y, ydot):
 
 
 @entry(CORRECT)
-def keep(machine, t, y):
+def normalise_state(machine, t, y):
     """No correction: the normalisation rows drift like all others."""
     return OK

@@ -133,6 +133,6 @@ def evaluate(machine, t, y, ydot):
 
 
 @entry(CORRECT)
-def keep(machine, t, y):
-    """No correction: three coordinates have nothing to keep."""
+def normalise_state(machine, t, y):
+    """No correction: three coordinates have nothing to normalise."""
     return OK

@@ -215,7 +215,7 @@ def evaluate(machine, t, y, ydot):
 
 
 @entry(CORRECT)
-def keep(machine, t, y):
+def normalise_state(machine, t, y):
     """No correction; |θ| is brought back to one, which moves nothing because A is taken of θ/|θ|."""
     normalise(machine, y)
     return OK

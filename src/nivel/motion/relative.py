@@ -47,12 +47,12 @@ def factorise(machine):
 
 @entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
-    """ẏ. Leaves everything else in the record but what `nivel.kernels.carried` adds for frames."""
+    """ẏ. Leaves everything else in the record but what `nivel.kernels.tree_outputs` adds for frames."""
     return evaluate_tree(machine, t, y, ydot, read_state, load_tree, factorise, whiten_efforts, accelerate)
 
 
 @entry(CORRECT)
-def keep(machine, t, y):
+def normalise_state(machine, t, y):
     """No correction; |θ| is brought back to one, which moves nothing."""
     normalise(machine, y)
     return OK

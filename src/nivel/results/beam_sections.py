@@ -10,7 +10,7 @@ from nivel.errors import ModelError
 from nivel.machine.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.record import unknown_word
-from nivel.results.felt import Array, Felt
+from nivel.results.section_resultants import Array, Felt
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.march.sink import Header
+from nivel.integrate.sink import Header
 from nivel.system.layout import FrameLayout, Variable
 
 

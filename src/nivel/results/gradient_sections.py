@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.machine.beam import Beam
-from nivel.results.felt import Array, Felt
+from nivel.results.section_resultants import Array, Felt
 from nivel.system.beam_elements import gauss
 from nivel.system.gradient_beams import section_stiffness
 from nivel.system.gradient_elements import (

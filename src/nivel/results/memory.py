@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.march.sink import Header
+from nivel.integrate.sink import Header
 from nivel.results.contents import resolved, shape_of
 from nivel.system.layout import Variable
 

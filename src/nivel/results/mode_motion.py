@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
-from nivel.march.sink import Header
+from nivel.integrate.sink import Header
 from nivel.results.memory import MemoryContents
 from nivel.system.layout import FrameLayout, Variable
 

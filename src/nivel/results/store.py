@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError, SolveError
-from nivel.march.sink import Header
+from nivel.integrate.sink import Header
 from nivel.results.contents import resolved, shape_of
 from nivel.results.space import Space
 from nivel.results.stored import StoredContents, opened

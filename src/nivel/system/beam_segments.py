@@ -17,7 +17,7 @@ from nivel.kernels.forces import bushing
 from nivel.kernels.record import NONE
 from nivel.machine.beam import Beam
 from nivel.system.beam_elements import Array, gauss, relative_turns
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.state_facts import Coupled
 
 # points of integration over half of a segment: exact for straight beams, to round-off for arcs of a few degrees
@@ -64,7 +64,7 @@ def segments_of(beam: Beam) -> Segments:
     return Segments(mass, centre, 0.5 * (inertia + np.swapaxes(inertia, 1, 2)))
 
 
-def add_segments(draft: Draft, beam: Beam) -> None:
+def add_segments(draft: SystemBuilder, beam: Beam) -> None:
     """The springs between the segments of a beam, whose frames are bodies; they report nothing."""
     K, (place, axes) = beam.properties.stiffness, beam.frames(beam.shares)
     meeting, turned = beam.frames(boundaries(beam))

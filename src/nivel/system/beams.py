@@ -18,7 +18,7 @@ from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.machine.placement import placement
 from nivel.system.beam_elements import elements_of, masses_of
 from nivel.system.beam_segments import add_segments
-from nivel.system.draft import GROUND, Draft
+from nivel.system.builder import GROUND, SystemBuilder
 from nivel.system.gradient_beams import FAMILIES as OF_GRADIENTS
 from nivel.system.gradient_beams import add_gradient_beam, family_of_gradients
 from nivel.system.state_facts import Coupled
@@ -39,7 +39,7 @@ def family_of(beam: Beam) -> Family:
     return OTHER if beam.damping > 0.0 or beam.interpolation == "total" else ELASTIC
 
 
-def add_beam(draft: Draft, beam: Beam) -> None:
+def add_beam(draft: SystemBuilder, beam: Beam) -> None:
     """What joins the nodes of a beam, which are bodies: its elements, or springs between segments; each couples its own nodes."""
     if beam.has_gradients:
         add_gradient_beam(draft, beam)
@@ -49,7 +49,7 @@ def add_beam(draft: Draft, beam: Beam) -> None:
         _add_elements(draft, beam)
 
 
-def _add_elements(draft: Draft, beam: Beam) -> None:
+def _add_elements(draft: SystemBuilder, beam: Beam) -> None:
     elements, section = elements_of(beam), beam.properties
     marker = np.array([draft.frame(name) for name in beam.node_names])
     names = dict(zip(marker.tolist(), beam.node_names, strict=True))
@@ -110,7 +110,7 @@ def empty_tangent(elements: int, unknowns: int) -> BeamTangent:
     )
 
 
-def shared_mass(draft: Draft, beams: Sequence[Beam]) -> SharedMass:
+def shared_mass(draft: SystemBuilder, beams: Sequence[Beam]) -> SharedMass:
     """What the nodes of beams with consistent mass have in common."""
     pairs, mass, moment, turn = [], [np.zeros(0)], [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))]
     for beam in beams:

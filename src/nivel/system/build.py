@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from nivel.kernels.friction import rub
+from nivel.kernels import friction, rail, sensor
+from nivel.kernels import point_inertia as points
 from nivel.kernels.measure import measure
-from nivel.kernels.point_inertia import resist
-from nivel.kernels.rail import slide
 from nivel.kernels.record import (
     BOTH,
     ENDS_RUN,
@@ -35,11 +34,10 @@ from nivel.kernels.record import (
     Watched,
 )
 from nivel.kernels.sampling import sample
-from nivel.kernels.sensor import sense
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams import add_beam, no_tangent, shared_mass
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.forces import FORCES
 from nivel.system.gradient_beams import point_inertia
@@ -104,9 +102,9 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
     return replace(system, start=system.state(poses.ravel(), *velocities))
 
 
-def _drafted(machine: MachineRecord) -> tuple[Draft, RowTable]:
+def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
     """All elements of the machine, in the order in which they are numbered."""
-    draft, rows = Draft(machine), RowTable()
+    draft, rows = SystemBuilder(machine), RowTable()
     for joint in machine.joints:
         with draft.within(f"joints.{joint.name}"), located(f"joints.{joint.name}"):
             add_joint(draft, rows, joint)
@@ -124,7 +122,7 @@ def _drafted(machine: MachineRecord) -> tuple[Draft, RowTable]:
     return draft, rows
 
 
-def _record(draft: Draft, rows: RowTable, units: list[str], equations: Equations) -> tuple[Record, float]:
+def _record(draft: SystemBuilder, rows: RowTable, units: list[str], equations: Equations) -> tuple[Record, float]:
     """The arrays, for rows with these units, and the size of the machine [m]."""
     machine, count = draft.machine, len(units)
     # these may still add to the draft
@@ -171,12 +169,12 @@ def _record(draft: Draft, rows: RowTable, units: list[str], equations: Equations
     return record, size
 
 
-def _add_force(draft: Draft, force: Any) -> None:
+def _add_force(draft: SystemBuilder, force: Any) -> None:
     with located(f"forces.{force.name}"), draft.noting(), draft.within(f"forces.{force.name}"):
         FORCES[force.type].add(draft, force)
 
 
-def _watched(draft: Draft) -> Watched:
+def _watched(draft: SystemBuilder) -> Watched:
     """Events, and the surfaces of contacts and stops."""
     events, taking = [], {state.event for state in draft.machine.states}
     for event in draft.machine.events:
@@ -193,21 +191,21 @@ def _watched(draft: Draft) -> Watched:
     )
 
 
-def _hooks(draft: Draft, sensors: bool) -> Hooks:
-    """Addresses of the compiled functions that only some machines need."""
+def _hooks(draft: SystemBuilder, sensors: bool) -> Hooks:
+    """Addresses of the optional components of this machine."""
     address = np.zeros(HOOKS, dtype=np.uint64)
     if draft.coordinates.what:
         address[MEASURE] = measure.address
     if draft.coordinates.rails:
-        address[RAIL] = slide.address
+        address[RAIL] = rail.apply.address
     if any(beam.has_gradients for beam in draft.machine.beams):
-        address[POINTS] = resist.address
+        address[POINTS] = points.apply.address
     if draft.frictions:
-        address[FRICTION] = rub.address
+        address[FRICTION] = friction.apply.address
     if any(state.update is not None for state in draft.machine.states):
         address[SAMPLE] = sample.address
     if sensors:
-        address[SENSE] = sense.address
+        address[SENSE] = sensor.apply.address
     return Hooks(address)
 
 

@@ -13,7 +13,7 @@ from nivel.kernels.hook import Family
 from nivel.kernels.record import NONE
 from nivel.machine.beam import Beam
 from nivel.system.beam_elements import gauss
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.gradient_elements import (
     BEAM_POINTS,
     BENDING_POINTS,
@@ -42,7 +42,7 @@ def family_of_gradients(beam: Beam) -> Family:
     return ancf_cable if beam.model == "ancf-cable" else ancf_beam
 
 
-def add_gradient_beam(draft: Draft, beam: Beam) -> None:
+def add_gradient_beam(draft: SystemBuilder, beam: Beam) -> None:
     """The elements of a beam, whose nodes are bodies and whose gradients are points on these."""
     points, axes = _points(draft, beam), [draft.frame(name) for name in beam.node_names]
     numbers = _cable_numbers(beam) if beam.model == "ancf-cable" else _beam_numbers(beam)
@@ -55,7 +55,7 @@ def add_gradient_beam(draft: Draft, beam: Beam) -> None:
         draft.noted.append(Coupled(frozenset(draft.markers.body[node] for node in axes[e : e + 2])))
 
 
-def _points(draft: Draft, beam: Beam) -> list[list[int]]:
+def _points(draft: SystemBuilder, beam: Beam) -> list[list[int]]:
     """Markers of each node and of the tips of its gradients; the same ones at every call."""
     reach, width = reach_of(beam), vectors_of_node(beam)
     with draft.within(f"beams.{beam.name}"):
@@ -96,7 +96,7 @@ def section_stiffness(C: Array) -> Array:
     return np.array([C[0, 0], C[0, 0], 0.5 * (C[1, 1] + C[2, 2])])
 
 
-def point_inertia(draft: Draft, beams: Sequence[Beam]) -> PointInertia:
+def point_inertia(draft: SystemBuilder, beams: Sequence[Beam]) -> PointInertia:
     """The mass that the points of beams in absolute nodal coordinates have in common."""
     markers, matrices = [], [np.zeros((0, MOST_VECTORS, MOST_VECTORS))]
     for beam in beams:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.implicit_record import ComplexFactors, Coupled, Interval, Newton, RealFactors, Residual, Shifted
+from nivel.kernels.implicit_record import ComplexFactors, Coupled, Newton, RealFactors, Residual, Shifted, StepResidual
 from nivel.kernels.record import NONE, Record
 from nivel.system.factor_plan import FactorPlan
 from nivel.system.system import Array, StateMap
@@ -70,7 +70,7 @@ def residual_tables(
         frozen=np.full(len(stiction), np.nan),
         acceleration=np.zeros((bodies + 1, 6)),
         wrench=np.zeros((bodies + 1, 6)),
-        interval=Interval(
+        interval=StepResidual(
             numbers=np.array([0.0, 0.0, 0.0, float(bool(free))]),
             start=np.zeros((bodies if whole else 0, 12)),
             inertia=np.zeros((bodies if whole else 0, 3, 3)),

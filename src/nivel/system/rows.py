@@ -11,7 +11,7 @@ from nivel.kernels.record import NONE, Constraints
 from nivel.machine.coordinate_reference import COORDINATE_KINDS
 from nivel.machine.driver import Driver
 from nivel.machine.joint import Joint
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
 from nivel.system.joints import (
     AXES,
@@ -74,7 +74,7 @@ class RowTable:
 
     def combine(
         self,
-        draft: Draft,
+        draft: SystemBuilder,
         row: int,
         terms: list[tuple[int, float]],
         *,
@@ -131,7 +131,7 @@ class RowTable:
         )
 
 
-def add_joint(draft: Draft, rows: RowTable, joint: Joint) -> None:
+def add_joint(draft: SystemBuilder, rows: RowTable, joint: Joint) -> None:
     """Markers, joint coordinates and rows of a joint."""
     placed = joint_frames(draft.machine, joint)
     first, second = (draft.place(each) for each in placed)
@@ -158,14 +158,14 @@ def composition(joint: Joint, cosine: float) -> Composition:
     return kind.when_parallel if kind.when_parallel is not None and 1.0 - abs(cosine) < PARALLEL else kind
 
 
-def _measured(draft: Draft, measured: Measured, views: Views) -> int:
+def _measured(draft: SystemBuilder, measured: Measured, views: Views) -> int:
     first, second = views[measured.seen_from]
     if isinstance(second, Rail):
         return draft.coordinates.on_rail(measured.kind, first, second)
     return draft.coordinates.add(measured.kind, first, second, measured.axis)
 
 
-def _add_basic(draft: Draft, rows: RowTable, joint: Joint, basic: Basic, views: Views, cosine: float) -> None:
+def _add_basic(draft: SystemBuilder, rows: RowTable, joint: Joint, basic: Basic, views: Views, cosine: float) -> None:
     first, second = views["first"]
     assert not isinstance(second, Rail)
     markers = first, second
@@ -198,7 +198,7 @@ def _add_basic(draft: Draft, rows: RowTable, joint: Joint, basic: Basic, views: 
             rows.d2.append((first, AXES[a], second, row, part))
 
 
-def add_couplings(draft: Draft, rows: RowTable) -> None:
+def add_couplings(draft: SystemBuilder, rows: RowTable) -> None:
     """Rows of all couplings, scaled so that the first coordinate has the factor one: its effort is what is reported."""
     for coupling in draft.machine.couplings:
         terms = [
@@ -216,7 +216,7 @@ def add_couplings(draft: Draft, rows: RowTable) -> None:
         rows.combine(draft, row, scaled, report=(output, 0))
 
 
-def add_drivers(draft: Draft, rows: RowTable) -> None:
+def add_drivers(draft: SystemBuilder, rows: RowTable) -> None:
     """Rows of all drivers."""
     for driver in draft.machine.drivers:
         coordinate = _driven(draft, driver)
@@ -232,7 +232,7 @@ def add_drivers(draft: Draft, rows: RowTable) -> None:
         rows.combine(draft, row, [(coordinate, 1.0)], offset=0.0, function=function, report=(output, 1))
 
 
-def _driven(draft: Draft, driver: Driver) -> int:
+def _driven(draft: SystemBuilder, driver: Driver) -> int:
     if driver.coordinate is not None:
         return draft.coordinate(driver.coordinate)
     assert driver.marker is not None  # the record was checked
@@ -242,7 +242,7 @@ def _driven(draft: Draft, driver: Driver) -> int:
     return draft.coordinates.add(ROTATION, reference, marker)
 
 
-def _units(draft: Draft, coordinate: int) -> str:
+def _units(draft: SystemBuilder, coordinate: int) -> str:
     kind = draft.coordinates.what[coordinate][0]
     return "rad" if kind <= LAST_ANGLE else "m"
 

@@ -7,14 +7,14 @@ from itertools import pairwise
 import numpy as np
 
 from nivel.kernels.record import NONE, Friction, Saddle
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.elimination import plan
 from nivel.system.rows import RowTable
 from nivel.system.system import Equations
 from nivel.system.tables import index_array, padded
 
 
-def friction_parts(draft: Draft, rows: RowTable, row_count: int) -> list[tuple[int, int, int]]:
+def friction_parts(draft: SystemBuilder, rows: RowTable, row_count: int) -> list[tuple[int, int, int]]:
     """(row, part, marker) of the parts of the extra rows of friction, behind all others."""
     parts: list[tuple[int, int, int]] = []
     for k, (index, _) in enumerate(draft.frictions):
@@ -25,7 +25,7 @@ def friction_parts(draft: Draft, rows: RowTable, row_count: int) -> list[tuple[i
 
 def saddle_tables(
     rows: RowTable,
-    draft: Draft,
+    draft: SystemBuilder,
     extra: list[tuple[int, int, int]],
     bodies: int,
     row_count: int,
@@ -72,7 +72,9 @@ def _groups(rows: RowTable, row_count: int) -> list[list[int]]:
     return groups + [[row] for row in range(last, row_count)]
 
 
-def friction_tables(draft: Draft, saddle: Saddle, extra: list[tuple[int, int, int]], row_count: int) -> Friction:
+def friction_tables(
+    draft: SystemBuilder, saddle: Saddle, extra: list[tuple[int, int, int]], row_count: int
+) -> Friction:
     count = len(draft.frictions)
     of_row = saddle.block[:, 0]
     first = [

@@ -43,7 +43,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.shape import Box, Extrusion, Mesh, Sphere, Tube
 from nivel.machine.solids import box_size, length, mesh_surface
 from nivel.machine.surface import surface_text
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import bending_bodies
 from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import slot_frame
@@ -144,7 +144,7 @@ def _joint(machine: MachineRecord, system: System, k: int) -> dict[str, Any]:
 
 
 def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
-    draft = Draft(machine)  # knows where the ends of forces are
+    draft = SystemBuilder(machine)  # knows where the ends of forces are
     names = [*(body.name for body in machine.bodies), "ground"]
     for force in machine.forces:
         ends = _ends(draft, force)
@@ -166,7 +166,7 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
         yield out
 
 
-def _ends(draft: Draft, force: Force) -> tuple[int, int] | None:
+def _ends(draft: SystemBuilder, force: Force) -> tuple[int, int] | None:
     """Markers between which a force acts; None where it acts elsewhere."""
     match force:
         case Between() | BetweenMarkers():
@@ -178,7 +178,7 @@ def _ends(draft: Draft, force: Force) -> tuple[int, int] | None:
     return None
 
 
-def _centre(draft: Draft, name: str) -> int:
+def _centre(draft: SystemBuilder, name: str) -> int:
     """Marker at the centre of a body's shape."""
     body = draft.machine.body_named[name]
     shape = body.shape

@@ -8,7 +8,7 @@ from nivel.kernels.coordinate import DISTANCE, LAST_ANGLE, ROTATION
 from nivel.kernels.record import NONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.sensor import Sensor
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.located import located
 
 VECTOR_UNITS = {
@@ -22,7 +22,7 @@ VECTOR_UNITS = {
 PER_SECOND = {"value": "", "rate": "/s", "acceleration": "/s^2"}
 
 
-def sensor_columns(draft: Draft) -> list[list[int]]:
+def sensor_columns(draft: SystemBuilder) -> list[list[int]]:
     """Columns of `nivel.kernels.sensor` for all sensors; their outputs are added."""
     columns: list[list[int]] = []
     if draft.machine.sensors:
@@ -63,7 +63,7 @@ def sensor_columns(draft: Draft) -> list[list[int]]:
     return columns
 
 
-def _output(draft: Draft, sensor: Sensor, name: str) -> int:
+def _output(draft: SystemBuilder, sensor: Sensor, name: str) -> int:
     """Index of the output `name`. Raises ModelError where the force has none, as one of another model than lugre has no bristles."""
     try:
         return draft.outputs.index(name)
@@ -72,7 +72,7 @@ def _output(draft: Draft, sensor: Sensor, name: str) -> int:
         raise ModelError(Fault("", 0, 0, f"sensors.{sensor.name}.quantity", message)) from None
 
 
-def _of_marker(draft: Draft, sensor: Sensor, vectors: dict[str, int]) -> list[int]:
+def _of_marker(draft: SystemBuilder, sensor: Sensor, vectors: dict[str, int]) -> list[int]:
     assert sensor.marker is not None  # the record was checked
     assert sensor.quantity is not None
     words = f"{sensor.quantity.replace('_', ' ')} of {sensor.marker}"
@@ -83,7 +83,7 @@ def _of_marker(draft: Draft, sensor: Sensor, vectors: dict[str, int]) -> list[in
     return [output, vectors[sensor.quantity], draft.marker(sensor.marker), frame]
 
 
-def _scalar(draft: Draft, name: str, quantity: str, scalars: dict[str, int], coordinate: int) -> list[int]:
+def _scalar(draft: SystemBuilder, name: str, quantity: str, scalars: dict[str, int], coordinate: int) -> list[int]:
     units = "rad" if draft.coordinates.what[coordinate][0] <= LAST_ANGLE else "m"
     output = draft.outputs.add((f"sensor.{name}", f"{units}{PER_SECOND[quantity]}", f"{quantity} of sensor {name}"))
     return [output, scalars[quantity], coordinate, NONE]

@@ -7,13 +7,13 @@ import numpy as np
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.record import NONE, Sampled
 from nivel.machine.state import State
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.located import located
 from nivel.system.state_facts import StateFact
 from nivel.system.tables import index_array
 
 
-def add_states(draft: Draft) -> None:
+def add_states(draft: SystemBuilder) -> None:
     """All user states, and the rates of continuous ones."""
     for state in draft.machine.states:
         with draft.noting():
@@ -36,7 +36,7 @@ def _fact(state: State) -> StateFact:
     )
 
 
-def sampled_states(draft: Draft) -> Sampled:
+def sampled_states(draft: SystemBuilder) -> Sampled:
     """The table of sampled states."""
     states = [state for state in draft.machine.states if state.update is not None]
     events = [event.name for event in draft.machine.events]

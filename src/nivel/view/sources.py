@@ -119,7 +119,7 @@ class Movable(Protocol):
         ...
 
 
-class Hand(Still):
+class PosedMachine(Still):
     """A machine moved by hand: every move gives a frame."""
 
     def __init__(self, name: str, movable: Movable, record: dict[str, Any]) -> None:

@@ -23,7 +23,7 @@ from nivel.system.system import Array
 # The loads do no work along a direction if they do less than this share of what they could.
 NO_WORK = 1e-4
 # Forces left over at a critical point, as a share of the loads.
-BALANCED = 1e-13
+IMPLICIT_ACCELERATIONS = 1e-13
 # A share of the chord between two equilibria, to which critical points are found.
 EXACT = 1e-10
 # The same where Brent's method fails, next to the point itself, and the parts of what is left at which it is tried to be halved.
@@ -63,7 +63,7 @@ def _locate(
     border = chord * (1.0 / length)
     known = {0.0: before.found, 1.0: after.found}
     signs: dict[float, float] = {}
-    iteration = replace(iteration, balanced=BALANCED)
+    iteration = replace(iteration, balanced=IMPLICIT_ACCELERATIONS)
 
     def stiffness(share: float) -> float:
         if share not in known:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.analysis.statics.equations import StateError, StaticEquations
+from nivel.analysis.statics.labels import direction_in_words, worst_row
 from nivel.analysis.statics.linear import PivotError
 from nivel.analysis.statics.newton import EquilibriumError
 from nivel.analysis.statics.path import Point, Steps
 from nivel.analysis.statics.search import MOVES_ON
 from nivel.analysis.statics.stability import Softest, is_mechanism, limit_ahead, softest
-from nivel.analysis.statics.words import direction_in_words, worst_row
 
 # Forces left over that are this share of the loads are no reason to go on.
-BALANCED = 1e-6
+IMPLICIT_ACCELERATIONS = 1e-6
 HOLD = "Hold that motion by a joint, a spring, a driver, or a load that brings it back."
 
 
@@ -34,7 +34,7 @@ def no_start(equations: StaticEquations, error: EquilibriumError) -> tuple[str, 
     message = f"no equilibrium was found at t = 0: {error.reason}; worst is {row}"
     if loose is not None and is_mechanism(loose):
         left = float(np.max(np.abs(r), initial=0.0)) * equations.energy
-        if left <= BALANCED * equations.loads(error.state):
+        if left <= IMPLICIT_ACCELERATIONS * equations.loads(error.state):
             return without_stiffness(equations, loose)
         words = direction_in_words(equations, loose.direction)
         return f"{message}; a motion has no stiffness, in which most moves: {words}", HOLD

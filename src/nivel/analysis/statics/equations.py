@@ -1,4 +1,4 @@
-"""The equations of rest of one machine: r(q, 0, 0, λ, t) = 0 and C(q, t) = 0, with exact derivatives, as sparse matrices.
+"""The equations of static equilibrium of one machine: r(q, 0, 0, λ, t) = 0 and C(q, t) = 0, with exact derivatives, as sparse matrices.
 
 They are the residual of implicit methods (`nivel.kernels.residual`) with all velocities and accelerations zero: the speed of a driver,
 which stands in Ċ alone, never enters. Positions move by tangent increments: rotations of bodies after the present one, in their own axes.
@@ -96,7 +96,7 @@ class Tangent:
 
 
 class StaticEquations:
-    """The equations of rest of `motion`, which has the residual of implicit methods; duration : scale of time [s].
+    """The equations of static equilibrium of `motion`, which has the residual of implicit methods; duration : scale of time [s].
 
     held : forces (f,) without units that hold the machine besides all others, on the way to its first equilibrium; else zero.
     """

@@ -11,7 +11,7 @@ from nivel.analysis.statics.equations import Rest, StaticEquations
 from nivel.analysis.statics.vibrations import Vibrations
 from nivel.kernels.observe import observe
 from nivel.kernels.tangent_entries import evaluate_residual
-from nivel.motion.catalogue import BALANCED
+from nivel.motion.catalogue import IMPLICIT_ACCELERATIONS
 from nivel.system.layout import Entry, FrameLayout, Variable, laid_out
 from nivel.system.system import Array
 
@@ -93,7 +93,7 @@ class FrameWriter:
         """
         equations = self.equations
         record = equations.record
-        by_residual = equations.motion.kernels.__name__ == BALANCED
+        by_residual = equations.motion.kernels.__name__ == IMPLICIT_ACCELERATIONS
         equations.evaluate(state, state.lam if by_residual else np.zeros(equations.rows))
         if np.any(velocity):
             equations.residual.y[equations.positions : equations.positions + equations.n] = velocity

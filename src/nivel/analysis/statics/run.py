@@ -10,18 +10,19 @@ from os import PathLike
 
 import numpy as np
 
-from nivel.analysis.implicit import Wanted, equip
+from nivel.analysis.implicit import ResidualOptions, with_residual
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Listener
 from nivel.analysis.outcome import broken_function
 from nivel.analysis.plan import methods_of
 from nivel.analysis.preparation import Prepared, prepare
 from nivel.analysis.refusals import refuse_rough_motions
+from nivel.analysis.statics.attributes import statics_attributes
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
-from nivel.analysis.statics.heading import statics_attributes
+from nivel.analysis.statics.labels import direction_in_words
 from nivel.analysis.statics.linear import PivotError, has_potential, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.path import Point, Steps, by_arc_length, by_loads
@@ -31,10 +32,9 @@ from nivel.analysis.statics.settings import StaticsSettings
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import growing_motions, restlessness
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
-from nivel.analysis.statics.words import direction_in_words
 from nivel.errors import SolveError
+from nivel.integrate.sink import Header
 from nivel.machine.machine_record import MachineRecord
-from nivel.march.sink import Header
 from nivel.results.memory import Memory
 from nivel.results.occurrence import Occurrence, to_json
 from nivel.results.result import Result
@@ -61,13 +61,13 @@ class Walk:
 
 
 def prepare_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Prepared, StaticEquations]:
-    """The machine assembled, and its equations of rest. Raises ModelError."""
+    """The machine assembled, and its equations of static equilibrium. Raises ModelError."""
     refuse_friction(machine)
     refuse_with_states(machine, settings)
     neutral, coordinates = for_statics(machine, settings)
     refuse_rough_motions(neutral)
     prepared = prepare(methods_of(neutral, "newton-euler", coordinates))
-    motion = equip(prepared.motion, prepared.start, coordinates, Wanted(shifted=True))
+    motion = with_residual(prepared.motion, prepared.start, coordinates, ResidualOptions(shifted=True))
     motion.system.record.coordinates.reference[:] = prepared.assembly.reference
     return replace(prepared, motion=motion), StaticEquations(motion, settings.duration or 1.0)
 

@@ -1,4 +1,4 @@
-"""The first equilibrium, from a machine as it was drawn: where it would settle if it moved as through a thick fluid.
+"""The first equilibrium, from a machine as it was drawn: where it would settle in overdamped motion.
 
 A machine that is stiff as drawn is held there by the forces that it lacks, and let go in steps: these forces are taken away little by
 little, along stable equilibria. Where that leads nowhere, and with machines that move freely, it goes on otherwise.
@@ -30,7 +30,7 @@ CROOKED, STRAIGHT = 0.6, 0.2
 MORE, LESS = 4.0, 0.1
 LARGEST, SMALLEST = 1e6, 1e-10
 # A machine whose unbalanced forces are this share of its loads is in equilibrium as drawn.
-BALANCED = 1e-9
+IMPLICIT_ACCELERATIONS = 1e-9
 # Steps this small are Newton's to end; those of σ = 0 from this on.
 STILL, NEAR = 1e-8, 0.05
 # Shares of the forces that hold a machine that are taken away at first, and at least.
@@ -83,7 +83,7 @@ def _settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Fo
 
 def _is_balanced(equations: StaticEquations, state: Rest, r: Array, tangent: Tangent) -> bool:
     """Whether nothing is left over, or, where a motion that nothing resists could not balance it, no more than round-off makes."""
-    if float(np.max(np.abs(r), initial=0.0)) * equations.energy <= BALANCED * equations.loads(state):
+    if float(np.max(np.abs(r), initial=0.0)) * equations.energy <= IMPLICIT_ACCELERATIONS * equations.loads(state):
         return True
     return bool(np.all(np.abs(r) <= equations.rounded(tangent, state))) and is_mechanism(softest(tangent))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.beam_element import feel_element
+from nivel.kernels.beam_element import element_forces
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
@@ -14,5 +14,5 @@ def apply(machine, number, t):
     record = record_at(machine)
     elements = record.elements
     for k in range(elements.span[number, 0], elements.span[number, 1]):
-        feel_element(record.bodies, record.markers, elements.columns[k], elements.number[k], record.control)
+        element_forces(record.bodies, record.markers, elements.columns[k], elements.number[k], record.control)
     return OK

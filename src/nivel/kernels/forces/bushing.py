@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.forces.push import push_marker, twist_body
+from nivel.kernels.forces.wrench import add_marker_force, add_torque
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.relative_rotation import rotation_vector, tangent_product
@@ -64,11 +64,11 @@ def apply(machine, number, t):
         m0 = A[0, 0] * rate[0] + A[0, 1] * rate[1] + A[0, 2] * rate[2]
         m1 = A[1, 0] * rate[0] + A[1, 1] * rate[1] + A[1, 2] * rate[2]
         m2 = A[2, 0] * rate[0] + A[2, 1] * rate[1] + A[2, 2] * rate[2]
-        power = push_marker(bodies, markers, j, f0, f1, f2) + twist_body(bodies, markers.body[j], m0, m1, m2)
+        power = add_marker_force(bodies, markers, j, f0, f1, f2) + add_torque(bodies, markers.body[j], m0, m1, m2)
         # the first body gets the counter-force at its own marker, and the moment of the offset d
-        power += push_marker(bodies, markers, i, -f0, -f1, -f2)
+        power += add_marker_force(bodies, markers, i, -f0, -f1, -f2)
         t0, t1, t2 = m0 + d1 * f2 - d2 * f1, m1 + d2 * f0 - d0 * f2, m2 + d0 * f1 - d1 * f0
-        power += twist_body(bodies, markers.body[i], -t0, -t1, -t2)
+        power += add_torque(bodies, markers.body[i], -t0, -t1, -t2)
         if out != NONE:
             for a in range(3):
                 record.outputs.value[out + 2 + a] = effort[a]

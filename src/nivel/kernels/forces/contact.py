@@ -11,7 +11,7 @@ import numpy as np
 
 from nivel.kernels.analytic import maximum, real, tanh
 from nivel.kernels.forces.impact import impact
-from nivel.kernels.forces.push import push_point
+from nivel.kernels.forces.wrench import add_force_at
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
@@ -94,8 +94,8 @@ def touch(machine, k, n, depth):
     else:
         s0, s1, s2 = 0.0, 0.0, 0.0
     x, y, z = force * normal[0] - s0, force * normal[1] - s1, force * normal[2] - s2
-    power = push_point(bodies, this, p, x, y, z)
-    power += push_point(bodies, other, p, -x, -y, -z)
+    power = add_force_at(bodies, this, p, x, y, z)
+    power += add_force_at(bodies, other, p, -x, -y, -z)
     return force, friction, power
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.beam_element import COUNT, FORCE, TORQUE, feel_element
+from nivel.kernels.beam_element import COUNT, FORCE, TORQUE, element_forces
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
@@ -16,7 +16,7 @@ def apply(machine, number, t):
     first = elements.span[number, 0]
     for k in range(first, elements.span[number, 1]):
         index, n = elements.columns[k], elements.number[k]
-        feel_element(record.bodies, record.markers, index, n, record.control)
+        element_forces(record.bodies, record.markers, index, n, record.control)
         if wrench.shape[0] > 0:
             kept = wrench[k - first]
             for a in range(index[COUNT]):

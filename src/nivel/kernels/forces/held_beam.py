@@ -10,7 +10,7 @@ from nivel.kernels.status import OK
 
 
 @family
-def hold(machine, number, t):
+def apply(machine, number, t):
     """All elements with the wrenches that they had."""
     record = record_at(machine)
     elements, wrench = record.elements, record.beams.wrench

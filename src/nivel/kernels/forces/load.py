@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.forces.push import push_marker, twist_body
+from nivel.kernels.forces.wrench import add_marker_force, add_torque
 from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
@@ -40,9 +40,9 @@ def apply(machine, number, t):
             )
         body = markers.body[marker]
         forced = index[KIND] == FORCE
-        power = push_marker(bodies, markers, marker, x, y, z) if forced else twist_body(bodies, body, x, y, z)
+        power = add_marker_force(bodies, markers, marker, x, y, z) if forced else add_torque(bodies, body, x, y, z)
         if index[COUNTER] != NONE:
-            power += push_marker(bodies, markers, index[COUNTER], -x, -y, -z)
+            power += add_marker_force(bodies, markers, index[COUNTER], -x, -y, -z)
             record.outputs.value[out + 2] = record.coordinates.value[index[LENGTH]]
             record.outputs.value[out + 3] = record.coordinates.rate[index[LENGTH]]
         record.outputs.value[out + 1] = power

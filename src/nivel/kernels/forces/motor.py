@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nivel.kernels.analytic import real
-from nivel.kernels.forces.push import push_coordinate
+from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
@@ -32,7 +32,7 @@ def apply(machine, number, t):
         elif real(effort) < -real(limit):
             effort = -limit
         record.outputs.value[out] = effort
-        power = push_coordinate(machine, q, effort)
+        power = add_coordinate_force(machine, q, effort)
         record.outputs.value[out + 1] = power
         record.outputs.value[out + 2], record.outputs.value[out + 3] = coordinates.value[q], coordinates.rate[q]
         record.control.power[0] += power

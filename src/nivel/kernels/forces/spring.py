@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.forces.push import push_coordinate
+from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.function import evaluate_function, table_value
 from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
@@ -42,6 +42,6 @@ def apply(machine, number, t):
                 control.stored[0] += energy
         out = record.outputs.value
         first = index[OUTPUT]
-        out[first], out[first + 1] = tension, push_coordinate(machine, q, -tension)
+        out[first], out[first + 1] = tension, add_coordinate_force(machine, q, -tension)
         out[first + 2], out[first + 3] = c, rate
     return OK

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nivel.kernels.analytic import maximum
 from nivel.kernels.forces.impact import impact
-from nivel.kernels.forces.push import push_coordinate
+from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.hook import family
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
@@ -37,6 +37,6 @@ def apply(machine, number, t):
         control.stored[0] += stored
         control.power[1] += loss
         record.outputs.value[out] = up - down
-        record.outputs.value[out + 1] = push_coordinate(machine, q, up - down)
+        record.outputs.value[out + 1] = add_coordinate_force(machine, q, up - down)
         record.outputs.value[out + 2] = maximum(maximum(depth[0], depth[1]), 0.0)
     return OK

@@ -7,13 +7,13 @@ import math
 from nivel.kernels.forces.motor import apply as motor
 from nivel.kernels.forces.stop import apply as stop
 from nivel.machine.forces import Motor, Stop
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 from nivel.system.forces.restitution import damping_of_restitution
 
 
-def add_stop(draft: Draft, force: Stop) -> None:
+def add_stop(draft: SystemBuilder, force: Stop) -> None:
     """Limit stops on a joint coordinate."""
     coordinate = draft.coordinate(force.coordinate)
     angle = is_angle(draft, coordinate)
@@ -29,7 +29,7 @@ def add_stop(draft: Draft, force: Stop) -> None:
     draft.elements.add(stop, [first, coordinate], numbers, 2, tuple(k for k in range(2) if math.isfinite(numbers[k])))
 
 
-def add_motor(draft: Draft, force: Motor) -> None:
+def add_motor(draft: SystemBuilder, force: Motor) -> None:
     """An effort on a joint coordinate."""
     coordinate = draft.coordinate(force.coordinate)
     angle = is_angle(draft, coordinate)

@@ -13,13 +13,13 @@ from nivel.machine.forces import Bushing, Contact
 from nivel.machine.placement import frame_from_axes
 from nivel.machine.shape import Box, Cylinder, Sphere
 from nivel.machine.solids import box_size, length
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
 
 
-def add_bushing(draft: Draft, force: Bushing) -> None:
+def add_bushing(draft: SystemBuilder, force: Bushing) -> None:
     """An elastic connection in six directions."""
     first = force_outputs(
         draft,
@@ -33,7 +33,7 @@ def add_bushing(draft: Draft, force: Bushing) -> None:
     draft.elements.add(bushing.apply, [first, *draft.ends(force.ends)], [*matrices, *work])
 
 
-def add_contact(draft: Draft, force: Contact) -> None:
+def add_contact(draft: SystemBuilder, force: Contact) -> None:
     """A shape against a plane, or two spheres."""
     first = force_outputs(
         draft,
@@ -85,7 +85,7 @@ def _shape(contact: Any, body: Body) -> tuple[int, list[float]]:
     raise ValueError(f"body {body.name} has no shape that can touch")
 
 
-def _shape_marker(draft: Draft, body: Body) -> int:
+def _shape_marker(draft: SystemBuilder, body: Body) -> int:
     """Marker at the centre of the shape; z along a cylinder."""
     shape = body.shape
     assert isinstance(shape, Sphere | Box | Cylinder)  # the record was checked

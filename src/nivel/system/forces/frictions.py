@@ -7,13 +7,13 @@ from nivel.kernels.coordinate import ALONG, CROSS_SECOND
 from nivel.kernels.record import NONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
-from nivel.system.draft import GROUND, Draft
+from nivel.system.builder import GROUND, SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 from nivel.system.state_facts import StateFact
 
 
-def add_friction(draft: Draft, force: Friction) -> None:
+def add_friction(draft: SystemBuilder, force: Friction) -> None:
     """Friction in a joint coordinate: an extra row, see `nivel.kernels.friction`."""
     joint, _ = resolve(force.coordinate, draft.machine.joints)
     coordinate = draft.coordinate(force.coordinate)
@@ -57,7 +57,7 @@ def add_friction(draft: Draft, force: Friction) -> None:
     draft.frictions.append((index, numbers))
 
 
-def _bearing(draft: Draft, first: int, second: int) -> int:
+def _bearing(draft: SystemBuilder, first: int, second: int) -> int:
     """Which of two markers is at the bearing: that of the second body, unless this is the ground and the first is not."""
     ground = draft.body(GROUND)
     return first if draft.markers.body[second] == ground != draft.markers.body[first] else second

@@ -8,7 +8,7 @@ from typing import Any
 
 from nivel.kernels.hook import Family
 from nivel.machine.forces import ForceElement
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 
 
 @dataclass(frozen=True)
@@ -16,7 +16,7 @@ class ForceKind:
     """words : its record. add(draft, record) : gives the tables of a machine its numbers. families : kernels that it may need."""
 
     words: type[ForceElement]
-    add: Callable[[Draft, Any], None]
+    add: Callable[[SystemBuilder, Any], None]
     families: tuple[Family, ...]
 
     @property

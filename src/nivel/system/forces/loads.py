@@ -12,13 +12,13 @@ from nivel.kernels.forces.motor import apply as motor
 from nivel.kernels.function import COORDINATE, RATE
 from nivel.kernels.record import NONE
 from nivel.machine.forces import PairForce, PointForce, Torque
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.interfaces import marker_place
 
 
-def add_load(draft: Draft, force: PointForce | Torque) -> None:
+def add_load(draft: SystemBuilder, force: PointForce | Torque) -> None:
     """A force or torque on one body."""
     units = "N" if isinstance(force, PointForce) else "N m"
     first = force_outputs(draft, force.name, *magnitude_and_power(units))
@@ -35,7 +35,7 @@ def add_load(draft: Draft, force: PointForce | Torque) -> None:
     draft.elements.add(load.apply, [first, kind, marker, axes, *functions, NONE, NONE])
 
 
-def add_pair(draft: Draft, force: PairForce) -> None:
+def add_pair(draft: SystemBuilder, force: PairForce) -> None:
     """A force between two points, along their line or as a vector."""
     i, j = draft.ends(force.ends)
     coordinate = draft.coordinates.use(draft.coordinates.add(DISTANCE, i, j))

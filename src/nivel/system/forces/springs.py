@@ -9,30 +9,30 @@ from nivel.kernels.forces.spring import apply as spring
 from nivel.kernels.function import COORDINATE, RATE
 from nivel.kernels.record import NONE
 from nivel.machine.forces import Characteristic, JointSpringDamper, SpringDamper, TorsionalSpringDamper
-from nivel.system.draft import Draft
+from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 
 
-def add_spring_damper(draft: Draft, force: SpringDamper) -> None:
+def add_spring_damper(draft: SystemBuilder, force: SpringDamper) -> None:
     """A spring and damper between two points."""
     coordinate = draft.coordinates.use(draft.coordinates.add(DISTANCE, *draft.ends(force.ends)))
     _add_spring(draft, force, coordinate, "length", force.free_length or 0.0)
 
 
-def add_torsional_spring_damper(draft: Draft, force: TorsionalSpringDamper) -> None:
+def add_torsional_spring_damper(draft: SystemBuilder, force: TorsionalSpringDamper) -> None:
     """A torsional spring and damper between two markers."""
     coordinate = draft.coordinates.use(draft.coordinates.add(ROTATION, *draft.ends(force.ends)))
     _add_spring(draft, force, coordinate, "angle", force.free_angle)
 
 
-def add_joint_spring_damper(draft: Draft, force: JointSpringDamper) -> None:
+def add_joint_spring_damper(draft: SystemBuilder, force: JointSpringDamper) -> None:
     """A spring and damper on a joint coordinate."""
     _add_spring(draft, force, draft.coordinate(force.coordinate), "value", force.free_value)
 
 
 def _add_spring(
-    draft: Draft,
+    draft: SystemBuilder,
     force: SpringDamper | TorsionalSpringDamper | JointSpringDamper,
     coordinate: int,
     symbol: str,
@@ -55,7 +55,7 @@ def _add_spring(
     draft.elements.add(spring, [first, coordinate, table, energy, law], numbers)
 
 
-def _characteristic(draft: Draft, table: Characteristic) -> tuple[int, int]:
+def _characteristic(draft: SystemBuilder, table: Characteristic) -> tuple[int, int]:
     """Tables of the effort over the deflection, and of the energy stored since zero deflection."""
     x, effort = (np.array(column, dtype=float) for column in table.points)
     slope = np.diff(effort) / np.diff(x)

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels import carried, carried_balance, carried_flexible
+from nivel.kernels import tree_outputs, tree_outputs_flexible, tree_outputs_implicit
 from nivel.kernels.coordinate import ALONG
 from nivel.kernels.hook import Family
 from nivel.kernels.record import COMPLETE, NONE, Bodies, Constraints, Frames, Markers, Record, Saddle
@@ -146,8 +146,9 @@ def in_tree(
 
 def _completion(machine: MachineRecord, *, sliding: bool) -> Family:
     """What completes frames: for accelerations found by the residual, or by a recursion over rigid or flexible bodies."""
-    kind = carried_balance if machine.shares_mass or sliding else carried_flexible if machine.is_flexible else carried
-    return kind.complete
+    if machine.shares_mass or sliding:
+        return tree_outputs_implicit.complete
+    return tree_outputs_flexible.complete if machine.is_flexible else tree_outputs.complete
 
 
 def has_sliders(machine: MachineRecord, settings: SimulationSettings) -> bool:

@@ -1,0 +1,187 @@
+"""A machine half way from words to numbers: what has been numbered so far, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from nivel.kernels.coordinate import DISTANCE, ROTATION
+from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, POSITION, RATE, STATE, VELOCITY
+from nivel.machine.coordinate_reference import Kind, resolve
+from nivel.machine.forces import End, GlobalPoint
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.marker import Marker
+from nivel.machine.symbols import find_symbol
+from nivel.machine.time_function import TimeFunction
+from nivel.system.functions import FunctionTable, Signal
+from nivel.system.interfaces import marker_place
+from nivel.system.joint_frames import Placed, seen_from
+from nivel.system.state_facts import Coupled, StateFact
+from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, OutputTable
+
+GROUND = "ground"
+AXES = "xyz"
+
+
+@dataclass
+class SystemBuilder:
+    """Tables of a machine and the indices of what has a name in it. Body number len(machine.bodies) is the ground.
+
+    joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
+    frictions : (columns of index, of number) of `nivel.kernels.friction`. owners : `joints.hinge`, `markers.tip`, …: what made each
+    marker. noted : the bodies and states used in each `noting`.
+    """
+
+    machine: MachineRecord
+    markers: MarkerTable = field(default_factory=MarkerTable)
+    coordinates: CoordinateTable = field(default_factory=CoordinateTable)
+    functions: FunctionTable = field(default_factory=FunctionTable)
+    elements: ElementTable = field(default_factory=ElementTable)
+    outputs: OutputTable = field(default_factory=OutputTable)
+    joint_coordinates: dict[str, int] = field(default_factory=dict)
+    frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
+    noted: list[Coupled] = field(default_factory=list)
+    owners: list[str] = field(default_factory=list)
+    _owner: str = ""
+    _noting: set[int] = field(default_factory=set)
+    _noting_states: set[int] = field(default_factory=set)
+    _named: dict[str, int] = field(default_factory=dict)
+    _frames: dict[str, int] = field(default_factory=dict)
+    _tips: dict[tuple[str, int], int] = field(default_factory=dict)
+
+    def body(self, name: str) -> int:
+        """Index of a body or the ground."""
+        return self._bodies[name]
+
+    def __post_init__(self) -> None:
+        names = [body.name for body in self.machine.bodies]
+        self._bodies = {name: k for k, name in enumerate((*names, GROUND))}
+
+    @contextmanager
+    def noting(self) -> Iterator[None]:
+        """Append the bodies whose markers and coordinates are asked for inside, and the states, to `noted`."""
+        self._noting.clear()
+        self._noting_states.clear()
+        yield
+        self.noted.append(Coupled(frozenset(self._noting), frozenset(self._noting_states)))
+
+    @contextmanager
+    def within(self, owner: str) -> Iterator[None]:
+        """Markers made inside are those of this element."""
+        before, self._owner = self._owner, owner
+        yield
+        self._owner = before
+
+    def _note(self, *markers: int) -> None:
+        self._noting.update(self.markers.body[marker] for marker in markers)
+
+    def place(self, placed: Placed) -> int:
+        """Index of a new marker: body, point and axes in the body's frame."""
+        body, point, axes = placed
+        marker = self.markers.add(self.body(body), point, axes)
+        self.owners.append(self._owner)
+        self._note(marker)
+        return marker
+
+    def marker(self, name: str) -> int:
+        """Index of the marker called `name`."""
+        if name not in self._named:
+            record = self.machine.marker_named[name]
+            with self.within(f"markers.{name}"):
+                self._named[name] = self.place(marker_place(self.machine, record))
+        self._note(self._named[name])
+        return self._named[name]
+
+    def frame(self, body: str) -> int:
+        """Index of the marker that is the frame of a body or of the ground."""
+        if body not in self._frames:
+            self._frames[body] = self.place((body, np.zeros(3), np.eye(3)))
+        self._note(self._frames[body])
+        return self._frames[body]
+
+    def tip(self, body: str, axis: int, reach: float) -> int:
+        """Index of the marker at a reach [m] along an axis of a node, which is the tip of its gradient there."""
+        if (body, axis) not in self._tips:
+            self._tips[body, axis] = self.place((body, reach * np.eye(3)[axis], np.eye(3)))
+        self._note(self._tips[body, axis])
+        return self._tips[body, axis]
+
+    @property
+    def frame_markers(self) -> Iterable[int]:
+        """The markers that are frames of bodies."""
+        return self._frames.values()
+
+    def marker_or_ground(self, name: str | None) -> int:
+        """Index of the marker called `name`; without one, the global frame."""
+        return self.frame(GROUND) if name in (None, GROUND) else self.marker(str(name))
+
+    def end(self, end: End) -> int:
+        """Index of the marker where something acts: a name, a marker on the spot, or a point given in global axes."""
+        match end:
+            case str():
+                return self.marker(end)
+            case Marker():
+                return self.place(marker_place(self.machine, end))
+            case GlobalPoint(body, point):
+                return self.place(seen_from(self.machine, body, np.array(point, dtype=float), np.eye(3)))
+
+    def ends(self, ends: tuple[End, End]) -> tuple[int, int]:
+        """Indices of the markers at both ends."""
+        return self.end(ends[0]), self.end(ends[1])
+
+    def coordinate(self, reference: str, kind: Kind | None = None) -> int:
+        """Index of a joint coordinate, which is measured in every evaluation from now on."""
+        joint, name = resolve(reference, self.machine.joints, kind)
+        return self._measured(f"{joint}.{name}")
+
+    def own_state(self, fact: StateFact) -> int:
+        """Index of a new state: what adds to its rate is said by the kernel of its element."""
+        self.elements.own_state(fact)
+        return self.state(fact.name)
+
+    def state(self, name: str) -> int:
+        """Index of the state of this name, which the element being added reads or feeds."""
+        index = self.elements.state(name)
+        self._noting_states.add(index)
+        return index
+
+    def measure_all(self) -> None:
+        """All joint coordinates are measured in every evaluation from now on."""
+        for name in self.joint_coordinates:
+            self._measured(name)
+
+    def _measured(self, name: str) -> int:
+        index = self.joint_coordinates[name]
+        self._note(*self.coordinates.markers(index))
+        return self.coordinates.use(index)
+
+    def function(self, value: TimeFunction, local: dict[str, Signal] | None = None, *, motion: bool = False) -> int:
+        """Index of a new function; `local` are the symbols that only this one knows."""
+
+        def find(path: str) -> Signal:
+            return local[path] if local is not None and path in local else self.signal(path)
+
+        return self.functions.add(value, find, motion=motion, end=self.machine.simulation.duration)
+
+    def signal(self, path: str) -> Signal:
+        """The signal that a symbol of the machine stands for; a coordinate among them is measured from now on."""
+        symbol = find_symbol(path, self.machine)
+        if symbol.section == "joints":
+            name = symbol.quantity.removesuffix("_rate")
+            index = self._measured(f"{symbol.name}.{name}")
+            return (COORDINATE if name == symbol.quantity else RATE, index, 0)
+        if symbol.section in ("states", "forces"):
+            return (STATE, self.state(symbol.name if symbol.section == "states" else path), 0)
+        if symbol.section == "sensors":
+            sensor = next(sensor for sensor in self.machine.sensors if sensor.name == symbol.name)
+            ends = sensor.distance or sensor.angle
+            assert ends is not None  # the symbol was found
+            kind = DISTANCE if sensor.distance is not None else ROTATION
+            index = self.coordinates.use(self.coordinates.add(kind, *self.ends(ends)))
+            return (RATE if symbol.quantity == "rate" else COORDINATE, index, 0)
+        marker = self.marker(symbol.name) if symbol.section == "markers" else self.frame(symbol.name)
+        kind = {"v": VELOCITY, "w": ANGULAR_VELOCITY}.get(symbol.quantity[0], POSITION)
+        return kind, marker, AXES.index(symbol.quantity[-1])

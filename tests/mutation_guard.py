@@ -59,7 +59,7 @@ MUTATIONS = [
     Mutation("motor: speed held the wrong way", "kernels/forces/motor.py", "gain * (effort - coordinates.rate[q])",
              "gain * (effort - 0.9 * coordinates.rate[q])", _verification("motors")),
     Mutation("push: lever of a point", "kernels/forces/wrench.py", "n0, n1, n2 = u1 * z - u2 * y, u2 * x - u0 * z,",
-             "n0, n1, n2 = u1 * z - u2 * y, u2 * x + u0 * z,", _verification("loads")),
+             "n0, n1, n2 = u1 * z - u2 * y, u2 * x + u0 * z,", _verification("contact", "contact_location")),
     Mutation("table: its slope", "kernels/function.py", "c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]),",
              "c[1] + s * (2.0 * c[2] + 2.0 * s * c[3]),",
              ("machine/test_time_functions.py", *_verification("drivers", "laws"))),
@@ -110,7 +110,7 @@ MUTATIONS = [
     Mutation("generalised-alpha: order of positions", "integrate/alpha_step.py", "(0.5 - c[BETA]) * a", "(0.55 - c[BETA]) * a",
              _verification("alpha")),
     Mutation("geometric stabilisation: the factor", "integrate/energy.py", "np.sqrt(1.0 + missing / kinetic)", "1.0 + missing / kinetic",
-             (*_verification("motion", "long_runs", "relative_runs"), "integrate/test_loop.py")),
+             _verification("geometric")),
     Mutation("events: sides are kept", "integrate/events.py", "values[SIDE, k] = -values[SIDE, k]", "values[SIDE, k] = values[SIDE, k]",
              _verification("events")),
 ]  # fmt: skip

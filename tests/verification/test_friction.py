@@ -370,12 +370,13 @@ def test_torque_about_the_axis_loads_a_spline():
     np.testing.assert_allclose(r.array("rail.displacement.rate"), 3.0 - MU * load / MASS * r.time, rtol=1e-9)
 
 
-def test_collar_and_preload_of_a_pin():
-    """A wheel on a vertical pin: its weight rubs at the collar, a preload at the pin.
+@pytest.mark.parametrize("down", [-1.0, 1.0])
+def test_collar_and_preload_of_a_pin(down):
+    """A wheel on a vertical pin: its weight rubs at the collar, whichever side it lies on, a preload at the pin.
     J φ̈ = -μ (r P + R m g), load P + m g R/r at the radius r."""
     J, m, radius, collar, preload = 0.02, 1.0, 0.01, 0.03, 20.0
     sections = {
-        "gravity": [0, 0, -G],
+        "gravity": [0, 0, down * G],
         "bodies": {"disk": wheel(J, angular_velocity=[0, 0, 50.0])},
         "joints": {"pin": hinge("ground", "disk")},
         "forces": {

@@ -90,6 +90,34 @@ def test_motion_of_a_marker_seen_from_another_that_turns(formulation):
     np.testing.assert_allclose(found[4], 0, atol=1e-8)
 
 
+def test_a_cross_that_turns_steadily_has_no_angular_acceleration_seen_from_its_fork():
+    """The fork turns about Z at Ω, the cross in it about its x at ω: Ω × ω seen from the ground, nothing seen from the fork."""
+    fork, cross = 3.0, 2.0
+    sections = {
+        "bodies": {
+            "fork": wheel(0.2, angular_velocity=[0, 0, fork]),
+            "cross": solid(0.5, 0.01, angular_velocity=[cross, 0, fork]),
+        },
+        "markers": {"on_fork": {"body": "fork"}, "on_cross": {"body": "cross"}},
+        "joints": {
+            "axle": hinge("ground", "fork"),
+            "pin": {"type": "revolute", "bodies": ["fork", "cross"], "point": [0, 0, 0], "axis": [1, 0, 0]},
+        },
+        "drivers": {
+            "turn": {"coordinate": "axle.angle", "value": f"{fork}*time"},
+            "tilt": {"coordinate": "pin.angle", "value": f"{cross}*time"},
+        },
+        "sensors": {
+            "seen": {"marker": "on_cross", "relative_to": "on_fork", "quantity": "angular_acceleration"},
+            "of_all": {"marker": "on_cross", "quantity": "angular_acceleration"},
+        },
+    }
+    t, (seen, of_all) = read(sections, ("seen", "of_all"))
+    np.testing.assert_allclose(seen, 0.0, atol=1e-8)
+    expected = fork * cross * np.stack([-np.sin(fork * t), np.cos(fork * t), 0.0 * t], axis=1)
+    np.testing.assert_allclose(of_all, expected, atol=1e-8)
+
+
 def test_motion_of_a_marker_in_the_axes_of_a_fixed_post():
     """The post's x is Z, its z is Y, so its y is X: components (z, x, y), place from the post."""
     sensors = {word: {"marker": "pen", "relative_to": "post", "quantity": word} for word in ("position", "velocity")}

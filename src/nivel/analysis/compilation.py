@@ -8,6 +8,7 @@ from time import perf_counter
 
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Methods, Plan
+from nivel.errors import NivelError
 from nivel.integrate.catalogue import BY_MODES, INTEGRATORS
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
@@ -17,6 +18,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
 from nivel.native import library
 from nivel.native.entry import Entry, entry_of
+from nivel.native.workers import NO_COMPILER, CompilationError
 from nivel.system.beams import ELASTIC, family_of
 from nivel.system.beams import FAMILIES as BEAMS
 from nivel.system.forces import FORCES
@@ -56,7 +58,13 @@ def build(entries: Iterable[Entry], listener: Listener) -> float:
 
     if missing:
         listener.say(f"compiling {count} part{'s'[: count > 1]} of the machine code (only the first run does this)")
-        library.build(missing, tell)
+        try:
+            library.build(missing, tell)
+        except CompilationError as problem:
+            if problem.kind == NO_COMPILER:
+                what = "the library of this installation is for other sources or another processor"
+                raise NivelError(f"{what}, and {problem}") from None
+            raise
     return perf_counter() - begin
 
 

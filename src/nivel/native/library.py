@@ -1,4 +1,5 @@
-"""Addresses of entries: from the object files of the user's cache, compiled first where there is none."""
+"""Addresses of entries: in the library that a wheel brought along, or in object files of the user's cache, compiled first where there is
+none."""
 
 from __future__ import annotations
 
@@ -10,6 +11,7 @@ from typing import Any
 
 from nivel.native import store, workers
 from nivel.native.entry import Entry
+from nivel.native.shipped import address_in_library, fits
 from nivel.native.signature import Signature
 from nivel.native.sources import fingerprint
 
@@ -18,6 +20,8 @@ def address_of(entry: Entry) -> int:
     """Address of an entry; compiled first where there is no object file, which is said."""
     if (found := _loaded.get(entry.name)) is not None:
         return found
+    if (shipped := address_in_library(entry)) is not None:
+        return _loaded.setdefault(entry.name, shipped)
     path = _path(entry)
     code = store.read(path)
     if code is None:
@@ -30,7 +34,8 @@ def address_of(entry: Entry) -> int:
 
 def missing(entries: Iterable[Entry]) -> list[Entry]:
     """Those without machine code."""
-    return [entry for entry in dict.fromkeys(entries) if entry.name not in _loaded and not _path(entry).exists()]
+    left = (entry for entry in dict.fromkeys(entries) if entry.name not in _loaded and not fits(entry))
+    return [entry for entry in left if not _path(entry).exists()]
 
 
 def build(entries: Iterable[Entry], done: Callable[[str], None] = lambda name: None) -> None:
@@ -65,7 +70,7 @@ def _path(entry: Entry) -> Any:
 
 
 def _job(entry: Entry) -> dict[str, Any]:
-    return {"entry": entry.name, "symbol": entry.symbol, "path": str(_path(entry))}
+    return {"entry": entry.name, "symbol": entry.symbol, "targets": [(str(_path(entry)), None)]}
 
 
 # addresses of what is in memory

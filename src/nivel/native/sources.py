@@ -14,7 +14,7 @@ _IMPORT = re.compile(
 )
 _NAME = re.compile(r"\w+")
 # of Numba's side of this package, what is only about finding, keeping and loading machine code does not change it
-PASSIVE = tuple(f"nivel.native.{name}" for name in ("library", "store", "workers", "sources"))
+PASSIVE = tuple(f"nivel.native.{name}" for name in ("library", "store", "workers", "sources", "shipped"))
 
 
 @cache

@@ -90,12 +90,22 @@ def compiler() -> tuple[str, ...]:
 
 
 def _processor() -> str:
+    return "\n".join(_cpuinfo(key) for key in ("model name", "flags", "Features")) or platform.processor()
+
+
+def processor_flags() -> frozenset[str]:
+    """What this processor can do, as Linux names it."""
+    return frozenset(_cpuinfo("flags").partition(":")[2].split())
+
+
+@cache
+def _cpuinfo(key: str) -> str:
+    """The first line of /proc/cpuinfo that begins with `key`."""
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:
-        return platform.processor()
-    wanted = ("model name", "flags", "Features")
-    return "\n".join(next((line for line in lines if line.startswith(key)), "") for key in wanted)
+        return ""
+    return next((line for line in lines if line.startswith(key)), "")
 
 
 def _user_cache() -> Path:

@@ -1,6 +1,7 @@
 """A process that compiles: it reads jobs, one line of JSON each, and answers with one line when the object file is written.
 
-A job is the name of an entry, or the text of a module whose function `nivel_law` is one; and the file to write.
+A job is the name of an entry and files to write, each for this processor or a named one; or the text of a module whose function `nivel_law`
+is one, and the file to write.
 """
 
 from __future__ import annotations
@@ -22,16 +23,12 @@ def main() -> None:
     """Compile until the input ends."""
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # what foreign code prints is no answer
-    machine: Any = None
     gc.disable()  # what compilers leave lives long: looking through it takes a sixth of the time
     for line in sys.stdin:
         job = json.loads(line)
         sys.path[:] = job["places"]
         try:
-            from nivel.native.with_numba import translate
-
-            machine = machine or translate.target_machine(*translate.host())
-            _compile(job, machine)
+            _compile(job)
             answer = {}
         except Exception as problem:  # whatever it is, the process that asked has to say it
             answer = {"problem": str(problem), "kind": type(problem).__name__}
@@ -40,19 +37,24 @@ def main() -> None:
             gc.collect()
 
 
-def _compile(job: dict[str, Any], machine: Any) -> None:
+def _compile(job: dict[str, Any]) -> None:
     from nivel.native import store
     from nivel.native.entry import entry_of
     from nivel.native.with_numba import translate
     from nivel.native.with_numba.laws import object_code_of_law
 
-    path = Path(job["path"])
-    if job.get("text"):
-        code = object_code_of_law(job["text"], job["file"], Signature(job["result"], tuple(job["arguments"])), machine)
-    else:
-        entry = entry_of(job["entry"])
-        code = translate.object_code(entry.py_func, entry.signature, job["symbol"], machine)
-    store.write(path, code)
+    if "text" in job:
+        signature, machine = (
+            Signature(job["result"], tuple(job["arguments"])),
+            translate.target_machine(*translate.host()),
+        )
+        store.write(Path(job["path"]), object_code_of_law(job["text"], job["file"], signature, machine))
+        return
+    entry = entry_of(job["entry"])
+    module = translate.linked(entry.py_func, entry.signature, job["symbol"])
+    for path, processor in job["targets"]:
+        machine = translate.target_machine(*(processor or translate.host()))
+        store.write(Path(path), translate.optimised(module, machine))
 
 
 if __name__ == "__main__":

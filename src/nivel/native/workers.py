@@ -10,6 +10,7 @@ import sys
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable
+from importlib.util import find_spec
 from queue import SimpleQueue
 from typing import Any
 
@@ -19,6 +20,8 @@ START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from nivel.nat
 
 # kind of error of what calls functions of Numba when it runs, which object files cannot
 NEEDS_NUMBA = "NeedsNumbaError"
+# and of what cannot be compiled, because there is no compiler
+NO_COMPILER = "NoCompilerError"
 
 
 class CompilationError(Exception):
@@ -41,6 +44,8 @@ def compile_all(jobs: Iterable[dict[str, Any]], done: Callable[[dict[str, Any]],
     its end. What was written before an interruption stays. Raises CompilationError of the first job that fails.
     """
     left = deque(jobs)
+    if left and find_spec("numba") is None:
+        raise CompilationError("there is no compiler here: pip install 'nivel[laws]' brings one", NO_COMPILER)
     count = min(len(left), processors())
     finished: SimpleQueue[dict[str, Any] | BaseException | None] = SimpleQueue()
 

@@ -12,7 +12,7 @@ from nivel.machine.expression import Expression
 from nivel.machine.python_law import PythonLaw
 from nivel.native.library import address_of_law
 from nivel.native.signature import COMPLEX_LAW, LAW
-from nivel.native.workers import CompilationError
+from nivel.native.workers import NO_COMPILER, CompilationError
 from nivel.system.analytic_text import analytic_text
 from nivel.system.expression_text import ANALYTIC, SPELLING, motion_lines, source
 
@@ -199,4 +199,9 @@ _twins: dict[int, tuple[str, ...]] = {}
 
 
 def _real_address(text: str) -> int:
-    return address_of_law(text, LAW)
+    try:
+        return address_of_law(text, LAW)
+    except CompilationError as problem:
+        if problem.kind == NO_COMPILER:
+            raise ModelError(Fault("", 0, 0, "", f"expressions and laws are compiled, and {problem}")) from None
+        raise

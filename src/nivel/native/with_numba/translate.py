@@ -97,12 +97,12 @@ def host() -> tuple[str, str]:
 
 @compiler_lock.global_compiler_lock
 def object_code(function: Any, signature: Signature, symbol: str, machine: Any, **options: Any) -> bytes:
-    """The object file with one symbol: `function` compiled for this signature, with `OPTIONS` or these."""
-    return bytes(machine.emit_object(intermediate_code(function, signature, symbol, machine, **options)))
+    """The object file with one symbol: `function` compiled for this signature, with `OPTIONS` or these. Raises NeedsNumbaError."""
+    return optimised(linked(function, signature, symbol, **options), machine)
 
 
-def intermediate_code(function: Any, signature: Signature, symbol: str, machine: Any, **options: Any) -> Any:
-    """The optimised module. Raises NeedsNumbaError."""
+def linked(function: Any, signature: Signature, symbol: str, **options: Any) -> Any:
+    """The intermediate code of a function and of all that it reaches, one module that is not optimised yet."""
     context = install()
     dispatcher = _njit(**(options or OPTIONS), **functions.MORE)(function)
     arguments = arguments_of(signature)
@@ -111,17 +111,26 @@ def intermediate_code(function: Any, signature: Signature, symbol: str, machine:
     module = binding.parse_assembly(str(_in_c(context, compiled.fndesc, signature, symbol)))
     for each in compiled.library.closure():
         module.link_in(each.clone())
-    module.data_layout, module.triple = str(machine.target_data), machine.triple
     for each in (*module.functions, *module.global_variables):
         if not each.is_declaration and each.name != symbol:
             each.linkage = "internal"
     module.verify()
-    _optimise(module, machine)
+    return module
+
+
+def optimised(module: Any, machine: Any) -> bytes:
+    """The object file of a linked module, inlined, optimised and vectorised as at -O3. The module is left as it is."""
+    module = module.clone()
+    module.data_layout, module.triple = str(machine.target_data), machine.triple
+    options = binding.create_pipeline_tuning_options(speed_level=3)
+    options.loop_vectorization, options.slp_vectorization = True, False
+    builder = binding.create_pass_builder(machine, options)
+    builder.getModulePassManager().run(module, builder)
     if foreign := sorted(
         each.name for each in module.functions if each.is_declaration and not _is_everywhere(each.name)
     ):
         raise NeedsNumbaError(", ".join(foreign))
-    return module
+    return bytes(machine.emit_object(module))
 
 
 def _is_everywhere(name: str) -> bool:
@@ -156,11 +165,3 @@ def _in_c(context: Any, description: Any, signature: Signature, symbol: str) -> 
     else:
         builder.ret(builder.select(status.is_ok, value, ir.Constant(value.type, float("nan"))))
     return module
-
-
-def _optimise(module: Any, machine: Any) -> None:
-    """Inline, optimise and vectorise, as at -O3."""
-    options = binding.create_pipeline_tuning_options(speed_level=3)
-    options.loop_vectorization, options.slp_vectorization = True, False
-    builder = binding.create_pass_builder(machine, options)
-    builder.getModulePassManager().run(module, builder)

@@ -1,0 +1,64 @@
+"""The library that wheels bring along: all entries in machine code, one file for each level of processors.
+
+`manifest.json` beside it says of which sources each entry was made. An entry whose sources have changed since is not taken from it.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from nivel.native.entry import Entry
+from nivel.native.sources import fingerprint
+from nivel.native.store import processor_flags
+
+FOLDER = Path(__file__).parent / "shipped"
+MANIFEST = "manifest.json"
+# what a processor must have for the code of a level, beyond that of the level below, as Linux names it; the best level first
+LEVELS: dict[str, tuple[str, ...]] = {
+    "x86-64-v4": ("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl", "avx2", "fma", "bmi2"),
+    "x86-64-v3": ("avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe"),
+}
+
+
+def address_in_library(entry: Entry) -> int | None:
+    """Address of an entry in the library; None where there is no library that fits, or the entry's sources are others."""
+    if (library := _library()) is None or not fits(entry):
+        return None
+    return ctypes.cast(getattr(library, entry.symbol), ctypes.c_void_p).value
+
+
+def fits(entry: Entry) -> bool:
+    """Whether the library has this entry, of its present sources."""
+    return level() != "" and manifest()["entries"].get(entry.name) == fingerprint(entry.name.partition(":")[0])
+
+
+@cache
+def level() -> str:
+    """The level of the library that is used; empty: none."""
+    has = processor_flags()
+    return next((name for name in manifest()["levels"] if has.issuperset(LEVELS[name])), "")
+
+
+@cache
+def manifest() -> dict[str, Any]:
+    """Levels that are there, best first, and the digest of the sources of every entry."""
+    try:
+        found = json.loads((FOLDER / MANIFEST).read_text(encoding="utf-8"))
+    except OSError:
+        return {"levels": [], "entries": {}}
+    found["levels"] = [name for name in LEVELS if name in found["levels"]]
+    return found
+
+
+def file_of(name: str) -> str:
+    """Name of the library of a level."""
+    return f"libnivel-{name}.so"
+
+
+@cache
+def _library() -> ctypes.CDLL | None:
+    return ctypes.CDLL(str(FOLDER / file_of(level()))) if level() else None

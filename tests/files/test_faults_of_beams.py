@@ -149,9 +149,9 @@ STANDING = "`rod.start`, `rod.middle`, `rod.end`"
         ),
         ("ground, rod.start", "rod.end, rod.end", "joints.pin.bodies", "needs two different bodies"),
         ("body: rod.end", "body: rod", "markers.tip.body", "`rod` is a beam; a place on it is needed"),
-        ("body: rod.middle", "body: rod.mid", "forces.wrench.body", "the beam `rod` has no station `mid`"),
-        ("tip.vx", "rod.vx", "forces.wrench.vector.1", "`rod` is a beam and has no symbols; name a marker"),
-        ("tip.vx", "rod.end.vx", "forces.wrench.vector.1", "has more than one dot"),
+        ("body: rod.middle", "body: rod.mid", "forces.push.body", "the beam `rod` has no station `mid`"),
+        ("tip.vx", "rod.vx", "forces.push.vector.1", "`rod` is a beam and has no symbols; name a marker"),
+        ("tip.vx", "rod.end.vx", "forces.push.vector.1", "has more than one dot"),
     ],
 )
 def test_what_takes_hold_of_no_station_is_told_which_there_are(there, instead, path, message):

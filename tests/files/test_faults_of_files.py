@@ -152,7 +152,7 @@ FAULTS = {
     "prefix taken": (M, "prefix: r_", "prefix: left_", 0, "assemblies.right", "its `left_thigh` stands in"),
     "name taken": (M, "  frame: {mass", "  left_shank: {mass", 12, "assemblies.left", "its `left_shank` stands in"),
     "fault in a part": (L, "mass: 2,", "mass: 2 m,", 0, "bodies.shank.mass", "a mass (kg) was expected"),
-    "reference in a part": (L, "marker: foot", "marker: fot", 0, "forces.wrench.marker", "did you mean `foot`"),
+    "reference in a part": (L, "marker: foot", "marker: fot", 0, "forces.push.marker", "did you mean `foot`"),
     "a part knows no other file": (
         L,
         "bodies: [thigh, shank]",
@@ -183,7 +183,7 @@ FAULTS = {
         "[10 - 5*foot.x, {times: [0, 1], values: [0, 1]}, 0]",
         None,
         "assemblies.right",
-        "forces.wrench: a table would have to be mixed",
+        "forces.push: a table would have to be mixed",
     ),
     # mass properties
     "mass of a file": (D, '"3 kg"', '"3 m"', 0, "bodies.disc.mass", "a mass (kg) was expected"),

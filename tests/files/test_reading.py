@@ -131,7 +131,7 @@ def test_places_in_a_file():
     lines = BASE.splitlines()
     line, column = locate(BASE, "joints.hinge.axis")
     assert lines[line - 1][column - 1 :].startswith("[1, 0, 0]}")
-    line, column = locate(BASE, "forces.wrench.vector.1")
+    line, column = locate(BASE, "forces.push.vector.1")
     assert lines[line - 1][column - 1 :].startswith("10 + 3*sin")
     assert locate(BASE, "bodies.rod") == (BASE[: BASE.index("  rod:")].count("\n") + 1, 3)
     assert locate(BASE, "bodies.rod.no.such") == locate(BASE, "bodies.rod")

@@ -149,7 +149,8 @@ def all_entries() -> list[Entry]:
     families = dict.fromkeys([*(each for kind in FORCES.values() for each in kind.families), *BEAMS, state_rate])
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)]
-    return [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
+    entries = [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
+    return [*dict.fromkeys(entries)]
 
 
 def _entries(modules: Iterable[str]) -> list[Entry]:

@@ -62,8 +62,20 @@ class LazyGroup(click.Group):
             return super().invoke(ctx)
 
 
+def _say_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
+    if not asked:
+        return
+    from nivel.native.shipped import level
+
+    came = f"machine code: the library for {level()} that came with it"
+    click.echo(f"nivel {__version__}\n{came if level() else 'machine code: compiled when it is first needed'}")
+    ctx.exit()
+
+
 @click.group(cls=LazyGroup, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(__version__, message="nivel %(version)s")
+@click.option(
+    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_say_version, help="Say the version."
+)
 @click.pass_context
 def main(ctx: click.Context) -> None:
     """Simulate machines and mechanisms: joints that close loops, numbers one can trust.

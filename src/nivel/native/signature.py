@@ -17,8 +17,6 @@ from __future__ import annotations
 import ctypes
 from typing import Any, NamedTuple
 
-import numpy as np
-
 IN_C: dict[str, tuple[Any, ...]] = {
     "machine": (ctypes.c_uint64,),
     "twin": (ctypes.c_uint64,),
@@ -29,7 +27,7 @@ IN_C: dict[str, tuple[Any, ...]] = {
     "vector": (ctypes.c_void_p, ctypes.c_int64),
     "pairs": (ctypes.c_void_p, ctypes.c_int64),
 }
-ROWS = {"vector": np.float64, "pairs": np.complex128}
+ROWS = {"vector": "float64", "pairs": "complex128"}
 RESULT_IN_C: dict[str, Any] = {"status": ctypes.c_int64, "number": ctypes.c_double, "nothing": None}
 
 
@@ -61,7 +59,7 @@ def _parts(kind: str, value: Any) -> tuple[Any, ...]:
     """An argument as C takes it."""
     if kind in ROWS:
         if value.dtype != ROWS[kind] or value.ndim != 1 or not value.flags.c_contiguous:
-            raise TypeError(f"a {kind} is a contiguous row of {ROWS[kind].__name__}")
+            raise TypeError(f"a {kind} is a contiguous row of {ROWS[kind]}")
         return value.ctypes.data, value.size
     if kind == "complex":
         value = complex(value)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import gc
 import json
 import os
+import signal
 import sys
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ MOST_LEFT = 3_000_000
 
 def main() -> None:
     """Compile until the input ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the program that asked, which ends its workers
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # what foreign code prints is no answer
     gc.disable()  # what compilers leave lives long: looking through it takes a sixth of the time

@@ -3,7 +3,7 @@
     python tests/all.py [--full] [arguments of pytest]
 
 Without `--full` what is marked `full` rests: the tails of grids, see `pyproject.toml`. Kernels are compiled before pytest starts its
-processes, which share the cache; a test that still compiles for more than a second fails. Indices are checked where kernels run as plain
+processes, which share the cache; a test that still compiles one fails. Indices are checked where kernels run as plain
 Python, see `tests/interpreted`. What needs no compiled kernel runs beside the rest.
 """
 
@@ -60,8 +60,8 @@ def main():
         if failure := run(name, [*PYTHON, "ruff", *more]):
             sys.exit(failure)
     with ThreadPoolExecutor(1) as beside:
+        failure = run("compile", [*PYTHON, "nivel", "warmup"])  # on all processors
         others = beside.submit(run_beside)
-        failure = run("compile", [*PYTHON, "nivel", "warmup"])
         if not failure:
             tests = [*PYTHON, "pytest", "-n", "2", "--dist", "worksteal", "-q", "--durations=10", *chosen, *arguments]
             failure = run("pytest", tests, **own)

@@ -76,13 +76,14 @@ def in_words(name: str) -> str:
 
 def assembly_entries(machine: MachineRecord) -> list[Entry]:
     """What it takes to assemble `machine`, and to say where everything is."""
-    return [*_entries([ASSEMBLY, OUTPUT, *_rare_modules(machine)]), *(family.code for family in _families(machine))]
+    families = [family.code for family in _families(machine)]
+    return [entry_of(f"{ASSEMBLY}:evaluate"), *_entries([OUTPUT, *_rare_modules(machine)]), *families]
 
 
 def preparation_entries(methods: Methods) -> list[Entry]:
     """What it takes to prepare a machine for these methods."""
     machine, path, integrator = methods.machine, methods.path, methods.integrator
-    modules = [path.module, *_rare_modules(machine)]
+    modules = _rare_modules(machine)
     twins: list[Entry] = []
     if integrator.residual or methods.solves_residual:
         modules += _node_modules(methods)
@@ -96,7 +97,7 @@ def preparation_entries(methods: Methods) -> list[Entry]:
     if methods.coordinates == "relative":
         modules += [COMPLETIONS[0]] * (not methods.solves_residual) + [COMPLETIONS[1]] * methods.solves_residual
         modules += [COMPLETIONS[2]] * machine.is_flexible
-    return [*assembly_entries(machine), *_entries(modules), *twins]
+    return [*assembly_entries(machine), entry_of(f"{path.module}:evaluate"), *_entries(modules), *twins]
 
 
 def run_entries(plan: Plan) -> list[Entry]:
@@ -104,8 +105,9 @@ def run_entries(plan: Plan) -> list[Entry]:
     methods = plan.methods
     step = entry_of(f"{methods.integrator.module}:{methods.integrator.function}")
     modules = [LOOP, *([WATCH] if _watches(methods.machine, methods.chooses_steps) else [])]
-    correction = [entry_of(f"{methods.path.correction}:correct")] if plan.stabilisation.CORRECTS else []
-    return [*preparation_entries(methods), step, *_entries(modules), *correction]
+    path = methods.path
+    after_steps = f"{path.correction}:correct" if plan.stabilisation.CORRECTS else f"{path.module}:normalise_state"
+    return [*preparation_entries(methods), step, *_entries(modules), entry_of(after_steps)]
 
 
 def statics_entries(methods: Methods) -> list[Entry]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.beam_record import BeamTangent
 from nivel.kernels.forces.elastic_beam import apply as elastic_beam
+from nivel.kernels.hook import FAMILIES
 from nivel.kernels.record import FREE, NONE, Record
 from nivel.system.beams import empty_tangent
 from nivel.system.system import System
@@ -23,10 +24,8 @@ Index = NDArray[np.integer]
 
 def elastic_family(record: Record) -> int:
     """Number of the family of elements without damping among the families of forces; -1: there are none."""
-    if not len(record.elements.address):
-        return -1
-    found = np.flatnonzero(record.elements.address == np.uint64(elastic_beam.address))
-    return int(found[0]) if len(found) else -1
+    families = [FAMILIES[int(address)] for address in record.elements.address]
+    return families.index(elastic_beam) if elastic_beam in families else -1
 
 
 def has_elastic_beams(record: Record) -> bool:

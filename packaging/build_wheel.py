@@ -20,7 +20,7 @@ from rich.progress import Progress
 
 from nivel import __version__
 from nivel.analysis.compilation import all_entries
-from nivel.native import shipped, store, workers
+from nivel.native import library, shipped, store, workers
 from nivel.native.entry import Entry
 from nivel.native.sources import fingerprint
 
@@ -34,7 +34,7 @@ def compile_entries(entries: list[Entry], folder: Path) -> None:
     jobs = []
     for entry in entries:
         targets = [(str(folder / level / f"{entry.symbol}.o"), (level, "")) for level in shipped.LEVELS]
-        jobs.append({"entry": entry.name, "symbol": entry.symbol, "targets": targets})
+        jobs.append(library.job_of(entry, targets))
     with Progress() as progress:
         task = progress.add_task("compiling", total=len(jobs))
         workers.compile_all(jobs, lambda _: progress.advance(task))

@@ -27,10 +27,7 @@ def folder(tmp_path, monkeypatch):
         pytest.skip("a processor below all levels")
     assert all(entry.address for entry in ENTRIES)  # what is compiled by itself
     targets = {entry: tmp_path / f"{entry.symbol}.o" for entry in ENTRIES}
-    workers.compile_all(
-        {"entry": entry.name, "symbol": entry.symbol, "targets": [(str(path), (level, ""))]}
-        for entry, path in targets.items()
-    )
+    workers.compile_all(library.job_of(entry, [(str(path), (level, ""))]) for entry, path in targets.items())
     for path in targets.values():
         path.write_bytes(store.read(path))
     command = ["cc", "-shared", "-o", tmp_path / shipped.file_of(level), *targets.values(), "-Wl,--no-undefined", "-lm"]

@@ -46,7 +46,8 @@ def build(entries: Iterable[Entry], done: Callable[[str], None] = lambda name: N
 
 def address_of_law(text: str, signature: Signature) -> int:
     """Address of the function `nivel_law` of the text of a module, for `LAW` or `COMPLEX_LAW`. Raises CompilationError."""
-    path = store.path_of("nivel_law", text, str(signature), fingerprint("nivel.kernels.analytic"))
+    made_by = fingerprint("nivel.kernels.analytic"), fingerprint("nivel.native.with_numba.laws")
+    path = store.path_of("nivel_law", text, str(signature), *made_by)
     if (found := _loaded.get(path.name)) is not None:
         return found
     code = store.read(path)
@@ -66,11 +67,22 @@ def address_of_law(text: str, signature: Signature) -> int:
 
 
 def _path(entry: Entry) -> Any:
+    if entry.name.startswith("__main__:"):
+        message = (
+            f"`{entry.name}` stands in the program that runs; put it into a module beside it, which the program imports"
+        )
+        raise workers.CompilationError(message, "InProgramError")
     return store.path_of(entry.symbol, str(entry.signature), fingerprint(entry.name.partition(":")[0]))
 
 
 def _job(entry: Entry) -> dict[str, Any]:
-    return {"entry": entry.name, "symbol": entry.symbol, "targets": [(str(_path(entry)), None)]}
+    return job_of(entry, [(str(_path(entry)), None)])
+
+
+def job_of(entry: Entry, targets: list[tuple[str, tuple[str, str] | None]]) -> dict[str, Any]:
+    """What a worker is told: the files to write, each with the name and features of a processor, or for this one."""
+    sources = fingerprint(entry.name.partition(":")[0])
+    return {"entry": entry.name, "symbol": entry.symbol, "sources": sources, "targets": targets}
 
 
 # addresses of what is in memory
@@ -84,9 +96,8 @@ def _linker() -> Any:
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
     linker = binding.create_lljit_compiler()
-    atexit.register(
-        linker.detach
-    )  # the end of the process takes it away, not the interpreter, which may do so too early
+    # the end of the process takes it away, not the interpreter, which may do so too early
+    atexit.register(linker.detach)
     return linker
 
 

@@ -9,7 +9,7 @@ count     an integer                           int64_t
 vector    a row of real numbers                double *, int64_t
 pairs     a row of complex numbers             double *, int64_t
 status    of `nivel.kernels.status`            int64_t
-nothing                                        void
+nothing   0, for Python nothing                int64_t
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ IN_C: dict[str, tuple[Any, ...]] = {
     "pairs": (ctypes.c_void_p, ctypes.c_int64),
 }
 ROWS = {"vector": "float64", "pairs": "complex128"}
-RESULT_IN_C: dict[str, Any] = {"status": ctypes.c_int64, "number": ctypes.c_double, "nothing": None}
+RESULT_IN_C: dict[str, Any] = {"status": ctypes.c_int64, "number": ctypes.c_double, "nothing": ctypes.c_int64}
+# status of an entry in which something was raised, which kernels must not do; a number is then none
+BROKEN = -1
 
 
 class Signature(NamedTuple):
@@ -48,9 +50,13 @@ class Signature(NamedTuple):
         def call(*arguments: Any) -> Any:
             if len(arguments) != len(self.arguments):
                 raise TypeError(f"{len(self.arguments)} arguments are needed, {len(arguments)} given")
-            return function(
-                *(part for kind, value in zip(self.arguments, arguments, strict=True) for part in _parts(kind, value))
-            )
+            values = zip(self.arguments, arguments, strict=True)
+            result = function(*(part for kind, value in values for part in _parts(kind, value)))
+            if self.result != "number" and result == BROKEN:
+                raise RuntimeError(
+                    "a kernel has raised an exception, which it must not do: a fault of nivel or of a law"
+                )
+            return None if self.result == "nothing" else result
 
         return call
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import re
 import sysconfig
@@ -13,6 +14,7 @@ _IMPORT = re.compile(
     r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+(\([^)]*\)|[^\n]*)|import[ \t]+([\w.]+))", re.MULTILINE
 )
 _NAME = re.compile(r"\w+")
+PACKAGE = Path(__file__).resolve().parent.parent
 # of Numba's side of this package, what is only about finding, keeping and loading machine code does not change it
 PASSIVE = tuple(f"nivel.native.{name}" for name in ("library", "store", "workers", "sources", "shipped"))
 
@@ -24,6 +26,12 @@ def fingerprint(module: str) -> str:
     for name, path in sorted(modules(module).items()):
         digest.update(f"{name}\0".encode() + path.read_bytes())
     return digest.hexdigest()
+
+
+def look_again() -> None:
+    """Forget what was read: files may have changed."""
+    for function in (fingerprint, _imported, _file):
+        function.cache_clear()
 
 
 def modules(module: str) -> dict[str, Path]:
@@ -45,17 +53,37 @@ def _is_own(package: str) -> bool:
     if package == "nivel":
         return True
     path = _file(package)
-    installed = [Path(sysconfig.get_path(each)) for each in ("stdlib", "platstdlib", "purelib", "platlib")]
-    return path is not None and not any(folder in path.parents for folder in installed)
+    if path is None or {"site-packages", "dist-packages"} & {*path.parts}:
+        return False
+    return not any(Path(sysconfig.get_path(each)) in path.parents for each in ("stdlib", "platstdlib"))
 
 
 @cache
 def _imported(path: Path) -> tuple[str, ...]:
     """Names that the module imports; of `from a import b` both a and a.b, which may be a module."""
+    text = path.read_text(encoding="utf-8")
+    if not path.is_relative_to(PACKAGE):
+        return tuple(imports(text))
+    # parsing all of nivel would take a third of a second
     names: list[str] = []
-    for package, what, plain in _IMPORT.findall(path.read_text(encoding="utf-8")):
+    for package, what, plain in _IMPORT.findall(text):
         names += [plain] if plain else [package, *(f"{package}.{each}" for each in _NAME.findall(what))]
     return tuple(names)
+
+
+def imports(text: str) -> list[str]:
+    """The same of any text. Raises ImportError where it imports relatively to its package."""
+    names: list[str] = []
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            names += [each.name for each in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            if node.level:
+                raise ImportError(
+                    f"line {node.lineno}: modules of kernels import by full names, not from `{'.' * node.level}`"
+                )
+            names += [str(node.module), *(f"{node.module}.{each.name}" for each in node.names)]
+    return names
 
 
 @cache

@@ -7,6 +7,7 @@ is one, and the file to write.
 from __future__ import annotations
 
 import gc
+import hashlib
 import json
 import os
 import signal
@@ -39,6 +40,32 @@ def main() -> None:
             gc.collect()
 
 
+class SourcesChangedError(Exception):
+    """Sources were edited while this process compiles."""
+
+
+class Seen:
+    """The files that this process has imported, as they were then: modules in memory do not follow edits."""
+
+    def __init__(self) -> None:
+        self._digests: dict[Path, bytes] = {}
+
+    def check(self, module: str, expected: str) -> None:
+        """Raise SourcesChangedError where the sources of a module are not those that were asked for, or not those in memory."""
+        from nivel.native import sources
+
+        sources.look_again()
+        changed = sources.fingerprint(module) != expected
+        for path in sources.modules(module).values():
+            digest = hashlib.sha256(path.read_bytes()).digest()
+            changed |= self._digests.setdefault(path, digest) != digest
+        if changed:
+            raise SourcesChangedError(f"sources of {module} were edited while it was compiled; start the program again")
+
+
+seen = Seen()
+
+
 def _compile(job: dict[str, Any]) -> None:
     from nivel.native import store
     from nivel.native.entry import entry_of
@@ -52,11 +79,16 @@ def _compile(job: dict[str, Any]) -> None:
         )
         store.write(Path(job["path"]), object_code_of_law(job["text"], job["file"], signature, machine))
         return
+    seen.check(job["entry"].partition(":")[0], job["sources"])
     entry = entry_of(job["entry"])
     module = translate.linked(entry.py_func, entry.signature, job["symbol"])
-    for path, processor in job["targets"]:
-        machine = translate.target_machine(*(processor or translate.host()))
-        store.write(Path(path), translate.optimised(module, machine))
+    codes = [
+        (path, translate.optimised(module, translate.target_machine(*(processor or translate.host()))))
+        for path, processor in job["targets"]
+    ]
+    seen.check(job["entry"].partition(":")[0], job["sources"])
+    for path, code in codes:
+        store.write(Path(path), code)
 
 
 if __name__ == "__main__":

@@ -50,18 +50,25 @@ def compile_all(jobs: Iterable[dict[str, Any]], done: Callable[[dict[str, Any]],
     finished: SimpleQueue[dict[str, Any] | BaseException | None] = SimpleQueue()
 
     def work(take: Callable[[], dict[str, Any]]) -> None:
-        worker = _take_worker()
         try:
-            while True:
-                job = take()
-                worker.compile(job)
-                finished.put(job)
-        except IndexError:
-            finished.put(None)  # nothing is left
-        except BaseException as problem:
+            worker = _take_worker()
+        except BaseException as problem:  # whatever it is, nobody may wait for it
             left.clear()
             finished.put(problem)
-        _idle.put(worker)
+            return
+        try:
+            while (job := _next(take)) is not None:
+                worker.compile(job)
+                finished.put(job)
+            _idle.put(worker)
+            finished.put(None)
+        except CompilationError as problem:
+            left.clear()
+            _idle.put(worker)
+            finished.put(problem)
+        except BaseException as problem:  # whatever it is, nobody may wait for it
+            left.clear()
+            finished.put(problem)
 
     for k in range(count):
         threading.Thread(target=work, args=(left.pop if k % 2 else left.popleft,), daemon=True).start()
@@ -81,10 +88,19 @@ def compile_all(jobs: Iterable[dict[str, Any]], done: Callable[[dict[str, Any]],
         raise problem
 
 
+def _next(take: Callable[[], dict[str, Any]]) -> dict[str, Any] | None:
+    try:
+        return take()
+    except IndexError:
+        return None
+
+
 class _Worker:
     def __init__(self) -> None:
         command = [sys.executable, "-c", START, json.dumps(sys.path)]
-        own = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "NUMBA_DISABLE_JIT": "0"}
+        # settings of Numba change machine code, and are no part of its name
+        own = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
+        own |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
         self._process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=own, encoding="utf-8"
         )

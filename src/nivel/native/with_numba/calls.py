@@ -23,7 +23,7 @@ _IN_C: dict[str, tuple[Any, ...]] = {
     "vector": (_DOUBLE.as_pointer(), WORD),
     "pairs": (_DOUBLE.as_pointer(), WORD),
 }
-_RESULT_IN_C: dict[str, Any] = {"status": WORD, "number": _DOUBLE, "nothing": ir.VoidType()}
+_RESULT_IN_C: dict[str, Any] = {"status": WORD, "number": _DOUBLE, "nothing": WORD}
 
 
 def function_type(signature: Signature) -> Any:

@@ -22,14 +22,13 @@ from numba.core.registry import cpu_target
 from numba.core.runtime.nrt import rtsys
 
 from nivel.native.function import OPTIONS
-from nivel.native.signature import Signature
+from nivel.native.signature import BROKEN, Signature
 from nivel.native.with_numba import functions
+from nivel.native.with_numba.arrays import WORD
 from nivel.native.with_numba.calls import _IN_C, from_c, function_type
 from nivel.native.with_numba.kinds import RESULTS, arguments_of
 
 _njit: Any = njit
-# what an entry returns where a function of it has failed in a way that kernels do not know: an error of ours
-BROKEN = -1
 
 
 class NeedsNumbaError(Exception):
@@ -155,7 +154,7 @@ def _in_c(context: Any, description: Any, signature: Signature, symbol: str) -> 
     result = RESULTS[signature.result]
     status, value = context.call_conv.call_function(builder, callee, result, arguments_of(signature), values)
     if signature.result == "nothing":
-        builder.ret_void()
+        builder.ret(builder.select(status.is_ok, ir.Constant(WORD, 0), ir.Constant(WORD, BROKEN)))
     elif place is not None:
         pointer = builder.bitcast(place, context.get_value_type(result).as_pointer())
         builder.store(value, pointer)

@@ -13,6 +13,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nivel
+from nivel.machine import MachineRecord
+from nivel.machine.forces import FORCES as WORDS
+from nivel.system.forces import FORCES
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
@@ -26,7 +29,7 @@ INTEGRATORS = {"rk4": 1e-6, "generalised-alpha": 3e-4, "radau": 1e-6, "bdf": 1e-
 
 @pytest.fixture(scope="module")
 def cart(tmp_path_factory):
-    """The machine of the page, with the force of the page, which stays registered."""
+    """The machine of the page, with the force of the page as long as its tests last."""
     folder = tmp_path_factory.mktemp("extending")
     for name, text in FILES.items():
         (folder / name).write_text(text, encoding="utf-8")
@@ -34,6 +37,15 @@ def cart(tmp_path_factory):
     importlib.import_module("maxwell")
     yield nivel.load(folder / "cart.yaml")
     sys.path.remove(str(folder))
+    del sys.modules["maxwell"]
+    withdraw("maxwell")
+
+
+def withdraw(word):
+    """Other tests speak of the package's own forces."""
+    kind = FORCES.pop(word)
+    WORDS.remove(kind.words)
+    MachineRecord.model_rebuild(force=True)
 
 
 def solution(times):

@@ -108,7 +108,7 @@ class Machine:
     def check(self, *, listener: Listener | None = None) -> Check:
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         plan = self._plan(self.origin.settings_outside)
-        build(preparation_entries(plan.methods), listener or Listener())
+        build(preparation_entries(plan.methods), listener)
         from nivel.analysis.check import check
 
         with self._faults_in_file():
@@ -117,7 +117,7 @@ class Machine:
     @checked_arguments
     def posed(self, *, listener: Listener | None = None) -> Posing:
         """The assembled machine, to be moved by hand. Raises ModelError where it cannot be assembled."""
-        build(assembly_entries(self.record), listener or Listener())
+        build(assembly_entries(self.record), listener)
         from nivel.analysis.posing import Posing
 
         with self._faults_in_file():
@@ -207,7 +207,7 @@ class Machine:
             from nivel.analysis.statics.start import methods_at_rest
 
             entries += statics_entries(methods_at_rest(chosen.record))
-        compile_seconds = build(entries, listener or Listener())
+        compile_seconds = build(entries, listener)
         # what follows takes longer to import
         from nivel.analysis.simulate import simulate
         from nivel.results.target import keep_sources
@@ -272,7 +272,7 @@ class Machine:
         neutral, chosen = for_statics(self.record, settings)
         with self._faults_in_file():
             methods = methods_of(neutral, "newton-euler", chosen)
-        compile_seconds = build(statics_entries(methods), listener or Listener())
+        compile_seconds = build(statics_entries(methods), listener)
         # what follows takes longer to import
         from nivel.analysis.statics.run import statics
         from nivel.results.target import keep_sources
@@ -332,7 +332,7 @@ class Machine:
         given = {name: value for name, value in common.items() if value is not None}
         chosen = self.with_settings(given)
         grid = lay_out(chosen.record, axes, given)
-        compile_grid(chosen.record, grid, listener or Listener())
+        compile_grid(chosen.record, grid, listener)
         # what follows takes longer to import
         from nivel.analysis.compare import compare
 

@@ -82,3 +82,10 @@ def test_the_symbols_of_entries_are_all_that_it_shows(folder):
     assert loaded[toys.squares.symbol]
     with pytest.raises(AttributeError):
         assert loaded["square"]
+
+
+def test_a_library_that_cannot_be_loaded_is_told_and_not_used(folder, capsys):
+    (folder / shipped.file_of(shipped.level())).write_bytes(b"damaged")
+    shipped._library.cache_clear()
+    assert shipped.address_in_library(toys.squares) is None
+    assert "is not used" in capsys.readouterr().err

@@ -25,13 +25,11 @@ def digest(tmp_path, monkeypatch):
     def of(module, **changes):
         for name, text in changes.items():
             (tmp_path / "pack" / f"{name.replace('_', '/')}.py").write_text(text)
-        for function in (sources.fingerprint, sources._imported, sources._file):
-            function.cache_clear()
+        sources.look_again()
         return sources.fingerprint(module)
 
     yield of
-    for function in (sources.fingerprint, sources._imported, sources._file):
-        function.cache_clear()
+    sources.look_again()
 
 
 @pytest.mark.parametrize("module", ["a", "b", "c", "deep_d"])
@@ -48,3 +46,14 @@ def test_kernels_depend_on_the_way_they_are_translated():
     found = sources.modules("nivel.kernels.observe")
     assert "nivel.native.with_numba.views" in found
     assert not {"nivel.native.store", "nivel.integrate.radau"} & set(found)
+
+
+def test_modules_outside_the_package_import_by_full_names(digest):
+    assert digest("pack.a", b="import pack.other as o; x = 1\n") != digest("pack.a", other="z = 5\n")
+    with pytest.raises(ImportError, match=r"line 2.*full names"):
+        digest("pack.a", b="x = 1\nfrom . import other\n")
+
+
+def test_imports_of_the_package_are_found_without_parsing_it():
+    for path in sources.modules("nivel.integrate.loop").values():
+        assert set(sources.imports(path.read_text(encoding="utf-8"))) <= set(sources._imported(path))

@@ -119,7 +119,7 @@ def lay_out(machine: MachineRecord, axes: Axes, given: Collection[str] = ()) -> 
     return Grid(cells, interval, max(steps, default=min(own.step, interval)))
 
 
-def compile_grid(machine: MachineRecord, grid: Grid, listener: Listener) -> None:
+def compile_grid(machine: MachineRecord, grid: Grid, listener: Listener | None) -> None:
     """Compile, where needed, what all cells and the references need, so that no time has compiling in it."""
     entries = [entry for cell in grid.cells if cell.plan is not None for entry in run_entries(cell.plan)]
     for integrator in REFERENCES:

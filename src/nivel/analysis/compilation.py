@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from importlib import import_module
 from time import perf_counter
 
@@ -45,27 +46,50 @@ COMPLETIONS = (
 )
 
 
-def build(entries: Iterable[Entry], listener: Listener) -> float:
-    """Compile those of these entries that have no machine code, and tell how far it is. Returns the wall time [s]."""
+def build(entries: Iterable[Entry], listener: Listener | None) -> float:
+    """Compile those of these entries that have no machine code, and tell how far it is. Returns the wall time [s].
+
+    Without a listener a bar on standard error tells it, so that a script that compiles does not look as if it hung.
+    """
     begin = perf_counter()
-    missing = library.missing(entries)
+    if missing := library.missing(entries):
+        with nullcontext(listener) if listener else _bar() as hearer:
+            _compile(missing, hearer, begin)
+    return perf_counter() - begin
+
+
+def _compile(missing: Sequence[Entry], listener: Listener, begin: float) -> None:
     count, done = len(missing), 0
 
     def tell(name: str) -> None:
         nonlocal done
         done += 1
-        listener.say(f"compiled {done} of {count}: {in_words(name)} (only the first run does this)")
+        left = (perf_counter() - begin) * (count - done) / done
+        listener.say(f"compiled {done} of {count}, about {left:.0f} s left: {in_words(name)}")
 
-    if missing:
-        listener.say(f"compiling {count} part{'s'[: count > 1]} of the machine code (only the first run does this)")
-        try:
-            library.build(missing, tell)
-        except CompilationError as problem:
-            if problem.kind == NO_COMPILER:
-                what = "the library of this installation is for other sources or another processor"
-                raise NivelError(f"{what}, and {problem}") from None
-            raise
-    return perf_counter() - begin
+    listener.say(f"compiling {count} part{'s'[: count > 1]} of the machine code (only the first run does this)")
+    try:
+        library.build(missing, tell)
+    except CompilationError as problem:
+        if problem.kind == NO_COMPILER:
+            what = "the library of this installation is for other sources or another processor"
+            raise NivelError(f"{what}, and {problem}") from None
+        raise
+
+
+@contextmanager
+def _bar() -> Iterator[Listener]:
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    with console.status("") as status:
+
+        def stage(text: str, _total: float | None = None) -> None:
+            if text.startswith("compiling"):
+                console.print(text)  # stays, also where no bar can be shown
+            status.update(text)
+
+        yield Listener(stage)
 
 
 def in_words(name: str) -> str:

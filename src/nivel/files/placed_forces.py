@@ -30,6 +30,7 @@ from nivel.machine import (
 from nivel.machine.forces import Between, ForceElement
 
 Changes = dict[str, Any]
+_FUNCTIONS = (Expression, PythonLaw)
 
 
 def placed_force(force: Any, scene: Scene) -> Any:
@@ -42,14 +43,20 @@ def placed_force(force: Any, scene: Scene) -> Any:
 
 
 def _any_force(force: ForceElement, scene: Scene) -> Changes:
-    """Functions of signals follow the part; a coordinate that counts the other way would need a rule of the kind."""
+    """Functions of signals follow the part, and so do points between which it acts; what else would turn needs a rule of the kind."""
     coordinate = getattr(force, "coordinate", None)
     if coordinate is not None and scene.is_opposite(coordinate):
         raise NotRepresentableError(
             f"what a {force.type} on a coordinate that counts the other way would be is not known"
         )
+    if coordinate is None and not isinstance(force, Between) and scene.placement.turns:
+        raise NotRepresentableError(f"what a {force.type} would be in a part that is turned is not known")
+    if any(isinstance(value, tuple) and any(isinstance(each, _FUNCTIONS) for each in value) for _, value in force):
+        raise NotRepresentableError(
+            f"what a {force.type} with several functions would be in a placed part is not known"
+        )
     changes = _ends(force, scene, with_axes=True) if isinstance(force, Between) else {}
-    return changes | {name: scene.varied(value) for name, value in force if isinstance(value, Expression | PythonLaw)}
+    return changes | {name: scene.varied(value) for name, value in force if isinstance(value, _FUNCTIONS)}
 
 
 def _point_force(force: PointForce, scene: Scene) -> Changes:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import sys
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -26,14 +27,15 @@ LEVELS: dict[str, tuple[str, ...]] = {
 
 def address_in_library(entry: Entry) -> int | None:
     """Address of an entry in the library; None where there is no library that fits, or the entry's sources are others."""
-    if (library := _library()) is None or not fits(entry):
+    library = _library()
+    if library is None or not fits(entry):
         return None
     return ctypes.cast(getattr(library, entry.symbol), ctypes.c_void_p).value
 
 
 def fits(entry: Entry) -> bool:
     """Whether the library has this entry, of its present sources."""
-    return level() != "" and manifest()["entries"].get(entry.name) == fingerprint(entry.name.partition(":")[0])
+    return _library() is not None and manifest()["entries"].get(entry.name) == fingerprint(entry.name.partition(":")[0])
 
 
 @cache
@@ -61,4 +63,10 @@ def file_of(name: str) -> str:
 
 @cache
 def _library() -> ctypes.CDLL | None:
-    return ctypes.CDLL(str(FOLDER / file_of(level()))) if level() else None
+    if not level():
+        return None
+    try:
+        return ctypes.CDLL(str(FOLDER / file_of(level())))
+    except OSError as problem:
+        print(f"the library of this installation is not used: {problem}", file=sys.stderr)
+        return None

@@ -3,12 +3,14 @@
 import numpy as np
 import pytest
 
+from nivel.kernels import program
 from nivel.kernels.function import call_law
 from nivel.machine.expression import Expression
 from nivel.machine.python_law import PythonLaw
 from nivel.native.function import leaf
 from nivel.system.analytic_text import analytic_text
-from nivel.system.laws import complex_address, expression_address, law_address, motion_address
+from nivel.system.laws import complex_address, law_address
+from nivel.system.program import expression_program, motion_program
 
 STEP = 1e-30
 TIMES = (-2.3, -1.0, -0.4, 0.0, 0.3, 1.0, 2.7)
@@ -26,6 +28,13 @@ def on_complex(address, *arguments, behind=0):
     return result.real, result.imag / STEP, given
 
 
+def expression_on_complex(row, *arguments, behind=0):
+    """The same for the program of an expression."""
+    given = np.array([*row, *(value + 1j * STEP * direction for value, direction in arguments), *[0j] * behind])
+    result = called(np.uint64(program.run.complex_address), given)
+    return result.real, result.imag / STEP, given[len(row) :]
+
+
 # on all of TIMES but at poles and corners
 SMOOTH = (
     *("time^2", "time^3", "(time - 5)^3", "(time - 5)^-3", "time^1", "time^0", "2^time", "(time + 3)^time", "(time + 3)^1.5"),
@@ -38,9 +47,9 @@ SMOOTH = (
 def test_expressions_on_complex_numbers_give_their_derivatives(text):
     """Against the derivative of the expression that drivers use, which is symbolic."""
     expression = Expression(text)
-    address = expression_address(expression, ["time"])
+    row = expression_program(expression, ["time"])
     for time in TIMES:
-        value, slope, _ = on_complex(address, (time, 1.0))
+        value, slope, _ = expression_on_complex(row, (time, 1.0))
         assert value == pytest.approx(expression(time), rel=1e-14, abs=1e-15)
         assert slope == pytest.approx(expression.derivative(time), rel=1e-13, abs=1e-14)
 
@@ -57,17 +66,17 @@ CORNERS = {
 
 @pytest.mark.parametrize("text", CORNERS)
 def test_expressions_with_corners_give_the_derivative_of_the_branch_they_are_on(text):
-    address = expression_address(Expression(text), ["time"])
+    row = expression_program(Expression(text), ["time"])
     for time in TIMES:
         if time not in (0.0, 1.0, -1.0):
-            value, slope, _ = on_complex(address, (time, 1.0))
+            value, slope, _ = expression_on_complex(row, (time, 1.0))
             assert value == pytest.approx(Expression(text)(time), abs=1e-15)
             assert slope == pytest.approx(CORNERS[text](time), abs=1e-14)
 
 
 def test_motions_leave_rate_and_acceleration_with_their_derivatives():
-    address = motion_address(Expression("0.3*sin(4*time)"))
-    value, slope, given = on_complex(address, (0.7, 1.0), behind=2)
+    row = motion_program(Expression("0.3*sin(4*time)"))
+    value, slope, given = expression_on_complex(row, (0.7, 1.0), behind=2)
     assert value == pytest.approx(0.3 * np.sin(2.8))
     assert slope == pytest.approx(1.2 * np.cos(2.8))
     np.testing.assert_allclose(given[1:].real, [1.2 * np.cos(2.8), -4.8 * np.sin(2.8)])

@@ -18,7 +18,9 @@ def real(x):
 
 @leaf
 def arctan2(y, x):
-    """Angle of the point (x, y): np.arctan2, which does not know complex numbers, and of these its analytic continuation."""
+    """Angle of the point (x, y), 0 at the origin: np.arctan2, which does not know complex numbers, and its analytic continuation."""
+    if real(x) == 0.0 and real(y) == 0.0:
+        return 0.0 * (x + y)
     if np.abs(real(x)) >= np.abs(real(y)):
         angle = np.arctan(y / x)
         if real(x) < 0.0:
@@ -37,14 +39,14 @@ def absolute(x):
 
 @leaf
 def maximum(x, y):
-    """The larger one; x where they are equal, and where y is not a number."""
-    return y if real(y) > real(x) else x
+    """The larger one; x where they are equal, no number where one of them is none."""
+    return y if real(y) > real(x) or real(y) != real(y) else x
 
 
 @leaf
 def minimum(x, y):
-    """The smaller one; x where they are equal, and where y is not a number."""
-    return y if real(y) < real(x) else x
+    """The smaller one; x where they are equal, no number where one of them is none."""
+    return y if real(y) < real(x) or real(y) != real(y) else x
 
 
 @leaf
@@ -57,13 +59,14 @@ def tanh(x):
 def power(x, y):
     """x ** y. Through a logarithm, as the power of complex numbers is, a negative x would leave round-off of the size of the result in
     place of the derivative: y x**(y - 1) along x, log x x**y along y."""
-    a, b, along, beside = np.real(x), np.real(y), np.imag(x), np.imag(y)
-    value, slope = a**b, 0.0
-    if along != 0.0 and b != 0.0:
-        slope = b * a ** (b - 1.0) * along
-    if beside != 0.0:
-        slope += np.log(a) * value * beside
-    return complex(value, slope)
+    a, b = real(x), real(y)
+    value = a**b
+    result = value
+    if np.imag(x) != 0.0 and b != 0.0:
+        result = result + b * a ** (b - 1.0) * (x - a)
+    if np.imag(y) != 0.0:
+        result = result + np.log(a) * value * (y - b)
+    return result
 
 
 @leaf

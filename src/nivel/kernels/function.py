@@ -1,4 +1,5 @@
-"""Functions of time and of other signals: a constant, a table, or compiled code reached through its address."""
+"""Functions of time and of other signals: a constant, a table, or code reached through its address: a Python law, or
+the program of an expression."""
 
 from __future__ import annotations
 
@@ -12,7 +13,7 @@ from nivel.native.signature import COMPLEX_LAW, LAW
 # A table is past a knot where its argument comes within this share of it: times of steps are products and sums.
 NEAR = 16.0 * 2.220446049250313e-16
 # kinds of functions; a held table keeps its end values outside, an extended one its end pieces
-CONSTANT, TABLE_HELD, TABLE_EXTENDED, COMPILED = 0, 1, 2, 3
+CONSTANT, TABLE_HELD, TABLE_EXTENDED, CODE = 0, 1, 2, 3
 # kinds of signals: index and component say of what
 NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY, STATE = 0, 1, 2, 3, 4, 5, 6, 7
 
@@ -86,15 +87,15 @@ def evaluate_function(machine, k, t):
         return functions.value[k]
     read_arguments(machine, k, t)
     first = np.int64(functions.span[k, 2])
-    if kind == COMPILED:
-        return call_law(functions.address[k], functions.arguments[first:])
+    if kind == CODE:
+        return call_law(functions.address[k], functions.arguments[np.int64(functions.span[k, 3]) :])
     value, _, _ = table_value(functions, k, functions.arguments[first])
     return value
 
 
 @stage
 def evaluate_motion(machine, k, t):
-    """(f, f', f'') of function k, a motion: one of time alone. Compiled ones leave f', f'' behind their arguments."""
+    """(f, f', f'') of function k, a motion: one of time alone. Code leaves f', f'' behind their arguments."""
     record = record_at(machine)
     functions = record.functions
     kind = functions.kind[k]
@@ -102,8 +103,8 @@ def evaluate_motion(machine, k, t):
         return functions.value[k], 0.0, 0.0
     read_arguments(machine, k, t)
     first = np.int64(functions.span[k, 2])
-    if kind == COMPILED:
-        value = call_law(functions.address[k], functions.arguments[first:])
+    if kind == CODE:
+        value = call_law(functions.address[k], functions.arguments[np.int64(functions.span[k, 3]) :])
         behind = first + np.int64(functions.span[k, 1]) - np.int64(functions.span[k, 0])
         return value, functions.arguments[behind], functions.arguments[behind + 1]
     return table_value(functions, k, functions.arguments[first])

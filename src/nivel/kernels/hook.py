@@ -14,17 +14,17 @@ from nivel.kernels.record import CORRECT, EVALUATE, FAMILY, FAMILY_ON_TWIN, FRIC
 from nivel.kernels.status import OK
 from nivel.native.entry import Entry
 from nivel.native.function import Intrinsic, caller, stage
+from nivel.native.signature import COMPLEX_LAW, LAW, Signature
 
 
 class Family:
-    """A function `(machine, number, t) -> status` that kernels call by its address. code, twin : its entries, on real and on complex
-    numbers."""
+    """A function that kernels call by its address. code, twin : its entries, on real and on complex numbers."""
 
-    def __init__(self, function: Callable[..., Any]) -> None:
+    def __init__(self, function: Callable[..., Any], real: Signature, twin: Signature) -> None:
         self.py_func, self.module = function, function.__module__
         name = f"{function.__module__}:{function.__qualname__}"
-        self.code = Entry(function, FAMILY, f"{name}.code")
-        self.twin = Entry(function, FAMILY_ON_TWIN, f"{name}.twin")
+        self.code = Entry(function, real, f"{name}.code")
+        self.twin = Entry(function, twin, f"{name}.twin")
 
     @cached_property
     def address(self) -> int:
@@ -44,7 +44,12 @@ FAMILIES: dict[int, Family] = {}
 
 def family(function: Callable[..., Any]) -> Family:
     """Decorator: `function(machine, family, t) -> status`, a function of the module, as something with an address."""
-    return Family(function)
+    return Family(function, FAMILY, FAMILY_ON_TWIN)
+
+
+def law(function: Callable[..., Any]) -> Family:
+    """Decorator: `function(row) -> value`, a function of a row of numbers, as something with an address."""
+    return Family(function, LAW, COMPLEX_LAW)
 
 
 call_family: Intrinsic = caller(FAMILY, FAMILY_ON_TWIN)

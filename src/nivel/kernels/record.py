@@ -127,7 +127,7 @@ class Joints(NamedTuple):
 
 
 class Functions(NamedTuple):
-    """Constants, piecewise polynomials, compiled expressions and laws; of time or of other signals."""
+    """Constants, piecewise polynomials, expressions and laws; of time or of other signals."""
 
     kind: U1  # (·,)
     value: F1  # (·,) the constant
@@ -135,9 +135,9 @@ class Functions(NamedTuple):
     knots: F1
     coefficients: F2  # (knots, 4) of powers of the distance from the knot; those of the last knot hold beyond it
     argument: U2  # (·, 4) signal kind, index, component, place in `arguments`
-    span: U2  # (functions, 3) first argument, one past the last, first place
-    arguments: W1  # values of the arguments, then two places for the derivatives of a motion
-    address: A1  # (·,) of a compiled function
+    span: U2  # (functions, 4) first argument, one past the last, first place, place of what its code is given
+    arguments: W1  # programs of expressions; values of the arguments, then two places for the derivatives of a motion
+    address: A1  # (·,) of its code
 
 
 class Elements(NamedTuple):

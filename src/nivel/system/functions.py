@@ -1,4 +1,4 @@
-"""Functions of time and signals for the kernels: constants and tables as numbers, expressions and laws as compiled code."""
+"""Functions of time and signals for the kernels: constants, tables and expressions as numbers, laws as compiled code."""
 
 from __future__ import annotations
 
@@ -8,14 +8,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from nivel.kernels.function import COMPILED, CONSTANT, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
+from nivel.kernels.function import CODE, CONSTANT, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
+from nivel.kernels.program import run
 from nivel.kernels.record import Functions
 from nivel.machine.arithmetic import TIME as TIME_SYMBOL
 from nivel.machine.expression import Expression
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.table import Table
 from nivel.machine.time_function import TimeFunction
-from nivel.system.laws import expression_address, law_address, motion_address
+from nivel.system.laws import law_address
+from nivel.system.program import expression_program, motion_program
 from nivel.system.tables import Array, index_array
 
 Signal = tuple[int, int, int]  # kind, index, component: see `nivel.kernels.function`
@@ -24,13 +26,13 @@ Find = Callable[[str], Signal]
 
 @dataclass
 class FunctionTable:
-    """Functions of a machine in numbers. Expressions and laws are compiled, or loaded from the cache, when they are added."""
+    """Functions of a machine in numbers. Laws are compiled, or loaded from the cache, when they are added."""
 
     kind: list[int] = field(default_factory=list)
     value: list[float] = field(default_factory=list)
     address: list[int] = field(default_factory=list)
     table: list[tuple[int, int]] = field(default_factory=list)
-    span: list[tuple[int, int, int]] = field(default_factory=list)
+    span: list[tuple[int, int, int, int]] = field(default_factory=list)
     knots: list[float] = field(default_factory=list)
     coefficients: list[Sequence[float]] = field(default_factory=list)
     argument: list[tuple[int, int, int, int]] = field(default_factory=list)
@@ -52,11 +54,11 @@ class FunctionTable:
                 return self._append(TABLE_HELD, [function.of], find, table=(times, rows))
             case Expression():
                 signals = list(dict.fromkeys([TIME_SYMBOL, *function.signals]))
-                address = motion_address(function) if motion else expression_address(function, signals)
-                return self._append(COMPILED, signals, find, address=address)
+                program = motion_program(function) if motion else expression_program(function, signals)
+                return self._append(CODE, signals, find, address=run.address, program=program)
             case PythonLaw():
                 address = law_address(function, motion=motion)
-                return self._append(COMPILED, list(function.arguments), find, address=address)
+                return self._append(CODE, list(function.arguments), find, address=address)
         return self._append(CONSTANT, [], find, value=float(function))
 
     def add_table(self, knots: Sequence[float], coefficients: Array) -> int:
@@ -71,9 +73,12 @@ class FunctionTable:
         *,
         value: float = 0.0,
         address: int = 0,
+        program: Sequence[float] = (),
         table: tuple[Sequence[float], Sequence[Sequence[float]]] = ((), ()),
     ) -> int:
-        first, place = len(self.argument), len(self.arguments)
+        first, start = len(self.argument), len(self.arguments)
+        place = start + len(program)
+        self.arguments += program
         for n, argument in enumerate(arguments):
             if not isinstance(argument, str):
                 signal, number = (NUMBER, 0, 0), float(argument)
@@ -82,7 +87,7 @@ class FunctionTable:
             self.argument.append((*signal, place + n))
             self.arguments.append(number)
         self.arguments += [0.0, 0.0]
-        self.span.append((first, len(self.argument), place))
+        self.span.append((first, len(self.argument), place, start))
         self.kind.append(kind)
         self.value.append(value)
         self.address.append(address)
@@ -99,7 +104,7 @@ class FunctionTable:
             knots=np.array(self.knots, dtype=float),
             coefficients=np.array(self.coefficients, dtype=float).reshape(-1, 4),
             argument=index_array(self.argument, 4),
-            span=index_array(self.span, 3),
+            span=index_array(self.span, 4),
             arguments=np.array(self.arguments, dtype=float),
             address=np.array(self.address, dtype=np.uint64),
         )

@@ -1,37 +1,18 @@
-"""Expressions and Python laws as machine code: functions of a row of arguments, `LAW` and `COMPLEX_LAW`."""
+"""Python laws as machine code: functions of a row of arguments, `LAW` and `COMPLEX_LAW`."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 
 from nivel.errors import Fault, ModelError
+from nivel.kernels.hook import FAMILIES
 from nivel.machine.arithmetic import TIME
-from nivel.machine.expression import Expression
 from nivel.machine.python_law import PythonLaw
 from nivel.native.library import address_of_law
 from nivel.native.signature import COMPLEX_LAW, LAW
 from nivel.native.workers import NO_COMPILER, CompilationError
 from nivel.system.analytic_text import analytic_text
-from nivel.system.expression_text import ANALYTIC, SPELLING, motion_lines, source
 
-EXPRESSION = """
-import numpy as np
-
-
-def nivel_law(x):
-{body}
-"""
-# The same on complex numbers, for exact derivatives.
-COMPLEX_EXPRESSION = """
-import numpy as np
-from nivel.kernels.analytic import absolute, arctan2, maximum, minimum, power, tanh
-
-
-def nivel_law(x):
-{body}
-"""
 # Functions of the text are compiled when the law calls them; division by zero gives infinity, as in the rest of a run. On complex
 # numbers: the text made analytic, or where that is not possible, its derivative along the imaginary parts of its arguments by
 # differences of order four, whose steps are shares of the arguments.
@@ -54,17 +35,11 @@ def nivel_law(x):
 SHARE = 1e-4
 
 
-def expression_address(expression: Expression, signals: Sequence[str]) -> int:
-    """Address of the code of an expression of `signals`, of which the first is the time."""
-    places = {path: place for place, path in enumerate(signals)}
-    address = _real_address(EXPRESSION.format(body=f"    return {source(expression.tree, places)}"))
-    _twins[address] = (COMPLEX_EXPRESSION.format(body=f"    return {source(expression.tree, places, ANALYTIC)}"),)
-    return address
-
-
 def complex_address(address: int) -> int:
-    """Address of the code on complex numbers of the function at `address`, compiled when it is asked for: of the first of its texts that
-    can be compiled."""
+    """Address of the code on complex numbers of the function at `address`. That of a law is compiled when it is asked for, from the first
+    of its texts that can be compiled."""
+    if address in FAMILIES:
+        return FAMILIES[address].complex_address
     first, *others = _twins[address]
     for other in others:
         try:
@@ -72,13 +47,6 @@ def complex_address(address: int) -> int:
         except CompilationError:  # there is another way
             first = other
     return address_of_law(first, COMPLEX_LAW)
-
-
-def motion_address(expression: Expression) -> int:
-    """Address of the code of an expression of time alone, which leaves its two derivatives behind its argument."""
-    address = _real_address(EXPRESSION.format(body=motion_lines(expression, SPELLING)))
-    _twins[address] = (COMPLEX_EXPRESSION.format(body=motion_lines(expression, ANALYTIC)),)
-    return address
 
 
 def law_address(law: PythonLaw, *, motion: bool) -> int:
@@ -203,5 +171,5 @@ def _real_address(text: str) -> int:
         return address_of_law(text, LAW)
     except CompilationError as problem:
         if problem.kind == NO_COMPILER:
-            raise ModelError(Fault("", 0, 0, "", f"expressions and laws are compiled, and {problem}")) from None
+            raise ModelError(Fault("", 0, 0, "", f"Python laws are compiled, and {problem}")) from None
         raise

@@ -1,0 +1,81 @@
+"""Programs of expressions give what Python's arithmetic gives, and need no compiler."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as some
+
+from nivel.kernels import program
+from nivel.machine.arithmetic import Call, ExpressionError, Negative, Number, Operation, Signal, Time
+from nivel.machine.expression import Expression, expression_of
+from nivel.system.program import OPERATIONS, expression_program, motion_program
+
+SIGNALS = ("time", "a.angle", "b.rate")
+
+
+def value(expression, *arguments):
+    row = np.array([*expression_program(expression, SIGNALS), *arguments, 0.0, 0.0])
+    return program.run.code(row)
+
+
+def trees():
+    leaves = some.one_of(some.floats(-4, 4).map(Number), some.just(Time()), some.sampled_from(SIGNALS[1:]).map(Signal))
+
+    def larger(part):
+        one = some.builds(
+            lambda name, x: Call(name, (x,)),
+            some.sampled_from(["sin", "cos", "atan", "exp", "abs", "sqrt", "log", "asin", "acos", "tan"]),
+            part,
+        )
+        many = some.builds(
+            lambda name, parts: Call(name, tuple(parts)),
+            some.sampled_from(["min", "max"]),
+            some.lists(part, min_size=2, max_size=4),
+        )
+        two = some.builds(Operation, some.sampled_from(["+", "-", "*", "/", "**"]), part, part)
+        return some.one_of(
+            one, many, two, some.builds(Negative, part), some.builds(lambda x, y: Call("atan2", (x, y)), part, part)
+        )
+
+    return some.recursive(leaves, larger, max_leaves=12)
+
+
+@given(trees(), some.tuples(*[some.floats(-3, 3)] * 3))
+def test_any_expression_has_the_value_that_python_gives_it(tree, arguments):
+    expression = expression_of(tree)
+    try:
+        expected = expression(arguments[0], dict(zip(SIGNALS[1:], arguments[1:], strict=True)))
+        found = value(expression, *arguments)
+    except (ExpressionError, RecursionError):
+        return  # outside of a function's domain, where a run goes on with infinity or with no number
+    assert found == pytest.approx(expected, rel=1e-12, abs=1e-300)
+
+
+def test_each_operation_alone():
+    with np.errstate(all="ignore"):
+        for name in OPERATIONS:
+            if name.isalpha() or name == "atan2":
+                count = 2 if name in ("atan2", "min", "max") else 1
+                text = f"{name}({', '.join(SIGNALS[1:][:count])})"
+            else:
+                text = f"a.angle {name} b.rate"
+            assert value(Expression(text), 0.0, 0.4, 0.7) == Expression(text)(0.0, {"a.angle": 0.4, "b.rate": 0.7})
+
+
+def test_outside_of_a_domain_there_is_no_number():
+    assert math.isnan(value(Expression("sqrt(time)"), -1.0, 0.0, 0.0))
+    assert math.isnan(value(Expression("max(1, log(time))"), -1.0, 0.0, 0.0))
+    assert value(Expression("1/time"), 0.0, 0.0, 0.0) == math.inf
+
+
+def test_a_motion_leaves_its_derivatives():
+    row = np.array([*motion_program(Expression("2*time^3 - sin(5*time)")), 0.3, 0.0, 0.0])
+    assert program.run.code(row) == pytest.approx(2 * 0.3**3 - math.sin(1.5))
+    assert row[-2:] == pytest.approx([6 * 0.3**2 - 5 * math.cos(1.5), 12 * 0.3 + 25 * math.sin(1.5)])
+
+
+def test_what_stands_twice_is_found_once():
+    once, twice = Expression("exp(sin(3*time))"), Expression("exp(sin(3*time)) + exp(sin(3*time))")
+    assert len(expression_program(twice, SIGNALS)) == len(expression_program(once, SIGNALS)) + program.LENGTH + 1

@@ -37,6 +37,7 @@ from nivel.machine import (
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
     from nivel.analysis.posing import Posing
+    from nivel.c_library.writer import Files
     from nivel.results.comparison import Comparison
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
@@ -224,6 +225,19 @@ class Machine:
                 listener=listener,
                 compile_seconds=compile_seconds,
             )
+
+    def export_c(self, folder: str | PathLike[str], *, listener: Listener | None = None) -> Files:
+        """Write the machine as a C library: what a run with its settings does step by step, for programs without Python.
+
+        folder : a new one, for header, source, machine code of this processor, an example and a Makefile.
+        Raises ModelError where steps are not fixed, a Python law takes part, or the folder is there already.
+        """
+        plan = self._plan({})
+        build(run_entries(plan), listener)
+        from nivel.c_library.writer import write_c_library
+
+        with self._faults_in_file():
+            return write_c_library(plan, Path(folder))
 
     @checked_arguments
     def statics(

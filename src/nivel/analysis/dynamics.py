@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from types import ModuleType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -56,6 +57,7 @@ from nivel.kernels.status import (
     SINGULAR,
     STEP_TOO_SMALL,
 )
+from nivel.native.entry import Entry
 from nivel.results.occurrence import Occurrence
 from nivel.system.system import System
 
@@ -82,6 +84,22 @@ class RunOutcome:
     failure: tuple[str, str, float] | None = None
 
 
+class Loop(NamedTuple):
+    """What the compiled loop works on: entries of the equations, of what puts states back and of the step, the machine's record, that of
+    the run."""
+
+    evaluate: Entry
+    correct: Entry
+    step: Entry
+    machine: Handle
+    history: Handle
+
+    def advance(self) -> int:
+        """Go on for the budget of steps in the history's counter. Returns a status."""
+        codes = self.evaluate.address, self.correct.address, self.step.address
+        return advance(*codes, self.machine.address, self.history.address)
+
+
 def march(
     prepared: Prepared,
     settings: RunSettings,
@@ -95,16 +113,13 @@ def march(
     progress : called with the time reached [s] after every chunk. chunk_steps : steps a chunk, instead of as many as fit into 50 ms;
     the result does not depend on it.
     """
-    system, stabilisation = prepared.motion.system, STABILISATIONS[settings.stabilisation]
-    _feed_back(system, settings, stabilisation)
-    run = start_history(prepared, settings, prepared.integrator)
-    run.counter[CONSERVE] = int(stabilisation.CONSERVES)
-    advance = _compiled_loop(prepared, run, stabilisation)
+    system, loop = prepared.motion.system, start_loop(prepared, settings)
+    run = loop.history.record
     finished = RunOutcome("done")
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
     while status in GOES_ON and finished.outcome == "done":
-        status, spent = _march_in_chunks(advance, system, run, sinks, finished, progress, chunk_steps)
+        status, spent = _march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps)
         loop_seconds += spent
         if status in BEFORE_A_JAM:
             jam = _jam(prepared, settings, run)
@@ -126,22 +141,24 @@ def march(
     return finished
 
 
+def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
+    """The compiled loop at the start of a run of `prepared`."""
+    stabilisation = STABILISATIONS[settings.stabilisation]
+    _feed_back(prepared.motion.system, settings, stabilisation)
+    kernels, facts = prepared.motion.kernels, prepared.integrator
+    correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
+    run = start_history(prepared, settings, facts)
+    run.counter[CONSERVE] = int(stabilisation.CONSERVES)
+    step = getattr(import_module(facts.module), facts.function)
+    return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))
+
+
 def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
     """Set what the stabilisation, or a penalty method, adds to the accelerations of the constraints, and what it leaves open."""
     stabilise = system.record.control.stabilise
     stabilise[:] = stabilisation.coefficients(settings.step, *(settings.baumgarte or (None, None)))
     if settings.penalty is not None:
         stabilise[:2] = feedback(settings.penalty, settings.step, stabilisation.CORRECTS)
-
-
-def _compiled_loop(prepared: Prepared, run: Run, stabilisation: ModuleType) -> Callable[[], int]:
-    """The compiled loop of the run: goes on for the budget of steps in its counter, and returns a status."""
-    kernels, facts = prepared.motion.kernels, prepared.integrator
-    correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
-    step = getattr(import_module(facts.module), facts.function)
-    machine, history = prepared.motion.handle, Handle(run)
-    evaluate, correct, step = kernels.evaluate.address, correct.address, step.address
-    return lambda: advance(evaluate, correct, step, machine.address, history.address)
 
 
 def _march_in_chunks(

@@ -39,7 +39,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Prepared:
     """A machine ready to run: where its equations are, these and its state at the start in the coordinates of the run, both again in
-    absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings, its beams."""
+    absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings, its beams, and the corners [s]
+    of its functions of time at which the steps of the loop have to end."""
 
     path: PathFacts
     motion: MotionEquations
@@ -50,6 +51,7 @@ class Prepared:
     drivers: int
     integrator: IntegratorFacts
     beams: tuple[Beam, ...] = ()
+    corners: tuple[float, ...] = ()
 
 
 def prepare(methods: Methods) -> Prepared:
@@ -69,7 +71,18 @@ def prepare(methods: Methods) -> Prepared:
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
     if integrator.residual:
         prepared = with_residual(prepared, y, methods.coordinates, _wanted(prepared, methods), path)
-    return Prepared(path, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator, machine.beams)
+    return Prepared(
+        path,
+        prepared,
+        y,
+        absolute,
+        assembly,
+        redundancy,
+        len(machine.drivers),
+        integrator,
+        machine.beams,
+        corners(machine) if methods.chooses_steps and not integrator.residual else (),
+    )
 
 
 def _assembled(machine: MachineRecord, motion: MotionEquations) -> tuple[Assembly, Settled | None]:

@@ -58,7 +58,7 @@ from nivel.kernels.status import (
     STEP_TOO_SMALL,
 )
 from nivel.results.occurrence import Occurrence
-from nivel.system.system import System
+from nivel.system.system import Array, System
 
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
 CHUNK = 0.05
@@ -72,7 +72,7 @@ class RunOutcome:
     """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s]).
 
     events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
-    steps were made, so that the run itself is done.
+    steps were made, so that the run itself is done. pace : of `nivel.integrate.run.Run`.
     """
 
     outcome: str
@@ -81,6 +81,7 @@ class RunOutcome:
     asked_to_stop: bool = False
     timing: dict[str, float] = field(default_factory=dict)
     failure: tuple[str, str, float] | None = None
+    pace: Array | None = None
 
 
 def march(
@@ -120,6 +121,7 @@ def march(
         finished.failure = _failure(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
             _keep_last(prepared.motion, run, sinks)
+    finished.pace = run.pace
     finished.timing = {
         **_counts(system, run),
         "loop_seconds": loop_seconds,

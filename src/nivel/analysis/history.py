@@ -89,7 +89,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         event_values=np.zeros((6, values)),
         samples=np.zeros(len(system.record.sampled.state), dtype=np.int64),
         corners=np.array(prepared.corners, dtype=float),
-        pace=_pace(settings),
+        pace=_pace(prepared, settings),
         events=np.zeros((EVENT_ROWS if len(system.record.watched.event) else 0, 3)),
     )
 
@@ -105,10 +105,12 @@ def _clock(settings: RunSettings, open_limit: float) -> Array:
     return clock
 
 
-def _pace(settings: RunSettings) -> Array:
-    """Nothing done yet, and steps as long as the settings allow."""
+def _pace(prepared: Prepared, settings: RunSettings) -> Array:
+    """Nothing done yet, and steps as long as the settings and the functions of time allow."""
     pace = np.zeros((3, PARTS))
     pace[ALLOWED] = settings.largest_step
+    if prepared.allowed is not None:
+        pace[ALLOWED] = np.minimum(pace[ALLOWED], prepared.allowed)
     return pace
 
 

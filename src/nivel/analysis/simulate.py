@@ -8,6 +8,7 @@ from os import PathLike
 
 from nivel.analysis.attributes import run_attributes
 from nivel.analysis.dynamics import RunOutcome, march
+from nivel.analysis.findings import find
 from nivel.analysis.held_friction import resting_frictions
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan
@@ -19,6 +20,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.results.accuracy import error_from_finer, factor
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.estimate import estimate_errors
+from nivel.results.findings import finding_items
 from nivel.results.held import Held, shared_loads
 from nivel.results.held_together import Sticking, loads_held_together
 from nivel.results.memory import Memory
@@ -87,22 +89,23 @@ def _run(
     if second is not None and finished.outcome == "done" and not finished.asked_to_stop:
         verified = second.wait(listener)
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
-    return _close(sink, machine, prepared, finished, verified, resting, seconds)
+    return _close(sink, plan, prepared, finished, verified, resting, seconds)
 
 
 def _close(
     sink: Memory | Store,
-    machine: MachineRecord,
+    plan: Plan,
     prepared: Prepared,
     finished: RunOutcome,
     verified: Verified | None,
     resting: tuple[tuple[Held, ...], tuple[Sticking, ...]],
     timing: dict[str, float],
 ) -> Result:
-    redundancy = prepared.redundancy
+    redundancy, machine = prepared.redundancy, plan.machine
     message, advice, at = finished.failure or ("", "", 0.0)
     left = verified.refinement.left if verified is not None else 0.0
     estimate = estimate_errors(sink.result(), verified.result, factor(left)) if verified is not None else None
+    findings = find(plan, prepared, finished, sink.result(), verified, estimate)
     facts = Facts(
         outcome=finished.outcome,
         degrees_of_freedom=redundancy.degrees_of_freedom,
@@ -117,6 +120,7 @@ def _close(
         failure=message,
         stopped_by=finished.stopped_by,
         neglected=cost(sink.result(), _neglected(machine)),
+        further=tuple(finding_items(findings)),
         small_states=_small_states(sink.result(), prepared),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )

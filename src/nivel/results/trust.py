@@ -48,6 +48,7 @@ class Facts:
     verified_until : the time [s] up to which, None: to the end; verification_ended : why not further.
     neglected : what it cost that flexible bodies moved without some of their inertia invariants. shared : frictions at rest on motions
     that are prescribed, or that others hold too.
+    further : lines of checks that only tell what is not green, see `nivel.results.findings`.
     small_states : those whose errors were hardly controlled. failure : what stopped the run, in a sentence. stopped_by : name of the
     event that ended it as it was to do.
     """
@@ -67,6 +68,7 @@ class Facts:
     neglected: Cost | None = None
     shared: tuple[Shared, ...] = ()
     small_states: tuple[SmallState, ...] = ()
+    further: tuple[Item, ...] = ()
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -125,6 +127,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
     )
     items = (
         *statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved),
+        *facts.further,
         *(_small_state(each) for each in facts.small_states),
     )
     return replace(trust, items=items, verdict=worst(items))

@@ -60,6 +60,33 @@ THRESHOLDS = {
         "decade below.",
     ),
 }
+# of what is told only where it is not green
+CHECKS = {
+    "loads": Threshold(
+        1e-2,
+        1e-1,
+        "A hundredth of an impulse that the steps do not see is as much as loads of real machines are known to; a tenth is seen in every "
+        "curve.",
+    ),
+    "turn": Threshold(
+        0.5,
+        3.0,
+        "In radians a step: methods of order four lose 2e-4 rad a turn at 0.5. Beyond half a turn, with a margin, nobody can tell "
+        "which way a body turned.",
+    ),
+    "rounding": Threshold(
+        1e-6,
+        1e-3,
+        "Half a unit in the last place of a coordinate, in every step and always to the same side, as a share of the machine's size: as "
+        "much as open joints may be.",
+    ),
+    "parts": Threshold(
+        1e-2,
+        1e-1,
+        "Errors of a body, or of a joint coordinate, as a share of its own motion: below a hundredth its curves lie on each other, above "
+        "a tenth they are others.",
+    ),
+}
 # of states of equilibrium
 RESIDUAL = Threshold(
     1e-8,

@@ -14,6 +14,7 @@ from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import assembly_entries, build, preparation_entries, run_entries, statics_entries
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan, methods_of, plan_run
+from nivel.analysis.settings import waiting_time
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
@@ -165,6 +166,7 @@ class Machine:
         out: str | PathLike[str] | None = None,
         force: bool = False,
         verify: bool = False,
+        verify_limit: float | str | None = None,
         listener: Listener | None = None,
     ) -> Result:
         """Motion in time. Options given here override those of the machine's `simulation`.
@@ -174,9 +176,10 @@ class Machine:
         tolerance, where the integrator can do both. tolerance : of integrators that choose their steps.
         cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte, newmark,
         hht, generalised_alpha : mappings as in a machine file.
-        out : result file (NetCDF); in memory if None. force : replace an existing file. verify : estimate the accuracy with a second
-        run, at half the step or a tenth of the tolerance. A setting given here that has no effect with the methods of the run is
-        refused; set in the file, it is ignored.
+        out : result file (NetCDF); in memory if None. force : replace an existing file. verify : a second run
+        beside this one, with finer steps on other times, tells how exact every number is; `nivel run` does so by itself. verify_limit
+        [s] : the second run goes on for so long after the first at most, by default as long again as that took.
+        A setting given here that has no effect with the methods of the run is refused; set in the file, it is ignored.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
         given = {
@@ -201,6 +204,7 @@ class Machine:
             "generalised_alpha": generalised_alpha,
         }
         given = {key: value for key, value in given.items() if value is not None}
+        limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         entries = run_entries(plan)
@@ -222,6 +226,7 @@ class Machine:
                 out=out,
                 force=force,
                 verify=verify,
+                verify_limit=limit,
                 listener=listener,
                 compile_seconds=compile_seconds,
             )

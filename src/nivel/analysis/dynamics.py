@@ -17,6 +17,7 @@ from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
 from nivel.analysis.lockup import Jam, can_be_asked, find_jam
 from nivel.analysis.outcome import failure
+from nivel.analysis.pacing import Pacing
 from nivel.analysis.penalties import feedback
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.settings import RunSettings
@@ -59,7 +60,7 @@ from nivel.kernels.status import (
 )
 from nivel.native.entry import Entry
 from nivel.results.occurrence import Occurrence
-from nivel.system.system import System
+from nivel.system.system import Array, System
 
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
 CHUNK = 0.05
@@ -73,7 +74,7 @@ class RunOutcome:
     """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s]).
 
     events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
-    steps were made, so that the run itself is done.
+    steps were made, so that the run itself is done. pace : of `nivel.integrate.run.Run`.
     """
 
     outcome: str
@@ -82,6 +83,7 @@ class RunOutcome:
     asked_to_stop: bool = False
     timing: dict[str, float] = field(default_factory=dict)
     failure: tuple[str, str, float] | None = None
+    pace: Array | None = None
 
 
 class Loop(NamedTuple):
@@ -107,11 +109,12 @@ def march(
     *,
     progress: Progress | None = None,
     chunk_steps: int | None = None,
+    pacing: Pacing | None = None,
 ) -> RunOutcome:
     """Run `prepared` and give every frame to all `sinks` (already begun).
 
     progress : called with the time reached [s] after every chunk. chunk_steps : steps a chunk, instead of as many as fit into 50 ms;
-    the result does not depend on it.
+    the result does not depend on it. pacing : accompanies the run from chunk to chunk.
     """
     system, loop = prepared.motion.system, start_loop(prepared, settings)
     run = loop.history.record
@@ -119,7 +122,7 @@ def march(
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
     while status in GOES_ON and finished.outcome == "done":
-        status, spent = _march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps)
+        status, spent = _march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing)
         loop_seconds += spent
         if status in BEFORE_A_JAM:
             jam = _jam(prepared, settings, run)
@@ -133,6 +136,7 @@ def march(
         finished.failure = _failure(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
             _keep_last(prepared.motion, run, sinks)
+    finished.pace = run.pace
     finished.timing = {
         **_counts(system, run),
         "loop_seconds": loop_seconds,
@@ -169,20 +173,26 @@ def _march_in_chunks(
     finished: RunOutcome,
     progress: Progress | None,
     chunk_steps: int | None,
+    pacing: Pacing | None,
 ) -> tuple[int, float]:
     """The last status, and the time [s] spent in the compiled loop. Events, and an interruption, are noted in `finished`."""
     budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
     with interruptible() as interrupted:
         while status in GOES_ON:
+            if pacing is not None and not pacing.before(run):
+                finished.outcome = "interrupted"
+                break
             run.counter[BUDGET] = budget
-            begin = clock_of_python.process_time()
+            begin = clock_of_python.thread_time()
             status = advance()
-            spent = clock_of_python.process_time() - begin
+            spent = clock_of_python.thread_time() - begin
             loop_seconds += spent
             _give(run, sinks)
             finished.events += _taken_events(run, system.events)
             if progress is not None:
                 progress(float(run.clock[TIME]))
+            if pacing is not None:
+                pacing.after(run)
             if chunk_steps is None and status == BUDGET_SPENT:
                 budget = _next_budget(budget, spent)
             if status in GOES_ON and interrupted():

@@ -1,11 +1,11 @@
-"""Samples: states that change at given times or at events, between two steps."""
+"""Samples: states that change at given times or at events, between two steps; and the times at which steps end, theirs among them."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from nivel.integrate.crossing import read_values
-from nivel.integrate.run import BEFORE, BOUND, DONE_STEPS, END, EVALUATIONS, RESTART, TIME, run_at
+from nivel.integrate.run import BEFORE, BOUND, CORNER, DONE_STEPS, END, EVALUATIONS, RESTART, TIME, run_at
 from nivel.kernels.function import NEAR
 from nivel.kernels.hook import call_evaluate, call_hook
 from nivel.kernels.record import NONE, SAMPLE, record_at
@@ -15,13 +15,18 @@ from nivel.native.function import leaf
 
 @leaf
 def find_bound(machine, run):
-    """clock[BOUND] := the time of the next sample, or the end of the run where that is earlier: no step goes beyond it."""
+    """clock[BOUND] := the time of the next sample or corner, or the end of the run where that is earlier: no step goes beyond it."""
     period = record_at(machine).sampled.period
     run.clock[BOUND] = run.clock[END]
     for k in range(period.shape[0]):
         if period[k] > 0.0:
             # a product, not a running sum, so that times carry no round-off from sample to sample
             run.clock[BOUND] = min(run.clock[BOUND], run.samples[k] * period[k])
+    corners, t = run.corners, run.clock[TIME]
+    while run.counter[CORNER] < corners.shape[0] and corners[run.counter[CORNER]] <= t + NEAR * np.abs(t):
+        run.counter[CORNER] += 1
+    if run.counter[CORNER] < corners.shape[0]:
+        run.clock[BOUND] = min(run.clock[BOUND], corners[run.counter[CORNER]])
 
 
 @leaf

@@ -10,6 +10,7 @@ from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Methods, Plan
 from nivel.errors import NivelError
 from nivel.integrate.catalogue import BY_MODES, INTEGRATORS
+from nivel.kernels.control import apply as compute
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.hook import Family
@@ -148,7 +149,7 @@ def all_entries() -> list[Entry]:
         RESIDUAL.partition(":")[0],
         OUTPUT,
     ]
-    families = dict.fromkeys([*(each for kind in FORCES.values() for each in kind.families), *BEAMS, state_rate])
+    families = dict.fromkeys([*(each for kind in FORCES.values() for each in kind.families), *BEAMS, compute, state_rate])
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)]
     entries = [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
@@ -198,7 +199,8 @@ def _families(machine: MachineRecord) -> list[Family]:
     """The families of forces that a machine has."""
     families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
-    return [*families, *([state_rate] if machine.states else [])]
+    families |= dict.fromkeys([compute, state_rate] if machine.control else [state_rate] if machine.states else [])
+    return [*families]
 
 
 def _node_modules(methods: Methods) -> list[str]:
@@ -222,7 +224,7 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
         RAIL: any(JOINT_KINDS[joint.type].rail for joint in machine.joints),
         POINTS: any(beam.has_gradients for beam in machine.beams),
         SENSOR: bool(machine.sensors),
-        SAMPLING: any(state.update is not None for state in machine.states),
+        SAMPLING: any(state.update is not None for state in machine.states) or bool(machine.control),
         OF_BEAMS: ELASTIC in map(family_of, machine.beams),
     }
     return [module for module, asked in needed.items() if asked]

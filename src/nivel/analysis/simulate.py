@@ -116,7 +116,7 @@ def _small_states(result: Result, prepared: Prepared) -> tuple[SmallState, ...]:
         return ()
     out = []
     for fact in prepared.motion.system.states:
-        largest = peak(result, f"state.{fact.name}").value
+        largest = peak(result, fact.result).value
         if not fact.sampled and 0.0 < largest < SMALL * fact.scale:
             out.append(SmallState(fact.name, largest, fact.scale))
     return tuple(out)

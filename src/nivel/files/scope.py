@@ -25,7 +25,7 @@ from nivel.files.python_laws import read_python_laws
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine import MachineRecord, Record
-from nivel.machine.arithmetic import Parameters
+from nivel.machine.arithmetic import Parameters, Signal
 from nivel.machine.parameters import resolve
 from nivel.machine.quantity import FAULT
 from nivel.machine.references import SECTIONS
@@ -154,8 +154,9 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
         else:
             data.pop(section, None)
     data.setdefault("bodies", [])
+    signals = {name: Signal(f"{name}.value") for name in names["control"] if name not in parameters}
     try:
-        record = MachineRecord.model_validate(data, context={"parameters": parameters})
+        record = MachineRecord.model_validate(data, context={"parameters": {**parameters, **signals}})
     except ValidationError as error:
         for line in error.errors(include_url=False):
             path = _path_in_file(line["loc"], names)

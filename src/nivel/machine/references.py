@@ -21,6 +21,9 @@ __all__ = ["SECTIONS", "reference_faults"]
 Faults = Iterator[tuple[Place, str]]
 
 WITH_ROWS: Final = ("joints", "couplings", "drivers")  # their rows are called NAME.…, so they share their names
+# keys of blocks that may use symbols; conditions are looked at in `nivel.machine.control.problems`
+CONTROL_KEYS: Final = ("value", "input", "inputs", "reference", "measured", "feedforward", "then", "otherwise", "law")
+SHARING: Final = {"beams": "bodies and beams", "control": "states and blocks of the control"}
 _OUTPUTS: Final = {force.model_fields["type"].default: force.outputs for force in FORCES}
 _SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "extrusion", "mesh")
 
@@ -43,6 +46,8 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
         yield from _of_force(force, index, ("forces", at))
     for at, sensor in enumerate(elements(machine, "sensors")):
         yield from _of_sensor(sensor, index, ("sensors", at))
+    for at, block in enumerate(elements(machine, "control")):
+        yield from symbol_faults(block, ("control", at), index, parameters or {}, CONTROL_KEYS)
     for section in ("forces", "states", "sensors", "events"):
         for at, element in enumerate(elements(machine, section)):
             yield from symbol_faults(element, (section, at), index, parameters or {})
@@ -56,7 +61,7 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
 
 
 def _twice(machine: Any) -> Faults:
-    for sections in (("bodies", "beams"), ("markers",), WITH_ROWS, ("forces",), ("states",), ("sensors",), ("events",)):
+    for sections in (("bodies", "beams"), ("markers",), WITH_ROWS, ("forces",), ("states", "control"), ("sensors",), ("events",)):
         seen: dict[str, str] = {}
         for section in sections:
             for at, element in enumerate(elements(machine, section)):
@@ -68,7 +73,7 @@ def _twice(machine: Any) -> Faults:
                     continue
                 message = f"the name `{name}` stands twice in {section}"
                 if seen[name] != section:
-                    sharing = "bodies and beams" if section == "beams" else "joints, couplings and drivers"
+                    sharing = SHARING.get(section, "joints, couplings and drivers")
                     message = f"the name `{name}` stands in {seen[name]}; {sharing} share their names"
                 yield (section, at, "name"), message
 

@@ -1,12 +1,12 @@
 """What expressions can use of the machine itself: `hinge.angle_rate`, `tip.vx`.
 
 A symbol is the name of an element, a dot and a quantity. Where several elements have one name, the first that has
-the quantity is meant: of joints, states, forces, sensors, markers and bodies, in this order.
+the quantity is meant: of joints, states, blocks of the control, forces, sensors, markers and bodies, in this order.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any, Final, Literal
@@ -19,6 +19,7 @@ from nivel.machine.arithmetic import (
     bind,
     signals,
 )
+from nivel.machine.control import BLOCK_TYPES
 from nivel.machine.grammar import parse
 from nivel.machine.index import Index, Place
 from nivel.machine.joint import JOINT_COORDINATES
@@ -26,7 +27,7 @@ from nivel.machine.record import entry
 from nivel.machine.table import SIGNAL_PATH
 from nivel.machine.time_function import Expression, PythonLaw, Table
 
-Section = Literal["joints", "states", "forces", "sensors", "markers", "bodies"]
+Section = Literal["joints", "states", "control", "forces", "sensors", "markers", "bodies"]
 
 POINT_QUANTITIES: Final = ("x", "y", "z", "vx", "vy", "vz")
 STATE_QUANTITY: Final = "value"
@@ -94,7 +95,7 @@ def find_in(path: str, index: Index) -> Symbol:
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""
     empty = any(name in elements for elements in _quantities(index).values())
-    what = f"`{name}` has no symbols" if empty else f"there is no joint, state, sensor, marker or body `{name}`"
+    what = f"`{name}` has no symbols" if empty else f"there is no joint, state, block, sensor, marker or body `{name}`"
     raise UnknownSymbolError(f"{what}{hint}")
 
 
@@ -103,6 +104,7 @@ def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
     return {
         "joints": {name: _of_joint(type_) for name, type_ in index.joints.items()},
         "states": dict.fromkeys(index.states, (STATE_QUANTITY,)),
+        "control": {name: quantities_of(block) for name, block in index.control.items()},
         "forces": {name: states_of(force) for name, force in index.forces.items()},
         "sensors": {name: _of_sensor(sensor) for name, sensor in index.sensors.items()},
         "markers": {name: _of_frame(body, index) for name, body in index.markers.items()},
@@ -124,13 +126,21 @@ def states_of(force: Any) -> tuple[str, ...]:
     return ("bristle",) if entry(force, "model") == "lugre" else ()
 
 
+def quantities_of(block: Any) -> tuple[str, ...]:
+    """The symbols of a block of a control: its value, and what else its kind has."""
+    kind = BLOCK_TYPES.get(str(entry(block, "type")))
+    return (STATE_QUANTITY,) if kind is None else kind.symbols(block)
+
+
 def _of_frame(body: str, index: Index) -> tuple[str, ...]:
     return POINT_QUANTITIES if body in index.point_masses else (*POINT_QUANTITIES, *TURN_QUANTITIES)
 
 
-def symbol_faults(element: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
-    """Symbols that a force, state, sensor or event uses in vain."""
-    for key in VARYING_KEYS:
+def symbol_faults(
+    element: Any, place: Place, index: Index, parameters: Parameters, keys: Sequence[str] = VARYING_KEYS
+) -> Iterator[tuple[Place, str]]:
+    """Symbols that a force, state, block, sensor or event uses in vain, under the `keys` that may use any."""
+    for key in keys:
         value = entry(element, key)
         for where, path in _used(value, (*place, key), index, parameters):
             try:
@@ -176,6 +186,6 @@ def _has_hyphen(path: str, index: Index) -> bool:
     ending = f"-{path.partition('.')[0]}"
     return any(
         name.endswith(ending)
-        for its in (index.joints, index.states, index.sensors, index.markers, index.bodies)
+        for its in (index.joints, index.states, index.control, index.sensors, index.markers, index.bodies)
         for name in its
     )

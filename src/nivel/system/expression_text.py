@@ -7,8 +7,11 @@ from collections.abc import Mapping
 from nivel.machine.arithmetic import Call, Name, Negative, Node, Number, Operation, Signal, Time
 from nivel.machine.expression import Expression
 
+# of `nivel.kernels.smooth_step`, on real and on complex numbers
 # functions of expressions in compiled code, where they are called otherwise than there with `np.` before; then on complex numbers
+STEPS = ("step", "step_rate", "step_acceleration")
 SPELLING = {
+    **{name: name for name in STEPS},
     "asin": "np.arcsin",
     "acos": "np.arccos",
     "atan": "np.arctan",

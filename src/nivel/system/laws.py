@@ -18,16 +18,17 @@ from nivel.system.expression_text import ANALYTIC, SPELLING, motion_lines, sourc
 
 EXPRESSION = """
 import numpy as np
-
+{imports}
 
 def nivel_law(x):
 {body}
 """
+STEP_IMPORT = "from nivel.kernels.smooth_step import step, step_acceleration, step_rate\n"
 # The same on complex numbers, for exact derivatives.
 COMPLEX_EXPRESSION = """
 import numpy as np
 from nivel.kernels.analytic import absolute, arctan2, maximum, minimum, power, tanh
-
+{imports}
 
 def nivel_law(x):
 {body}
@@ -57,9 +58,14 @@ SHARE = 1e-4
 def expression_address(expression: Expression, signals: Sequence[str]) -> int:
     """Address of the code of an expression of `signals`, of which the first is the time."""
     places = {path: place for place, path in enumerate(signals)}
-    address = _real_address(EXPRESSION.format(body=f"    return {source(expression.tree, places)}"))
-    _twins[address] = (COMPLEX_EXPRESSION.format(body=f"    return {source(expression.tree, places, ANALYTIC)}"),)
+    address = _real_address(_text(EXPRESSION, f"    return {source(expression.tree, places)}"))
+    _twins[address] = (_text(COMPLEX_EXPRESSION, f"    return {source(expression.tree, places, ANALYTIC)}"),)
     return address
+
+
+def _text(template: str, body: str) -> str:
+    """A module with this body of `nivel_law`."""
+    return template.format(body=body, imports=STEP_IMPORT if "step" in body else "")
 
 
 def complex_address(address: int) -> int:
@@ -76,8 +82,8 @@ def complex_address(address: int) -> int:
 
 def motion_address(expression: Expression) -> int:
     """Address of the code of an expression of time alone, which leaves its two derivatives behind its argument."""
-    address = _real_address(EXPRESSION.format(body=motion_lines(expression, SPELLING)))
-    _twins[address] = (COMPLEX_EXPRESSION.format(body=motion_lines(expression, ANALYTIC)),)
+    address = _real_address(_text(EXPRESSION, motion_lines(expression, SPELLING)))
+    _twins[address] = (_text(COMPLEX_EXPRESSION, motion_lines(expression, ANALYTIC)),)
     return address
 
 

@@ -149,7 +149,9 @@ def all_entries() -> list[Entry]:
         RESIDUAL.partition(":")[0],
         OUTPUT,
     ]
-    families = dict.fromkeys([*(each for kind in FORCES.values() for each in kind.families), *BEAMS, compute, state_rate])
+    families = dict.fromkeys(
+        [*(each for kind in FORCES.values() for each in kind.families), *BEAMS, compute, state_rate]
+    )
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)]
     entries = [*_entries(module for module in modules if module), *(family.code for family in families), *twins]

@@ -13,6 +13,7 @@ from nivel.analysis.held_friction import resting_frictions
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
+from nivel.analysis.saturation import saturated_blocks
 from nivel.analysis.settings import RunSettings
 from nivel.errors import SolveError
 from nivel.integrate.catalogue import INTEGRATORS
@@ -93,6 +94,7 @@ def _close(
         stopped_by=finished.stopped_by,
         neglected=cost(sink.result(), _neglected(machine)),
         small_states=_small_states(sink.result(), prepared),
+        saturated=saturated_blocks(machine, sink.result()),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
     attributes: dict[str, str | float | int] = {

@@ -16,6 +16,7 @@ from pydantic import ValidationError
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, given_parameters, made_by, read_assembly
 from nivel.files.body_files import place_body_files
+from nivel.files.csv_tables import read_csv_tables
 from nivel.files.include import include
 from nivel.files.mass_file import read_mass_properties
 from nivel.files.mesh_file import read_meshes
@@ -61,6 +62,7 @@ def read_scope(
         given_parameters(tree, *user)
     read_meshes(tree, sources)
     read_python_laws(tree, sources)
+    read_csv_tables(tree, sources)
     parameters, faults = resolve(section_of(tree, "parameters"))
     tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]
     return _record(tree, parameters, _expanded(tree, parameters, sources))

@@ -213,7 +213,9 @@ class Sampled(NamedTuple):
 
     state: U1  # (samples,) number of the state, or NONE: a signal
     output: U1  # (samples,) place of a signal in `outputs.value`, or NONE: a state
-    at_once: U1  # (samples,) whether those behind it read its new value; others change together, all from the values before
+    at_once: (
+        U1  # (samples,) whether those behind it read its new value; others change together, all from the values before
+    )
     function: U1  # (samples,) its next value
     event: U1  # (samples,) event that takes a sample, or NONE
     period: F1  # (samples,) [s] between samples; zero: at the event only, or a signal, which is computed at all of them

@@ -86,7 +86,6 @@ Node = Number | Time | Signal | Name | Negative | Operation | Call
 Parameters = Mapping[str, Number | Signal | None]
 
 
-
 def _step(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
     """y0 up to x0, y1 from x1 on, and between them a way that is smooth to the second derivative."""
     s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)

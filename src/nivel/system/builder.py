@@ -163,7 +163,9 @@ class SystemBuilder:
         self._note(*self.coordinates.markers(index))
         return self.coordinates.use(index)
 
-    def function(self, value: TimeFunction | LinearFunction, local: dict[str, Signal] | None = None, *, motion: bool = False) -> int:
+    def function(
+        self, value: TimeFunction | LinearFunction, local: dict[str, Signal] | None = None, *, motion: bool = False
+    ) -> int:
         """Index of a new function; `local` are the symbols that only this one knows."""
 
         def find(path: str) -> Signal:

@@ -23,7 +23,9 @@ class SampleTable:
 
     rows: list[tuple[int, int, int, int, int, float, float]] = field(default_factory=list)
 
-    def add(self, state: int, function: int, *, period: float, offset: float = 0.0, event: int = NONE, at_once: bool = False) -> None:
+    def add(
+        self, state: int, function: int, *, period: float, offset: float = 0.0, event: int = NONE, at_once: bool = False
+    ) -> None:
         """A sample of a state: after a period [s], at an event, or both."""
         self.rows.append((state, NONE, int(at_once), function, event, period, offset))
 
@@ -62,7 +64,9 @@ def add_control(draft: SystemBuilder) -> None:
 def add_samples(draft: SystemBuilder, table: SampleTable) -> None:
     """What is sampled: first what is computed at an instant, in order, then memories, all from the values before."""
     parts = parts_of(draft.machine.control)
-    if not any(each.part.role != "signal" and (each.block.is_sampled or each.part.begins is not None) for each in parts):
+    if not any(
+        each.part.role != "signal" and (each.block.is_sampled or each.part.begins is not None) for each in parts
+    ):
         return
     order, _ = in_order(parts)
     for each in order:
@@ -73,11 +77,19 @@ def add_samples(draft: SystemBuilder, table: SampleTable) -> None:
             elif each.part.begins is not None:
                 table.add(index, draft.function(each.present), period=ONCE, offset=each.block.offset, at_once=True)
             else:
-                table.add(index, draft.functions_of[each.path], period=each.block.period, offset=each.block.offset, at_once=True)
+                table.add(
+                    index,
+                    draft.functions_of[each.path],
+                    period=each.block.period,
+                    offset=each.block.offset,
+                    at_once=True,
+                )
     for each in parts:
         if each.part.role == "memory":
             offset = each.block.offset + each.part.offset
-            table.add(draft.control[each.path][1], draft.functions_of[each.path], period=each.block.period, offset=offset)
+            table.add(
+                draft.control[each.path][1], draft.functions_of[each.path], period=each.block.period, offset=offset
+            )
 
 
 def _noted(draft: SystemBuilder, each: PartOf) -> int:

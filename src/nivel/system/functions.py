@@ -37,7 +37,9 @@ class FunctionTable:
     argument: list[tuple[int, int, int, int]] = field(default_factory=list)
     arguments: list[float] = field(default_factory=list)
 
-    def add(self, function: TimeFunction | LinearFunction, find: Find, *, motion: bool = False, end: float = math.inf) -> int:
+    def add(
+        self, function: TimeFunction | LinearFunction, find: Find, *, motion: bool = False, end: float = math.inf
+    ) -> int:
         """Index of a new function; `find` gives the signal of a path. motion : its derivatives are needed, up to the `end` of the run [s].
 
         Raises ModelError where a law cannot be compiled.

@@ -67,4 +67,33 @@ if TYPE_CHECKING:
 else:
     ControlBlock = _AnyBlock
 
-__all__ = ["BLOCKS", "BLOCK_TYPES", "Block", "ControlBlock", *(kind.__name__ for kind in BLOCKS)]  # pyright: ignore[reportUnsupportedDunderAll]
+__all__ = [
+    "BLOCKS",
+    "BLOCK_TYPES",
+    "Block",
+    "ControlBlock",
+    "DeadZone",
+    "Delay",
+    "Derivative",
+    "Gain",
+    "HighPass",
+    "Hysteresis",
+    "Integrator",
+    "LeadLag",
+    "Limit",
+    "Lookup",
+    "LowPass",
+    "MovingAverage",
+    "Notch",
+    "Pid",
+    "RateLimit",
+    "SignalBlock",
+    "StateMachine",
+    "StateSpace",
+    "Sum",
+    "Switch",
+    "TransferFunction",
+    "Trapezoid",
+    "UserBlock",
+    "Waypoints",
+]

@@ -151,10 +151,11 @@ def refuse_order(limits: tuple[float, float], key: str = "limits") -> Iterator[P
     """Limits of which the first is not the lower one."""
     lower, upper = limits
     if not lower < upper:
-        yield Problem((key,), f"the lower limit comes first and is less than the upper one; got {lower:g} and {upper:g}")
+        yield Problem(
+            (key,), f"the lower limit comes first and is less than the upper one; got {lower:g} and {upper:g}"
+        )
 
 
 def both(limits: tuple[float, float] | None) -> tuple[float, float]:
     """The limits, or infinite ones."""
     return (-math.inf, math.inf) if limits is None else limits
-

@@ -117,6 +117,6 @@ class Block(Checked):
                 if getattr(self, key):
                     yield superfluous(key, "belongs to a sampled block, one with `sample_time`")
         elif self.latency > MOST_DELAYED * self.sample_time:
-            message = f"the latency is {self.latency / self.sample_time:.4g} samples; up to {MOST_DELAYED} are taken: take a longer `sample_time`"
+            count = self.latency / self.sample_time
+            message = f"the latency is {count:.4g} samples; up to {MOST_DELAYED} are taken: take a longer `sample_time`"
             yield Problem(("latency",), message)
-

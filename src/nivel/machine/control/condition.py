@@ -32,4 +32,6 @@ def _difference(value: Any) -> Any:
 
 
 # positive where the condition holds
-Condition = Annotated[Measured, BeforeValidator(_difference), WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "number"}]})]
+Condition = Annotated[
+    Measured, BeforeValidator(_difference), WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "number"}]})
+]

@@ -26,7 +26,9 @@ Matrix = Annotated[tuple[Numbers, ...], BeforeValidator(listed)]
 MOST_STATES = 40
 
 
-def linear_parts(block: Block, system: LinearSystem, inputs: Sequence[str], outputs: Sequence[str], start: Any) -> tuple[Part, ...]:
+def linear_parts(
+    block: Block, system: LinearSystem, inputs: Sequence[str], outputs: Sequence[str], start: Any
+) -> tuple[Part, ...]:
     """States `x1`, … and outputs of a linear system with these inputs (paths); start (n,). Sampled, it holds its inputs between samples."""
     after = sampled(system, block.period) if block.is_sampled else system
     states = [f"x{k + 1}" for k in range(len(system.A))]
@@ -59,7 +61,9 @@ class OfOneVariable(OfInput):
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
         if self.start and steady_state(of_transfer_function(*self.coefficients()), self.start) is None:
-            yield Problem(("start",), f"there is no steady state with the value {self.start:g}: its value at rest is zero")
+            yield Problem(
+                ("start",), f"there is no steady state with the value {self.start:g}: its value at rest is zero"
+            )
 
 
 class TransferFunction(OfOneVariable):
@@ -97,7 +101,9 @@ class LowPass(OfOneVariable):
     type: Literal["low-pass"] = "low-pass"
     time_constant: Duration | None = Field(default=None, description="τ, of the first order")
     frequency: Frequency | None = Field(default=None, description="corner frequency")
-    damping: Damping | None = Field(default=None, description="damping ratio ζ; it makes the filter one of second order")
+    damping: Damping | None = Field(
+        default=None, description="damping ratio ζ; it makes the filter one of second order"
+    )
 
     def coefficients(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         omega = corner(self.time_constant, self.frequency)
@@ -162,11 +168,15 @@ class StateSpace(Block):
     """ẋ = A x + B u, y = C x + D u of several inputs u; `NAME.value` is the first of y, `NAME.y2` the second, …"""
 
     type: Literal["state-space"] = "state-space"
-    inputs: Annotated[tuple[Measured, ...], BeforeValidator(listed)] = Field(description="expressions of `time` and symbols")
+    inputs: Annotated[tuple[Measured, ...], BeforeValidator(listed)] = Field(
+        description="expressions of `time` and symbols"
+    )
     A: Matrix = Field(description="rows; one state each")
     B: Matrix = Field(description="rows; one for each state, with a column for each input")
     C: Matrix = Field(description="rows; one for each output, with a column for each state")
-    D: Matrix | None = Field(default=None, description="rows; one for each output, with a column for each input; default zero")
+    D: Matrix | None = Field(
+        default=None, description="rows; one for each output, with a column for each input; default zero"
+    )
     start: Numbers | None = Field(default=None, description="states at the start; default zero")
 
     @classmethod
@@ -179,7 +189,9 @@ class StateSpace(Block):
         shape = len(self.C), len(self.inputs)
         D = np.zeros(shape) if self.D is None else np.array(self.D).reshape(shape)
         A, n = np.array(self.A), len(self.A)
-        return LinearSystem(A.reshape(n, n), np.array(self.B).reshape(n, shape[1]), np.array(self.C).reshape(shape[0], n), D)
+        return LinearSystem(
+            A.reshape(n, n), np.array(self.B).reshape(n, shape[1]), np.array(self.C).reshape(shape[0], n), D
+        )
 
     def computation(self) -> tuple[Part, ...]:
         names = [f"input_{k + 1}" for k in range(len(self.inputs))]
@@ -202,7 +214,10 @@ class StateSpace(Block):
                 continue
             sizes = [len(row) for row in matrix]
             if len(sizes) != rows or any(size != columns for size in sizes):
-                yield Problem((key,), f"a matrix of {rows} rows and {columns} columns was expected, got {_shape(sizes)}")
+                yield Problem(
+                    (key,),
+                    f"a matrix of {rows} rows and {columns} columns was expected, got {len(sizes)} rows of {_sizes(sizes)}",
+                )
         if self.start is not None and len(self.start) != n:
             yield Problem(("start",), f"{n} values were expected, one for each state, got {len(self.start)}")
 
@@ -227,7 +242,8 @@ class Integrator(OfInput):
             if self.is_sampled:
                 parts.append(self.present("next", step, start=self.start))
             parts.append(self.remembered("integral", rate, after, self.start))
-        return *parts, self.present(self.output, linear((1.0, own)), start=self.start)
+        value = linear((1.0, own)) if self.limits is None else law(limited, own, *limits)
+        return *parts, self.present(self.output, value, start=self.start)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -248,3 +264,6 @@ def one_of_corner(time_constant: float | None, frequency: float | None) -> Itera
         got = "got both" if frequency is not None else "got neither"
         yield Problem((), f"a filter needs `time_constant` or `frequency`; {got}")
 
+
+def _sizes(sizes: Sequence[int]) -> str:
+    return " and ".join(str(size) for size in dict.fromkeys(sizes)) or "0"

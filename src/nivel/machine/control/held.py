@@ -55,7 +55,9 @@ class MovingAverage(OfInput):
     def computation(self) -> tuple[Part, ...]:
         names = [f"waiting_{k + 1}" for k in range(self.samples - 1)]
         paths = [self.input_path, *map(self.path, names)]
-        waiting = [Part(name, "memory", linear((1.0, before)), self.start) for before, name in zip(paths, names, strict=False)]
+        waiting = [
+            Part(name, "memory", linear((1.0, before)), self.start) for before, name in zip(paths, names, strict=False)
+        ]
         mean = linear(*((1.0 / self.samples, path) for path in paths))
         return self.taken, *waiting, self.present(self.output, mean, start=self.start)
 
@@ -81,7 +83,11 @@ class RateLimit(OfInput):
         own = self.path(self.output)
         if self.is_sampled:
             change = law(followed, self.path("before"), self.input_path, fall * self.period, rise * self.period)
-            return self.taken, *self._began(Part("before", "memory", linear((1.0, own)))), self.present(self.output, change)
+            return (
+                self.taken,
+                *self._began(Part("before", "memory", linear((1.0, own)))),
+                self.present(self.output, change),
+            )
         rate = law(approach, own, self.input_path, self.time_constant or 1.0, fall, rise)
         return self.taken, *self._began(Part(self.output, "state", rate))
 
@@ -97,7 +103,9 @@ class RateLimit(OfInput):
         if self.rates is not None and not self.rates[0] < 0.0 < self.rates[1]:
             yield Problem(("rates",), "the fastest fall is negative and comes first, the fastest rise is positive")
         if self.sample_time is None and self.time_constant is None:
-            yield Problem((), "`sample_time` is missing, or for a continuous one the `time_constant` with which it follows")
+            yield Problem(
+                (), "`sample_time` is missing, or for a continuous one the `time_constant` with which it follows"
+            )
 
 
 class Hysteresis(OfInput):

@@ -32,22 +32,12 @@ def chosen(condition: float, yes: float, no: float) -> float:
 
 def followed(before: float, target: float, fall: float, rise: float) -> float:
     """The value after `before` on the way to `target`: it changes by `fall` (negative) to `rise`."""
-    change = target - before
-    if change > rise:
-        change = rise
-    if change < fall:
-        change = fall
-    return before + change
+    return before + limited(target - before, fall, rise)
 
 
 def approach(value: float, target: float, time_constant: float, fall: float, rise: float) -> float:
     """Rate of a value that follows `target` with a time constant, between `fall` (negative) and `rise`."""
-    rate = (target - value) / time_constant
-    if rate > rise:
-        rate = rise
-    if rate < fall:
-        rate = fall
-    return rate
+    return limited((target - value) / time_constant, fall, rise)
 
 
 def bounded_rate(rate: float, value: float, lower: float, upper: float) -> float:

@@ -46,16 +46,16 @@ def sampled(system: LinearSystem, period: float) -> LinearSystem:
     n, m = system.B.shape
     block = np.zeros((n + m, n + m))
     block[:n, :n], block[:n, n:] = system.A * period, system.B * period
-    exact = expm(block)
+    exact = np.asarray(expm(block), dtype=np.float64)
     return LinearSystem(exact[:n, :n], exact[:n, n:], system.C, system.D)
 
 
 def steady_state(system: LinearSystem, value: float) -> Array | None:
     """(n,) the smallest steady state, with some constant input, in which the first output has this value; None where there is none."""
-    n, m = system.B.shape
+    n = len(system.A)
     matrix = np.block([[system.A, system.B], [system.C[:1], system.D[:1]]])
     right = np.append(np.zeros(n), value)
-    solution = np.linalg.lstsq(matrix, right, rcond=None)[0]
+    solution = np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=np.float64)
     if not np.allclose(matrix @ solution, right, rtol=1e-9, atol=1e-9 * abs(value)):
         return None
     return solution[:n]

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.control.algebra import both, refuse_order
-from nivel.machine.control.block import Block, Number, NotNegativeTime, Pair
+from nivel.machine.control.block import Block, NotNegativeTime, Number, Pair
 from nivel.machine.control.laws import limited
 from nivel.machine.control.part import Part, law
 from nivel.machine.linear_function import linear
@@ -29,7 +29,9 @@ class Pid(Block):
 
     type: Literal["pid"] = "pid"
     input: Measured | None = Field(default=None, description="the error, set-point less measured value")
-    reference: Measured | None = Field(default=None, description="the set-point r, in place of `input`; with `measured`")
+    reference: Measured | None = Field(
+        default=None, description="the set-point r, in place of `input`; with `measured`"
+    )
     measured: Measured | None = Field(default=None, description="the measured value y, in place of `input`")
     kp: Number = Field(default=0.0, description="proportional gain")
     ki: Number = Field(default=0.0, description="integral gain, per second")
@@ -126,7 +128,9 @@ class Pid(Block):
         if self.kd and not self.kp and self.filter_time is None:
             yield Problem((), "`filter_time` is missing: time constant of the derivative's filter")
         if self.kd and not self.is_sampled and self.filter_time == 0.0:
-            yield Problem(("filter_time",), "a continuous derivative needs a filter; a time greater than zero was expected")
+            yield Problem(
+                ("filter_time",), "a continuous derivative needs a filter; a time greater than zero was expected"
+            )
         if self.limits is not None:
             yield from refuse_order(self.limits)
             if self.ki and not self.kp and self.tracking_time is None:

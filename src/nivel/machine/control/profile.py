@@ -44,17 +44,17 @@ class Waypoints(Block):
     quantities = ("value", "rate")
 
     type: Literal["waypoints"] = "waypoints"
-    times: Times = Field(description="arrival at the first value, departure, arrival at the second, departure, …; or one time for each value")
+    times: Times = Field(
+        description="arrival at the first value, departure, arrival at the second, departure, …; or one time for each value"
+    )
     values: Numbers
 
     @property
     def moves(self) -> list[tuple[float, float, float]]:
         """(begin, end, change) of each move."""
         changes = [after - before for before, after in pairwise(self.values)]
-        if len(self.times) == len(self.values):
-            spans = [*pairwise(self.times)]
-        else:
-            spans = [*zip(self.times[::2], self.times[1::2], strict=True)]
+        each = len(self.times) == len(self.values)
+        spans = pairwise(self.times) if each else zip(self.times[::2], self.times[1::2], strict=True)
         return [(*span, change) for span, change in zip(spans, changes, strict=True) if change]
 
     def computation(self) -> tuple[Part, ...]:

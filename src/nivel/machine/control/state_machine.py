@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
@@ -11,7 +11,7 @@ from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import entered
-from nivel.machine.control.part import VALUE, Part, PartFunction, law
+from nivel.machine.control.part import Part, PartFunction, law
 from nivel.machine.linear_function import linear
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.record import Name, Record, entry, unknown_word
@@ -95,8 +95,15 @@ class StateMachine(Block):
         return (
             *guards,
             Part("state", "sample", step, began, holds=True),
-            *self._values(self.output, [state.value if state.value is not None else float(k) for k, state in enumerate(self.states)]),
-            *(part for name in _output_names(state.outputs for state in self.states) for part in self._named_values(name)),
+            *self._values(
+                self.output,
+                [state.value if state.value is not None else float(k) for k, state in enumerate(self.states)],
+            ),
+            *(
+                part
+                for name in _output_names(state.outputs for state in self.states)
+                for part in self._named_values(name)
+            ),
             Part("before", "memory", linear((1.0, own)), began, holds=True),
             Part("entered", "memory", since, holds=True),
             Part("time", "signal", linear((1.0, "time"), (-1.0, self.path("entered")))),
@@ -106,7 +113,7 @@ class StateMachine(Block):
         given = [{each.name: each.value for each in state.outputs}.get(name, 0.0) for state in self.states]
         return self._values(name, given)
 
-    def _values(self, name: str, given: list[PartFunction]) -> Iterator[Part]:
+    def _values(self, name: str, given: Sequence[PartFunction]) -> Iterator[Part]:
         """What the states give, and of it that of the present state."""
         arguments: list[str | float] = []
         for k, value in enumerate(given):
@@ -132,10 +139,16 @@ class StateMachine(Block):
         for state in self.states:
             for transition in state.next:
                 if transition.to not in names:
-                    yield Problem(("states",), f"`{state.name}` leads to a state that is not there: {unknown_word(transition.to, names, 'state')}")
+                    yield Problem(
+                        ("states",),
+                        f"`{state.name}` leads to a state that is not there: {unknown_word(transition.to, names, 'state')}",
+                    )
             for each in state.outputs:
                 if each.name in self.quantities or each.name.startswith(("guard_", "before", "entered")):
-                    yield Problem(("states",), f"the output `{each.name}` of `{state.name}` has a meaning already; choose another name")
+                    yield Problem(
+                        ("states",),
+                        f"the output `{each.name}` of `{state.name}` has a meaning already; choose another name",
+                    )
         if self.sample_time is None:
             yield Problem((), "`sample_time` is missing: guards are looked at at samples")
 

@@ -94,7 +94,10 @@ def _fill(table: dict[str, Any], text: str, file: str) -> None:
     }
     for k in range(1, len(points.numbers)):
         if not points.numbers[k] > points.numbers[k - 1]:
-            raise CsvError(f"`{first}` increases; {points.numbers[k]:g} does not come after {points.numbers[k - 1]:g}", line=points.lines[k])
+            raise CsvError(
+                f"`{first}` increases; {points.numbers[k]:g} does not come after {points.numbers[k - 1]:g}",
+                line=points.lines[k],
+            )
     table.clear()
     table.update(new)
     if of != TIME:
@@ -108,7 +111,11 @@ def _columns(text: str) -> dict[str, Column]:
     lines = text.splitlines()
     heading = next((line for line in lines if line.strip()), "")
     delimiter = max(",;\t", key=heading.count)
-    rows = [(number, row) for number, row in enumerate(csv.reader(io.StringIO(text), delimiter=delimiter), 1) if any(each.strip() for each in row)]
+    rows = [
+        (number, row)
+        for number, row in enumerate(csv.reader(io.StringIO(text), delimiter=delimiter), 1)
+        if any(each.strip() for each in row)
+    ]
     if len(rows) < 2 or len(rows[0][1]) < 2:
         raise CsvError("a heading with two columns or more, separated by commas, and rows of numbers were expected")
     if len(rows) > MOST_ROWS:
@@ -119,7 +126,10 @@ def _columns(text: str) -> dict[str, Column]:
         assert found is not None  # it fits every text
         name, units = found["name"], found["units"] or ""
         if not name or _number(name, delimiter) is not None:
-            raise CsvError(f"the first row names the columns, such as `time [s]{delimiter} angle [deg]`; got {shown(heading)}", line=rows[0][0])
+            raise CsvError(
+                f"the first row names the columns, such as `time [s]{delimiter} angle [deg]`; got {shown(heading)}",
+                line=rows[0][0],
+            )
         if name in columns:
             raise CsvError(f"the column `{name}` stands twice", line=rows[0][0])
         columns[name] = Column([], [], units)

@@ -8,13 +8,13 @@ from typing import Any, Final
 from nivel.machine.arithmetic import Parameters
 from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.coordinate_uses import coordinate_faults
-from nivel.machine.forces import FORCES, Contact
+from nivel.machine.forces import Contact
 from nivel.machine.forces.contact import SHAPES_ON_PLANE
 from nivel.machine.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.point_masses import point_mass_faults
 from nivel.machine.record import GROUND, Record, entry, unknown_word
-from nivel.machine.symbols import symbol_faults
+from nivel.machine.symbols import outputs_of, states_of, symbol_faults
 
 __all__ = ["SECTIONS", "reference_faults"]
 
@@ -24,7 +24,6 @@ WITH_ROWS: Final = ("joints", "couplings", "drivers")  # their rows are called N
 # keys of blocks that may use symbols; conditions are looked at in `nivel.machine.control.problems`
 CONTROL_KEYS: Final = ("value", "input", "inputs", "reference", "measured", "feedforward", "then", "otherwise", "law")
 SHARING: Final = {"beams": "bodies and beams", "control": "states and blocks of the control"}
-_OUTPUTS: Final = {force.model_fields["type"].default: force.outputs for force in FORCES}
 _SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "extrusion", "mesh")
 
 
@@ -146,17 +145,12 @@ def _of_sensor(sensor: Any, index: Index, place: Place) -> Faults:
             yield from _of_end(end, index, (*place, form, at))
     force, quantity = entry(sensor, "force"), entry(sensor, "quantity")
     yield from _unknown(force, index.forces, "force", (*place, "force"))
-    outputs = _outputs(index.forces.get(force)) if isinstance(force, str) else ()
+    known = index.forces.get(force) if isinstance(force, str) else None
+    outputs = (*outputs_of(known), *states_of(known)) if known is not None else ()
     if outputs and isinstance(quantity, str) and quantity not in outputs:
         type_ = entry(index.forces[str(force)], "type")
         message = f"of the {type_} `{force}`, {unknown_word(quantity, outputs, 'quantity')}"
         yield (*place, "quantity"), message
-
-
-def _outputs(force: Any) -> tuple[str, ...]:
-    """What a sensor can read of a force."""
-    its = _OUTPUTS.get(str(entry(force, "type")), ())
-    return its if entry(force, "model") in (None, "lugre") else tuple(name for name in its if name != "bristle")
 
 
 def _of_joint(joint: Any, index: Index, place: Place) -> Faults:

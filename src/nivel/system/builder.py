@@ -9,13 +9,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from nivel.kernels.coordinate import DISTANCE, ROTATION
-from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, POSITION, RATE, STATE, VELOCITY
+from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
 from nivel.machine.coordinate_reference import Kind, resolve
 from nivel.machine.forces import End, GlobalPoint
+from nivel.machine.index import Index
 from nivel.machine.linear_function import LinearFunction
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
-from nivel.machine.symbols import find_symbol
+from nivel.machine.symbols import find_symbol, is_output
 from nivel.machine.time_function import TimeFunction
 from nivel.system.functions import FunctionTable, Signal
 from nivel.system.interfaces import marker_place
@@ -192,6 +193,8 @@ class SystemBuilder:
             name = symbol.quantity.removesuffix("_rate")
             index = self._measured(f"{symbol.name}.{name}")
             return (COORDINATE if name == symbol.quantity else RATE, index, 0)
+        if symbol.section == "forces" and is_output(symbol, Index.of(self.machine)):
+            return (OUTPUT, self.outputs.index(f"force.{path}"), 0)
         if symbol.section in ("states", "forces"):
             return (STATE, self.state(symbol.name if symbol.section == "states" else path), 0)
         if symbol.section == "sensors":

@@ -10,6 +10,8 @@ from nivel.kernels.function import OUTPUT, STATE
 from nivel.kernels.record import NONE
 from nivel.machine.control.order import PartOf, in_order, parts_of
 from nivel.machine.control.part import VALUE
+from nivel.machine.index import Index
+from nivel.machine.symbols import find_in, is_output
 from nivel.system.builder import SystemBuilder
 from nivel.system.located import located
 from nivel.system.state_facts import StateFact
@@ -55,10 +57,8 @@ def add_control(draft: SystemBuilder) -> None:
     for each in parts:
         if each.part.role == "state":
             draft.elements.add(state_rate, [draft.control[each.path][1], _noted(draft, each), 0])
-        elif each.part.role in ("sample", "memory") and not each.part.holds:
+        elif each.part.role in ("sample", "memory") and not each.part.holds and not _reads_forces(draft, each):
             draft.elements.add(state_rate, [draft.control[each.path][1], _noted(draft, each), 1])
-        elif each.part.holds:
-            _noted(draft, each)
 
 
 def add_samples(draft: SystemBuilder, table: SampleTable) -> None:
@@ -73,13 +73,13 @@ def add_samples(draft: SystemBuilder, table: SampleTable) -> None:
         index, place = draft.control[each.path][1], _place(each)
         with located(place):
             if each.part.role == "signal":
-                table.add_signal(index, draft.functions_of[each.path])
+                table.add_signal(index, _function(draft, each))
             elif each.part.begins is not None:
                 table.add(index, draft.function(each.present), period=ONCE, offset=each.block.offset, at_once=True)
             else:
                 table.add(
                     index,
-                    draft.functions_of[each.path],
+                    _function(draft, each),
                     period=each.block.period,
                     offset=each.block.offset,
                     at_once=True,
@@ -88,8 +88,23 @@ def add_samples(draft: SystemBuilder, table: SampleTable) -> None:
         if each.part.role == "memory":
             offset = each.block.offset + each.part.offset
             table.add(
-                draft.control[each.path][1], draft.functions_of[each.path], period=each.block.period, offset=offset
+                draft.control[each.path][1], _function(draft, each), period=each.block.period, offset=offset
             )
+
+
+def _function(draft: SystemBuilder, each: PartOf) -> int:
+    """Index of the function of a part; one that nothing has asked for before reads what forces report."""
+    if each.path not in draft.functions_of:
+        with located(_place(each)):
+            draft.functions_of[each.path] = draft.function(each.part.function)
+    return draft.functions_of[each.path]
+
+
+def _reads_forces(draft: SystemBuilder, each: PartOf) -> bool:
+    """Whether a sample takes something that forces report: it then keeps its value in statics."""
+    index = Index.of(draft.machine)
+    paths = [path for path in each.signals if path not in draft.control]
+    return any(is_output(find_in(path, index), index) for path in paths)
 
 
 def _noted(draft: SystemBuilder, each: PartOf) -> int:

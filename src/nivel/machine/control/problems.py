@@ -10,7 +10,7 @@ from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block
 from nivel.machine.control.order import PartOf, in_order, parts_of
 from nivel.machine.index import Index
-from nivel.machine.symbols import UnknownSymbolError, find_in
+from nivel.machine.symbols import UnknownSymbolError, find_in, is_output, of_forces
 from nivel.machine.unit import UNITS
 
 CONDITIONS = ("when", "states")  # keys of what is made of comparisons
@@ -28,10 +28,14 @@ def problems_of_control(machine: Any) -> Iterator[Problem]:
             yield Problem(("control", at, "name"), f"`{block.name}` {what}; choose another name", at_key=True)
     for each in parts:
         for path in each.signals if each.part.key in CONDITIONS else ():
+            place = ("control", blocks.index(each.block), each.part.key)
             try:
-                find_in(path, index)
+                symbol = find_in(path, index)
             except UnknownSymbolError as problem:
-                yield Problem(("control", blocks.index(each.block), each.part.key), str(problem))
+                yield Problem(place, str(problem))
+                continue
+            if not each.block.is_sampled and is_output(symbol, index):
+                yield Problem(place, of_forces(path))
     _, loops = in_order(parts)
     for loop in loops:
         yield _algebraic_loop(loop, blocks)

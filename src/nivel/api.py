@@ -22,6 +22,7 @@ from nivel.files.reader import parse_machine, read_text
 from nivel.files.writer import write_machine
 from nivel.machine import (
     AssemblySettings,
+    Block,
     Body,
     Coupling,
     Driver,
@@ -68,6 +69,7 @@ class Machine:
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
         states: Sequence[State] = (),
+        control: Sequence[Block] = (),
         sensors: Sequence[Sensor] = (),
         events: Sequence[Event] = (),
         gravity: Sequence[float | str] = (0.0, 0.0, 0.0),
@@ -83,6 +85,7 @@ class Machine:
             "drivers": drivers,
             "forces": forces,
             "states": states,
+            "control": control,
             "sensors": sensors,
             "events": events,
         }

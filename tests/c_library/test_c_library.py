@@ -103,7 +103,7 @@ def test_machines_beside_each_other_do_not_meet(pendulum):
 
 def test_what_a_library_cannot_be_is_refused(tmp_path):
     machine = nivel.load(EXAMPLES / "slider-crank.yaml")
-    with pytest.raises(nivel.ModelError, match="steps of one length.*--integrator rk4"):
+    with pytest.raises(nivel.ModelError, match=r"steps of one length.*--integrator rk4"):
         machine.with_settings({"integrator": "dopri5"}).export_c(tmp_path / "c")
     with pytest.raises(nivel.ModelError, match="Python laws cannot go into a C library"):
         nivel.load(EXAMPLES / "python-law.yaml", allow_code=True).export_c(tmp_path / "c")

@@ -13,6 +13,7 @@ from nivel.analysis.held_friction import resting_frictions
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
+from nivel.analysis.saturation import saturated_blocks
 from nivel.analysis.second_run import SecondRun, Verified
 from nivel.errors import SolveError
 from nivel.integrate.sink import Header
@@ -122,6 +123,7 @@ def _close(
         neglected=cost(sink.result(), _neglected(machine)),
         further=tuple(finding_items(findings)),
         small_states=_small_states(sink.result(), prepared),
+        saturated=saturated_blocks(machine, sink.result()),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
     attributes: dict[str, str | float | int] = {
@@ -147,7 +149,7 @@ def _small_states(result: Result, prepared: Prepared) -> tuple[SmallState, ...]:
         return ()
     out = []
     for fact in prepared.motion.system.states:
-        largest = peak(result, f"state.{fact.name}").value
+        largest = peak(result, fact.result).value
         if not fact.sampled and 0.0 < largest < SMALL * fact.scale:
             out.append(SmallState(fact.name, largest, fact.scale))
     return tuple(out)

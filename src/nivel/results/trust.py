@@ -49,7 +49,8 @@ class Facts:
     neglected : what it cost that flexible bodies moved without some of their inertia invariants. shared : frictions at rest on motions
     that are prescribed, or that others hold too.
     further : lines of checks that only tell what is not green, see `nivel.results.findings`.
-    small_states : those whose errors were hardly controlled. failure : what stopped the run, in a sentence. stopped_by : name of the
+    small_states : those whose errors were hardly controlled. saturated : blocks of the control at a limit all the time.
+    failure : what stopped the run, in a sentence. stopped_by : name of the
     event that ended it as it was to do.
     """
 
@@ -69,6 +70,7 @@ class Facts:
     shared: tuple[Shared, ...] = ()
     small_states: tuple[SmallState, ...] = ()
     further: tuple[Item, ...] = ()
+    saturated: tuple[str, ...] = ()
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -129,6 +131,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         *statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved),
         *facts.further,
         *(_small_state(each) for each in facts.small_states),
+        *(_saturated(name) for name in facts.saturated),
     )
     return replace(trust, items=items, verdict=worst(items))
 
@@ -136,8 +139,19 @@ def assess(result: Readable, facts: Facts) -> Trust:
 def _small_state(state: SmallState) -> Item:
     """A state of which the tolerance says little."""
     said = f"the largest value of {state.name} is {number(state.largest)}, its scale is {number(state.scale)}: the tolerance hardly held"
-    advice = f"write `states: {{{state.name}: {{scale: {state.largest:.1g}}}}}`"
+    section, name = ("states", state.name)
+    if state.name.startswith("control."):
+        section, name = state.name.split(".")[:2]
+    advice = f"write `{section}: {{{name}: {{scale: {state.largest:.1g}}}}}`"
     return Item("states", "amber", f"States: {said} it; {advice}", row=state.name)
+
+
+def _saturated(name: str) -> Item:
+    """A block whose gains did nothing."""
+    said = f"{name} stood at its limits for the whole run, so its gains did nothing"
+    return Item(
+        "control", "amber", f"Control: {said}; check the signs of its inputs, its gains and its limits", row=name
+    )
 
 
 def peak(result: Readable, name: str) -> Peak:

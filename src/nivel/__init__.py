@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from nivel.machine import Torque as Torque
     from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
     from nivel.results.comparison import Comparison as Comparison
+    from nivel.results.linear_model import LinearModel as LinearModel
     from nivel.results.result import Result as Result
 
 _HOME = {
@@ -93,6 +94,7 @@ _HOME = {
     "Torque": "nivel.machine",
     "TorsionalSpringDamper": "nivel.machine",
     "Comparison": "nivel.results.comparison",
+    "LinearModel": "nivel.results.linear_model",
     "Result": "nivel.results.result",
 }
 
@@ -112,6 +114,7 @@ __all__ = [
     "Joint",
     "JointSpringDamper",
     "LinearCoupling",
+    "LinearModel",
     "Machine",
     "MachineRecord",
     "Marker",

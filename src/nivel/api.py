@@ -11,7 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 from nivel.analysis.changes import changed
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
-from nivel.analysis.compilation import assembly_entries, build, preparation_entries, run_entries, statics_entries
+from nivel.analysis.compilation import (
+    assembly_entries,
+    build,
+    linear_entries,
+    preparation_entries,
+    run_entries,
+    statics_entries,
+)
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan, methods_of, plan_run
 from nivel.arguments import checked_arguments
@@ -38,6 +45,7 @@ if TYPE_CHECKING:
     from nivel.analysis.check import Check
     from nivel.analysis.posing import Posing
     from nivel.results.comparison import Comparison
+    from nivel.results.linear_model import LinearModel
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
 
@@ -289,6 +297,59 @@ class Machine:
                 force=force,
                 listener=listener,
                 compile_seconds=compile_seconds,
+            )
+
+    @checked_arguments
+    def linearise(
+        self,
+        *,
+        about: float | str | None = None,
+        inputs: Sequence[str] | str | None = None,
+        outputs: Sequence[str] | str | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> LinearModel:
+        """The equations of motion made linear about a state: eigenvalues, modes, and A, B, C, D between inputs and outputs.
+
+        about : `start` (the machine as it starts), `equilibrium` (at t = 0), or a time [s] to which it is run first.
+        inputs : joint coordinates (efforts on them), motors, drivers (accelerations of what they prescribe), `BODY.force.x`,
+        `BODY.torque.x`, `state.NAME`; default: motors and drivers. outputs : joint coordinates and their `.rate`, sensors, `BODY.position.x`,
+        `BODY.velocity.x`, `BODY.angular_velocity.x`, `driver.NAME.effort`, `force.NAME.…`, `state.NAME`; default: sensors, or without any
+        all joint coordinates. coordinates : auto, absolute or relative.
+        Raises ModelError (nothing was computed) or SolveError.
+        """
+        from nivel.analysis.linearise.refusals import neutral, refuse_jumps
+        from nivel.analysis.linearise.settings import linearise_settings
+
+        simulation = self.record.simulation
+        wanted = simulation.coordinates if coordinates is None else coordinates
+        settings = linearise_settings(
+            about, inputs, outputs, "auto" if coordinates is None and wanted == "independent" else wanted, simulation.start
+        )
+        with self._faults_in_file():
+            refuse_jumps(self.record)
+            plain, chosen = neutral(
+                self.record, settings.coordinates, "equilibrium" if settings.about == "equilibrium" else "as-given"
+            )
+            methods = methods_of(plain, "newton-euler", chosen)
+        entries = linear_entries(methods)
+        if settings.about == "equilibrium":
+            from nivel.analysis.statics.start import methods_at_rest
+
+            entries += statics_entries(methods_at_rest(plain))
+        run = None
+        if settings.time > 0.0:
+            run = self.with_settings({"duration": settings.time})._plan(())
+            entries += run_entries(run)
+        build(entries, listener or Listener())
+        # what follows takes longer to import
+        from nivel.analysis.linearise.run import linearise
+        from nivel.analysis.moment import run_until
+
+        with self._faults_in_file():
+            posture = None if run is None else run_until(run, listener or Listener())
+            return linearise(
+                plain, methods, settings, posture=posture, source=self.origin.source, listener=listener
             )
 
     @checked_arguments

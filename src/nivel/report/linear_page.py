@@ -10,7 +10,7 @@ import numpy as np
 from nivel import __version__
 from nivel.errors import ModelError
 from nivel.report.plots import Line, curves, points
-from nivel.results.linear_model import LinearModel
+from nivel.results.linear_model import ROUND_OFF, LinearModel
 
 HERE = Path(__file__).parent
 MOST_MODES: Final = 60
@@ -53,13 +53,11 @@ def _lines(model: LinearModel) -> list[tuple[str, ...]]:
     out = []
     for mode in model.modes[:MOST_MODES] if model.steady else ():
         value = mode.eigenvalue
-        text = f"{value.real:.6g}" + (f" ± {value.imag:.6g} i" if value.imag else "")
         frequency = f"{mode.natural_frequency:.6g}" if value.imag else ""
-        ratio = f"{mode.damping_ratio:.4g}" if value.imag else ""
+        ratio = f"{mode.damping_ratio:.4g}" if value.imag and mode.kind != "undamped vibration" else ""
         taking = ", ".join(f"{name} {100 * share:.0f} %" for name, share in mode.participation)
-        tone = "red" if mode.kind.endswith("grows") else "green" if value.real < 0.0 else ""
-        number = "0, exactly" if mode.structural else text
-        out.append((str(mode.number), number, frequency, ratio, mode.kind, taking, tone))
+        tone = "red" if mode.kind.endswith("grows") else "green" if mode.kind.startswith(("damped", "decays")) else ""
+        out.append((str(mode.number), mode.number_in_words, frequency, ratio, mode.kind, taking, tone))
     return out
 
 
@@ -68,7 +66,8 @@ def _plane(model: LinearModel) -> str:
     if not model.steady or not len(values):
         return ""
     labels = [f"{value.real:.5g} {value.imag:+.5g}i 1/s" for value in values]
-    return points(values.real, values.imag, labels, "real part [1/s]", "imaginary part [1/s]")
+    real = np.where(np.abs(values.real) > ROUND_OFF * np.abs(values), values.real, 0.0)
+    return points(real, values.imag, labels, "real part [1/s]", "imaginary part [1/s]")
 
 
 def _bode(model: LinearModel) -> list[tuple[str, str]]:

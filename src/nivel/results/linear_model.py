@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 SHOWN: Final = 3  # states that are named with a mode
+ROUND_OFF: Final = 1e-11  # share of an eigenvalue below which its real part is nothing
 SHARE: Final = 0.1  # least participation of these
 FREQUENCIES: Final = 400
 LISTED: Final = 12  # modes in a text
@@ -48,10 +49,21 @@ class Mode:
         if self.structural:
             return "exactly zero"
         value = self.eigenvalue
-        word = "grows" if value.real > 1e-9 * abs(value) else "decays" if value.real < -1e-9 * abs(value) else "neutral"
+        if abs(value.real) <= ROUND_OFF * abs(value):
+            return "undamped vibration"
         if value.imag:
-            return "vibration" if word != "grows" else "vibration that grows"
-        return word
+            return "damped vibration" if value.real < 0.0 else "vibration that grows"
+        return "decays" if value.real < 0.0 else "grows"
+
+    @property
+    def number_in_words(self) -> str:
+        """The eigenvalue for people, a real part of round-off left out."""
+        value = self.eigenvalue
+        if self.structural:
+            return "0, exactly"
+        if not value.imag:
+            return f"{value.real:.6g}"
+        return f"± {value.imag:.6g}i" if self.kind == "undamped vibration" else f"{value.real:.6g} ± {value.imag:.6g}i"
 
 
 @dataclass(frozen=True)
@@ -96,7 +108,7 @@ class LinearModel:
     def stable(self) -> bool:
         """Whether every eigenvalue that is not exactly zero has a negative real part, to round-off."""
         values = self.eigenvalues[~self.structural]
-        return bool(np.all(values.real <= 1e-9 * np.abs(values)))
+        return bool(np.all(values.real <= ROUND_OFF * np.abs(values)))
 
     @property
     def participation(self) -> Array:
@@ -274,9 +286,11 @@ def mode_in_words(mode: Mode) -> str:
     taking = ", ".join(name for name, _ in mode.participation)
     value = mode.eigenvalue
     if mode.structural:
-        said = "0 exactly"
+        said = "0, exactly"
     elif value.imag:
-        said = f"{mode.natural_frequency:.6g} Hz, damping ratio {mode.damping_ratio:.4g} ({value.real:.6g} ± {value.imag:.6g}i 1/s)"
+        said = f"{mode.natural_frequency:.6g} Hz, {mode.kind}"
+        said += f", damping ratio {mode.damping_ratio:.4g}" if mode.kind != "undamped vibration" else ""
+        said += f" ({mode.number_in_words} 1/s)"
     else:
-        said = f"{value.real:.6g} 1/s, {mode.kind}"
+        said = f"{mode.number_in_words} 1/s, {mode.kind}"
     return f"{said}; {taking}" if taking else said

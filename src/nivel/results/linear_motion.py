@@ -60,8 +60,7 @@ def linear_motion(model: LinearModel, number: int) -> Result:
     ]
     names = {"body": posed.bodies, "xyz": ("x", "y", "z"), "euler_parameter": ("0", "1", "2", "3")}
     layout: FrameLayout = laid_out(entries, names)
-    value = modes[number - 1].eigenvalue
-    name = f"{model.name}, mode {number}: {value.real:.4g} ± {value.imag:.4g}i 1/s"
+    name = f"{model.name}, mode {number}: {modes[number - 1].number_in_words} 1/s"
     header = Header(layout, {**posed.attributes, "machine": name, "settings": json.dumps({"mode": number})})
     frames = np.hstack([time[:, None], places.reshape(FRAMES, -1), axes.reshape(FRAMES, -1)])
     return Result(MemoryContents(header, frames, header.attributes))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from nivel.analysis.attributes import run_attributes
 from nivel.analysis.instant import Instant
@@ -23,7 +24,6 @@ from nivel.analysis.unknowns import unknown_name
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record import NONE
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.orientation import product
 from nivel.results.linear_model import LinearModel
 from nivel.results.linear_motion import Posed
 from nivel.system.system import Array
@@ -265,9 +265,10 @@ def _posed(machine: MachineRecord, source: str, moment: Moment, instant: Instant
     own.value()
     places = np.array([frame_place(own, b).real for b in range(count)]).reshape(count, 3)
     bodies, tree = own.twin.bodies, own.twin.tree
-    theta = bodies.theta[:count].real
+    axes = Rotation.from_matrix(bodies.A[:count].real)
     if len(tree.node):
-        theta = np.array([product(*each) for each in zip(theta, tree.own_theta[:count], strict=True)]).reshape(count, 4)
+        axes = axes * Rotation.from_quat(tree.own_theta[:count], scalar_first=True)
+    theta = axes.as_quat(scalar_first=True)
     return Posed(tuple(own.system.bodies), places, theta, own.system.size, {**attributes, "outcome": "done"})
 
 

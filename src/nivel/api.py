@@ -14,6 +14,7 @@ from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import (
     assembly_entries,
     build,
+    kinematics_entries,
     linear_entries,
     preparation_entries,
     run_entries,
@@ -300,6 +301,62 @@ class Machine:
             )
 
     @checked_arguments
+    def kinematics(
+        self,
+        *,
+        drive: str | None = None,
+        start: float | str | None = None,
+        end: float | str | None = None,
+        duration: float | str | None = None,
+        positions: int | str | None = None,
+        coordinates: str | None = None,
+        out: str | PathLike[str] | None = None,
+        force: bool = False,
+        listener: Listener | None = None,
+    ) -> Result:
+        """Positions, velocities, accelerations and reactions of a machine whose motions are all driven, without integration.
+
+        drive : a joint coordinate to be driven evenly besides what the machine's own drivers prescribe, from `start` (default: where it is)
+        to `end` (default: one turn further) [rad or m, or texts with units]. duration : of the motion [s], default that of the machine, 1 s
+        with `drive`. positions : so many, both ends included, default 361. coordinates : auto, absolute or relative. out : result file
+        (NetCDF); in memory if None. force : replace it.
+        Raises ModelError where motions are not driven (nothing was computed), SolveError where the machine cannot go on: its `result` holds
+        the positions until then, its message says what holds which driver.
+        """
+        from nivel.analysis.kinematics.refusals import refuse_what_bends
+        from nivel.analysis.kinematics.settings import kinematics_settings
+        from nivel.analysis.neutral import neutral
+
+        given = {"drive": drive, "start": start, "end": end, "duration": duration, "positions": positions}
+        settings = kinematics_settings(self.record, {**given, "coordinates": coordinates})
+        with self._faults_in_file():
+            refuse_what_bends(self.record)
+            build(assembly_entries(self.record), listener or Listener())
+            from nivel.analysis.kinematics.drive import driven
+
+            machine, settings = driven(self.record, settings)
+            plain, chosen = neutral(machine, settings.coordinates)
+            methods = methods_of(plain, "newton-euler", chosen)
+        compile_seconds = build(kinematics_entries(methods), listener or Listener())
+        # what follows takes longer to import
+        from nivel.analysis.kinematics.run import kinematics
+        from nivel.results.target import keep_sources
+
+        if out is not None and self.origin.file:
+            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
+        with self._faults_in_file():
+            return kinematics(
+                machine,
+                methods,
+                settings,
+                source=self.origin.source,
+                out=out,
+                force=force,
+                listener=listener,
+                compile_seconds=compile_seconds,
+            )
+
+    @checked_arguments
     def linearise(
         self,
         *,
@@ -318,8 +375,9 @@ class Machine:
         all joint coordinates. coordinates : auto, absolute or relative.
         Raises ModelError (nothing was computed) or SolveError.
         """
-        from nivel.analysis.linearise.refusals import neutral, refuse_jumps
+        from nivel.analysis.linearise.refusals import refuse_jumps
         from nivel.analysis.linearise.settings import linearise_settings
+        from nivel.analysis.neutral import neutral
 
         simulation = self.record.simulation
         wanted = simulation.coordinates if coordinates is None else coordinates

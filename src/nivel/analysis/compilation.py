@@ -25,7 +25,7 @@ from nivel.system.forces import FORCES
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
-OUTPUT, LOOP = "nivel.kernels.observe", "nivel.integrate.loop"
+OUTPUT, LOOP, FOLLOWING = "nivel.kernels.observe", "nivel.integrate.loop", "nivel.integrate.positions"
 STATICS, RESIDUAL = "nivel.kernels.static_entries", "nivel.kernels.tangent_entries:evaluate_residual"
 TANGENT_ENTRIES = "nivel.kernels.tangent_entries"
 FOLLOWED = ("contact", "stop")
@@ -118,6 +118,12 @@ def statics_entries(methods: Methods) -> list[Entry]:
     return [*preparation_entries(methods), *_entries([STATICS]), *twins]
 
 
+def kinematics_entries(methods: Methods) -> list[Entry]:
+    """What a kinematic analysis takes."""
+    correct = entry_of(f"{methods.path.correction}:correct")
+    return [*preparation_entries(methods), *_entries([FOLLOWING]), correct]
+
+
 def linear_entries(methods: Methods) -> list[Entry]:
     """What exact derivatives at an instant take."""
     modules = [*_rare_modules(methods.machine), *_node_modules(methods)]
@@ -153,6 +159,7 @@ def all_entries() -> list[Entry]:
         OF_SLIDERS,
         PASSING,
         LOOP,
+        FOLLOWING,
         STATICS,
         TANGENT_ENTRIES,
         OUTPUT,

@@ -104,7 +104,7 @@ def march(
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
     while status in GOES_ON and finished.outcome == "done":
-        status, spent = _march_in_chunks(advance, system, run, sinks, finished, progress, chunk_steps)
+        status, spent = march_in_chunks(advance, system, run, sinks, finished, progress, chunk_steps)
         loop_seconds += spent
         if status in BEFORE_A_JAM:
             jam = _jam(prepared, settings, run)
@@ -117,7 +117,7 @@ def march(
         finished.outcome = "failed"
         finished.failure = _failure(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
-            _keep_last(prepared.motion, run, sinks)
+            keep_last(prepared.motion, run, sinks)
     finished.timing = {
         **_counts(system, run),
         "loop_seconds": loop_seconds,
@@ -144,7 +144,7 @@ def _compiled_loop(prepared: Prepared, run: Run, stabilisation: ModuleType) -> C
     return lambda: advance(evaluate, correct, step, machine.address, history.address)
 
 
-def _march_in_chunks(
+def march_in_chunks(
     advance: Callable[[], int],
     system: System,
     run: Run,
@@ -230,7 +230,7 @@ def _counts(system: System, run: Run) -> dict[str, float]:
     }
 
 
-def _keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
+def keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
     """Give the last accepted state before a failure, where it lies after the last frame and its accelerations are numbers."""
     t, feedback = float(run.clock[ACCEPTED]), motion.system.record.control.stabilise[:2]
     if not t > run.clock[SHOWN] or not np.isfinite(run.previous).all():

@@ -55,6 +55,9 @@ if TYPE_CHECKING:
     from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
     from nivel.results.comparison import Comparison as Comparison
     from nivel.results.linear_model import LinearModel as LinearModel
+    from nivel.results.mechanism import Range as Range
+    from nivel.results.mechanism import coupler_curve as coupler_curve
+    from nivel.results.mechanism import transmission_angle as transmission_angle
     from nivel.results.result import Result as Result
 
 _HOME = {
@@ -95,7 +98,10 @@ _HOME = {
     "TorsionalSpringDamper": "nivel.machine",
     "Comparison": "nivel.results.comparison",
     "LinearModel": "nivel.results.linear_model",
+    "Range": "nivel.results.mechanism",
     "Result": "nivel.results.result",
+    "coupler_curve": "nivel.results.mechanism",
+    "transmission_angle": "nivel.results.mechanism",
 }
 
 __all__ = [
@@ -125,6 +131,7 @@ __all__ = [
     "PointForce",
     "PythonLaw",
     "Rack",
+    "Range",
     "Result",
     "Sensor",
     "SimulationSettings",
@@ -135,8 +142,10 @@ __all__ = [
     "Table",
     "Torque",
     "TorsionalSpringDamper",
+    "coupler_curve",
     "load",
     "open_result",
+    "transmission_angle",
 ]
 
 

@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from nivel.analysis.posing import Posing
     from nivel.results.comparison import Comparison
     from nivel.results.linear_model import LinearModel
+    from nivel.results.mechanism import Range
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
 
@@ -357,6 +358,43 @@ class Machine:
             )
 
     @checked_arguments
+    def range_of_motion(
+        self,
+        coordinate: str,
+        *,
+        positions: int | str | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> Range:
+        """How far a joint coordinate can be driven from where it is, both ways: a whole turn, or, of a length, twice the machine's size.
+
+        positions : so many each way, default 361. Raises ModelError where other motions are not driven.
+        """
+        from math import pi
+
+        from nivel.analysis.kinematics.ranges import range_of_motion
+        from nivel.analysis.kinematics.settings import kinematics_settings
+
+        settings = kinematics_settings(
+            self.record, {"drive": coordinate, "end": 0.0, "positions": positions, "coordinates": coordinates}
+        )
+        build(assembly_entries(self.record), listener or Listener())
+        with self._faults_in_file():
+            from nivel.analysis.kinematics.drive import present_value
+
+            name = settings.drive
+            start, unit, size = present_value(self.record, name)
+        return range_of_motion(
+            name,
+            unit,
+            start,
+            2.0 * pi if unit == "rad" else 2.0 * size,
+            lambda begin, end: self.kinematics(
+                drive=name, start=begin, end=end, positions=positions, coordinates=coordinates, listener=listener
+            ),
+        )
+
+    @checked_arguments
     def linearise(
         self,
         *,
@@ -382,7 +420,11 @@ class Machine:
         simulation = self.record.simulation
         wanted = simulation.coordinates if coordinates is None else coordinates
         settings = linearise_settings(
-            about, inputs, outputs, "auto" if coordinates is None and wanted == "independent" else wanted, simulation.start
+            about,
+            inputs,
+            outputs,
+            "auto" if coordinates is None and wanted == "independent" else wanted,
+            simulation.start,
         )
         with self._faults_in_file():
             refuse_jumps(self.record)
@@ -406,9 +448,7 @@ class Machine:
 
         with self._faults_in_file():
             posture = None if run is None else run_until(run, listener or Listener())
-            return linearise(
-                plain, methods, settings, posture=posture, source=self.origin.source, listener=listener
-            )
+            return linearise(plain, methods, settings, posture=posture, source=self.origin.source, listener=listener)
 
     @checked_arguments
     def compare(

@@ -16,6 +16,7 @@ from nivel.analysis.preparation import Prepared, arranged, prepare
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.integrate.sink import Header
 from nivel.results.memory import Memory
+from nivel.results.rotations import rotation_matrices
 from nivel.system.system import Array
 
 # every derivative along directions, none by hand
@@ -97,7 +98,7 @@ def run_until(plan: Plan, listener: Listener) -> Posture:
     last = {name: result.array(name)[-1] for name in ("position", "orientation", "velocity", "angular_velocity")}
     system, count = prepared.motion.system, prepared.motion.system.body_count
     q = np.hstack([last["position"], last["orientation"]]).reshape(count, 7)
-    turned = rotations(q[:, 3:])
+    turned = rotation_matrices(q[:, 3:])
     modal = [result.array(name)[-1] if system.modes else np.zeros(0) for name in ("modal_coordinate", "modal_rate")]
     return Posture(
         t=float(result.time[-1]),
@@ -109,11 +110,3 @@ def run_until(plan: Plan, listener: Listener) -> Posture:
         modal_rates=modal[1],
         reference=system.record.coordinates.reference.copy(),
     )
-
-
-def rotations(theta: Array) -> Array:
-    """(B, 3, 3) rotation matrices of Euler parameters (B, 4)."""
-    e0, e = theta[:, 0], theta[:, 1:]
-    tilde = np.zeros((len(theta), 3, 3))
-    tilde[:, [2, 0, 1], [1, 2, 0]], tilde[:, [1, 2, 0], [2, 0, 1]] = e, -e
-    return np.eye(3) + 2.0 * (e0[:, None, None] * tilde + tilde @ tilde)

@@ -22,7 +22,11 @@ SHOWN = 20  # modes in the terminal
 @file_argument("machine")
 @click.option("--about", metavar="STATE", help="start, equilibrium, or a time to which the machine is run, e.g. '2 s'.")
 @click.option(
-    "--inputs", metavar="NAMES", multiple=True, callback=separated, help="Default: motors and drivers. E.g. hinge.angle."
+    "--inputs",
+    metavar="NAMES",
+    multiple=True,
+    callback=separated,
+    help="Default: motors and drivers. E.g. hinge.angle.",
 )
 @click.option(
     "--outputs", metavar="NAMES", multiple=True, callback=separated, help="Default: sensors, or all joint coordinates."
@@ -30,7 +34,9 @@ SHOWN = 20  # modes in the terminal
 @click.option("--coordinates", metavar="NAME", help="What the equations are written in: auto, absolute, relative.")
 @override_option
 @allow_code_option
-@click.option("--out", metavar="FILE.nc", type=click.Path(), help="Matrices and eigenvalues. Default: NAME-linear.nc, here.")
+@click.option(
+    "--out", metavar="FILE.nc", type=click.Path(), help="Matrices and eigenvalues. Default: NAME-linear.nc, here."
+)
 @click.option("--mode", "shown", type=int, multiple=True, metavar="N", help="Also write mode N as a page to be played.")
 @click.option("--force", is_flag=True, help="Replace existing files.")
 @click.option("--no-report", is_flag=True, help="Write no HTML page.")
@@ -67,7 +73,9 @@ def command(
     for page in pages.values():
         check_target(page, "page", force=force, sources=[Path(machine)])
     with progress_listener(quiet) as listener:
-        model = loaded.linearise(about=about, inputs=inputs, outputs=outputs, coordinates=coordinates, listener=listener)
+        model = loaded.linearise(
+            about=about, inputs=inputs, outputs=outputs, coordinates=coordinates, listener=listener
+        )
         model.save(target, force=force)
         if report is not None:
             model.report(report)

@@ -38,7 +38,7 @@ CLOSED = 1e-12
 LONGEST, PREDICTED, LITTLE = 0.3, 0.5, 0.01
 # Steps shorter than this share of the way between two frames lead nowhere.
 SHORTEST = 1e-10
-ATTEMPTS = 3
+ATTEMPTS = 4
 
 
 @leaf
@@ -91,11 +91,12 @@ def close(correct, machine, run, t):
     way = largest_change(run, run.y, run.previous)
     if not way <= LONGEST:
         return NOT_CLOSED
-    for _ in range(ATTEMPTS):
+    for attempt in range(ATTEMPTS):
         status = call_correct(correct, machine, t, run.y)
         if status != OK:
             return status
-        if not exceeds(record.saddle, record.constraints.C, record.constraints.scale, CLOSED):
+        # the second correction finds velocities with the factor at the position itself
+        if attempt > 0 and not exceeds(record.saddle, record.constraints.C, record.constraints.scale, CLOSED):
             near = largest_change(run, run.y, run.trial) <= PREDICTED * way + LITTLE
             return OK if near and finite(run.y) else NOT_CLOSED
     return NOT_CLOSED

@@ -102,7 +102,11 @@ def _matrices(model: LinearModel) -> list[tuple[str, list[str], list[tuple[str, 
         ("D", model.D, model.outputs, model.inputs),
     )
     return [
-        (title, list(columns), [(name, [f"{value:.6g}" for value in row]) for name, row in zip(rows, values, strict=True)])
+        (
+            title,
+            list(columns),
+            [(name, [f"{value:.6g}" for value in row]) for name, row in zip(rows, values, strict=True)],
+        )
         for title, values, rows, columns in wanted
         if 0 < values.size and max(values.shape) <= MOST_ENTRIES
     ]

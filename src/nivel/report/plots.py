@@ -80,6 +80,19 @@ def curves(
     return _drawing(across, up, "".join(paths), x_title, y_title, title or y_title) + _legend(lines)
 
 
+def path_drawing(x: Array, y: Array, x_title: str, y_title: str) -> str:
+    """SVG of a path in the plane, with one scale for both axes; its start is marked."""
+    wide, high = WIDTH - RIGHT - LEFT, HEIGHT - BOTTOM - TOP
+    size = max(float(np.ptp(x)) / wide, float(np.ptp(y)) / high, 1e-12) * 1.1
+    middle = 0.5 * (float(x.min()) + float(x.max())), 0.5 * (float(y.min()) + float(y.max()))
+    across = Axis(middle[0] - 0.5 * size * wide, middle[0] + 0.5 * size * wide, LEFT, WIDTH - RIGHT)
+    up = Axis(middle[1] - 0.5 * size * high, middle[1] + 0.5 * size * high, HEIGHT - BOTTOM, TOP)
+    path = _path(Line("", x, y), across, up, log_y=False)
+    start = f'<circle cx="{across.at(float(x[0])):.1f}" cy="{up.at(float(y[0])):.1f}" r="3.5" fill="var(--tone-1)"/>'
+    drawn = f'<path d="{path}" fill="none" stroke="var(--tone-0)" stroke-width="1.7" stroke-linejoin="round"/>{start}'
+    return _drawing(across, up, drawn, x_title, y_title, "path of a point")
+
+
 def points(x: Array, y: Array, labels: Sequence[str], x_title: str, y_title: str) -> str:
     """SVG of points, each with its label; the axes pass through zero."""
     across = Axis.around(np.append(x, 0.0), LEFT, WIDTH - RIGHT)
@@ -140,6 +153,7 @@ def _legend(lines: Sequence[Line]) -> str:
     if len(lines) < 2:
         return ""
     items = "".join(
-        f'<li><i style="background:var(--tone-{k % TONES})"></i>{escape(line.label)}</li>' for k, line in enumerate(lines)
+        f'<li><i style="background:var(--tone-{k % TONES})"></i>{escape(line.label)}</li>'
+        for k, line in enumerate(lines)
     )
     return f'<ul class="legend">{items}</ul>'

@@ -177,7 +177,9 @@ class LinearModel:
         try:
             inner = np.array([np.linalg.solve(2j * np.pi * each * np.eye(n) - self.A, self.B) for each in f])
         except np.linalg.LinAlgError:
-            raise ModelError("the response is infinite: a frequency is that of an undamped motion; leave it out") from None
+            raise ModelError(
+                "the response is infinite: a frequency is that of an undamped motion; leave it out"
+            ) from None
         values = self.C @ inner + self.D if n else np.broadcast_to(self.D, (len(f), *self.D.shape)).astype(complex)
         coordinates = {"frequency": f, "output": list(self.outputs), "input": list(self.inputs)}
         response = xarray.DataArray(values, coords=coordinates, dims=("frequency", "output", "input"), name="response")

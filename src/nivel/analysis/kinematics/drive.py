@@ -28,7 +28,7 @@ def driven(machine: MachineRecord, settings: KinematicsSettings) -> tuple[Machin
             if driver.coordinate is not None and settings.drive in (driver.coordinate, f"{driver.coordinate}.angle"):
                 message = f"`{settings.drive}` is driven by {driver.name} already: leave `drive` out, or that driver"
                 raise ModelError(Fault("", 0, 0, "kinematics.drive", message))
-        start = coordinate_value(machine, settings.drive) if settings.start is None else settings.start
+        start = present_value(machine, settings.drive)[0] if settings.start is None else settings.start
         end = start + 2.0 * pi if settings.end is None else settings.end
         settings = replace(settings, start=start, end=end)
         taken = {driver.name for driver in machine.drivers}
@@ -39,8 +39,8 @@ def driven(machine: MachineRecord, settings: KinematicsSettings) -> tuple[Machin
     return out.replace(simulation=simulation), settings
 
 
-def coordinate_value(machine: MachineRecord, name: str) -> float:
-    """[rad or m] value of a joint coordinate of the machine as assembled."""
+def present_value(machine: MachineRecord, name: str) -> tuple[float, str, float]:
+    """(value, unit, size of the machine [m]) of a joint coordinate of the machine as assembled [rad or m]."""
     machine = with_nodes(machine)
     motion = equations(machine)
     system, assembly = motion.system, assemble(machine, motion)
@@ -48,4 +48,5 @@ def coordinate_value(machine: MachineRecord, name: str) -> float:
     frame = np.zeros(system.layout.width)
     observe(motion.handle.address, 0.0, assembly.y, frame)
     columns = next(each.columns for each in system.layout.variables if each.name == "joint_coordinate")
-    return float(frame[columns][system.layout.coordinates["joint_coordinate"].index(name)])
+    k = system.layout.coordinates["joint_coordinate"].index(name)
+    return float(frame[columns][k]), system.coordinate_units[k], system.size

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.analysis.equations import MotionEquations
+from nivel.analysis.equations import equations
 from nivel.analysis.freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.preparation import Prepared
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.beam_nodes import with_nodes
 
 
 def refuse_what_bends(machine: MachineRecord) -> None:
     """Raises ModelError for bodies whose form, and states whose values, drivers do not determine."""
     faults = [
-        Fault("", 0, 0, f"bodies.{body.name}.flexible", "a body that bends is not moved by drivers alone: use `nivel run`")
+        Fault(
+            "", 0, 0, f"bodies.{body.name}.flexible", "a body that bends is not moved by drivers alone: use `nivel run`"
+        )
         for body in machine.bodies
         if body.flexible is not None
     ]
@@ -23,7 +26,13 @@ def refuse_what_bends(machine: MachineRecord) -> None:
         for beam in machine.beams
     ]
     faults += [
-        Fault("", 0, 0, f"states.{state.name}", "a state has a history, which kinematics does not compute: use `nivel run`")
+        Fault(
+            "",
+            0,
+            0,
+            f"states.{state.name}",
+            "a state has a history, which kinematics does not compute: use `nivel run`",
+        )
         for state in machine.states
     ]
     if faults:
@@ -41,7 +50,7 @@ def refuse_free_motions(machine: MachineRecord, prepared: Prepared) -> None:
     count = redundancy.degrees_of_freedom
     if count == 0:
         return
-    free = free_coordinates(prepared.absolute, prepared)
+    free = free_coordinates(machine, prepared)
     what = f"{count} motion{'s are' if count > 1 else ' is'} not driven"
     how = f"drive {' and '.join(free)}, by `drivers` in the file or `--drive`" if free else "add drivers"
     if free and len(free) < count:
@@ -49,8 +58,9 @@ def refuse_free_motions(machine: MachineRecord, prepared: Prepared) -> None:
     raise ModelError(Fault("", 0, 0, "machine", f"{what}, and kinematics needs all of them: {how}; or use `nivel run`"))
 
 
-def free_coordinates(motion: MotionEquations, prepared: Prepared) -> list[str]:
+def free_coordinates(machine: MachineRecord, prepared: Prepared) -> list[str]:
     """Joint coordinates that can be chosen apart from each other, as many as there are free motions."""
+    motion = equations(with_nodes(machine), measured=True)
     system = motion.system
     motion.evaluate(0.0, prepared.assembly.y)
     found = freedoms(motion)

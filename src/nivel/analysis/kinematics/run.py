@@ -82,13 +82,22 @@ def kinematics(
     refuse_free_motions(machine, prepared)
     steps = complete(methods.machine.simulation, methods.coordinates)
     chosen = _without_histories(prepared.motion.system.layout, sink)
-    attributes = run_attributes(machine, source, prepared, settings)
-    chosen[0].begin(Header(chosen[1], {**attributes, "analysis": "kinematics"}))
+    attributes = _attributes(machine, source, prepared, settings)
+    chosen[0].begin(Header(chosen[1], attributes))
     seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
     listener.say("finding positions", settings.duration)
     finished, run = follow(prepared, steps, chosen[0], listener)
     finished.timing |= seconds
     return _close(sink, prepared, finished, run)
+
+
+def _attributes(
+    machine: MachineRecord, source: str, prepared: Prepared, settings: KinematicsSettings
+) -> dict[str, str | float | int]:
+    """The attributes of the result; that drivers give the bodies other velocities than the file is no news."""
+    attributes = run_attributes(machine, source, prepared, settings)
+    assembly = {**json.loads(str(attributes["assembly"])), "velocity_change": ()}
+    return {**attributes, "assembly": json.dumps(assembly), "analysis": "kinematics"}
 
 
 def follow(prepared: Prepared, settings: RunSettings, sink: Sink, listener: Listener) -> tuple[RunOutcome, Run]:

@@ -64,9 +64,7 @@ class Catalogue:
         measured = [name for name in self.outputs if name.startswith("sensor.")]
         return measured or list(self.coordinates)
 
-    def chosen(
-        self, inputs: Sequence[str] | None, outputs: Sequence[str] | None
-    ) -> tuple[list[Input], list[Output]]:
+    def chosen(self, inputs: Sequence[str] | None, outputs: Sequence[str] | None) -> tuple[list[Input], list[Output]]:
         """Those of these names. Raises ModelError with every name that leads nowhere."""
         faults: list[Fault] = []
         taken = [self._find(name, self.inputs, "inputs", faults) for name in inputs or ()]

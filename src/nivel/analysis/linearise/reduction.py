@@ -168,4 +168,3 @@ def _null_space(rows: Array) -> Array:
     _, sizes, every = np.linalg.svd(rows)
     rank = int(np.sum(sizes > RANK * sizes[0])) if len(sizes) else 0
     return every[rank:].T
-

@@ -136,7 +136,9 @@ def _states(instant: Instant, reduction: Reduction) -> _States:
     length = instant.length[instant.free][reduction.selected]
     facts = instant.system.states
     return _States(
-        [name for name, _ in chosen] + [f"{name}.rate" for name, _ in chosen] + [f"state.{fact.name}" for fact in facts],
+        [name for name, _ in chosen]
+        + [f"{name}.rate" for name, _ in chosen]
+        + [f"state.{fact.name}" for fact in facts],
         [unit for _, unit in chosen] + [f"{unit}/s" for _, unit in chosen] + [fact.units for fact in facts],
         np.concatenate([length, length, [fact.scale or 1.0 for fact in facts]]),
     )
@@ -252,7 +254,9 @@ def _judged_at_rest(moment: Moment, instant: Instant, reduction: Reduction, A: A
     facts = instant.system.states
     for k, fact in enumerate(facts):
         if abs(g[k]) > BALANCE * (fact.scale or 1.0) * max(1.0, abs(A[2 * len(reduction.selected) + k]).max()):
-            notes.append(f"the state {fact.name} changes at a rate of {g[k]:.4g} per second: linearise about equilibrium")
+            notes.append(
+                f"the state {fact.name} changes at a rate of {g[k]:.4g} per second: linearise about equilibrium"
+            )
     return not notes, notes
 
 

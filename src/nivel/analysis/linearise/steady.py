@@ -27,7 +27,9 @@ def is_at_rest(instant: Instant) -> bool:
     """Whether nothing moves, for the time scale of its accelerations."""
     own = instant
     speed = np.abs(own.y[own.positions : own.first_state] / own.length)
-    return bool(np.max(speed, initial=0.0) <= REST * max(1.0, np.sqrt(np.max(np.abs(own.vdot / own.length), initial=0.0))))
+    return bool(
+        np.max(speed, initial=0.0) <= REST * max(1.0, np.sqrt(np.max(np.abs(own.vdot / own.length), initial=0.0)))
+    )
 
 
 def acceleration_of(instant: Instant) -> Array:
@@ -35,7 +37,9 @@ def acceleration_of(instant: Instant) -> Array:
     return np.abs(instant.vdot / instant.length)
 
 
-def keeps_its_equations(motion: MotionEquations, instant: Instant, find: Callable[[float, Array], Array | None]) -> bool:
+def keeps_its_equations(
+    motion: MotionEquations, instant: Instant, find: Callable[[float, Array], Array | None]
+) -> bool:
     """Whether A, which `find` makes of a time and a state, is the same at two later moments of the motion.
 
     motion : equations that can be evaluated, in the coordinates of the instant.

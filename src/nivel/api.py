@@ -408,7 +408,7 @@ class Machine:
 
         about : `start` (the machine as it starts), `equilibrium` (at t = 0), or a time [s] to which it is run first.
         inputs : joint coordinates (efforts on them), motors, drivers (accelerations of what they prescribe), `BODY.force.x`,
-        `BODY.torque.x`, `state.NAME`; default: motors and drivers. outputs : joint coordinates and their `.rate`, sensors, `BODY.position.x`,
+        `BODY.torque.x`, `state.NAME`; default: motors and drivers. outputs : joint coordinates, their `.rate`, sensors, `BODY.position.x`,
         `BODY.velocity.x`, `BODY.angular_velocity.x`, `driver.NAME.effort`, `force.NAME.…`, `state.NAME`; default: sensors, or without any
         all joint coordinates. coordinates : auto, absolute or relative.
         Raises ModelError (nothing was computed) or SolveError.

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -152,7 +153,7 @@ class Instant:
         whole = np.array(values).T if values else np.zeros((len(self.record.residual.value), 0))
         n, S, K = self.n, self.state_count, self.rows
         starts = np.cumsum([0, n, S, K, K, K])
-        parts = [whole[a:b] for a, b in zip(starts[:-1], starts[1:], strict=True)]
+        parts = [whole[a:b] for a, b in pairwise(starts)]
         return Slopes(*parts, seen=seen)
 
     def _load(self) -> None:

@@ -1,4 +1,4 @@
-"""`nivel kinematics MACHINE`: positions, velocities, accelerations and reactions of a driven machine; a result file, a report, a summary."""
+"""`nivel kinematics MACHINE`: positions, velocities, accelerations and reactions of a driven machine; a result file and a report."""
 
 from __future__ import annotations
 

@@ -108,5 +108,5 @@ def _matrices(model: LinearModel) -> list[tuple[str, list[str], list[tuple[str, 
             [(name, [f"{value:.6g}" for value in row]) for name, row in zip(rows, values, strict=True)],
         )
         for title, values, rows, columns in wanted
-        if 0 < values.size and max(values.shape) <= MOST_ENTRIES
+        if values.size > 0 and max(values.shape) <= MOST_ENTRIES
     ]

@@ -139,9 +139,10 @@ def _drawing(across: Axis | LogAxis, up: Axis | LogAxis, inner: str, x_title: st
         grid.append(f'<path class="grid" d="M{LEFT} {y:.1f}H{WIDTH - RIGHT}"/>')
         grid.append(f'<text x="{LEFT - 6:.1f}" y="{y + 4:.1f}" text-anchor="end">{tick.label}</text>')
     middle = 0.5 * (LEFT + WIDTH - RIGHT)
+    place = f"translate(12 {0.5 * (TOP + HEIGHT - BOTTOM):.0f}) rotate(-90)"
     titles = (
         f'<text class="axis" x="{middle:.0f}" y="{HEIGHT - 6:.0f}" text-anchor="middle">{escape(x_title)}</text>'
-        f'<text class="axis" transform="translate(12 {0.5 * (TOP + HEIGHT - BOTTOM):.0f}) rotate(-90)" text-anchor="middle">{escape(y_title)}</text>'
+        f'<text class="axis" transform="{place}" text-anchor="middle">{escape(y_title)}</text>'
     )
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" class="plot" viewBox="0 0 {WIDTH:.0f} {HEIGHT:.0f}" role="img" '

@@ -70,9 +70,9 @@ class Mode:
 class LinearModel:
     """δẋ = A δx + B δu, δy = C δx + D δu about a state of a machine at `time` [s].
 
-    states, inputs, outputs : names; *_units : their units. M, damping, K (m, m) : second-order matrices in the independent coordinates, of a
-    machine at rest (Zᵀ M Z …), else of its velocities held. eigenvalues (n,) : in the order of `modes` but with both of each pair. notes : what
-    a reader has to know; steady : whether eigenvalues describe the motion (at rest, or the same A later on).
+    states, inputs, outputs : names; *_units : their units. M, damping, K (m, m) : Zᵀ M Z, Zᵀ D Z and Zᵀ K Z in the independent
+    coordinates; at rest these are the second-order equations. eigenvalues (n,) : in the order of `modes`, but both of each pair.
+    notes : what a reader has to know; steady : whether eigenvalues describe the motion (at rest, or the same A later on).
     right, left (n, n) : eigenvectors, a column each. shift, turn (n, B, 3) : of body frames in each, complex.
     """
 

@@ -58,7 +58,8 @@ def read_curve(machine: MachineRecord, text: str) -> Point:
     if not colon:
         marker = machine.marker_named.get(name)
         if marker is not None and marker.body != GROUND:
-            return Point(name, marker.body, tuple(marker.position or (0.0, 0.0, 0.0)))
+            x, y, z = marker.position or (0.0, 0.0, 0.0)
+            return Point(name, marker.body, (x, y, z))
         if name in machine.body_named:
             return Point(name, name, (0.0, 0.0, 0.0))
         known = [*machine.marker_named, *machine.body_named]

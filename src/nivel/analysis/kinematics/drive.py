@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import pi
+from typing import Any
 
 import numpy as np
 
@@ -33,7 +34,7 @@ def driven(machine: MachineRecord, settings: KinematicsSettings) -> tuple[Machin
         settings = replace(settings, start=start, end=end)
         taken = {driver.name for driver in machine.drivers}
         name = next(each for each in ("drive", *(f"drive_{k}" for k in range(2, len(taken) + 3))) if each not in taken)
-        value = f"{start!r} + ({(end - start) / settings.duration!r})*time"
+        value: Any = f"{start!r} + ({(end - start) / settings.duration!r})*time"
         out = machine.replace(drivers=(*machine.drivers, Driver(name=name, coordinate=settings.drive, value=value)))
     simulation = out.simulation.replace(duration=settings.duration, step=settings.step, output_interval=settings.step)
     return out.replace(simulation=simulation), settings

@@ -67,10 +67,10 @@ class Catalogue:
     def chosen(self, inputs: Sequence[str] | None, outputs: Sequence[str] | None) -> tuple[list[Input], list[Output]]:
         """Those of these names. Raises ModelError with every name that leads nowhere."""
         faults: list[Fault] = []
-        taken = [self._find(name, self.inputs, "inputs", faults) for name in inputs or ()]
+        taken = [self._find(self._whole(name), self.inputs, "inputs", faults) for name in inputs or ()]
         if inputs is None:
             taken = [self.inputs[name] for name in self.default_inputs()]
-        seen = [self._find(name, self.outputs, "outputs", faults) for name in outputs or ()]
+        seen = [self._find(self._whole(name), self.outputs, "outputs", faults) for name in outputs or ()]
         if outputs is None:
             seen = [self.outputs[name] for name in self.default_outputs()]
         if faults:
@@ -167,8 +167,9 @@ class Catalogue:
         return out
 
     def _whole(self, reference: str) -> str:
-        """The full name of a joint coordinate."""
-        return next(name for name in self.coordinates if name == reference or name.startswith(f"{reference}."))
+        """The full name of a joint coordinate that is mentioned by its joint alone; anything else as it is."""
+        found = [name for name in self.coordinates if name.startswith(f"{reference}.")]
+        return found[0] if len(found) == 1 else reference
 
     def ports(self, inputs: Sequence[Input]) -> Ports:
         """The generalised forces of inputs, and the rows that they prescribe."""

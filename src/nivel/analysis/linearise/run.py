@@ -28,7 +28,6 @@ from nivel.results.linear_model import LinearModel
 from nivel.results.linear_motion import Posed
 from nivel.system.system import Array
 
-
 NAMED = 6  # states in a sentence
 
 
@@ -104,7 +103,7 @@ def linearise(
 
 def _refuse_large(instant: Instant) -> None:
     if instant.n > MOST:
-        message = f"{instant.n} velocities are more than the {MOST} of which full matrices are made: reduce the machine, or use statics --modes"
+        message = f"{instant.n} velocities are more than the {MOST} of which full matrices are made: use `nivel statics --modes`"
         raise ModelError(Fault("", 0, 0, "linearise", message))
 
 

@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from nivel.machine import Torque as Torque
     from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
     from nivel.results.comparison import Comparison as Comparison
+    from nivel.results.efforts import Efforts as Efforts
     from nivel.results.linear_model import LinearModel as LinearModel
     from nivel.results.mechanism import Range as Range
     from nivel.results.mechanism import coupler_curve as coupler_curve
@@ -97,6 +98,7 @@ _HOME = {
     "Torque": "nivel.machine",
     "TorsionalSpringDamper": "nivel.machine",
     "Comparison": "nivel.results.comparison",
+    "Efforts": "nivel.results.efforts",
     "LinearModel": "nivel.results.linear_model",
     "Range": "nivel.results.mechanism",
     "Result": "nivel.results.result",
@@ -113,6 +115,7 @@ __all__ = [
     "Comparison",
     "Contact",
     "Driver",
+    "Efforts",
     "Event",
     "Expression",
     "Friction",

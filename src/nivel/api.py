@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from nivel.analysis.check import Check
     from nivel.analysis.posing import Posing
     from nivel.results.comparison import Comparison
+    from nivel.results.efforts import Efforts
     from nivel.results.linear_model import LinearModel
     from nivel.results.mechanism import Range
     from nivel.results.result import Result
@@ -393,6 +394,57 @@ class Machine:
                 drive=name, start=begin, end=end, positions=positions, coordinates=coordinates, listener=listener
             ),
         )
+
+    @checked_arguments
+    def inverse(
+        self,
+        *,
+        actuators: Sequence[str] | str | None = None,
+        motion: Any = None,
+        trajectory: str | PathLike[str] | None = None,
+        limits: Mapping[str, Any] | None = None,
+        weights: Mapping[str, Any] | None = None,
+        hold: Sequence[str] | str | None = None,
+        positions: int | str | None = None,
+        listener: Listener | None = None,
+    ) -> Efforts:
+        """Inverse dynamics: the efforts of actuators that make the machine follow a motion.
+
+        actuators : joint coordinates, or motors, which then do not act themselves; default: the motors, or without any what the drivers
+        prescribe. motion : a result, or its file; default: that of the machine's drivers. trajectory : CSV file of `time` and joint
+        coordinates, in place of it. limits, weights : by actuator; of more actuators than needed the least Σ (weight · effort)² is taken
+        within the limits, weights being one over the limit where there is one. hold : drivers that keep holding what they prescribe.
+        positions : of the motion of the drivers or the trajectory, default 361.
+        Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be had.
+        """
+        from nivel.analysis.inverse.refusals import refuse_for_inverse
+        from nivel.analysis.inverse.settings import inverse_settings
+        from nivel.analysis.inverse.trajectory import along_trajectory
+        from nivel.analysis.neutral import neutral
+
+        given = {"actuators": actuators, "limits": limits, "weights": weights, "hold": hold}
+        if motion is not None and trajectory is not None:
+            raise ModelError(Fault("", 0, 0, "inverse.trajectory", "stands in place of `motion`; give one of them"))
+        with self._faults_in_file():
+            refuse_for_inverse(self.record)
+            record = self.record if trajectory is None else along_trajectory(self.record, trajectory)
+            settings = inverse_settings(record, given)
+            from nivel.analysis.inverse.run import inverse, without_actuators
+
+            plain, _ = neutral(without_actuators(record, settings), "absolute")
+            methods = methods_of(plain, "newton-euler", "absolute")
+        build(linear_entries(methods), listener or Listener())
+        if motion is None:
+            followed = Machine.from_record(record, self.origin).kinematics(positions=positions, listener=listener)
+        else:
+            from nivel.results.result import Result
+
+            followed = open_result(motion) if isinstance(motion, str | PathLike) else motion
+            if not isinstance(followed, Result):
+                message = f"a result or the name of its file was expected, got {type(motion).__name__}"
+                raise ModelError(Fault("", 0, 0, "inverse.motion", message))
+        with self._faults_in_file():
+            return inverse(methods, settings, followed, listener=listener)
 
     @checked_arguments
     def linearise(

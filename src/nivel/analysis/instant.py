@@ -73,6 +73,10 @@ class Instant:
             tree.state[: self.positions] = y[: self.positions]
         self.vdot, self.lam = self._motion()
 
+    def move_to(self, t: float, y: Array, vdot: Array) -> None:
+        """Be at another time and state, with these accelerations (n,) and no multipliers."""
+        self.t, self.y, self.vdot, self.lam = t, y.copy(), vdot.copy(), np.zeros(self.rows)
+
     def _idle(self) -> NDArray[np.bool_]:
         """Turns of point masses."""
         body = np.full(self.n, -1)

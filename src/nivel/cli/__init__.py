@@ -25,6 +25,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
     "statics": CommandPlace("nivel.cli.statics", "Find where a machine rests under its loads."),
     "kinematics": CommandPlace("nivel.cli.kinematics", "Positions, velocities and reactions of a driven machine."),
+    "inverse": CommandPlace("nivel.cli.inverse", "Efforts of actuators that make a machine follow a motion."),
     "linearise": CommandPlace("nivel.cli.linearise", "Eigenvalues, modes and the linear model about a state."),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and say how fast and how exact each is."),
     "reduce": CommandPlace("nivel.cli.reduce", "Make a flexible body of a finite-element model."),

@@ -55,6 +55,11 @@ if TYPE_CHECKING:
     from nivel.machine import Torque as Torque
     from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
     from nivel.results.comparison import Comparison as Comparison
+    from nivel.results.efforts import Efforts as Efforts
+    from nivel.results.linear_model import LinearModel as LinearModel
+    from nivel.results.mechanism import Range as Range
+    from nivel.results.mechanism import coupler_curve as coupler_curve
+    from nivel.results.mechanism import transmission_angle as transmission_angle
     from nivel.results.result import Result as Result
 
 _HOME = {
@@ -95,7 +100,12 @@ _HOME = {
     "Torque": "nivel.machine",
     "TorsionalSpringDamper": "nivel.machine",
     "Comparison": "nivel.results.comparison",
+    "Efforts": "nivel.results.efforts",
+    "LinearModel": "nivel.results.linear_model",
+    "Range": "nivel.results.mechanism",
     "Result": "nivel.results.result",
+    "coupler_curve": "nivel.results.mechanism",
+    "transmission_angle": "nivel.results.mechanism",
 }
 
 __all__ = [
@@ -108,6 +118,7 @@ __all__ = [
     "Comparison",
     "Contact",
     "Driver",
+    "Efforts",
     "Event",
     "Expression",
     "Friction",
@@ -115,6 +126,7 @@ __all__ = [
     "Joint",
     "JointSpringDamper",
     "LinearCoupling",
+    "LinearModel",
     "Machine",
     "MachineRecord",
     "Marker",
@@ -125,6 +137,7 @@ __all__ = [
     "PointForce",
     "PythonLaw",
     "Rack",
+    "Range",
     "Result",
     "Sensor",
     "SimulationSettings",
@@ -135,8 +148,10 @@ __all__ = [
     "Table",
     "Torque",
     "TorsionalSpringDamper",
+    "coupler_curve",
     "load",
     "open_result",
+    "transmission_angle",
 ]
 
 

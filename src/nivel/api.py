@@ -11,7 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 from nivel.analysis.changes import changed
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
-from nivel.analysis.compilation import assembly_entries, build, preparation_entries, run_entries, statics_entries
+from nivel.analysis.compilation import (
+    assembly_entries,
+    build,
+    kinematics_entries,
+    linear_entries,
+    preparation_entries,
+    run_entries,
+    statics_entries,
+)
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan, methods_of, plan_run
 from nivel.analysis.settings import waiting_time
@@ -41,6 +49,9 @@ if TYPE_CHECKING:
     from nivel.analysis.posing import Posing
     from nivel.c_library.writer import Files
     from nivel.results.comparison import Comparison
+    from nivel.results.efforts import Efforts
+    from nivel.results.linear_model import LinearModel
+    from nivel.results.mechanism import Range
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
 
@@ -312,6 +323,206 @@ class Machine:
                 listener=listener,
                 compile_seconds=compile_seconds,
             )
+
+    @checked_arguments
+    def kinematics(
+        self,
+        *,
+        drive: str | None = None,
+        start: float | str | None = None,
+        end: float | str | None = None,
+        duration: float | str | None = None,
+        positions: int | str | None = None,
+        coordinates: str | None = None,
+        out: str | PathLike[str] | None = None,
+        force: bool = False,
+        listener: Listener | None = None,
+    ) -> Result:
+        """Positions, velocities, accelerations and reactions of a machine whose motions are all driven, without integration.
+
+        drive : a joint coordinate to be driven evenly besides what the machine's own drivers prescribe, from `start` (default: where it is)
+        to `end` (default: one turn further) [rad or m, or texts with units]. duration : of the motion [s], default that of the machine, 1 s
+        with `drive`. positions : so many, both ends included, default 361. coordinates : auto, absolute or relative. out : result file
+        (NetCDF); in memory if None. force : replace it.
+        Raises ModelError where motions are not driven (nothing was computed), SolveError where the machine cannot go on: its `result` holds
+        the positions until then, its message says what holds which driver.
+        """
+        from nivel.analysis.kinematics.refusals import refuse_what_bends
+        from nivel.analysis.kinematics.settings import kinematics_settings
+        from nivel.analysis.neutral import neutral
+
+        given = {"drive": drive, "start": start, "end": end, "duration": duration, "positions": positions}
+        settings = kinematics_settings(self.record, {**given, "coordinates": coordinates})
+        with self._faults_in_file():
+            refuse_what_bends(self.record)
+            build(assembly_entries(self.record), listener or Listener())
+            from nivel.analysis.kinematics.drive import driven
+
+            machine, settings = driven(self.record, settings)
+            plain, chosen = neutral(machine, settings.coordinates)
+            methods = methods_of(plain, "newton-euler", chosen)
+        compile_seconds = build(kinematics_entries(methods), listener or Listener())
+        # what follows takes longer to import
+        from nivel.analysis.kinematics.run import kinematics
+        from nivel.results.target import keep_sources
+
+        if out is not None and self.origin.file:
+            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
+        with self._faults_in_file():
+            return kinematics(
+                machine,
+                methods,
+                settings,
+                source=self.origin.source,
+                out=out,
+                force=force,
+                listener=listener,
+                compile_seconds=compile_seconds,
+            )
+
+    @checked_arguments
+    def range_of_motion(
+        self,
+        coordinate: str,
+        *,
+        positions: int | str | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> Range:
+        """How far a joint coordinate can be driven from where it is, both ways: a whole turn, or, of a length, twice the machine's size.
+
+        positions : so many each way, default 361. Raises ModelError where other motions are not driven.
+        """
+        from math import pi
+
+        from nivel.analysis.kinematics.ranges import range_of_motion
+        from nivel.analysis.kinematics.settings import kinematics_settings
+
+        settings = kinematics_settings(
+            self.record, {"drive": coordinate, "end": 0.0, "positions": positions, "coordinates": coordinates}
+        )
+        build(assembly_entries(self.record), listener or Listener())
+        with self._faults_in_file():
+            from nivel.analysis.kinematics.drive import present_value
+
+            name = settings.drive
+            start, unit, size = present_value(self.record, name)
+        return range_of_motion(
+            name,
+            unit,
+            start,
+            2.0 * pi if unit == "rad" else 2.0 * size,
+            lambda begin, end: self.kinematics(
+                drive=name, start=begin, end=end, positions=positions, coordinates=coordinates, listener=listener
+            ),
+        )
+
+    @checked_arguments
+    def inverse(
+        self,
+        *,
+        actuators: Sequence[str] | str | None = None,
+        motion: Any = None,
+        trajectory: str | PathLike[str] | None = None,
+        limits: Mapping[str, Any] | None = None,
+        weights: Mapping[str, Any] | None = None,
+        hold: Sequence[str] | str | None = None,
+        positions: int | str | None = None,
+        listener: Listener | None = None,
+    ) -> Efforts:
+        """Inverse dynamics: the efforts of actuators that make the machine follow a motion.
+
+        actuators : joint coordinates, or motors, which then do not act themselves; default: the motors, or without any what the drivers
+        prescribe. motion : a result, or its file; default: that of the machine's drivers. trajectory : CSV file of `time` and joint
+        coordinates, in place of it. limits, weights : by actuator; of more actuators than needed the least Σ (weight · effort)² is taken
+        within the limits, weights being one over the limit where there is one. hold : drivers that keep holding what they prescribe.
+        positions : of the motion of the drivers or the trajectory, default 361.
+        Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be had.
+        """
+        from nivel.analysis.inverse.refusals import refuse_for_inverse
+        from nivel.analysis.inverse.settings import inverse_settings
+        from nivel.analysis.inverse.trajectory import along_trajectory
+        from nivel.analysis.neutral import neutral
+
+        given = {"actuators": actuators, "limits": limits, "weights": weights, "hold": hold}
+        if motion is not None and trajectory is not None:
+            raise ModelError(Fault("", 0, 0, "inverse.trajectory", "stands in place of `motion`; give one of them"))
+        with self._faults_in_file():
+            refuse_for_inverse(self.record)
+            record = self.record if trajectory is None else along_trajectory(self.record, trajectory)
+            settings = inverse_settings(record, given)
+            from nivel.analysis.inverse.run import inverse, without_actuators
+
+            plain, _ = neutral(without_actuators(record, settings), "absolute")
+            methods = methods_of(plain, "newton-euler", "absolute")
+        build(linear_entries(methods), listener or Listener())
+        if motion is None:
+            followed = Machine.from_record(record, self.origin).kinematics(positions=positions, listener=listener)
+        else:
+            from nivel.results.result import Result
+
+            followed = open_result(motion) if isinstance(motion, str | PathLike) else motion
+            if not isinstance(followed, Result):
+                message = f"a result or the name of its file was expected, got {type(motion).__name__}"
+                raise ModelError(Fault("", 0, 0, "inverse.motion", message))
+        with self._faults_in_file():
+            return inverse(methods, settings, followed, listener=listener)
+
+    @checked_arguments
+    def linearise(
+        self,
+        *,
+        about: float | str | None = None,
+        inputs: Sequence[str] | str | None = None,
+        outputs: Sequence[str] | str | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> LinearModel:
+        """The equations of motion made linear about a state: eigenvalues, modes, and A, B, C, D between inputs and outputs.
+
+        about : `start` (the machine as it starts), `equilibrium` (at t = 0), or a time [s] to which it is run first.
+        inputs : joint coordinates (efforts on them), motors, drivers (accelerations of what they prescribe), `BODY.force.x`,
+        `BODY.torque.x`, `state.NAME`; default: motors and drivers. outputs : joint coordinates, their `.rate`, sensors, `BODY.position.x`,
+        `BODY.velocity.x`, `BODY.angular_velocity.x`, `driver.NAME.effort`, `force.NAME.…`, `state.NAME`; default: sensors, or without any
+        all joint coordinates. coordinates : auto, absolute or relative.
+        Raises ModelError (nothing was computed) or SolveError.
+        """
+        from nivel.analysis.linearise.refusals import refuse_jumps
+        from nivel.analysis.linearise.settings import linearise_settings
+        from nivel.analysis.neutral import neutral
+
+        simulation = self.record.simulation
+        wanted = simulation.coordinates if coordinates is None else coordinates
+        settings = linearise_settings(
+            about,
+            inputs,
+            outputs,
+            "auto" if coordinates is None and wanted == "independent" else wanted,
+            simulation.start,
+        )
+        with self._faults_in_file():
+            refuse_jumps(self.record)
+            plain, chosen = neutral(
+                self.record, settings.coordinates, "equilibrium" if settings.about == "equilibrium" else "as-given"
+            )
+            methods = methods_of(plain, "newton-euler", chosen)
+        entries = linear_entries(methods)
+        if settings.about == "equilibrium":
+            from nivel.analysis.statics.start import methods_at_rest
+
+            entries += statics_entries(methods_at_rest(plain))
+        run = None
+        if settings.time > 0.0:
+            run = self.with_settings({"duration": settings.time})._plan(())
+            entries += run_entries(run)
+        build(entries, listener or Listener())
+        # what follows takes longer to import
+        from nivel.analysis.linearise.run import linearise
+        from nivel.analysis.moment import run_until
+
+        with self._faults_in_file():
+            posture = None if run is None else run_until(run, listener or Listener())
+            return linearise(plain, methods, settings, posture=posture, source=self.origin.source, listener=listener)
 
     @checked_arguments
     def compare(

@@ -28,8 +28,9 @@ from nivel.system.forces import FORCES
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
-OUTPUT, LOOP = "nivel.kernels.observe", "nivel.integrate.loop"
+OUTPUT, LOOP, FOLLOWING = "nivel.kernels.observe", "nivel.integrate.loop", "nivel.integrate.positions"
 STATICS, RESIDUAL = "nivel.kernels.static_entries", "nivel.kernels.tangent_entries:evaluate_residual"
+TANGENT_ENTRIES = "nivel.kernels.tangent_entries"
 FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
 MEASURE, FRICTION = "nivel.kernels.measure", "nivel.kernels.friction"
@@ -143,6 +144,20 @@ def statics_entries(methods: Methods) -> list[Entry]:
     return [*preparation_entries(methods), *_entries([STATICS]), *twins]
 
 
+def kinematics_entries(methods: Methods) -> list[Entry]:
+    """What a kinematic analysis takes."""
+    correct = entry_of(f"{methods.path.correction}:correct")
+    return [*preparation_entries(methods), *_entries([FOLLOWING]), correct]
+
+
+def linear_entries(methods: Methods) -> list[Entry]:
+    """What exact derivatives at an instant take."""
+    modules = [*_rare_modules(methods.machine), *_node_modules(methods)]
+    twins = _with_twins(methods.path.residual, modules, _families(methods.machine), held=False)
+    sensors = _twins(SENSOR) if methods.machine.sensors else []
+    return [*preparation_entries(methods), *twins, *sensors, *_entries([TANGENT_ENTRIES])]
+
+
 def all_entries() -> list[Entry]:
     """Every entry that any run may need, those that take longest to compile first."""
     paths, integrators = (*PATHS.values(), *FLEXIBLE.values()), INTEGRATORS.values()
@@ -170,15 +185,16 @@ def all_entries() -> list[Entry]:
         OF_SLIDERS,
         PASSING,
         LOOP,
+        FOLLOWING,
         STATICS,
-        RESIDUAL.partition(":")[0],
+        TANGENT_ENTRIES,
         OUTPUT,
     ]
     families = dict.fromkeys(
         [*(each for kind in FORCES.values() for each in kind.families), *BEAMS, compute, state_rate, run_expression]
     )
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
-    twins += [family.twin for family in (*families, hold)]
+    twins += [family.twin for family in (*families, hold)] + _twins(SENSOR)
     entries = [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
     return [*dict.fromkeys(entries)]
 

@@ -69,7 +69,7 @@ def prepare(methods: Methods) -> Prepared:
     refuse_deep_starts(machine, absolute, assembly.y)
     motion.system.record.coordinates.reference[:] = assembly.reference
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
-    system, y = _arranged(motion.system, assembly.y, rest, rank, methods)
+    system, y = arranged(motion.system, assembly.y, rest, rank, methods)
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
     if integrator.residual:
         prepared = with_residual(prepared, y, methods.coordinates, _wanted(prepared, methods), path)
@@ -123,7 +123,7 @@ def _independent_rows(machine: MachineRecord, motion: MotionEquations, y: Array)
     return redundancy, MotionEquations(known, motion.kernels)
 
 
-def _arranged(absolute: System, y: Array, rest: Settled | None, rank: int, methods: Methods) -> tuple[System, Array]:
+def arranged(absolute: System, y: Array, rest: Settled | None, rank: int, methods: Methods) -> tuple[System, Array]:
     """The system and its state y, given in absolute coordinates, in those of the path; with the modes bent by the loads of the equilibrium
     `rest` from which the run starts."""
     arrangement: Any = import_module(methods.path.arrangement)

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from nivel.machine import Expression as Expression
     from nivel.machine import Friction as Friction
     from nivel.machine import Gear as Gear
+    from nivel.machine import Input as Input
     from nivel.machine import Joint as Joint
     from nivel.machine import JointSpringDamper as JointSpringDamper
     from nivel.machine import LinearCoupling as LinearCoupling
@@ -74,6 +75,7 @@ _HOME = {
     "Expression": "nivel.machine",
     "Friction": "nivel.machine",
     "Gear": "nivel.machine",
+    "Input": "nivel.machine",
     "Joint": "nivel.machine",
     "JointSpringDamper": "nivel.machine",
     "LinearCoupling": "nivel.machine",
@@ -109,6 +111,7 @@ __all__ = [
     "Expression",
     "Friction",
     "Gear",
+    "Input",
     "Joint",
     "JointSpringDamper",
     "LinearCoupling",

@@ -26,12 +26,14 @@ from nivel.machine import (
     Driver,
     Event,
     Force,
+    Input,
     Joint,
     MachineRecord,
     Marker,
     Sensor,
     SimulationSettings,
     State,
+    Table,
 )
 
 if TYPE_CHECKING:
@@ -65,6 +67,7 @@ class Machine:
         couplings: Sequence[Coupling] = (),
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
+        inputs: Sequence[Input] = (),
         states: Sequence[State] = (),
         sensors: Sequence[Sensor] = (),
         events: Sequence[Event] = (),
@@ -80,6 +83,7 @@ class Machine:
             "couplings": couplings,
             "drivers": drivers,
             "forces": forces,
+            "inputs": inputs,
             "states": states,
             "sensors": sensors,
             "events": events,
@@ -161,6 +165,7 @@ class Machine:
         newmark: Mapping[str, Any] | None = None,
         hht: Mapping[str, Any] | None = None,
         generalised_alpha: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, float | str | PathLike[str] | Table] | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         verify: bool = False,
@@ -173,6 +178,7 @@ class Machine:
         tolerance, where the integrator can do both. tolerance : of integrators that choose their steps.
         cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte, newmark,
         hht, generalised_alpha : mappings as in a machine file.
+        inputs : what inputs of the machine follow in this run: a number, a `Table` of time, or a file of columns `time`, `value` (CSV).
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : estimate the accuracy with a second
         run, at half the step or a tenth of the tolerance. A setting given here that has no effect with the methods of the run is
         refused; set in the file, it is ignored.
@@ -200,7 +206,7 @@ class Machine:
             "generalised_alpha": generalised_alpha,
         }
         given = {key: value for key, value in given.items() if value is not None}
-        chosen = self.with_settings(given)
+        chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         entries = run_entries(plan)
         if plan.settings.start == "equilibrium":
@@ -369,6 +375,18 @@ class Machine:
             return Machine.from_record(self.record.replace(simulation=simulation), origin)
         except ModelError as error:
             raise ModelError(origin.placed(error.faults)) from None
+
+    @checked_arguments
+    def with_inputs(self, inputs: Mapping[str, float | str | PathLike[str] | Table]) -> Machine:
+        """The same machine whose inputs follow numbers, tables of time, or files of columns `time`, `value` (CSV).
+
+        Raises ModelError where there is no such input, or a value leaves its range or changes faster than its rate.
+        """
+        if not inputs:
+            return self
+        from nivel.files.input_table import with_signals
+
+        return Machine.from_record(with_signals(self.record, inputs), self.origin)
 
     @checked_arguments
     def save(self, path: str | PathLike[str]) -> None:

@@ -14,6 +14,7 @@ from nivel.integrate.catalogue import BY_MODES, INTEGRATORS
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.hook import Family
+from nivel.kernels.input import apply as read_inputs
 from nivel.kernels.program import run as run_expression
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
@@ -174,7 +175,7 @@ def all_entries() -> list[Entry]:
         OUTPUT,
     ]
     families = dict.fromkeys(
-        [*(each for kind in FORCES.values() for each in kind.families), *BEAMS, state_rate, run_expression]
+        [*(each for kind in FORCES.values() for each in kind.families), *BEAMS, state_rate, read_inputs, run_expression]
     )
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)]
@@ -225,7 +226,8 @@ def _families(machine: MachineRecord) -> list[Family]:
     """The families of forces that a machine has, and what runs its expressions."""
     families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
-    return [*families, *([state_rate] if machine.states else []), run_expression]
+    families |= dict.fromkeys([read_inputs] * bool(machine.inputs) + [state_rate] * bool(machine.states))
+    return [*families, run_expression]
 
 
 def _node_modules(methods: Methods) -> list[str]:

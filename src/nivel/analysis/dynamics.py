@@ -96,7 +96,7 @@ def march(
     the result does not depend on it.
     """
     system, stabilisation = prepared.motion.system, STABILISATIONS[settings.stabilisation]
-    _feed_back(system, settings, stabilisation)
+    give_feedback(system, settings, stabilisation)
     run = start_history(prepared, settings, prepared.integrator)
     run.counter[CONSERVE] = int(stabilisation.CONSERVES)
     advance = _compiled_loop(prepared, run, stabilisation)
@@ -126,7 +126,7 @@ def march(
     return finished
 
 
-def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
+def give_feedback(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
     """Set what the stabilisation, or a penalty method, adds to the accelerations of the constraints, and what it leaves open."""
     stabilise = system.record.control.stabilise
     stabilise[:] = stabilisation.coefficients(settings.step, *(settings.baumgarte or (None, None)))
@@ -136,12 +136,17 @@ def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType)
 
 def _compiled_loop(prepared: Prepared, run: Run, stabilisation: ModuleType) -> Callable[[], int]:
     """The compiled loop of the run: goes on for the budget of steps in its counter, and returns a status."""
+    _, evaluate, correct, step = compiled_entries(prepared, stabilisation)
+    machine, history = prepared.motion.handle, Handle(run)
+    return lambda: advance(evaluate, correct, step, machine.address, history.address)
+
+
+def compiled_entries(prepared: Prepared, stabilisation: ModuleType) -> tuple[int, int, int, int]:
+    """Addresses of the loop, and of what it is given: the equations of motion, what follows a step, the step."""
     kernels, facts = prepared.motion.kernels, prepared.integrator
     correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
     step = getattr(import_module(facts.module), facts.function)
-    machine, history = prepared.motion.handle, Handle(run)
-    evaluate, correct, step = kernels.evaluate.address, correct.address, step.address
-    return lambda: advance(evaluate, correct, step, machine.address, history.address)
+    return advance.address, kernels.evaluate.address, correct.address, step.address
 
 
 def _march_in_chunks(

@@ -25,6 +25,7 @@ from nivel.machine.forces import (
     TorsionalSpringDamper,
 )
 from nivel.machine.inertia import Inertia, MassProperties, mass_properties
+from nivel.machine.input import Gamepad, Input, Keys
 from nivel.machine.joint import JOINT_COORDINATES, Joint, JointType
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
@@ -59,12 +60,15 @@ __all__ = [
     "Extrusion",
     "Force",
     "Friction",
+    "Gamepad",
     "Gear",
     "GlobalPoint",
     "Inertia",
+    "Input",
     "Joint",
     "JointSpringDamper",
     "JointType",
+    "Keys",
     "LinearCoupling",
     "MachineRecord",
     "Marker",

@@ -56,7 +56,7 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
 
 
 def _twice(machine: Any) -> Faults:
-    for sections in (("bodies", "beams"), ("markers",), WITH_ROWS, ("forces",), ("states",), ("sensors",), ("events",)):
+    for sections in (("bodies", "beams"), ("markers",), WITH_ROWS, ("forces",), ("inputs",), ("states",), ("sensors",), ("events",)):
         seen: dict[str, str] = {}
         for section in sections:
             for at, element in enumerate(elements(machine, section)):

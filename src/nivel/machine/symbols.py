@@ -1,7 +1,7 @@
 """What expressions can use of the machine itself: `hinge.angle_rate`, `tip.vx`.
 
 A symbol is the name of an element, a dot and a quantity. Where several elements have one name, the first that has
-the quantity is meant: of joints, states, forces, sensors, markers and bodies, in this order.
+the quantity is meant: of joints, inputs, states, forces, sensors, markers and bodies, in this order.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from nivel.machine.record import entry
 from nivel.machine.table import SIGNAL_PATH
 from nivel.machine.time_function import Expression, PythonLaw, Table
 
-Section = Literal["joints", "states", "forces", "sensors", "markers", "bodies"]
+Section = Literal["joints", "inputs", "states", "forces", "sensors", "markers", "bodies"]
 
 POINT_QUANTITIES: Final = ("x", "y", "z", "vx", "vy", "vz")
 STATE_QUANTITY: Final = "value"
@@ -94,7 +94,7 @@ def find_in(path: str, index: Index) -> Symbol:
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""
     empty = any(name in elements for elements in _quantities(index).values())
-    what = f"`{name}` has no symbols" if empty else f"there is no joint, state, sensor, marker or body `{name}`"
+    what = f"`{name}` has no symbols" if empty else f"there is no joint, input, state, sensor, marker or body `{name}`"
     raise UnknownSymbolError(f"{what}{hint}")
 
 
@@ -102,6 +102,7 @@ def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
     """Section → element → the quantities that it has."""
     return {
         "joints": {name: _of_joint(type_) for name, type_ in index.joints.items()},
+        "inputs": dict.fromkeys(index.inputs, (STATE_QUANTITY,)),
         "states": dict.fromkeys(index.states, (STATE_QUANTITY,)),
         "forces": {name: states_of(force) for name, force in index.forces.items()},
         "sensors": {name: _of_sensor(sensor) for name, sensor in index.sensors.items()},
@@ -176,6 +177,6 @@ def _has_hyphen(path: str, index: Index) -> bool:
     ending = f"-{path.partition('.')[0]}"
     return any(
         name.endswith(ending)
-        for its in (index.joints, index.states, index.sensors, index.markers, index.bodies)
+        for its in (index.joints, index.inputs, index.states, index.sensors, index.markers, index.bodies)
         for name in its
     )

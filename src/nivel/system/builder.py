@@ -32,7 +32,8 @@ class SystemBuilder:
 
     joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
     frictions : (columns of index, of number) of `nivel.kernels.friction`. owners : `joints.hinge`, `markers.tip`, …: what made each
-    marker. noted : the bodies and states used in each `noting`.
+    marker. noted : the bodies and states used in each `noting`. inputs : the signal of every input.
+    input_functions : the function of each, in the order of the machine.
     """
 
     machine: MachineRecord
@@ -45,6 +46,8 @@ class SystemBuilder:
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
     noted: list[Coupled] = field(default_factory=list)
     owners: list[str] = field(default_factory=list)
+    inputs: dict[str, Signal] = field(default_factory=dict)
+    input_functions: list[int] = field(default_factory=list)
     _owner: str = ""
     _noting: set[int] = field(default_factory=set)
     _noting_states: set[int] = field(default_factory=set)
@@ -173,6 +176,8 @@ class SystemBuilder:
             name = symbol.quantity.removesuffix("_rate")
             index = self._measured(f"{symbol.name}.{name}")
             return (COORDINATE if name == symbol.quantity else RATE, index, 0)
+        if symbol.section == "inputs":
+            return self.inputs[symbol.name]
         if symbol.section in ("states", "forces"):
             return (STATE, self.state(symbol.name if symbol.section == "states" else path), 0)
         if symbol.section == "sensors":

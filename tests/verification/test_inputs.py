@@ -68,7 +68,7 @@ def test_an_input_rests_without_a_signal():
 
 def test_a_file_of_columns_has_units_and_gives_the_same_run(tmp_path):
     path = tmp_path / "lever.csv"
-    path.write_text("time [ms],lever [%]\n" + "".join(f"{1e3 * t},{100 * v}\n" for t, v in zip(TIMES, VALUES, strict=True)))
+    path.write_text("time [ms],lever [deg]\n" + "".join(f"{1e3 * t},{np.degrees(v)}\n" for t, v in zip(TIMES, VALUES, strict=True)))
     of_file = cart().simulate(inputs={"lever": path})
     of_table = cart().simulate(inputs={"lever": Table(TIMES, VALUES)})
     np.testing.assert_allclose(of_file.array("rail.displacement"), of_table.array("rail.displacement"), rtol=1e-12)

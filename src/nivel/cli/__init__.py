@@ -23,6 +23,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "new": CommandPlace("nivel.cli.new", "Write a commented machine file that runs, to start from."),
     "check": CommandPlace("nivel.cli.check", "Check and assemble a machine; say what it is."),
     "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
+    "live": CommandPlace("nivel.cli.live", "Operate a machine in real time in the browser."),
     "statics": CommandPlace("nivel.cli.statics", "Find where a machine rests under its loads."),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and say how fast and how exact each is."),
     "reduce": CommandPlace("nivel.cli.reduce", "Make a flexible body of a finite-element model."),

@@ -65,10 +65,10 @@ def simulate(
         listener.say(f"verifying with {_finer(settings)[1]}", settings.duration)
         accuracy = _estimate(plan, sink.result(), listener)
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
-    return _close(sink, machine, prepared, finished, accuracy, _finer(settings)[1], resting, seconds)
+    return close_run(sink, machine, prepared, finished, accuracy, _finer(settings)[1], resting, seconds)
 
 
-def _close(
+def close_run(
     sink: Memory | Store,
     machine: MachineRecord,
     prepared: Prepared,
@@ -78,6 +78,11 @@ def _close(
     resting: tuple[tuple[Held, ...], tuple[Sticking, ...]],
     timing: dict[str, float],
 ) -> Result:
+    """Close the sink of a run with its trust report and all that is known of how it ended.
+
+    accuracy : estimated error, or None; refinement : how that was found. resting : of `resting_frictions`. timing : seconds besides the
+    loop's. Raises SolveError, with the result, where the run failed.
+    """
     redundancy = prepared.redundancy
     message, advice, at = finished.failure or ("", "", 0.0)
     facts = Facts(

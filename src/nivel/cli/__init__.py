@@ -24,6 +24,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "check": CommandPlace("nivel.cli.check", "Check and assemble a machine; say what it is."),
     "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
     "live": CommandPlace("nivel.cli.live", "Operate a machine in real time in the browser."),
+    "replay": CommandPlace("nivel.cli.replay", "Repeat a recorded live run exactly, or by other methods."),
     "statics": CommandPlace("nivel.cli.statics", "Find where a machine rests under its loads."),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and say how fast and how exact each is."),
     "reduce": CommandPlace("nivel.cli.reduce", "Make a flexible body of a finite-element model."),

@@ -69,9 +69,9 @@ class Recorder:
         elif done > self._ticks:
             take.tape.append(live.tape[np.arange(self._ticks, done) % rows])
         self._ticks = max(done, self._ticks)
-        return self._gather_frames(take)
+        return self._gather_frames(take, done)
 
-    def _gather_frames(self, take: Take) -> Array:
+    def _gather_frames(self, take: Take, done: int) -> Array:
         live = self._live
         shown, ring = int(live.control[SHOWN]), len(live.frames)
         first = self._shown
@@ -79,12 +79,16 @@ class Recorder:
             take.whole, first = False, shown - 1
         frames = live.frames[np.arange(first, shown) % ring]
         self._shown = shown
-        # a frame that was asked for, to be seen while nothing moves, is not one of the run
-        regular = frames[self._is_regular(frames[:, 0])] if len(frames) else frames
-        last = take.frames[-1][-1, 0] if take.frames else -1.0
-        regular = regular[regular[:, 0] > last] if len(regular) else regular
-        if len(regular):
-            take.frames.append(regular)
+        # Frames that were asked for, to be seen while nothing moves, are none of the run: they come at other times, after the run's own,
+        # or at the start before its first tick.
+        at = frames[:, 0]
+        first_of_run = np.flatnonzero(at == 0.0)[-1:] if done else np.zeros(0, dtype=np.intp)
+        newer = (at > (take.frames[-1][-1, 0] if take.frames else 0.0)) & self._is_regular(at)
+        newer[1:] &= at[1:] != at[:-1]
+        if not take.frames:
+            newer[first_of_run] = True
+        if newer.any():
+            take.frames.append(frames[newer])
         return frames
 
     def _is_regular(self, times: Array) -> NDArray[np.bool_]:

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from nivel.machine import PointForce as PointForce
     from nivel.machine import PythonLaw as PythonLaw
     from nivel.machine import Rack as Rack
+    from nivel.machine import Rope as Rope
     from nivel.machine import Sensor as Sensor
     from nivel.machine import SimulationSettings as SimulationSettings
     from nivel.machine import SpringDamper as SpringDamper
@@ -86,6 +87,7 @@ _HOME = {
     "PointForce": "nivel.machine",
     "PythonLaw": "nivel.machine",
     "Rack": "nivel.machine",
+    "Rope": "nivel.machine",
     "Sensor": "nivel.machine",
     "SimulationSettings": "nivel.machine",
     "SpringDamper": "nivel.machine",
@@ -126,6 +128,7 @@ __all__ = [
     "PythonLaw",
     "Rack",
     "Result",
+    "Rope",
     "Sensor",
     "SimulationSettings",
     "SolveError",

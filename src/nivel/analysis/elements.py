@@ -6,7 +6,7 @@ from nivel.machine.coordinate_reference import resolve
 from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
-from nivel.machine.forces import Between, BetweenMarkers, Contact, End, ForceElement, PointForce
+from nivel.machine.forces import Between, BetweenMarkers, Contact, End, ForceElement, PointForce, Rope
 from nivel.machine.input import Input
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
@@ -65,7 +65,7 @@ def _acts_on(machine: MachineRecord, force: ForceElement) -> str:
         return bodies[end] if isinstance(end, str) else end.body
 
     match force:
-        case Between() | BetweenMarkers():
+        case Between() | BetweenMarkers() | Rope():
             return " and ".join(body(end) for end in force.ends)
         case PointForce(marker=str() as marker):
             return bodies[marker]

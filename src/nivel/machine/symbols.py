@@ -121,7 +121,9 @@ def _of_sensor(sensor: Any) -> tuple[str, ...]:
 
 
 def states_of(force: Any) -> tuple[str, ...]:
-    """The first-order states of a force: the bristle of friction by the lugre model."""
+    """The first-order states of a force: the bristle of friction by the lugre model, the length of a rope on a winch."""
+    if entry(force, "type") == "rope":
+        return ("length",) if entry(force, "speed") is not None else ()
     return ("bristle",) if entry(force, "model") == "lugre" else ()
 
 

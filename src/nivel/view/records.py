@@ -26,6 +26,7 @@ ForceLook = Literal[
     "slide",
     "ring",
     "dot",
+    "rope",
 ]
 
 PROTOCOL: Final = 1  # version of all that stands here
@@ -156,7 +157,7 @@ class Force:
     in the second's.
 
     look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring`
-    holds it, a `dot` is where something acts on one body.
+    holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two.
     """
 
     name: str

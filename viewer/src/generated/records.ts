@@ -80,14 +80,14 @@ export interface Joint {
   facts: [string, string][];
 }
 
-/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body. */
+/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two. */
 export interface Force {
   name: string;
   kind: string;
   bodies: number[];
   points: [number, number, number][];
   axis: [number, number, number] | null;
-  look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane" | "turn" | "slide" | "ring" | "dot";
+  look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane" | "turn" | "slide" | "ring" | "dot" | "rope";
   facts: [string, string][];
 }
 

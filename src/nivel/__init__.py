@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from nivel.machine import AssemblySettings as AssemblySettings
     from nivel.machine import Baumgarte as Baumgarte
     from nivel.machine import Belt as Belt
+    from nivel.machine import Block as Block
     from nivel.machine import Body as Body
     from nivel.machine import Bushing as Bushing
     from nivel.machine import Contact as Contact
@@ -68,6 +69,7 @@ _HOME = {
     "AssemblySettings": "nivel.machine",
     "Baumgarte": "nivel.machine",
     "Belt": "nivel.machine",
+    "Block": "nivel.machine",
     "Body": "nivel.machine",
     "Bushing": "nivel.machine",
     "Contact": "nivel.machine",
@@ -104,6 +106,7 @@ __all__ = [
     "AssemblySettings",
     "Baumgarte",
     "Belt",
+    "Block",
     "Body",
     "Bushing",
     "Comparison",

@@ -14,6 +14,7 @@ from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import assembly_entries, build, preparation_entries, run_entries, statics_entries
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan, methods_of, plan_run
+from nivel.analysis.settings import waiting_time
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
@@ -21,6 +22,7 @@ from nivel.files.reader import parse_machine, read_text
 from nivel.files.writer import write_machine
 from nivel.machine import (
     AssemblySettings,
+    Block,
     Body,
     Coupling,
     Driver,
@@ -39,6 +41,7 @@ from nivel.machine import (
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
     from nivel.analysis.posing import Posing
+    from nivel.c_library.writer import Files
     from nivel.results.comparison import Comparison
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
@@ -69,6 +72,7 @@ class Machine:
         forces: Sequence[Force] = (),
         inputs: Sequence[Input] = (),
         states: Sequence[State] = (),
+        control: Sequence[Block] = (),
         sensors: Sequence[Sensor] = (),
         events: Sequence[Event] = (),
         gravity: Sequence[float | str] = (0.0, 0.0, 0.0),
@@ -85,6 +89,7 @@ class Machine:
             "forces": forces,
             "inputs": inputs,
             "states": states,
+            "control": control,
             "sensors": sensors,
             "events": events,
         }
@@ -169,6 +174,7 @@ class Machine:
         out: str | PathLike[str] | None = None,
         force: bool = False,
         verify: bool = False,
+        verify_limit: float | str | None = None,
         listener: Listener | None = None,
     ) -> Result:
         """Motion in time. Options given here override those of the machine's `simulation`.
@@ -179,9 +185,10 @@ class Machine:
         cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte, newmark,
         hht, generalised_alpha : mappings as in a machine file.
         inputs : what inputs of the machine follow in this run: a number, a `Table` of time, or a file of columns `time`, `value` (CSV).
-        out : result file (NetCDF); in memory if None. force : replace an existing file. verify : estimate the accuracy with a second
-        run, at half the step or a tenth of the tolerance. A setting given here that has no effect with the methods of the run is
-        refused; set in the file, it is ignored.
+        out : result file (NetCDF); in memory if None. force : replace an existing file. verify : a second run
+        beside this one, with finer steps on other times, tells how exact every number is; `nivel run` does so by itself. verify_limit
+        [s] : the second run goes on for so long after the first at most, by default as long again as that took.
+        A setting given here that has no effect with the methods of the run is refused; set in the file, it is ignored.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
         given = {
@@ -206,6 +213,7 @@ class Machine:
             "generalised_alpha": generalised_alpha,
         }
         given = {key: value for key, value in given.items() if value is not None}
+        limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
         chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         entries = run_entries(plan)
@@ -227,9 +235,23 @@ class Machine:
                 out=out,
                 force=force,
                 verify=verify,
+                verify_limit=limit,
                 listener=listener,
                 compile_seconds=compile_seconds,
             )
+
+    def export_c(self, folder: str | PathLike[str], *, listener: Listener | None = None) -> Files:
+        """Write the machine as a C library: what a run with its settings does step by step, for programs without Python.
+
+        folder : a new one, for header, source, machine code of this processor, an example and a Makefile.
+        Raises ModelError where steps are not fixed, a Python law takes part, or the folder is there already.
+        """
+        plan = self._plan({})
+        build(run_entries(plan), listener)
+        from nivel.c_library.writer import write_c_library
+
+        with self._faults_in_file():
+            return write_c_library(plan, Path(folder))
 
     @checked_arguments
     def statics(

@@ -9,14 +9,13 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.analysis.dynamics import compiled_entries, give_feedback
-from nivel.analysis.history import start_history
+from nivel.analysis.dynamics import Loop, start_loop
 from nivel.analysis.plan import Plan, plan_run
 from nivel.analysis.preparation import Prepared, prepare
 from nivel.errors import Fault, ModelError
 from nivel.integrate.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
-from nivel.integrate.run import CONSERVE, Run
-from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.integrate.loop import advance
+from nivel.integrate.run import Run
 from nivel.kernels.handle import Handle
 from nivel.live.shared import Sizes
 from nivel.machine import MachineRecord, Table
@@ -80,7 +79,12 @@ class LiveRun:
     prepared: Prepared
     plan: Plan
     pace: Pace
-    run: Run
+    loop: Loop
+
+    @property
+    def run(self) -> Run:
+        """The history."""
+        return self.loop.history.record
 
     @property
     def sizes(self) -> Sizes:
@@ -97,11 +101,13 @@ class LiveRun:
         for k, each in enumerate(self.plan.machine.inputs):
             live.limit[k, [LOW, HIGH, RATE, REST]] = *each.range, each.rate or np.inf, each.rest_value
             live.target[k] = live.value[k] = each.rest_value
-        advance, evaluate, correct, step = compiled_entries(self.prepared, STABILISATIONS[self.plan.settings.stabilisation])
-        machine, history, session = self.prepared.motion.handle, Handle(self.run), Handle(live)
-        arguments = (advance, evaluate, correct, step, machine.address, history.address, session.address)
-        keep = (machine, history, session)
-        return lambda: drive(*arguments) if keep else 0
+        loop, session = self.loop, Handle(live)
+        codes = [entry.address for entry in (advance, loop.evaluate, loop.correct, loop.step)]
+
+        def go_on() -> int:
+            return drive(*codes, loop.machine.address, loop.history.address, session.address)
+
+        return go_on
 
     @property
     def records(self) -> list[Any]:
@@ -113,8 +119,4 @@ class LiveRun:
 def prepared_run(plan: Plan, pace: Pace) -> LiveRun:
     """Assemble the machine. Raises ModelError where it cannot be assembled."""
     prepared = prepare(plan.methods)
-    stabilisation = STABILISATIONS[plan.settings.stabilisation]
-    give_feedback(prepared.motion.system, plan.settings, stabilisation)
-    run = start_history(prepared, plan.settings, prepared.integrator)
-    run.counter[CONSERVE] = int(stabilisation.CONSERVES)
-    return LiveRun(prepared, plan, pace, run)
+    return LiveRun(prepared, plan, pace, start_loop(prepared, plan.settings))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from typing import Any, Final
 
@@ -95,9 +95,8 @@ def replay(
         if wrong.any() and not different:
             first = float(old[np.argmax(wrong), 0])
         compared, different = compared + len(old), different + int(wrong.sum())
-    result = close_run(
-        sink, machine, prepared, outcome, None, "", resting, {"prepare_seconds": 0.0, "compile_seconds": compile_seconds}
-    )
+    seconds = {"prepare_seconds": 0.0, "compile_seconds": compile_seconds}
+    result = close_run(sink, replace(plan, machine=machine), prepared, outcome, None, resting, seconds)
     return Replay(result, compared, different + len(recorded) - compared, first)
 
 

@@ -19,6 +19,7 @@ SECTIONS: Final = (
     "forces",
     "inputs",
     "states",
+    "control",
     "sensors",
     "events",
 )
@@ -45,7 +46,7 @@ class Index:
 
     bodies : type of the shape ("" without one), also of the stations of beams. beams : names of the stations.
     point_masses : bodies that are. markers : the body. joints : the type. inputs : their names.
-    forces, states, sensors : the element.
+    forces, states, control, sensors : the element.
     """
 
     bodies: Mapping[str, str]
@@ -56,6 +57,7 @@ class Index:
     inputs: tuple[str, ...]
     forces: Mapping[str, Any]
     states: Mapping[str, Any]
+    control: Mapping[str, Any]
     sensors: Mapping[str, Any]
 
     @classmethod
@@ -72,6 +74,7 @@ class Index:
             inputs=tuple(_by_name(machine, "inputs")),
             forces=_by_name(machine, "forces"),
             states=_by_name(machine, "states"),
+            control=_by_name(machine, "control"),
             sensors=_by_name(machine, "sensors"),
         )
 

@@ -11,7 +11,7 @@ from nivel.kernels.hook import family
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.status import OK
 
-# columns of `columns`; FIRST: the first of COUNT distances; outputs: tension, power, unstressed length, stretch
+# columns of `columns`; FIRST: the first of COUNT distances; outputs: tension, power, stretch
 OUTPUT, LENGTH, SPEED, COUNT, FIRST = 0, 1, 2, 3, 4
 # columns of `number`
 STIFFNESS, DAMPING, UNSTRESSED = 0, 1, 2
@@ -50,5 +50,5 @@ def apply(machine, number, t):
         for j in range(np.int64(index[COUNT])):
             power += add_coordinate_force(machine, index[FIRST + j], -tension)
         first = index[OUTPUT]
-        out[first], out[first + 1], out[first + 2], out[first + 3] = tension, power, length, stretch
+        out[first], out[first + 1], out[first + 2] = tension, power, stretch
     return OK

@@ -26,7 +26,7 @@ class Rope(ForceElement):
     Pulleys have no friction and no radius.
     """
 
-    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "length", "stretch")
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "stretch")
 
     type: Literal["rope"] = "rope"
     markers: Annotated[tuple[MarkerPlace, ...], BeforeValidator(listed)] = Field(

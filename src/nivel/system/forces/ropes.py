@@ -19,8 +19,7 @@ def add(draft: SystemBuilder, rope: Rope) -> None:
         draft.coordinates.use(draft.coordinates.add(DISTANCE, i, j))
         for i, j in zip(markers[:-1], markers[1:], strict=True)
     ]
-    outputs = (*magnitude_and_power("N", "tension"), ("length", "m", "unstressed length"), ("stretch", "m", "stretch"))
-    first = force_outputs(draft, rope.name, *outputs)
+    first = force_outputs(draft, rope.name, *magnitude_and_power("N", "tension"), ("stretch", "m", "stretch"))
     length = speed = NONE
     if rope.speed is not None:
         fact = StateFact(f"{rope.name}.length", "m", f"unstressed length of {rope.name}", rope.length, scale=rope.length)

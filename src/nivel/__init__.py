@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from nivel.machine import Expression as Expression
     from nivel.machine import Friction as Friction
     from nivel.machine import Gear as Gear
+    from nivel.machine import Input as Input
     from nivel.machine import Joint as Joint
     from nivel.machine import JointSpringDamper as JointSpringDamper
     from nivel.machine import LinearCoupling as LinearCoupling
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
     from nivel.machine import PointForce as PointForce
     from nivel.machine import PythonLaw as PythonLaw
     from nivel.machine import Rack as Rack
+    from nivel.machine import Rope as Rope
     from nivel.machine import Sensor as Sensor
     from nivel.machine import SimulationSettings as SimulationSettings
     from nivel.machine import SpringDamper as SpringDamper
@@ -81,6 +83,7 @@ _HOME = {
     "Expression": "nivel.machine",
     "Friction": "nivel.machine",
     "Gear": "nivel.machine",
+    "Input": "nivel.machine",
     "Joint": "nivel.machine",
     "JointSpringDamper": "nivel.machine",
     "LinearCoupling": "nivel.machine",
@@ -91,6 +94,7 @@ _HOME = {
     "PointForce": "nivel.machine",
     "PythonLaw": "nivel.machine",
     "Rack": "nivel.machine",
+    "Rope": "nivel.machine",
     "Sensor": "nivel.machine",
     "SimulationSettings": "nivel.machine",
     "SpringDamper": "nivel.machine",
@@ -123,6 +127,7 @@ __all__ = [
     "Expression",
     "Friction",
     "Gear",
+    "Input",
     "Joint",
     "JointSpringDamper",
     "LinearCoupling",
@@ -139,6 +144,7 @@ __all__ = [
     "Rack",
     "Range",
     "Result",
+    "Rope",
     "Sensor",
     "SimulationSettings",
     "SolveError",

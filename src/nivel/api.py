@@ -36,12 +36,14 @@ from nivel.machine import (
     Driver,
     Event,
     Force,
+    Input,
     Joint,
     MachineRecord,
     Marker,
     Sensor,
     SimulationSettings,
     State,
+    Table,
 )
 
 if TYPE_CHECKING:
@@ -79,6 +81,7 @@ class Machine:
         couplings: Sequence[Coupling] = (),
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
+        inputs: Sequence[Input] = (),
         states: Sequence[State] = (),
         control: Sequence[Block] = (),
         sensors: Sequence[Sensor] = (),
@@ -95,6 +98,7 @@ class Machine:
             "couplings": couplings,
             "drivers": drivers,
             "forces": forces,
+            "inputs": inputs,
             "states": states,
             "control": control,
             "sensors": sensors,
@@ -177,6 +181,7 @@ class Machine:
         newmark: Mapping[str, Any] | None = None,
         hht: Mapping[str, Any] | None = None,
         generalised_alpha: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, float | str | PathLike[str] | Table] | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         verify: bool = False,
@@ -190,6 +195,7 @@ class Machine:
         tolerance, where the integrator can do both. tolerance : of integrators that choose their steps.
         cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte, newmark,
         hht, generalised_alpha : mappings as in a machine file.
+        inputs : what inputs of the machine follow in this run: a number, a `Table` of time, or a file of columns `time`, `value` (CSV).
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : a second run
         beside this one, with finer steps on other times, tells how exact every number is; `nivel run` does so by itself. verify_limit
         [s] : the second run goes on for so long after the first at most, by default as long again as that took.
@@ -219,7 +225,7 @@ class Machine:
         }
         given = {key: value for key, value in given.items() if value is not None}
         limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
-        chosen = self.with_settings(given)
+        chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         entries = run_entries(plan)
         if plan.settings.start == "equilibrium":
@@ -602,6 +608,18 @@ class Machine:
             return Machine.from_record(self.record.replace(simulation=simulation), origin)
         except ModelError as error:
             raise ModelError(origin.placed(error.faults)) from None
+
+    @checked_arguments
+    def with_inputs(self, inputs: Mapping[str, float | str | PathLike[str] | Table]) -> Machine:
+        """The same machine whose inputs follow numbers, tables of time, or files of columns `time`, `value` (CSV).
+
+        Raises ModelError where there is no such input, or a value leaves its range or changes faster than its rate.
+        """
+        if not inputs:
+            return self
+        from nivel.files.input_table import with_signals
+
+        return Machine.from_record(with_signals(self.record, inputs), self.origin)
 
     @checked_arguments
     def save(self, path: str | PathLike[str]) -> None:

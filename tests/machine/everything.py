@@ -249,6 +249,16 @@ EVERYTHING = {
         },
         {"name": "billiards", "type": "contact", "bodies": ["a", "b"], "materials": [STEEL, STEEL], "restitution": 0.9},
     ],
+    "inputs": [
+        {
+            "name": "lever",
+            "range": ["-10 deg", "10 deg"],
+            "rate": 2,
+            "signal": {"times": [0, 1], "values": [0, 0.1]},
+            "keys": {"raise": "d", "lower": "a"},
+            "gamepad": {"axis": 0, "dead_zone": 0.1},
+        },
+    ],
     "states": [
         {"name": "lag", "start": 0.5, "rate": "hinge.angle - lag.value", "scale": 2.0, "units": "rad"},
     ],

@@ -24,6 +24,7 @@ import { el, short } from "./ui/dom";
 import { Inspector } from "./ui/inspector";
 import { Legend } from "./ui/legend";
 import { helpDialog, listenToKeys } from "./ui/keys";
+import { Live } from "./ui/live";
 import { Panels, type PanelName } from "./ui/panels";
 import { Plots } from "./ui/plots";
 import { Timeline } from "./ui/timeline";
@@ -52,6 +53,7 @@ export class App {
   private readonly tree: Tree;
   private readonly inspector: Inspector;
   private readonly coordinates: Coordinates | null = null;
+  readonly live: Live | null = null;
   private readonly panels: Panels;
   private readonly dialog = helpDialog();
   private readonly status = el("p", { class: "status", role: "status" });
@@ -122,11 +124,15 @@ export class App {
         () => this.reset(),
       );
     }
-    const data = el("div", {}, this.coordinates?.element ?? null, this.inspector.element);
+    if (content.mode === "live" && connection && content.controls.length + content.gauges.length) {
+      this.live = new Live(content.controls, content.gauges, (message) => connection.send(message));
+    }
+    const data = el("div", {}, this.live?.panel ?? null, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;
-    this.panels = new Panels(stage, others, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? null, this.status, () => this.dialog.showModal());
+    this.panels = new Panels(stage, others, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? this.live?.bar ?? null, this.status, () => this.dialog.showModal());
     document.body.append(...this.panels.elements, this.dialog);
-    this.panels.settle(!!this.coordinates);
+    this.panels.settle(!!this.coordinates || !!this.live);
+    if (this.live) this.panels.rename("data", "Controls and data");
     this.world.onBeforeRender = (now) => this.beforeRender(now);
     this.world.onEdges = (on) => this.actor.show("edges", on);
     this.world.onRecolour = () => this.recolour();
@@ -174,6 +180,7 @@ export class App {
 
   message(message: FromServer): void {
     if (message.type === "note") this.say(message.text);
+    if (message.type === "status") this.live?.update(message);
     if (message.type === "moved") this.coordinates?.update(message.values, this.stage.coordinates, message.problem);
   }
 
@@ -186,6 +193,7 @@ export class App {
     if (this.came && now - this.came > IDLE) this.world.running = false;
     if (this.latest) {
       this.actor.frame.set(this.latest.values.subarray(0, this.actor.frame.length));
+      this.live?.show(this.latest.time, this.latest.values.subarray(this.actor.frame.length));
       // the next one may travel while this one is drawn
       this.connection?.send({ type: "shown", frame: this.latest.number });
       this.latest = null;
@@ -288,6 +296,10 @@ export class App {
 
   /** A machine moved by hand goes back to its assembled position. */
   reset(): void {
+    if (this.live) {
+      this.live.say("reset");
+      return;
+    }
     this.connection?.send({ type: "reset" });
   }
 

@@ -15,6 +15,7 @@ from nivel.analysis.elements import (
     event_in_words,
     force_in_words,
     sensor_in_words,
+    input_in_words,
     state_in_words,
 )
 from nivel.analysis.plan import Methods, Plan
@@ -70,9 +71,10 @@ class Check:
     bodies: tuple[BodyFacts, ...]
     beams: tuple[BeamFacts, ...]
     joints: tuple[JointFacts, ...]
-    couplings: tuple[str, ...]  # each in words, as drivers, forces, states, sensors and events
+    couplings: tuple[str, ...]  # each in words, as drivers, forces, inputs, states, sensors and events
     drivers: tuple[str, ...]
     forces: tuple[str, ...]
+    inputs: tuple[str, ...]
     states: tuple[str, ...]
     control: tuple[str, ...]
     control_size: str  # how many blocks, states and sampled values, in words; empty without a control
@@ -131,7 +133,7 @@ def _lines(facts: Check) -> Iterator[str]:
             yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}"
     for kind, convention in {joint.type: joint.convention for joint in facts.joints if joint.coordinates}.items():
         yield f"  {kind}: {convention}"
-    for title in ("couplings", "drivers", "forces", "states", "control", "sensors", "events"):
+    for title in ("couplings", "drivers", "forces", "inputs", "states", "control", "sensors", "events"):
         elements: tuple[str, ...] = getattr(facts, title)
         if elements:
             yield f"{title}: {facts.control_size}" if title == "control" else title
@@ -234,6 +236,7 @@ def check(plan: Plan) -> Check:
         couplings=tuple(coupling_in_words(machine, coupling) for coupling in machine.couplings),
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
+        inputs=tuple(input_in_words(each) for each in machine.inputs),
         states=tuple(state_in_words(state) for state in machine.states),
         control=tuple(block_in_words(block) for block in machine.control),
         control_size=control_in_words(machine.control) if machine.control else "",

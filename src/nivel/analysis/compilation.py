@@ -15,6 +15,7 @@ from nivel.kernels.control import apply as compute
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.hook import Family
+from nivel.kernels.input import apply as read_inputs
 from nivel.kernels.program import run as run_expression
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
@@ -191,7 +192,14 @@ def all_entries() -> list[Entry]:
         OUTPUT,
     ]
     families = dict.fromkeys(
-        [*(each for kind in FORCES.values() for each in kind.families), *BEAMS, compute, state_rate, run_expression]
+        [
+            *(each for kind in FORCES.values() for each in kind.families),
+            *BEAMS,
+            read_inputs,
+            compute,
+            state_rate,
+            run_expression,
+        ]
     )
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)] + _twins(SENSOR)
@@ -242,6 +250,7 @@ def _families(machine: MachineRecord) -> list[Family]:
     """The families of forces that a machine has, and what runs its expressions."""
     families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
+    families |= dict.fromkeys([read_inputs] if machine.inputs else [])
     families |= dict.fromkeys([compute, state_rate] if machine.control else [state_rate] if machine.states else [])
     return [*families, run_expression]
 

@@ -90,10 +90,10 @@ def _run(
     if second is not None and finished.outcome == "done" and not finished.asked_to_stop:
         verified = second.wait(listener)
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
-    return _close(sink, plan, prepared, finished, verified, resting, seconds)
+    return close_run(sink, plan, prepared, finished, verified, resting, seconds)
 
 
-def _close(
+def close_run(
     sink: Memory | Store,
     plan: Plan,
     prepared: Prepared,
@@ -102,6 +102,11 @@ def _close(
     resting: tuple[tuple[Held, ...], tuple[Sticking, ...]],
     timing: dict[str, float],
 ) -> Result:
+    """Close the sink of a run with its trust report and all that is known of how it ended.
+
+    verified : the second run, or None. resting : of `resting_frictions`. timing : seconds besides the loop's.
+    Raises SolveError, with the result, where the run failed.
+    """
     redundancy, machine = prepared.redundancy, plan.machine
     message, advice, at = finished.failure or ("", "", 0.0)
     left = verified.refinement.left if verified is not None else 0.0

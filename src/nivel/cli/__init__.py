@@ -23,6 +23,8 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "new": CommandPlace("nivel.cli.new", "Write a commented machine file that runs, to start from."),
     "check": CommandPlace("nivel.cli.check", "Check and assemble a machine; say what it is."),
     "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
+    "live": CommandPlace("nivel.cli.live", "Operate a machine in real time in the browser."),
+    "replay": CommandPlace("nivel.cli.replay", "Repeat a recorded live run exactly, or by other methods."),
     "statics": CommandPlace("nivel.cli.statics", "Find where a machine rests under its loads."),
     "kinematics": CommandPlace("nivel.cli.kinematics", "Positions, velocities and reactions of a driven machine."),
     "inverse": CommandPlace("nivel.cli.inverse", "Efforts of actuators that make a machine follow a motion."),

@@ -36,6 +36,7 @@ def placed(elements: Elements, placing: Placement) -> dict[str, tuple[Record, ..
         "drivers": lambda driver: placed_driver(driver, scene),
         "forces": lambda force: placed_force(force, scene),
         "sensors": lambda sensor: placed_sensor(sensor, scene),
+        "inputs": lambda each: each,
         "states": lambda state: placed_state(state, scene),
         "control": lambda block: placed_block(block, scene),
         "events": lambda event: placed_event(event, scene),

@@ -21,6 +21,7 @@ from nivel.machine import (
     PointForce,
     PythonLaw,
     Record,
+    Rope,
     SpringDamper,
     Stop,
     TimeFunction,
@@ -125,6 +126,10 @@ def _contact(force: Contact, scene: Scene) -> Changes:
     return {} if force.plane is None else {"plane": scene.end(force.plane, POLAR_Z)}
 
 
+def _rope(force: Rope, scene: Scene) -> Changes:
+    return {"markers": tuple(scene.end(each) for each in force.markers), **_varied(force, scene, "speed")}
+
+
 def _on_coordinate(force: JointSpringDamper | Motor | Stop | Friction, scene: Scene) -> Changes:
     """What acts on a joint coordinate keeps its numbers, unless the coordinate counts the other way."""
     fields = {"JointSpringDamper": ("law",), "Motor": ("effort", "speed")}.get(type(force).__name__, ())
@@ -176,4 +181,5 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     PairForce: _pair_force,
     Bushing: _bushing,
     Contact: _contact,
+    Rope: _rope,
 }

@@ -17,6 +17,7 @@ SECTIONS: Final = (
     "couplings",
     "drivers",
     "forces",
+    "inputs",
     "states",
     "control",
     "sensors",
@@ -44,7 +45,8 @@ class Index:
     """What the elements of a machine are, by name.
 
     bodies : type of the shape ("" without one), also of the stations of beams. beams : names of the stations.
-    point_masses : bodies that are. markers : the body. joints : the type. forces, states, control, sensors : the element.
+    point_masses : bodies that are. markers : the body. joints : the type. inputs : their names.
+    forces, states, control, sensors : the element.
     """
 
     bodies: Mapping[str, str]
@@ -52,6 +54,7 @@ class Index:
     point_masses: frozenset[str]
     markers: Mapping[str, str]
     joints: Mapping[str, str]
+    inputs: tuple[str, ...]
     forces: Mapping[str, Any]
     states: Mapping[str, Any]
     control: Mapping[str, Any]
@@ -68,6 +71,7 @@ class Index:
             point_masses=frozenset(name for name, body in bodies.items() if entry(body, "point_mass") is True),
             markers={name: _text(entry(marker, "body")) for name, marker in _by_name(machine, "markers").items()},
             joints={name: _text(entry(joint, "type")) for name, joint in _by_name(machine, "joints").items()},
+            inputs=tuple(_by_name(machine, "inputs")),
             forces=_by_name(machine, "forces"),
             states=_by_name(machine, "states"),
             control=_by_name(machine, "control"),

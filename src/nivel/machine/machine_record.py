@@ -27,6 +27,7 @@ from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
 from nivel.machine.forces import Force
+from nivel.machine.input import Input
 from nivel.machine.interface_uses import problems_of_interfaces
 from nivel.machine.joint import Joint
 from nivel.machine.marker import Marker
@@ -77,6 +78,7 @@ class MachineRecord(Checked):
     couplings: tuple[Coupling, ...] = ()
     drivers: tuple[Driver, ...] = ()
     forces: tuple[Force, ...] = ()
+    inputs: tuple[Input, ...] = ()
     states: tuple[State, ...] = ()
     control: tuple[ControlBlock, ...] = ()
     sensors: tuple[Sensor, ...] = ()

@@ -65,6 +65,7 @@ def _twice(machine: Any) -> Faults:
         ("markers",),
         WITH_ROWS,
         ("forces",),
+        ("inputs",),
         ("states", "control"),
         ("sensors",),
         ("events",),

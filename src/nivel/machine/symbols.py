@@ -1,7 +1,7 @@
 """What expressions can use of the machine itself: `hinge.angle_rate`, `tip.vx`.
 
 A symbol is the name of an element, a dot and a quantity. Where several elements have one name, the first that has
-the quantity is meant: of joints, states, blocks of the control, forces, sensors, markers and bodies, in this order.
+the quantity is meant: of joints, inputs, states, blocks of the control, forces, sensors, markers and bodies, in this order.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from nivel.machine.record import entry
 from nivel.machine.table import SIGNAL_PATH
 from nivel.machine.time_function import Expression, PythonLaw, Table
 
-Section = Literal["joints", "states", "control", "forces", "sensors", "markers", "bodies"]
+Section = Literal["joints", "inputs", "states", "control", "forces", "sensors", "markers", "bodies"]
 
 POINT_QUANTITIES: Final = ("x", "y", "z", "vx", "vy", "vz")
 STATE_QUANTITY: Final = "value"
@@ -96,7 +96,8 @@ def find_in(path: str, index: Index) -> Symbol:
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""
     empty = any(name in elements for elements in _quantities(index).values())
-    what = f"`{name}` has no symbols" if empty else f"there is no joint, state, block, sensor, marker or body `{name}`"
+    kinds = "joint, input, state, block, sensor, marker or body"
+    what = f"`{name}` has no symbols" if empty else f"there is no {kinds} `{name}`"
     raise UnknownSymbolError(f"{what}{hint}")
 
 
@@ -104,6 +105,7 @@ def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
     """Section → element → the quantities that it has."""
     return {
         "joints": {name: _of_joint(type_) for name, type_ in index.joints.items()},
+        "inputs": dict.fromkeys(index.inputs, (STATE_QUANTITY,)),
         "states": dict.fromkeys(index.states, (STATE_QUANTITY,)),
         "control": {name: quantities_of(block) for name, block in index.control.items()},
         "forces": {name: (*states_of(force), *outputs_of(force)) for name, force in index.forces.items()},
@@ -123,7 +125,9 @@ def _of_sensor(sensor: Any) -> tuple[str, ...]:
 
 
 def states_of(force: Any) -> tuple[str, ...]:
-    """The first-order states of a force: the bristle of friction by the lugre model."""
+    """The first-order states of a force: the bristle of friction by the lugre model, the length of a rope on a winch."""
+    if entry(force, "type") == "rope":
+        return ("length",) if entry(force, "speed") is not None else ()
     return ("bristle",) if entry(force, "model") == "lugre" else ()
 
 
@@ -217,6 +221,6 @@ def _has_hyphen(path: str, index: Index) -> bool:
     ending = f"-{path.partition('.')[0]}"
     return any(
         name.endswith(ending)
-        for its in (index.joints, index.states, index.control, index.sensors, index.markers, index.bodies)
+        for its in (index.joints, index.inputs, index.states, index.control, index.sensors, index.markers, index.bodies)
         for name in its
     )

@@ -42,6 +42,7 @@ from nivel.system.control import add_control
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.forces import FORCES
 from nivel.system.gradient_beams import point_inertia
+from nivel.system.inputs import add_inputs
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.interfaces import refuse_unknown_interfaces
 from nivel.system.layout import first_columns, frame_layout
@@ -87,6 +88,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         events=tuple(event.name for event in machine.events),
         coupled=tuple(draft.noted),
         states=states,
+        input_functions=tuple(draft.input_functions),
         frictions=tuple(force.name for force in machine.forces if force.type == "friction"),
         rows=tuple(row_names),
         row_owner=tuple(rows.owner),
@@ -111,6 +113,7 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
             add_joint(draft, rows, joint)
     add_couplings(draft, rows)
     add_drivers(draft, rows)
+    add_inputs(draft)
     add_control(draft)
     add_states(draft)
     for force in machine.forces:

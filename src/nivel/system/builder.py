@@ -34,7 +34,8 @@ class SystemBuilder:
 
     joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
     frictions : (columns of index, of number) of `nivel.kernels.friction`. owners : `joints.hinge`, `markers.tip`, …: what made each
-    marker. noted : the bodies and states used in each `noting`. control : the signal of every part of a block by its path.
+    marker. noted : the bodies and states used in each `noting`. inputs : the signal of every input. input_functions : the function of
+    each, in the order of the machine. control : the signal of every part of a block by its path.
     behind_signals : what a part that is no state depends on. functions_of : the function of every part.
     """
 
@@ -48,6 +49,8 @@ class SystemBuilder:
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
     noted: list[Coupled] = field(default_factory=list)
     owners: list[str] = field(default_factory=list)
+    inputs: dict[str, Signal] = field(default_factory=dict)
+    input_functions: list[int] = field(default_factory=list)
     control: dict[str, Signal] = field(default_factory=dict)
     behind_signals: dict[str, Coupled] = field(default_factory=dict)
     functions_of: dict[str, int] = field(default_factory=dict)
@@ -193,6 +196,8 @@ class SystemBuilder:
             name = symbol.quantity.removesuffix("_rate")
             index = self._measured(f"{symbol.name}.{name}")
             return (COORDINATE if name == symbol.quantity else RATE, index, 0)
+        if symbol.section == "inputs":
+            return self.inputs[symbol.name]
         if symbol.section == "forces" and is_output(symbol, Index.of(self.machine)):
             return (OUTPUT, self.outputs.index(f"force.{path}"), 0)
         if symbol.section in ("states", "forces"):

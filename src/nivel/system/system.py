@@ -43,6 +43,7 @@ class System:
     and drivers. row_owner : name of the joint, coupling or driver of each of these. point_masses : (B,) bodies that do not turn.
     coupled : what each element acts on or depends on. states : first-order states of elements, in the order of `Elements.state`.
     frame_markers : markers that are frames of bodies. marker_owners : `joints.hinge`, …: what each marker belongs to.
+    input_functions : the function of each input.
     modes : names of the modal coordinates. gradient_sizes : (modes,) what those of gradients are measured by [kg^½ m], 0 for others.
     as_placed : combinations that keep the value that they have as the machine is placed.
     size : length of the machine [m], the scale of its tolerances. state_map : what the entries of y are; None: as `absolute_map`.
@@ -55,6 +56,7 @@ class System:
     joints: tuple[str, ...]
     coupled: tuple[Coupled, ...]
     states: tuple[StateFact, ...]
+    input_functions: tuple[int, ...]
     frictions: tuple[str, ...]
     events: tuple[str, ...]
     rows: tuple[str, ...]

@@ -98,6 +98,8 @@ def _look(force: dict[str, Any], record: dict[str, Any]) -> ForceLook:
             return "coil"
         case "pair-force":
             return "cylinder"
+        case "rope":
+            return "rope"
         case "bushing":
             return "bushing"
         case "contact":

@@ -103,7 +103,8 @@ export class Panels {
     return (Object.keys(this.panels) as PanelName[]).filter((name) => !this.panels[name].hidden);
   }
 
-  private rename(name: PanelName, title: string): void {
+  /** Give a panel another title. */
+  rename(name: PanelName, title: string): void {
     this.panels[name].setAttribute("aria-label", title);
     this.panels[name].querySelector("h2")!.textContent = title;
     this.buttons[name].setAttribute("aria-label", title);

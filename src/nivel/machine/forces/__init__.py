@@ -17,6 +17,7 @@ from nivel.machine.forces.joint_spring_damper import JointSpringDamper
 from nivel.machine.forces.load import PointForce, Torque
 from nivel.machine.forces.motor import Motor
 from nivel.machine.forces.pair_force import PairForce
+from nivel.machine.forces.rope import Rope
 from nivel.machine.forces.spring_damper import SpringDamper
 from nivel.machine.forces.stop import Stop
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
@@ -33,6 +34,7 @@ FORCES: list[type[ForceElement]] = [
     PairForce,
     Bushing,
     Contact,
+    Rope,
 ]
 
 
@@ -74,6 +76,7 @@ __all__ = [
     "Motor",
     "PairForce",
     "PointForce",
+    "Rope",
     "SpringDamper",
     "Stop",
     "Torque",

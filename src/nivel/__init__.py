@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from nivel.errors import SolveError as SolveError
     from nivel.machine import AssemblySettings as AssemblySettings
     from nivel.machine import Baumgarte as Baumgarte
+    from nivel.machine import Beam as Beam
     from nivel.machine import Belt as Belt
     from nivel.machine import Body as Body
     from nivel.machine import Bushing as Bushing
@@ -65,6 +66,7 @@ _HOME = {
     "SolveError": "nivel.errors",
     "AssemblySettings": "nivel.machine",
     "Baumgarte": "nivel.machine",
+    "Beam": "nivel.machine",
     "Belt": "nivel.machine",
     "Body": "nivel.machine",
     "Bushing": "nivel.machine",
@@ -99,6 +101,7 @@ _HOME = {
 __all__ = [
     "AssemblySettings",
     "Baumgarte",
+    "Beam",
     "Belt",
     "Body",
     "Bushing",

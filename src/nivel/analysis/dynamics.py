@@ -10,6 +10,7 @@ from types import ModuleType
 
 import numpy as np
 
+from nivel.analysis.bound_entry import BoundEntry
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.history import start_history
 from nivel.analysis.interrupt import interruptible
@@ -96,10 +97,10 @@ def march(
     the result does not depend on it.
     """
     system, stabilisation = prepared.motion.system, STABILISATIONS[settings.stabilisation]
-    _feed_back(system, settings, stabilisation)
+    set_feedback(system, settings, stabilisation)
     run = start_history(prepared, settings, prepared.integrator)
     run.counter[CONSERVE] = int(stabilisation.CONSERVES)
-    advance = _compiled_loop(prepared, run, stabilisation)
+    advance = compiled_loop(prepared, run, stabilisation)
     finished = RunOutcome("done")
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
@@ -107,26 +108,26 @@ def march(
         status, spent = _march_in_chunks(advance, system, run, sinks, finished, progress, chunk_steps)
         loop_seconds += spent
         if status in BEFORE_A_JAM:
-            jam = _jam(prepared, settings, run)
+            jam = jam_of(prepared, settings, run)
         if status == OPEN and jam is None and can_be_asked(prepared):
-            _accept_open(prepared.motion, run)
+            accept_open(prepared.motion, run)
             status = BUDGET_SPENT
     if run.counter[STOPPED]:
         finished.stopped_by = system.events[run.counter[STOPPED] - 1]
     if status not in (*GOES_ON, DONE):
         finished.outcome = "failed"
-        finished.failure = _failure(prepared, settings, run, status, jam)
+        finished.failure = failure_of(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
             _keep_last(prepared.motion, run, sinks)
     finished.timing = {
-        **_counts(system, run),
+        **counts_of(system, run),
         "loop_seconds": loop_seconds,
         "wall_seconds": clock_of_python.perf_counter() - wall,
     }
     return finished
 
 
-def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
+def set_feedback(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
     """Set what the stabilisation, or a penalty method, adds to the accelerations of the constraints, and what it leaves open."""
     stabilise = system.record.control.stabilise
     stabilise[:] = stabilisation.coefficients(settings.step, *(settings.baumgarte or (None, None)))
@@ -134,14 +135,14 @@ def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType)
         stabilise[:2] = feedback(settings.penalty, settings.step, stabilisation.CORRECTS)
 
 
-def _compiled_loop(prepared: Prepared, run: Run, stabilisation: ModuleType) -> Callable[[], int]:
+def compiled_loop(prepared: Prepared, run: Run, stabilisation: ModuleType) -> Callable[[], int]:
     """The compiled loop of the run: goes on for the budget of steps in its counter, and returns a status."""
     kernels, facts = prepared.motion.kernels, prepared.integrator
     correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
     step = getattr(import_module(facts.module), facts.function)
     machine, history = prepared.motion.handle, Handle(run)
-    evaluate, correct, step = kernels.evaluate.address, correct.address, step.address
-    return lambda: advance(evaluate, correct, step, machine.address, history.address)
+    addresses = kernels.evaluate.address, correct.address, step.address, machine.address, history.address
+    return BoundEntry(advance, addresses, keep=(machine, history))
 
 
 def _march_in_chunks(
@@ -162,8 +163,8 @@ def _march_in_chunks(
             status = advance()
             spent = clock_of_python.process_time() - begin
             loop_seconds += spent
-            _give(run, sinks)
-            finished.events += _taken_events(run, system.events)
+            give_frames(run, sinks)
+            finished.events += taken_events(run, system.events)
             if progress is not None:
                 progress(float(run.clock[TIME]))
             if chunk_steps is None and status == BUDGET_SPENT:
@@ -182,14 +183,14 @@ def _next_budget(budget: int, spent: float) -> int:
     return max(1, budget // 2)
 
 
-def _jam(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
+def jam_of(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
     """The jam in or beside the step after the last accepted state."""
     time = float(run.clock[ACCEPTED])
     step = max(float(run.clock[STEP]), float(run.clock[TIME]) - time)
     return find_jam(prepared, time, step, settings.step, settings.duration, run.previous)
 
 
-def _accept_open(motion: MotionEquations, run: Run) -> None:
+def accept_open(motion: MotionEquations, run: Run) -> None:
     """Let the run go on with joints that are open, as they can be closed: they have drifted. Looked at again when that has doubled."""
     motion.evaluate(float(run.clock[TIME]), run.y)
     constraints = motion.system.record.constraints
@@ -197,7 +198,7 @@ def _accept_open(motion: MotionEquations, run: Run) -> None:
     run.clock[OPEN_LIMIT] = 2.0 * max(share, run.clock[OPEN_LIMIT]) if np.isfinite(share) else np.inf
 
 
-def _failure(
+def failure_of(
     prepared: Prepared, settings: RunSettings, run: Run, status: int, jam: Jam | None
 ) -> tuple[str, str, float]:
     """(message, advice, time [s]) of a run that failed."""
@@ -217,7 +218,7 @@ def _failure(
     return message, advice, time
 
 
-def _counts(system: System, run: Run) -> dict[str, float]:
+def counts_of(system: System, run: Run) -> dict[str, float]:
     """What the run did how often; of partitions, how often independent coordinates were chosen anew."""
     return {
         "steps": int(run.counter[DONE_STEPS]),
@@ -248,7 +249,7 @@ def _keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None
     feedback[:] = kept
 
 
-def _give(run: Run, sinks: Sequence[Sink]) -> None:
+def give_frames(run: Run, sinks: Sequence[Sink]) -> None:
     filled = int(run.counter[FRAMES])
     if filled:
         for sink in sinks:
@@ -256,7 +257,7 @@ def _give(run: Run, sinks: Sequence[Sink]) -> None:
         run.counter[FRAMES] = 0
 
 
-def _taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
+def taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
     """Events of the buffer, which is empty then."""
     filled = int(run.counter[EVENTS])
     run.counter[EVENTS] = 0

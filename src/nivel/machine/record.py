@@ -20,6 +20,7 @@ from pydantic_core import ErrorDetails, InitErrorDetails
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.machine.quantity import FAULT, REPORTED, fault, reported
+from nivel.machine.signature import PlainSignature
 from nivel.wording import shown, unknown_word
 
 NAME = re.compile(r"[^\W\d_][\w-]*")
@@ -79,6 +80,9 @@ class Record(BaseModel):
         given = {name: getattr(self, name) for name in self.model_fields_set}
         return type(self)(**(given | changes))
 
+    def __str__(self) -> str:
+        return repr(self)
+
     def __repr_args__(self) -> Any:
         """Only what differs from the default."""
         fields = type(self).model_fields
@@ -87,6 +91,12 @@ class Record(BaseModel):
             for name, value in super().__repr_args__()
             if name and value != fields[name].get_default(call_default_factory=True)
         ]
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        """Help and editors show what each field takes, in words; found out when somebody asks."""
+        super().__pydantic_init_subclass__(**kwargs)
+        cls.__signature__ = PlainSignature()  # type: ignore[assignment]
 
     @model_validator(mode="wrap")
     @classmethod

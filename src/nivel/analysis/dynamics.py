@@ -10,7 +10,6 @@ from types import ModuleType
 
 import numpy as np
 
-from nivel.analysis.bound_entry import BoundEntry
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.history import start_history
 from nivel.analysis.interrupt import interruptible
@@ -137,12 +136,25 @@ def set_feedback(system: System, settings: RunSettings, stabilisation: ModuleTyp
 
 def compiled_loop(prepared: Prepared, run: Run, stabilisation: ModuleType) -> Callable[[], int]:
     """The compiled loop of the run: goes on for the budget of steps in its counter, and returns a status."""
+    addresses, handles = loop_addresses(prepared, run, stabilisation)
+
+    def go() -> int:
+        assert handles  # what the addresses are of stays in place
+        return advance(*addresses)
+
+    return go
+
+
+def loop_addresses(
+    prepared: Prepared, run: Run, stabilisation: ModuleType
+) -> tuple[tuple[int, ...], tuple[Handle, ...]]:
+    """What `nivel.integrate.loop.advance` is called with, and the handles of the records among it, to be kept alive."""
     kernels, facts = prepared.motion.kernels, prepared.integrator
     correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
     step = getattr(import_module(facts.module), facts.function)
     machine, history = prepared.motion.handle, Handle(run)
     addresses = kernels.evaluate.address, correct.address, step.address, machine.address, history.address
-    return BoundEntry(advance, addresses, keep=(machine, history))
+    return addresses, (machine, history)
 
 
 def _march_in_chunks(

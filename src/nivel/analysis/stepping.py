@@ -15,13 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.attributes import run_attributes
-from nivel.analysis.dynamics import BEFORE_A_JAM, compiled_loop, failure_of, jam_of, set_feedback, taken_events
+from nivel.analysis.bound_entry import BoundEntry
+from nivel.analysis.dynamics import BEFORE_A_JAM, failure_of, jam_of, loop_addresses, set_feedback, taken_events
 from nivel.analysis.history import start_history
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
 from nivel.arguments import plain
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.files.writer import write_machine
+from nivel.integrate.loop import advance
 from nivel.integrate.run import (
     ALL_STEPS,
     BUDGET,
@@ -307,7 +309,8 @@ def _endless(prepared: Prepared, plan: Plan) -> tuple[Run, Callable[[], int]]:
     run = start_history(prepared, settings, prepared.integrator)
     run.counter[CONSERVE] = int(STABILISATIONS[settings.stabilisation].CONSERVES)
     run.counter[ALL_STEPS], run.clock[END] = ENDLESS, np.inf
-    return run, compiled_loop(prepared, run, stabilisation)
+    addresses, handles = loop_addresses(prepared, run, stabilisation)
+    return run, BoundEntry(advance, addresses, handles)
 
 
 def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:

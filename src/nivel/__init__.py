@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from nivel.errors import SolveError as SolveError
     from nivel.machine import AssemblySettings as AssemblySettings
     from nivel.machine import Baumgarte as Baumgarte
+    from nivel.machine import Beam as Beam
     from nivel.machine import Belt as Belt
     from nivel.machine import Block as Block
     from nivel.machine import Body as Body
@@ -73,6 +74,7 @@ _HOME = {
     "SolveError": "nivel.errors",
     "AssemblySettings": "nivel.machine",
     "Baumgarte": "nivel.machine",
+    "Beam": "nivel.machine",
     "Belt": "nivel.machine",
     "Block": "nivel.machine",
     "Body": "nivel.machine",
@@ -115,6 +117,7 @@ _HOME = {
 __all__ = [
     "AssemblySettings",
     "Baumgarte",
+    "Beam",
     "Belt",
     "Block",
     "Body",

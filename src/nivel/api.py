@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from html import escape
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from nivel.analysis.changes import changed
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
@@ -27,9 +26,10 @@ from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
 from nivel.files.reader import parse_machine, read_text
-from nivel.files.writer import write_machine
+from nivel.files.values import outside_paths
 from nivel.machine import (
     AssemblySettings,
+    Beam,
     Block,
     Body,
     Coupling,
@@ -45,11 +45,14 @@ from nivel.machine import (
     State,
     Table,
 )
+from nivel.model import Model
 
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
     from nivel.analysis.posing import Posing
+    from nivel.analysis.stepping import Simulation
     from nivel.c_library.writer import Files
+    from nivel.native.entry import Entry
     from nivel.results.comparison import Comparison
     from nivel.results.efforts import Efforts
     from nivel.results.linear_model import LinearModel
@@ -58,14 +61,16 @@ if TYPE_CHECKING:
     from nivel.view.sources import PosedMachine
 
 
-class Machine:
-    """A machine and what can be asked of it.
+class Machine(Model):
+    """A machine: its elements by name, copies of it with other values, and what can be asked of it.
 
     Made from records (everything in SI units, or texts with units), or with `nivel.load` from a file::
 
         arm = nivel.Body(name="arm", mass=2.0, inertia=(0.01, 0.2, 0.2), position=(0.5, 0, 0))
         pin = nivel.Joint(name="pin", type="revolute", bodies=("ground", "arm"), point=(0, 0, 0), axis=(0, 0, 1))
         machine = nivel.Machine("pendulum", bodies=[arm], joints=[pin], gravity=(0, -9.81, 0))
+        machine.bodies["arm"].mass  # 2.0
+        heavier = machine.with_values({"bodies.arm.mass": "4 kg"})
 
     Raises ModelError with everything that is wrong.
     """
@@ -76,6 +81,7 @@ class Machine:
         name: str = "machine",
         *,
         bodies: Sequence[Body] = (),
+        beams: Sequence[Beam] = (),
         markers: Sequence[Marker] = (),
         joints: Sequence[Joint] = (),
         couplings: Sequence[Coupling] = (),
@@ -93,6 +99,7 @@ class Machine:
     ) -> None:
         sections = {
             "bodies": bodies,
+            "beams": beams,
             "markers": markers,
             "joints": joints,
             "couplings": couplings,
@@ -109,20 +116,6 @@ class Machine:
         given |= {} if simulation is None else {"simulation": simulation}
         self.record = MachineRecord(name=name, description=description, gravity=gravity, **given)  # type: ignore[arg-type]
         self.origin = Origin()
-
-    @classmethod
-    @checked_arguments
-    def from_record(cls, record: MachineRecord, origin: Origin | None = None) -> Machine:
-        """Wrap a record; `origin` says where its values were set."""
-        machine = cls.__new__(cls)
-        machine.record = record
-        machine.origin = origin or Origin()
-        return machine
-
-    @property
-    def name(self) -> str:
-        """Name of the machine."""
-        return self.record.name
 
     @checked_arguments
     def check(self, *, listener: Listener | None = None) -> Check:
@@ -227,12 +220,7 @@ class Machine:
         limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
         chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
-        entries = run_entries(plan)
-        if plan.settings.start == "equilibrium":
-            from nivel.analysis.statics.start import methods_at_rest
-
-            entries += statics_entries(methods_at_rest(chosen.record))
-        compile_seconds = build(entries, listener)
+        compile_seconds = build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
         from nivel.analysis.simulate import simulate
         from nivel.results.target import keep_sources
@@ -263,6 +251,43 @@ class Machine:
 
         with self._faults_in_file():
             return write_c_library(plan, Path(folder))
+
+    @checked_arguments
+    def start(
+        self,
+        *,
+        step: float | str | None = None,
+        output_interval: float | str | None = None,
+        integrator: str | None = None,
+        formulation: str | None = None,
+        coordinates: str | None = None,
+        stabilisation: str | None = None,
+        start: str | None = None,
+        record: bool = False,
+        listener: Listener | None = None,
+    ) -> Simulation:
+        """The machine ready to move step by step: ``sim.step()``, ``sim["hinge.angle"]``, ``sim.state``.
+
+        Options override those of the machine's `simulation`, as in `simulate`. The time has no end; steps are fixed.
+        record : keep a frame every `output_interval`, for ``sim.result()``. Raises ModelError.
+        """
+        given = {
+            "step": step,
+            "output_interval": output_interval,
+            "integrator": integrator,
+            "formulation": formulation,
+            "coordinates": coordinates,
+            "stabilisation": stabilisation,
+            "start": start,
+        }
+        given = {key: value for key, value in given.items() if value is not None}
+        chosen = self.with_settings(given)
+        plan = chosen._plan({*given, *self.origin.settings_outside})
+        build(_entries_of(plan, chosen.record), listener)
+        from nivel.analysis.stepping import Simulation
+
+        with chosen._faults_in_file():
+            return Simulation(plan, source=self.origin.source, record=record)
 
     @checked_arguments
     def statics(
@@ -593,7 +618,7 @@ class Machine:
             raise ModelError(self.origin.placed(error.faults)) from error
 
     @checked_arguments
-    def with_settings(self, settings: Mapping[str, Any]) -> Machine:
+    def with_settings(self, settings: Mapping[str, Any]) -> Self:
         """The same machine with some simulation settings replaced."""
         if not settings:
             return self
@@ -605,7 +630,7 @@ class Machine:
         except ModelError as error:
             raise ModelError(origin.placed(origin.of_settings(fault, settings) for fault in error.faults)) from None
         try:
-            return Machine.from_record(self.record.replace(simulation=simulation), origin)
+            return type(self).from_record(self.record.replace(simulation=simulation), origin)
         except ModelError as error:
             raise ModelError(origin.placed(error.faults)) from None
 
@@ -621,41 +646,15 @@ class Machine:
 
         return Machine.from_record(with_signals(self.record, inputs), self.origin)
 
-    @checked_arguments
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write the machine as a YAML file; an existing file is replaced. Raises ModelError where it cannot be written."""
-        text = write_machine(self.record)
-        try:
-            Path(path).write_text(text, encoding="utf-8")
-        except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            raise ModelError(f"the machine file {fspath(path)} cannot be written: {reason.lower()}") from error
 
-    def _repr_html_(self) -> str:
-        """A card for notebooks: what the machine consists of."""
-        record = self.record
-        rows = [
-            ("body", body.name, f"{body.mass:g} kg" if body.mass is not None else "from its shape")
-            for body in record.bodies
-        ]
-        rows += [("joint", joint.name, joint.type) for joint in record.joints]
-        rows += [("force", force.name, force.type) for force in record.forces]
-        lines = "".join(
-            f"<tr><td>{kind}</td><th>{escape(name)}</th><td>{escape(fact)}</td></tr>" for kind, name, fact in rows
-        )
-        return f"<table><caption>{escape(record.name)}</caption>{lines}</table>"
+def _entries_of(plan: Plan, record: MachineRecord) -> list[Entry]:
+    """The machine code that a run needs, from the start that it has."""
+    entries = [*run_entries(plan)]
+    if plan.settings.start == "equilibrium":
+        from nivel.analysis.statics.start import methods_at_rest
 
-    def __repr__(self) -> str:
-        record = self.record
-        parts = [
-            f"{len(items)} {word if len(items) != 1 else singular}"
-            for items, word, singular in (
-                (record.bodies, "bodies", "body"),
-                (record.joints, "joints", "joint"),
-                (record.forces, "forces", "force"),
-            )
-        ]
-        return f"<Machine {record.name}: {', '.join(parts)}>"
+        entries += statics_entries(methods_at_rest(record))
+    return entries
 
 
 @checked_arguments
@@ -667,8 +666,8 @@ def load(path: str | PathLike[str], overrides: Mapping[str, Any] | None = None, 
     """
     text, file = read_text(fspath(path)), fspath(path)
     record = parse_machine(text, file, overrides=dict(overrides or {}), allow_code=allow_code)
-    outside = frozenset(".".join(step.strip() for step in path.split(".")) for path in overrides or ())
-    return Machine.from_record(record, Origin(text, file, outside))
+    values = dict(overrides or {})
+    return Machine.from_record(record, Origin(text, file, outside_paths(values), values=values, allow_code=allow_code))
 
 
 @checked_arguments

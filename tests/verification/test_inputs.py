@@ -68,7 +68,9 @@ def test_an_input_rests_without_a_signal():
 
 def test_a_file_of_columns_has_units_and_gives_the_same_run(tmp_path):
     path = tmp_path / "lever.csv"
-    path.write_text("time [ms],lever [deg]\n" + "".join(f"{1e3 * t},{np.degrees(v)}\n" for t, v in zip(TIMES, VALUES, strict=True)))
+    path.write_text(
+        "time [ms],lever [deg]\n" + "".join(f"{1e3 * t},{np.degrees(v)}\n" for t, v in zip(TIMES, VALUES, strict=True))
+    )
     of_file = cart().simulate(inputs={"lever": path})
     of_table = cart().simulate(inputs={"lever": Table(TIMES, VALUES)})
     np.testing.assert_allclose(of_file.array("rail.displacement"), of_table.array("rail.displacement"), rtol=1e-12)
@@ -131,7 +133,9 @@ def test_an_input_that_is_misspelt_is_told_with_the_right_name():
 
 
 def test_inputs_come_back_from_a_file():
-    machine = cart(inputs={"lever": {"keys": {"raise": "D", "lower": "ArrowLeft"}, "gamepad": {"axis": 2, "exponent": 2}}})
+    machine = cart(
+        inputs={"lever": {"keys": {"raise": "D", "lower": "ArrowLeft"}, "gamepad": {"axis": 2, "exponent": 2}}}
+    )
     (lever,) = machine.record.inputs
     assert lever.keys.raise_ == "d"
     assert parse_machine(write_machine(machine.record)) == machine.record

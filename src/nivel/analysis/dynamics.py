@@ -96,10 +96,15 @@ class Loop(NamedTuple):
     machine: Handle
     history: Handle
 
+    @property
+    def addresses(self) -> tuple[int, ...]:
+        """What `nivel.integrate.loop.advance` is called with."""
+        codes = self.evaluate.address, self.correct.address, self.step.address
+        return *codes, int(self.machine.address), int(self.history.address)
+
     def advance(self) -> int:
         """Go on for the budget of steps in the history's counter. Returns a status."""
-        codes = self.evaluate.address, self.correct.address, self.step.address
-        return advance(*codes, self.machine.address, self.history.address)
+        return advance(*self.addresses)
 
 
 def march(
@@ -125,20 +130,20 @@ def march(
         status, spent = march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing)
         loop_seconds += spent
         if status in BEFORE_A_JAM:
-            jam = _jam(prepared, settings, run)
+            jam = jam_of(prepared, settings, run)
         if status == OPEN and jam is None and can_be_asked(prepared):
-            _accept_open(prepared.motion, run)
+            accept_open(prepared.motion, run)
             status = BUDGET_SPENT
     if run.counter[STOPPED]:
         finished.stopped_by = system.events[run.counter[STOPPED] - 1]
     if status not in (*GOES_ON, DONE):
         finished.outcome = "failed"
-        finished.failure = _failure(prepared, settings, run, status, jam)
+        finished.failure = failure_of(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
             keep_last(prepared.motion, run, sinks)
     finished.pace = run.pace
     finished.timing = {
-        **_counts(system, run),
+        **counts_of(system, run),
         "loop_seconds": loop_seconds,
         "wall_seconds": clock_of_python.perf_counter() - wall,
     }
@@ -148,7 +153,7 @@ def march(
 def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
     """The compiled loop at the start of a run of `prepared`."""
     stabilisation = STABILISATIONS[settings.stabilisation]
-    _feed_back(prepared.motion.system, settings, stabilisation)
+    set_feedback(prepared.motion.system, settings, stabilisation)
     kernels, facts = prepared.motion.kernels, prepared.integrator
     correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
     run = start_history(prepared, settings, facts)
@@ -157,7 +162,7 @@ def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
     return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))
 
 
-def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
+def set_feedback(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
     """Set what the stabilisation, or a penalty method, adds to the accelerations of the constraints, and what it leaves open."""
     stabilise = system.record.control.stabilise
     stabilise[:] = stabilisation.coefficients(settings.step, *(settings.baumgarte or (None, None)))
@@ -187,8 +192,8 @@ def march_in_chunks(
             status = advance()
             spent = clock_of_python.thread_time() - begin
             loop_seconds += spent
-            _give(run, sinks)
-            finished.events += _taken_events(run, system.events)
+            give_frames(run, sinks)
+            finished.events += taken_events(run, system.events)
             if progress is not None:
                 progress(float(run.clock[TIME]))
             if pacing is not None:
@@ -209,14 +214,14 @@ def _next_budget(budget: int, spent: float) -> int:
     return max(1, budget // 2)
 
 
-def _jam(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
+def jam_of(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
     """The jam in or beside the step after the last accepted state."""
     time = float(run.clock[ACCEPTED])
     step = max(float(run.clock[STEP]), float(run.clock[TIME]) - time)
     return find_jam(prepared, time, step, settings.step, settings.duration, run.previous)
 
 
-def _accept_open(motion: MotionEquations, run: Run) -> None:
+def accept_open(motion: MotionEquations, run: Run) -> None:
     """Let the run go on with joints that are open, as they can be closed: they have drifted. Looked at again when that has doubled."""
     motion.evaluate(float(run.clock[TIME]), run.y)
     constraints = motion.system.record.constraints
@@ -224,7 +229,7 @@ def _accept_open(motion: MotionEquations, run: Run) -> None:
     run.clock[OPEN_LIMIT] = 2.0 * max(share, run.clock[OPEN_LIMIT]) if np.isfinite(share) else np.inf
 
 
-def _failure(
+def failure_of(
     prepared: Prepared, settings: RunSettings, run: Run, status: int, jam: Jam | None
 ) -> tuple[str, str, float]:
     """(message, advice, time [s]) of a run that failed."""
@@ -244,7 +249,7 @@ def _failure(
     return message, advice, time
 
 
-def _counts(system: System, run: Run) -> dict[str, float]:
+def counts_of(system: System, run: Run) -> dict[str, float]:
     """What the run did how often; of partitions, how often independent coordinates were chosen anew."""
     return {
         "steps": int(run.counter[DONE_STEPS]),
@@ -275,7 +280,7 @@ def keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
     feedback[:] = kept
 
 
-def _give(run: Run, sinks: Sequence[Sink]) -> None:
+def give_frames(run: Run, sinks: Sequence[Sink]) -> None:
     filled = int(run.counter[FRAMES])
     if filled:
         for sink in sinks:
@@ -283,7 +288,7 @@ def _give(run: Run, sinks: Sequence[Sink]) -> None:
         run.counter[FRAMES] = 0
 
 
-def _taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
+def taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
     """Events of the buffer, which is empty then."""
     filled = int(run.counter[EVENTS])
     run.counter[EVENTS] = 0

@@ -51,9 +51,7 @@ def read_input_table(path: str | PathLike[str], name: str) -> Table:
     return Table(tuple(times), tuple(values))
 
 
-def with_signals(
-    machine: MachineRecord, signals: Mapping[str, float | str | PathLike[str] | Table]
-) -> MachineRecord:
+def with_signals(machine: MachineRecord, signals: Mapping[str, float | str | PathLike[str] | Table]) -> MachineRecord:
     """The machine whose inputs follow these numbers, tables or files.
 
     Raises ModelError with all faults.
@@ -85,7 +83,13 @@ def _of_input(fault: Fault, name: str, given: object) -> Fault:
     """A fault of the record of an input, told with the file that the table came from."""
     if fault.line or not isinstance(given, str | PathLike):
         return fault
-    return Fault("", 0, 0, f"inputs.{name}", f"{fspath(given)}: {fault.message}" if fault.path.endswith("signal") else fault.message)
+    return Fault(
+        "",
+        0,
+        0,
+        f"inputs.{name}",
+        f"{fspath(given)}: {fault.message}" if fault.path.endswith("signal") else fault.message,
+    )
 
 
 def _number(row: list[str], column: int, unit: str, kind: Kind, place: Fault, faults: list[Fault]) -> float:

@@ -7,7 +7,7 @@ placed and get their prefix (assembly.py), and join those of the file that uses 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -26,7 +26,7 @@ from nivel.files.python_laws import read_python_laws
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine import MachineRecord, Record
-from nivel.machine.arithmetic import Parameters, Signal
+from nivel.machine.arithmetic import Number, Parameters, Signal
 from nivel.machine.parameters import resolve
 from nivel.machine.quantity import FAULT
 from nivel.machine.references import SECTIONS
@@ -46,6 +46,37 @@ def read_scope(
 
     Raises ModelError.
     """
+    tree, parameters = _tree_of(text, file, sources, overrides, user)
+    return _record(tree, parameters, _expanded(tree, parameters, sources))
+
+
+@dataclass(frozen=True)
+class FileNames:
+    """What a machine file names beside the elements: values of its parameters, and its assemblies with all their values."""
+
+    parameters: Mapping[str, float]
+    assemblies: Mapping[str, Assembly]
+
+
+def read_names(text: str, file: str, sources: Sources, *, overrides: Mapping[str, object]) -> FileNames:
+    """The names in a machine file that can be read without fault. Values in SI units."""
+    tree, values = _tree_of(text, file, sources, overrides, None)
+    entries = section_of(tree, "assemblies").items()
+    assemblies = {name: read_assembly(tree, name, given, values) for name, given in entries}
+    return FileNames(
+        {name: number.value for name, number in values.items() if number is not None},
+        {name: assembly for name, assembly in assemblies.items() if assembly is not None},
+    )
+
+
+def _tree_of(
+    text: str,
+    file: str,
+    sources: Sources,
+    overrides: Mapping[str, object],
+    user: tuple[Tree, str, Assembly] | None,
+) -> tuple[Tree, dict[str, Number | None]]:
+    """The file with all that it includes and what was set from outside, and the values of its parameters."""
     tree = read_tree(text, file)
     about_files, of_masses, others = in_order(overrides)
     override(tree, about_files)
@@ -65,7 +96,7 @@ def read_scope(
     read_csv_tables(tree, sources)
     parameters, faults = resolve(section_of(tree, "parameters"))
     tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]
-    return _record(tree, parameters, _expanded(tree, parameters, sources))
+    return tree, parameters
 
 
 def _expanded(tree: Tree, parameters: Parameters, sources: Sources) -> Elements:

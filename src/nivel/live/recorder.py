@@ -134,7 +134,12 @@ class Recording:
 
 
 def write_recording(
-    path: str | PathLike[str], machine: MachineRecord, source: str, settings: Mapping[str, Any], pace: Pace, takes: list[Take]
+    path: str | PathLike[str],
+    machine: MachineRecord,
+    source: str,
+    settings: Mapping[str, Any],
+    pace: Pace,
+    takes: list[Take],
 ) -> None:
     """Write takes that have ticks. Raises ModelError where the file cannot be written."""
     kept = [take for take in takes if take.ticks]
@@ -154,7 +159,9 @@ def write_recording(
         with Path(path).open("wb") as file:
             np.savez_compressed(file, **arrays)
     except OSError as error:
-        raise ModelError(f"the recording {fspath(path)} cannot be written: {(error.strerror or str(error)).lower()}") from None
+        raise ModelError(
+            f"the recording {fspath(path)} cannot be written: {(error.strerror or str(error)).lower()}"
+        ) from None
 
 
 def read_recording(path: str | PathLike[str]) -> Recording:
@@ -172,7 +179,9 @@ def read_recording(path: str | PathLike[str]) -> Recording:
     except ModelError:
         raise
     except Exception as error:
-        raise ModelError(f"{fspath(path)} is no recording of a live run: {str(error) or type(error).__name__}") from None
+        raise ModelError(
+            f"{fspath(path)} is no recording of a live run: {str(error) or type(error).__name__}"
+        ) from None
     step, substeps, every = about["pace"]
     machine = MachineRecord.model_validate_json(json.dumps(about["machine"]))
     return Recording(machine, about["source"], about["settings"], Pace(step, int(substeps), int(every)), tuple(takes))

@@ -45,7 +45,9 @@ class LiveSource(Still):
         scene, record, block = json.loads(attributes["scene"]), json.loads(attributes["machine_record"]), Block()
         while self._session.newest is None:
             time.sleep(0.005)
-        stage = machine_stage(str(attributes["machine"]), _Pose(scene, self._places, self._session.newest), record, block)
+        stage = machine_stage(
+            str(attributes["machine"]), _Pose(scene, self._places, self._session.newest), record, block
+        )
         self._origin = np.array(stage.origin)
         controls = [control(each) for each in self._session.plan.machine.inputs]
         shown = [Gauge(name, variable.units) for name, variable in self._gauges]

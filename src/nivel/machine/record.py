@@ -21,6 +21,7 @@ from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.machine.example_line import list_line, mapping_line
 from nivel.machine.quantity import FAULT, REPORTED, fault, reported
+from nivel.machine.signature import PlainSignature
 from nivel.wording import shown, unknown_word
 
 NAME = re.compile(r"[^\W\d_][\w-]*")
@@ -80,6 +81,9 @@ class Record(BaseModel):
         given = {name: getattr(self, name) for name in self.model_fields_set}
         return type(self)(**(given | changes))
 
+    def __str__(self) -> str:
+        return repr(self)
+
     def __repr_args__(self) -> Any:
         """Only what differs from the default."""
         fields = type(self).model_fields
@@ -88,6 +92,12 @@ class Record(BaseModel):
             for name, value in super().__repr_args__()
             if name and value != fields[name].get_default(call_default_factory=True)
         ]
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        """Help and editors show what each field takes, in words; found out when somebody asks."""
+        super().__pydantic_init_subclass__(**kwargs)
+        cls.__signature__ = PlainSignature()  # type: ignore[assignment]
 
     @model_validator(mode="wrap")
     @classmethod

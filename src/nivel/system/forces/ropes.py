@@ -22,7 +22,9 @@ def add(draft: SystemBuilder, rope: Rope) -> None:
     first = force_outputs(draft, rope.name, *magnitude_and_power("N", "tension"), ("stretch", "m", "stretch"))
     length = speed = NONE
     if rope.speed is not None:
-        fact = StateFact(f"{rope.name}.length", "m", f"unstressed length of {rope.name}", rope.length, scale=rope.length)
+        fact = StateFact(
+            f"{rope.name}.length", "m", f"unstressed length of {rope.name}", rope.length, scale=rope.length
+        )
         length, speed = draft.own_state(fact), draft.function(rope.speed)
     columns = [first, length, speed, len(distances), *distances]
     draft.elements.add(apply, columns, [rope.stiffness, rope.damping, rope.length])

@@ -34,6 +34,8 @@ from nivel.machine import (
     State,
 )
 
+from nivel.machine.hydraulics import Fluid, HydraulicComponent
+
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
     from nivel.analysis.posing import Posing
@@ -65,6 +67,8 @@ class Machine:
         couplings: Sequence[Coupling] = (),
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
+        fluids: Sequence[Fluid] = (),
+        hydraulics: Sequence[HydraulicComponent] = (),
         states: Sequence[State] = (),
         sensors: Sequence[Sensor] = (),
         events: Sequence[Event] = (),
@@ -80,6 +84,8 @@ class Machine:
             "couplings": couplings,
             "drivers": drivers,
             "forces": forces,
+            "fluids": fluids,
+            "hydraulics": hydraulics,
             "states": states,
             "sensors": sensors,
             "events": events,

@@ -13,6 +13,7 @@ from nivel.integrate.catalogue import BY_MODES, INTEGRATORS
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.hook import Family
+from nivel.machine.hydraulics import Actuator
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
@@ -22,6 +23,8 @@ from nivel.native.workers import NO_COMPILER, CompilationError
 from nivel.system.beams import ELASTIC, family_of
 from nivel.system.beams import FAMILIES as BEAMS
 from nivel.system.forces import FORCES
+from nivel.system.hydraulics.components import FAMILIES as CIRCUITS
+from nivel.system.hydraulics.components import families_of
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
@@ -148,7 +151,7 @@ def all_entries() -> list[Entry]:
         RESIDUAL.partition(":")[0],
         OUTPUT,
     ]
-    families = dict.fromkeys([*(each for kind in FORCES.values() for each in kind.families), *BEAMS, state_rate])
+    families = dict.fromkeys([*(each for kind in FORCES.values() for each in kind.families), *CIRCUITS, *BEAMS, state_rate])
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)]
     entries = [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
@@ -197,6 +200,7 @@ def _with_derivatives() -> list[str]:
 def _families(machine: MachineRecord) -> list[Family]:
     """The families of forces that a machine has."""
     families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
+    families |= dict.fromkeys(families_of(machine))
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
     return [*families, *([state_rate] if machine.states else [])]
 
@@ -209,13 +213,20 @@ def _node_modules(methods: Methods) -> list[str]:
 
 def _watches(machine: MachineRecord, chooses_steps: bool) -> bool:
     """Whether events are looked for: of the machine, or where steps are chosen contacts and stops."""
-    return bool(machine.events) or (chooses_steps and any(force.type in FOLLOWED for force in machine.forces))
+    return bool(machine.events) or (chooses_steps and _has_surfaces(machine))
+
+
+def _has_surfaces(machine: MachineRecord) -> bool:
+    """Whether something may touch: contacts, stops, ends of cylinders."""
+    return any(force.type in FOLLOWED for force in machine.forces) or any(
+        isinstance(component, Actuator) for component in machine.hydraulics
+    )
 
 
 def _rare_modules(machine: MachineRecord) -> list[str]:
     """Modules of what only some machines have, besides forces: measured coordinates, friction, sensors, samples."""
     types = {force.type for force in machine.forces}
-    measured = machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}
+    measured = machine.joints or machine.drivers or machine.sensors or machine.events or machine.hydraulics or types - {*LOADS}
     needed = {
         MEASURE: bool(measured),
         FRICTION: "friction" in types,

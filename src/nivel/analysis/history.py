@@ -75,6 +75,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         trial=np.zeros_like(y),
         # a run of fixed steps takes no notice of how many more follow
         scale=_scales(system, y, min(settings.duration, LONG * settings.step) if settings.steps else settings.duration),
+        raised=_raised(system, y).astype(np.uint32),
         stages=np.zeros((facts.stages, len(y))),
         numbers=numbers,
         matrix=np.zeros((newton, newton)),
@@ -188,7 +189,14 @@ def _scales(system: System, y: Array, duration: float) -> Array:
     scale[units == "kg^0.5 m"] = system.modal_sizes()
     scale[units == "kg^0.5 m/s"] = system.modal_sizes() / duration
     scale[len(scale) - len(system.start_of_states) :] = [*(fact.scale for fact in system.states), energy, energy]
-    return np.maximum(scale, np.abs(y))
+    return np.where(_raised(system, y), np.maximum(scale, np.abs(y)), scale)
+
+
+def _raised(system: System, y: Array) -> NDArray[np.bool_]:
+    """Whether the scale of each entry of y follows its largest value."""
+    out = np.ones(len(y), dtype=bool)
+    out[len(y) - len(system.start_of_states) :] = [*(fact.relative for fact in system.states), True, True]
+    return out
 
 
 def _weight_energy(system: System) -> float:

@@ -14,7 +14,7 @@ NEAR = 16.0 * 2.220446049250313e-16
 # kinds of functions; a held table keeps its end values outside, an extended one its end pieces
 CONSTANT, TABLE_HELD, TABLE_EXTENDED, COMPILED = 0, 1, 2, 3
 # kinds of signals: index and component say of what
-NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY, STATE = 0, 1, 2, 3, 4, 5, 6, 7
+NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY, STATE, OUTPUT = 0, 1, 2, 3, 4, 5, 6, 7, 8
 
 
 # call_law(address, arguments): the value of a law or an expression; about 3 ns
@@ -74,6 +74,8 @@ def read_arguments(machine, k, t):
             functions.arguments[place] = record.bodies.omega[record.markers.body[index], component]
         elif kind == STATE:
             functions.arguments[place] = record.elements.state[index]
+        elif kind == OUTPUT:
+            functions.arguments[place] = record.outputs.value[index]
 
 
 @stage

@@ -17,6 +17,8 @@ SECTIONS: Final = (
     "couplings",
     "drivers",
     "forces",
+    "fluids",
+    "hydraulics",
     "states",
     "sensors",
     "events",
@@ -43,7 +45,8 @@ class Index:
     """What the elements of a machine are, by name.
 
     bodies : type of the shape ("" without one), also of the stations of beams. beams : names of the stations.
-    point_masses : bodies that are. markers : the body. joints : the type. forces, states, sensors : the element.
+    point_masses : bodies that are. markers : the body. joints : the type. forces, hydraulics, states, sensors : the element.
+    fluids : their names.
     """
 
     bodies: Mapping[str, str]
@@ -52,6 +55,8 @@ class Index:
     markers: Mapping[str, str]
     joints: Mapping[str, str]
     forces: Mapping[str, Any]
+    fluids: tuple[str, ...]
+    hydraulics: Mapping[str, Any]
     states: Mapping[str, Any]
     sensors: Mapping[str, Any]
 
@@ -67,6 +72,8 @@ class Index:
             markers={name: _text(entry(marker, "body")) for name, marker in _by_name(machine, "markers").items()},
             joints={name: _text(entry(joint, "type")) for name, joint in _by_name(machine, "joints").items()},
             forces=_by_name(machine, "forces"),
+            fluids=tuple(_by_name(machine, "fluids")),
+            hydraulics=_by_name(machine, "hydraulics"),
             states=_by_name(machine, "states"),
             sensors=_by_name(machine, "sensors"),
         )

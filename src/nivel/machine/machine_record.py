@@ -25,6 +25,7 @@ from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
 from nivel.machine.forces import Force
+from nivel.machine.hydraulics import Fluid, HydraulicComponent
 from nivel.machine.interface_uses import problems_of_interfaces
 from nivel.machine.joint import Joint
 from nivel.machine.marker import Marker
@@ -63,7 +64,7 @@ Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"
 class MachineRecord(Checked):
     """Everything nivel is told about a machine. SI, angles in radians."""
 
-    tagged = {"couplings": 2, "forces": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "forces": 2, "hydraulics": 2}  # noqa: RUF012
 
     name: Title
     description: str = ""
@@ -75,6 +76,8 @@ class MachineRecord(Checked):
     couplings: tuple[Coupling, ...] = ()
     drivers: tuple[Driver, ...] = ()
     forces: tuple[Force, ...] = ()
+    fluids: tuple[Fluid, ...] = ()
+    hydraulics: tuple[HydraulicComponent, ...] = ()
     states: tuple[State, ...] = ()
     sensors: tuple[Sensor, ...] = ()
     events: tuple[Event, ...] = ()

@@ -1,12 +1,12 @@
 """What expressions can use of the machine itself: `hinge.angle_rate`, `tip.vx`.
 
 A symbol is the name of an element, a dot and a quantity. Where several elements have one name, the first that has
-the quantity is meant: of joints, states, forces, sensors, markers and bodies, in this order.
+the quantity is meant: of joints, states, forces, hydraulics, sensors, markers and bodies, in this order.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any, Final, Literal
@@ -20,13 +20,14 @@ from nivel.machine.arithmetic import (
     signals,
 )
 from nivel.machine.grammar import parse
+from nivel.machine.hydraulics.signals import signals_of
 from nivel.machine.index import Index, Place
 from nivel.machine.joint import JOINT_COORDINATES
 from nivel.machine.record import entry
 from nivel.machine.table import SIGNAL_PATH
 from nivel.machine.time_function import Expression, PythonLaw, Table
 
-Section = Literal["joints", "states", "forces", "sensors", "markers", "bodies"]
+Section = Literal["joints", "states", "forces", "hydraulics", "sensors", "markers", "bodies"]
 
 POINT_QUANTITIES: Final = ("x", "y", "z", "vx", "vy", "vz")
 STATE_QUANTITY: Final = "value"
@@ -94,7 +95,7 @@ def find_in(path: str, index: Index) -> Symbol:
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""
     empty = any(name in elements for elements in _quantities(index).values())
-    what = f"`{name}` has no symbols" if empty else f"there is no joint, state, sensor, marker or body `{name}`"
+    what = f"`{name}` has no symbols" if empty else f"there is no joint, state, component, sensor, marker or body `{name}`"
     raise UnknownSymbolError(f"{what}{hint}")
 
 
@@ -104,6 +105,7 @@ def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
         "joints": {name: _of_joint(type_) for name, type_ in index.joints.items()},
         "states": dict.fromkeys(index.states, (STATE_QUANTITY,)),
         "forces": {name: states_of(force) for name, force in index.forces.items()},
+        "hydraulics": {name: signals_of(each) for name, each in index.hydraulics.items()},
         "sensors": {name: _of_sensor(sensor) for name, sensor in index.sensors.items()},
         "markers": {name: _of_frame(body, index) for name, body in index.markers.items()},
         "bodies": {name: _of_frame(name, index) for name in index.bodies if "." not in name},
@@ -128,18 +130,20 @@ def _of_frame(body: str, index: Index) -> tuple[str, ...]:
     return POINT_QUANTITIES if body in index.point_masses else (*POINT_QUANTITIES, *TURN_QUANTITIES)
 
 
-def symbol_faults(element: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
-    """Symbols that a force, state, sensor or event uses in vain."""
-    for key in VARYING_KEYS:
+def symbol_faults(
+    element: Any, place: Place, index: Index, parameters: Parameters, keys: Sequence[str] = VARYING_KEYS
+) -> Iterator[tuple[Place, str]]:
+    """Symbols that a force, component, state, sensor or event uses in vain under these keys."""
+    for key in keys:
         value = entry(element, key)
-        for where, path in _used(value, (*place, key), index, parameters):
+        for where, path in paths_in(value, (*place, key), index, parameters):
             try:
                 find_in(path, index)
             except UnknownSymbolError as problem:
                 yield where, str(problem)
 
 
-def _used(value: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
+def paths_in(value: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
     """Places and paths of the symbols in what varies; local symbols, which have no dot, are passed over."""
     match value:
         case str():
@@ -150,10 +154,10 @@ def _used(value: Any, place: Place, index: Index, parameters: Parameters) -> Ite
             of = value.get("of")
             if isinstance(of, str) and SIGNAL_PATH.fullmatch(of):  # a whole path, in which a name may have a `-`
                 yield (*place, "of"), of
-            yield from _used(value.get("arguments"), (*place, "arguments"), index, parameters)
+            yield from paths_in(value.get("arguments"), (*place, "arguments"), index, parameters)
         case list() | tuple():
             for at, each in enumerate(value):
-                yield from _used(each, (*place, at), index, parameters)
+                yield from paths_in(each, (*place, at), index, parameters)
 
 
 def _in_text(text: str, index: Index, parameters: Parameters) -> tuple[str, ...]:
@@ -176,6 +180,6 @@ def _has_hyphen(path: str, index: Index) -> bool:
     ending = f"-{path.partition('.')[0]}"
     return any(
         name.endswith(ending)
-        for its in (index.joints, index.states, index.sensors, index.markers, index.bodies)
+        for its in (index.joints, index.states, index.hydraulics, index.sensors, index.markers, index.bodies)
         for name in its
     )

@@ -41,6 +41,7 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.forces import FORCES
 from nivel.system.gradient_beams import point_inertia
+from nivel.system.hydraulics.components import add_hydraulics
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.interfaces import refuse_unknown_interfaces
 from nivel.system.layout import first_columns, frame_layout
@@ -86,6 +87,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         events=tuple(event.name for event in machine.events),
         coupled=tuple(draft.noted),
         states=states,
+        nodes=tuple(draft.circuit.nodes.values()),
         frictions=tuple(force.name for force in machine.forces if force.type == "friction"),
         rows=tuple(row_names),
         row_owner=tuple(rows.owner),
@@ -110,6 +112,7 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
             add_joint(draft, rows, joint)
     add_couplings(draft, rows)
     add_drivers(draft, rows)
+    add_hydraulics(draft)
     add_states(draft)
     for force in machine.forces:
         _add_force(draft, force)
@@ -148,6 +151,7 @@ def _record(draft: SystemBuilder, rows: RowTable, units: list[str], equations: E
         functions=draft.functions.arrays(),
         elements=draft.elements.arrays(),
         friction=friction_tables(draft, saddle, extra, count),
+        circuit=draft.circuit.arrays(),
         saddle=saddle,
         tree=empty_tree(constraints),
         frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),

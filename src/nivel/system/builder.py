@@ -9,13 +9,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from nivel.kernels.coordinate import DISTANCE, ROTATION
-from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, POSITION, RATE, STATE, VELOCITY
+from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
 from nivel.machine.coordinate_reference import Kind, resolve
 from nivel.machine.forces import End, GlobalPoint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
 from nivel.machine.symbols import find_symbol
 from nivel.machine.time_function import TimeFunction
+from nivel.system.circuit import CircuitTable
 from nivel.system.functions import FunctionTable, Signal
 from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import Placed, seen_from
@@ -24,6 +25,7 @@ from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, Outp
 
 GROUND = "ground"
 AXES = "xyz"
+NOTHING = Coupled(frozenset())
 
 
 @dataclass
@@ -41,6 +43,7 @@ class SystemBuilder:
     functions: FunctionTable = field(default_factory=FunctionTable)
     elements: ElementTable = field(default_factory=ElementTable)
     outputs: OutputTable = field(default_factory=OutputTable)
+    circuit: CircuitTable = field(default_factory=CircuitTable)
     joint_coordinates: dict[str, int] = field(default_factory=dict)
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
     noted: list[Coupled] = field(default_factory=list)
@@ -148,6 +151,20 @@ class SystemBuilder:
         self._noting_states.add(index)
         return index
 
+    def touch_state(self, number: int) -> None:
+        """The element being added reads or feeds this state."""
+        self._noting_states.add(number)
+
+    def node(self, name: str) -> int:
+        """Number of the node of a circuit of this name, on which the element being added acts or depends."""
+        self.note(self.circuit.depends.get(name, NOTHING))
+        return self.circuit.index(name)
+
+    def note(self, coupled: Coupled) -> None:
+        """The element being added depends on all this."""
+        self._noting.update(coupled.bodies)
+        self._noting_states.update(coupled.states)
+
     def measure_all(self) -> None:
         """All joint coordinates are measured in every evaluation from now on."""
         for name in self.joint_coordinates:
@@ -175,6 +192,10 @@ class SystemBuilder:
             return (COORDINATE if name == symbol.quantity else RATE, index, 0)
         if symbol.section in ("states", "forces"):
             return (STATE, self.state(symbol.name if symbol.section == "states" else path), 0)
+        if symbol.section == "hydraulics":
+            output, coupled = self.circuit.signals[path]
+            self.note(coupled)
+            return (OUTPUT, output, 0)
         if symbol.section == "sensors":
             sensor = next(sensor for sensor in self.machine.sensors if sensor.name == symbol.name)
             ends = sensor.distance or sensor.angle

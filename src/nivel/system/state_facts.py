@@ -11,8 +11,8 @@ class StateFact:
     """One first-order state x of an element.
 
     name : result variable `state.NAME`, and signal where it has a dot. units, long_name : of the variable, SI. start : value at t = 0.
-    scale : what errors of x are measured by, at least; the largest |x| of the run counts where it is larger. sampled : x has no rate, it
-    changes at given times or events only.
+    scale : what errors of x are measured by, at least; the largest |x| of the run counts where it is larger and x is `relative`. sampled :
+    x has no rate, it changes at given times or events only.
     """
 
     name: str
@@ -21,6 +21,7 @@ class StateFact:
     start: float
     scale: float
     sampled: bool = False
+    relative: bool = True
 
 
 class Coupled(NamedTuple):

@@ -12,6 +12,7 @@ from nivel.analysis.elements import (
     coupling_in_words,
     driver_in_words,
     event_in_words,
+    component_in_words,
     force_in_words,
     sensor_in_words,
     state_in_words,
@@ -72,6 +73,7 @@ class Check:
     couplings: tuple[str, ...]  # each in words, as drivers, forces, states, sensors and events
     drivers: tuple[str, ...]
     forces: tuple[str, ...]
+    hydraulics: tuple[str, ...]
     states: tuple[str, ...]
     sensors: tuple[str, ...]
     events: tuple[str, ...]
@@ -128,7 +130,7 @@ def _lines(facts: Check) -> Iterator[str]:
             yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}"
     for kind, convention in {joint.type: joint.convention for joint in facts.joints if joint.coordinates}.items():
         yield f"  {kind}: {convention}"
-    for title in ("couplings", "drivers", "forces", "states", "sensors", "events"):
+    for title in ("couplings", "drivers", "forces", "hydraulics", "states", "sensors", "events"):
         elements: tuple[str, ...] = getattr(facts, title)
         if elements:
             yield title
@@ -231,6 +233,7 @@ def check(plan: Plan) -> Check:
         couplings=tuple(coupling_in_words(machine, coupling) for coupling in machine.couplings),
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
+        hydraulics=_hydraulics(machine, system),
         states=tuple(state_in_words(state) for state in machine.states),
         sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
         events=tuple(event_in_words(event) for event in machine.events),
@@ -245,6 +248,20 @@ def check(plan: Plan) -> Check:
         velocity_change=assembly.velocity_change,
         cut=_cut(plan.methods) if settings.coordinates == "relative" else (),
         settings=settings,
+    )
+
+
+def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:
+    """Components in words, pressures at the start, and how many states there are."""
+    if not machine.hydraulics:
+        return ()
+    record = system.record
+    pressures = [f"{node.name} {record.circuit.pressure[k] / 1e5:.4g} bar" for k, node in enumerate(system.nodes)]
+    count = sum(not fact.integral for fact in system.states) - len(machine.states)
+    return (
+        *(component_in_words(component) for component in machine.hydraulics),
+        f"start: {', '.join(pressures)}",
+        f"{count} states of components",
     )
 
 

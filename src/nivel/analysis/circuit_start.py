@@ -34,8 +34,9 @@ PROBE = 1e5
 NO_LOAD = 1e3
 # steps of pseudo-time: the first one [s], the factor to the next, their number; at rest, states change by less than this share of their
 # scale in a second
-FIRST, FACTOR, MOST, AT_REST = 1e-6, 3.0, 60, 1e-9
-DIFFERENCE = 1e-7
+FIRST, FACTOR, MOST, AT_REST = 1e-6, 3.0, 200, 1e-9
+# of Newton's iteration in each: most iterations, changes that end it and steps of differences as shares of the scales
+ITERATIONS, CLOSE, DIFFERENCE = 8, 1e-6, 1e-7
 # A piston may stand beyond the end of its stroke by this share of it.
 BEYOND = 1e-3
 
@@ -236,19 +237,30 @@ class _Start:
             rate = self._rates(free)
             if rate is None or np.all(np.abs(rate) <= AT_REST * scale):
                 return
-            change = self._step(free, scale, rate, step)
-            if change is None:
-                step /= FACTOR * FACTOR
-                continue
-            step *= FACTOR
+            step *= FACTOR if self._step(free, scale, step) else 1.0 / FACTOR**2
 
     def _rates(self, free: NDArray[np.intp]) -> Array | None:
         status, rate = self.motion.evaluate(0.0, self.y)
         found = rate[self.first + free]
         return found if status == OK and np.isfinite(found).all() else None
 
-    def _step(self, free: NDArray[np.intp], scale: Array, rate: Array, step: float) -> Array | None:
-        """One implicit step, taken where it can be evaluated and does not empty a volume; else None and nothing is changed."""
+    def _step(self, free: NDArray[np.intp], scale: Array, step: float) -> bool:
+        """One step of Euler's implicit method, by Newton's iteration. Returns whether it ends; else nothing is changed."""
+        places, before = self.first + free, self.y.copy()
+        for _ in range(ITERATIONS):
+            rate = self._rates(free)
+            matrix = None if rate is None else self._matrix(free, scale, rate)
+            if rate is None or matrix is None:
+                break
+            change = np.linalg.solve(np.eye(len(free)) / step - matrix, rate - (self.y - before)[places] / step)
+            self.y[places] += change
+            if np.all(np.abs(change) <= CLOSE * scale):
+                return True
+        self.y[:] = before
+        return False
+
+    def _matrix(self, free: NDArray[np.intp], scale: Array, rate: Array) -> Array | None:
+        """Derivatives of the rates, by differences; None where one cannot be evaluated."""
         matrix = np.zeros((len(free), len(free)))
         for j, k in enumerate(free):
             kept = self.y[self.first + k]
@@ -258,14 +270,7 @@ class _Start:
             if moved is None:
                 return None
             matrix[:, j] = (moved - rate) / (DIFFERENCE * scale[j])
-        change = np.linalg.solve(np.eye(len(free)) / step - matrix, rate)
-        before = self.y.copy()
-        self.y[self.first + free] += change
-        after = self._rates(free)
-        if after is None or np.any(np.abs(change) > 3.0 * scale):
-            self.y[:] = before
-            return None
-        return change
+        return matrix
 
 
 def _has_state(node: Node) -> bool:

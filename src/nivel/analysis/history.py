@@ -50,6 +50,8 @@ STICK_STEPS = 2.0
 LONG = 1e4
 # Positions open by more than this share of the scales of their rows are beyond all drift, where nobody can tell whether the machine jams.
 TORN = 0.1
+# Scale of what nothing depends on.
+UNSEEN = 1e30
 
 
 def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
@@ -188,14 +190,18 @@ def _scales(system: System, y: Array, duration: float) -> Array:
     scale = np.array([floors.get(unit, 0.0) for unit in units])
     scale[units == "kg^0.5 m"] = system.modal_sizes()
     scale[units == "kg^0.5 m/s"] = system.modal_sizes() / duration
-    scale[len(scale) - len(system.start_of_states) :] = [*(fact.scale for fact in system.states), energy, energy]
+    scale[len(scale) - len(system.start_of_states) :] = [
+        *(UNSEEN if fact.integral else fact.scale for fact in system.states),
+        energy,
+        energy,
+    ]
     return np.where(_raised(system, y), np.maximum(scale, np.abs(y)), scale)
 
 
 def _raised(system: System, y: Array) -> NDArray[np.bool_]:
     """Whether the scale of each entry of y follows its largest value."""
     out = np.ones(len(y), dtype=bool)
-    out[len(y) - len(system.start_of_states) :] = [*(fact.relative for fact in system.states), True, True]
+    out[len(y) - len(system.start_of_states) :] = [*(fact.relative and not fact.integral for fact in system.states), True, True]
     return out
 
 

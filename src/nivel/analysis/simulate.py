@@ -117,7 +117,7 @@ def _small_states(result: Result, prepared: Prepared) -> tuple[SmallState, ...]:
     out = []
     for fact in prepared.motion.system.states:
         largest = peak(result, f"state.{fact.name}").value
-        if fact.relative and not fact.sampled and 0.0 < largest < SMALL * fact.scale:
+        if not (fact.integral or fact.sampled) and 0.0 < largest < SMALL * fact.scale:
             out.append(SmallState(fact.name, largest, fact.scale))
     return tuple(out)
 

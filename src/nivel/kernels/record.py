@@ -195,7 +195,7 @@ class Circuit(NamedTuple):
     enthalpy: W1  # (N,) [J/kg] above that at atmospheric pressure
     temperature: W1  # (N,) [K] of gas
     inflow: W1  # (N,) [W] enthalpy that flows into gas
-    power: W1  # (3,) [W] supplied to the fluid, given to bodies, dissipated
+    power: W1  # (4,) supplied to the fluid, given to bodies, dissipated [W]; taken from tanks [kg/s]
     stored: W1  # (1,) [J] in the fluid, in elastic walls and in accumulators
 
 

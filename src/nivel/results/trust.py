@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from nivel.results.circuits import circuit_items
 from nivel.results.held import Shared
 from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
@@ -121,6 +122,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
     items = (
         *statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved),
         *(_small_state(each) for each in facts.small_states),
+        *circuit_items(result),
     )
     return replace(trust, items=items, verdict=worst(items))
 

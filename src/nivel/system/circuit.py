@@ -73,6 +73,6 @@ class CircuitTable:
             enthalpy=work(),
             temperature=work(),
             inflow=work(),
-            power=np.zeros(3),
+            power=np.zeros(4),
             stored=np.zeros(1),
         )

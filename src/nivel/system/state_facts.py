@@ -12,7 +12,8 @@ class StateFact:
 
     name : result variable `state.NAME`, and signal where it has a dot. units, long_name : of the variable, SI. start : value at t = 0.
     scale : what errors of x are measured by, at least; the largest |x| of the run counts where it is larger and x is `relative`. sampled :
-    x has no rate, it changes at given times or events only.
+    x has no rate, it changes at given times or events only. integral : nothing depends on x, so that no step and no iteration waits for it;
+    on what its rate depends need not be said.
     """
 
     name: str
@@ -22,6 +23,7 @@ class StateFact:
     scale: float
     sampled: bool = False
     relative: bool = True
+    integral: bool = False
 
 
 class Coupled(NamedTuple):

@@ -1,4 +1,4 @@
-"""Energies of a circuit since the start: supplied to its fluid, given to bodies, lost; as states that nothing depends on."""
+"""Energies of a circuit since the start, supplied to its fluid, given to bodies and lost, and the mass that tanks gave it; as states that nothing depends on."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ OUTPUT, STATE = 0, 1
 
 @family
 def apply(machine, number, t):
-    """Rates of the three energies; at rest they are none, since only the state of the machine is asked for."""
+    """Rates of these; at rest they are none, since only the state of the machine is asked for."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index = elements.columns[k]
         record.outputs.value[index[OUTPUT]] = circuit.stored[0]
         if record.sampled.at_rest[0] == 0:
-            for i in range(3):
+            for i in range(4):
                 elements.state_rate[index[STATE] + i] += circuit.power[i]
     return OK

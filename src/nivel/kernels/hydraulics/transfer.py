@@ -6,7 +6,7 @@ from nivel.kernels.record import NONE, record_at
 from nivel.native.function import stage
 
 # entries of `Circuit.power`
-SUPPLIED, DELIVERED, LOST = 0, 1, 2
+SUPPLIED, DELIVERED, LOST, TAKEN_IN = 0, 1, 2, 3
 
 
 @stage
@@ -22,11 +22,13 @@ def transfer(machine, a, b, flow):
         rate[circuit.node[a, 1]] -= flow
     else:
         circuit.power[SUPPLIED] += out
+        circuit.power[TAKEN_IN] += flow
         record.control.power[0] += out
     if circuit.node[b, 1] != NONE:
         rate[circuit.node[b, 1]] += flow
     else:
         circuit.power[SUPPLIED] -= into
+        circuit.power[TAKEN_IN] -= flow
         record.control.power[0] -= into
     return out - into
 

@@ -129,7 +129,7 @@ def apply(machine, number, t):
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
     circuit.stored[0] = 0.0
-    for i in range(3):
+    for i in range(4):
         circuit.power[i] = 0.0
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index = elements.columns[k]

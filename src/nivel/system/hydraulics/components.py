@@ -91,9 +91,12 @@ _NEEDED: Final[dict[type[Component], tuple[Family, ...]]] = {
     Actuator: (piston.displace, piston.guide, piston.press),
     HydraulicCylinder: (piston.displace, piston.guide, piston.press),
 }
-# nothing depends on these energies, so that no step and no iteration waits for them
-UNSEEN: Final = 1e30
-LEDGER: Final = ("supplied", "delivered", "lost")
+LEDGER: Final = {
+    "supplied": ("J", "energy that shafts and tanks gave to fluids"),
+    "delivered": ("J", "energy that fluids gave to bodies"),
+    "lost": ("J", "energy that fluids lost"),
+    "taken_in": ("kg", "mass that tanks gave to volumes"),
+}
 
 
 def families_of(machine: MachineRecord) -> list[Family]:
@@ -147,16 +150,11 @@ def _know_late(draft: SystemBuilder, component: Component) -> None:
 
 
 def _add_ledger(draft: SystemBuilder) -> None:
-    """Three energies as states that nothing depends on."""
+    """Three energies and a mass as states that nothing depends on."""
     first = draft.outputs.add(("hydraulics.stored", "J", "energy stored in fluids, hoses and accumulators"))
-    words = {
-        "supplied": "energy that shafts and tanks gave to fluids",
-        "delivered": "energy that fluids gave to bodies",
-        "lost": "energy that fluids lost",
-    }
     states = []
-    for name in LEDGER:
-        fact = StateFact(f"hydraulics.{name}", "J", words[name], 0.0, UNSEEN, relative=False)
+    for name, (units, words) in LEDGER.items():
+        fact = StateFact(f"hydraulics.{name}", units, words, 0.0, 1.0, integral=True)
         with draft.noting():
             states.append(draft.own_state(fact))
     draft.elements.add(ledger.apply, [first, states[0]])

@@ -52,6 +52,8 @@ LONG = 1e4
 TORN = 0.1
 # Scale of what nothing depends on.
 UNSEEN = 1e30
+# The integrator whose matrix has the secants of restrictions in place of their tangents.
+SECANT = "extrapolated-euler"
 
 
 def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
@@ -137,6 +139,8 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     record.coordinates.reference[:] = prepared.assembly.reference
     record.watched.followed[:] = 0
     record.sampled.came[:] = 0
+    record.circuit.guard[:] = 0.0
+    record.circuit.secant[:] = settings.integrator == SECANT
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
     record.friction.force[:] = 0.0

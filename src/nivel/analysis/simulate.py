@@ -92,7 +92,7 @@ def _close(
         failure=message,
         stopped_by=finished.stopped_by,
         neglected=cost(sink.result(), _neglected(machine)),
-        small_states=_small_states(sink.result(), prepared),
+        small_states=_small_states(sink.result(), prepared, machine),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
     attributes: dict[str, str | float | int] = {
@@ -110,14 +110,16 @@ def _close(
     return result
 
 
-def _small_states(result: Result, prepared: Prepared) -> tuple[SmallState, ...]:
+def _small_states(result: Result, prepared: Prepared, machine: MachineRecord) -> tuple[SmallState, ...]:
     """The states that stayed far below the scale by which their errors are measured."""
     if not (prepared.integrator.chooses_steps or prepared.integrator.optional_control or prepared.integrator.residual):
         return ()
-    out = []
+    out, components = [], {component.name for component in machine.hydraulics}
     for fact in prepared.motion.system.states:
+        if fact.integral or fact.name.partition(".")[0] in components:
+            continue  # their scales are those of their components
         largest = peak(result, f"state.{fact.name}").value
-        if not (fact.integral or fact.sampled) and 0.0 < largest < SMALL * fact.scale:
+        if not fact.sampled and 0.0 < largest < SMALL * fact.scale:
             out.append(SmallState(fact.name, largest, fact.scale))
     return tuple(out)
 

@@ -187,6 +187,9 @@ class Circuit(NamedTuple):
     fluid: F2  # (fluids, ·) constants of each law of density, see `nivel.kernels.hydraulics.fluid`
     room: F2  # (N, 5) of each volume what pistons do not change, see `nivel.kernels.hydraulics.volume`
     secant: U1  # (1,) 1: restrictions have secants in place of tangents, for linearly implicit steps
+    # steps of `nivel.integrate.extrapolated_euler` whose extrapolation was not taken, largest difference of pressures in one [Pa]
+    guard: F1  # (2,)
+    kept: F1  # (N,) [Pa] pressures of another state
     # work
     volume: W1  # (N,) [m³] that pistons leave open, without what is constant
     volume_rate: W1  # (N,) [m³/s]

@@ -66,6 +66,8 @@ class CircuitTable:
             fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), -1 if self.fluids else 6),
             room=np.array([node.room for node in nodes], dtype=float).reshape(count, ROOM),
             secant=np.zeros(1, dtype=np.uint32),
+            guard=np.zeros(2),
+            kept=work(),
             volume=work(),
             volume_rate=work(),
             pressure=work(),

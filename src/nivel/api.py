@@ -45,6 +45,7 @@ from nivel.machine import (
     State,
     Table,
 )
+from nivel.machine.hydraulics import Fluid, HydraulicComponent
 from nivel.model import Model
 
 if TYPE_CHECKING:
@@ -87,6 +88,8 @@ class Machine(Model):
         couplings: Sequence[Coupling] = (),
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
+        fluids: Sequence[Fluid] = (),
+        hydraulics: Sequence[HydraulicComponent] = (),
         inputs: Sequence[Input] = (),
         states: Sequence[State] = (),
         control: Sequence[Block] = (),
@@ -105,6 +108,8 @@ class Machine(Model):
             "couplings": couplings,
             "drivers": drivers,
             "forces": forces,
+            "fluids": fluids,
+            "hydraulics": hydraulics,
             "inputs": inputs,
             "states": states,
             "control": control,

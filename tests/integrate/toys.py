@@ -68,6 +68,7 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
         scratch=np.zeros(n),
         trial=np.zeros(n),
         scale=np.ones(n),
+        raised=np.ones(n, dtype=np.uint32),
         stages=np.zeros((facts.stages, n)),
         numbers=np.zeros(facts.numbers),
         matrix=np.zeros((n, n)),

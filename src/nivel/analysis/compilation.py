@@ -17,6 +17,7 @@ from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.hook import Family
 from nivel.kernels.input import apply as read_inputs
 from nivel.kernels.program import run as run_expression
+from nivel.machine.hydraulics import Actuator
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
@@ -26,6 +27,8 @@ from nivel.native.workers import NO_COMPILER, CompilationError
 from nivel.system.beams import ELASTIC, family_of
 from nivel.system.beams import FAMILIES as BEAMS
 from nivel.system.forces import FORCES
+from nivel.system.hydraulics.components import FAMILIES as CIRCUITS
+from nivel.system.hydraulics.components import families_of
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
@@ -194,6 +197,7 @@ def all_entries() -> list[Entry]:
     families = dict.fromkeys(
         [
             *(each for kind in FORCES.values() for each in kind.families),
+            *CIRCUITS,
             *BEAMS,
             read_inputs,
             compute,
@@ -249,6 +253,7 @@ def _with_derivatives() -> list[str]:
 def _families(machine: MachineRecord) -> list[Family]:
     """The families of forces that a machine has, and what runs its expressions."""
     families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
+    families |= dict.fromkeys(families_of(machine))
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
     families |= dict.fromkeys([read_inputs] if machine.inputs else [])
     families |= dict.fromkeys([compute, state_rate] if machine.control else [state_rate] if machine.states else [])
@@ -263,13 +268,22 @@ def _node_modules(methods: Methods) -> list[str]:
 
 def _watches(machine: MachineRecord, chooses_steps: bool) -> bool:
     """Whether events are looked for: of the machine, or where steps are chosen contacts and stops."""
-    return bool(machine.events) or (chooses_steps and any(force.type in FOLLOWED for force in machine.forces))
+    return bool(machine.events) or (chooses_steps and _has_surfaces(machine))
+
+
+def _has_surfaces(machine: MachineRecord) -> bool:
+    """Whether something may touch: contacts, stops, ends of cylinders."""
+    return any(force.type in FOLLOWED for force in machine.forces) or any(
+        isinstance(component, Actuator) for component in machine.hydraulics
+    )
 
 
 def _rare_modules(machine: MachineRecord) -> list[str]:
     """Modules of what only some machines have, besides forces: measured coordinates, friction, sensors, samples."""
     types = {force.type for force in machine.forces}
-    measured = machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}
+    measured = (
+        machine.joints or machine.drivers or machine.sensors or machine.events or machine.hydraulics or types - {*LOADS}
+    )
     needed = {
         MEASURE: bool(measured),
         FRICTION: "friction" in types,

@@ -53,6 +53,10 @@ STICK_STEPS = 2.0
 LONG = 1e4
 # Positions open by more than this share of the scales of their rows are beyond all drift, where nobody can tell whether the machine jams.
 TORN = 0.1
+# Scale of what nothing depends on.
+UNSEEN = 1e30
+# The integrator whose matrix has the secants of restrictions in place of their tangents.
+SECANT = "extrapolated-euler"
 
 
 def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
@@ -78,6 +82,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         trial=np.zeros_like(y),
         # a run of fixed steps takes no notice of how many more follow
         scale=_scales(system, y, min(settings.duration, LONG * settings.step) if settings.steps else settings.duration),
+        raised=_raised(system, y).astype(np.uint32),
         stages=np.zeros((facts.stages, len(y))),
         numbers=numbers,
         matrix=np.zeros((newton, newton)),
@@ -148,6 +153,8 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     record.coordinates.reference[:] = prepared.assembly.reference
     record.watched.followed[:] = 0
     record.sampled.came[:] = 0
+    record.circuit.guard[:] = 0.0
+    record.circuit.secant[:] = settings.integrator == SECANT
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
     record.friction.force[:] = 0.0
@@ -201,8 +208,23 @@ def _scales(system: System, y: Array, duration: float) -> Array:
     scale = np.array([floors.get(unit, 0.0) for unit in units])
     scale[units == "kg^0.5 m"] = system.modal_sizes()
     scale[units == "kg^0.5 m/s"] = system.modal_sizes() / duration
-    scale[len(scale) - len(system.start_of_states) :] = [*(fact.scale for fact in system.states), energy, energy]
-    return np.maximum(scale, np.abs(y))
+    scale[len(scale) - len(system.start_of_states) :] = [
+        *(UNSEEN if fact.integral else fact.scale for fact in system.states),
+        energy,
+        energy,
+    ]
+    return np.where(_raised(system, y), np.maximum(scale, np.abs(y)), scale)
+
+
+def _raised(system: System, y: Array) -> NDArray[np.bool_]:
+    """Whether the scale of each entry of y follows its largest value."""
+    out = np.ones(len(y), dtype=bool)
+    out[len(y) - len(system.start_of_states) :] = [
+        *(fact.relative and not fact.integral for fact in system.states),
+        True,
+        True,
+    ]
+    return out
 
 
 def _weight_energy(system: System) -> float:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from nivel.analysis.assemble import Assembly, assemble
+from nivel.analysis.circuit_start import circuit_start
 from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.ground import touches_ground
@@ -68,6 +69,10 @@ def prepare(methods: Methods) -> Prepared:
     refuse_uncertain_loads(machine, redundancy)
     refuse_deep_starts(machine, absolute, assembly.y)
     motion.system.record.coordinates.reference[:] = assembly.reference
+    system, y = circuit_start(machine, absolute, assembly.y)
+    assembly = replace(assembly, y=y)
+    motion = replace(motion, system=replace(motion.system, states=system.states))
+    absolute = replace(absolute, system=system)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
     system, y = arranged(motion.system, assembly.y, rest, rank, methods)
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)

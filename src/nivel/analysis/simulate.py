@@ -127,7 +127,7 @@ def close_run(
         stopped_by=finished.stopped_by,
         neglected=cost(sink.result(), _neglected(machine)),
         further=tuple(finding_items(findings)),
-        small_states=_small_states(sink.result(), prepared),
+        small_states=_small_states(sink.result(), prepared, machine),
         saturated=saturated_blocks(machine, sink.result()),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
@@ -148,12 +148,14 @@ def close_run(
     return result
 
 
-def _small_states(result: Result, prepared: Prepared) -> tuple[SmallState, ...]:
+def _small_states(result: Result, prepared: Prepared, machine: MachineRecord) -> tuple[SmallState, ...]:
     """The states that stayed far below the scale by which their errors are measured."""
     if not (prepared.integrator.chooses_steps or prepared.integrator.optional_control or prepared.integrator.residual):
         return ()
-    out = []
+    out, components = [], {component.name for component in machine.hydraulics}
     for fact in prepared.motion.system.states:
+        if fact.integral or fact.name.partition(".")[0] in components:
+            continue  # their scales are those of their components
         largest = peak(result, fact.result).value
         if not fact.sampled and 0.0 < largest < SMALL * fact.scale:
             out.append(SmallState(fact.name, largest, fact.scale))

@@ -103,6 +103,15 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
         first_order=True,
     ),
     "ros2": IntegratorFacts("nivel.integrate.rosenbrock", "ros2", 2, 2, residual=True, first_order=True),
+    "extrapolated-euler": IntegratorFacts(
+        "nivel.integrate.extrapolated_euler",
+        "extrapolated_euler",
+        3,
+        2,
+        residual=True,
+        first_order=True,
+        complex_shift=True,
+    ),
     "radau": IntegratorFacts(
         "nivel.integrate.radau",
         "radau",

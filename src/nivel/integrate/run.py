@@ -54,6 +54,7 @@ class Run(NamedTuple):
     scratch: F1  # (ny,) rates that nobody needs
     trial: F1  # (ny,) states inside a step
     scale: F1  # (ny,) what errors are measured by: a floor from the machine, raised to the largest |y| so far
+    raised: U1  # (ny,) whether it is raised: 0 of masses of fluid, whose pressure is a small part of them
     stages: F2  # (·, ny) work and history of the integrator
     numbers: F1  # (·,) further history of the integrator
     matrix: F2  # (ny, ny) of Newton's iteration, or (0, 0)

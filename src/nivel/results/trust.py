@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from nivel.results.circuits import circuit_items
 from nivel.results.held import Shared
 from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
@@ -132,6 +133,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         *facts.further,
         *(_small_state(each) for each in facts.small_states),
         *(_saturated(name) for name in facts.saturated),
+        *circuit_items(result),
     )
     return replace(trust, items=items, verdict=worst(items))
 

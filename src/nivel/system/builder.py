@@ -18,6 +18,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
 from nivel.machine.symbols import find_symbol, is_output
 from nivel.machine.time_function import TimeFunction
+from nivel.system.circuit import CircuitTable
 from nivel.system.functions import FunctionTable, Signal
 from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import Placed, seen_from
@@ -26,6 +27,7 @@ from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, Outp
 
 GROUND = "ground"
 AXES = "xyz"
+NOTHING = Coupled(frozenset())
 
 
 @dataclass
@@ -45,6 +47,7 @@ class SystemBuilder:
     functions: FunctionTable = field(default_factory=FunctionTable)
     elements: ElementTable = field(default_factory=ElementTable)
     outputs: OutputTable = field(default_factory=OutputTable)
+    circuit: CircuitTable = field(default_factory=CircuitTable)
     joint_coordinates: dict[str, int] = field(default_factory=dict)
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
     noted: list[Coupled] = field(default_factory=list)
@@ -157,6 +160,20 @@ class SystemBuilder:
         self._noting_states.add(index)
         return index
 
+    def touch_state(self, number: int) -> None:
+        """The element being added reads or feeds this state."""
+        self._noting_states.add(number)
+
+    def node(self, name: str) -> int:
+        """Number of the node of a circuit of this name, on which the element being added acts or depends."""
+        self.note(self.circuit.depends.get(name, NOTHING))
+        return self.circuit.index(name)
+
+    def note(self, coupled: Coupled) -> None:
+        """The element being added depends on all this."""
+        self._noting.update(coupled.bodies)
+        self._noting_states.update(coupled.states)
+
     def measure_all(self) -> None:
         """All joint coordinates are measured in every evaluation from now on."""
         for name in self.joint_coordinates:
@@ -202,6 +219,10 @@ class SystemBuilder:
             return (OUTPUT, self.outputs.index(f"force.{path}"), 0)
         if symbol.section in ("states", "forces"):
             return (STATE, self.state(symbol.name if symbol.section == "states" else path), 0)
+        if symbol.section == "hydraulics":
+            output, coupled = self.circuit.signals[path]
+            self.note(coupled)
+            return (OUTPUT, output, 0)
         if symbol.section == "sensors":
             sensor = next(sensor for sensor in self.machine.sensors if sensor.name == symbol.name)
             ends = sensor.distance or sensor.angle

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
-from nivel.machine.forces.between import Between, BetweenMarkers, End, GlobalPoint
+from nivel.machine.forces.between import Between, BetweenMarkers, End, Ends, GlobalPoint
 from nivel.machine.forces.bushing import Bushing
 from nivel.machine.forces.characteristic import Characteristic, EffortTable, ForceTable, TorqueTable
 from nivel.machine.forces.contact import Contact, Material
@@ -66,6 +66,7 @@ __all__ = [
     "Contact",
     "EffortTable",
     "End",
+    "Ends",
     "Force",
     "ForceElement",
     "ForceTable",

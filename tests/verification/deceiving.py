@@ -29,7 +29,7 @@ ABOUT_Z = {"type": "revolute", "point": (0, 0, 0), "axis": (0, 0, 1)}
 
 @dataclass(frozen=True)
 class Deceiving:
-    """machine(harmless) : the machine, with settings of its own. quantity : of its result; exact(time) : what that is. arm : metres a unit."""
+    """machine(harmless) : with settings of its own. quantity : of its result; exact(time, harmless) : what that is. arm : metres a unit."""
 
     name: str
     machine: Callable[[bool], MachineRecord]
@@ -48,7 +48,9 @@ def slide(force, *, mass=1.0, velocity=0.0, at=0.0, duration=2.0, **settings):
     joint = {**ALONG_X, "point": (at, 0, 0)}
     return MachineRecord(
         name="slide",
-        bodies=(Body(name="slide", mass=mass, inertia=(1, 1, 1), position=(at + 0.5, 0, 0), velocity=(velocity, 0, 0)),),
+        bodies=(
+            Body(name="slide", mass=mass, inertia=(1, 1, 1), position=(at + 0.5, 0, 0), velocity=(velocity, 0, 0)),
+        ),
         joints=(Joint(name="rail", **joint),),
         forces=() if force is None else (PointForce(name="push", body="slide", vector=(force, 0, 0)),),
         simulation=SimulationSettings(duration=duration, step=1e-3, **settings),
@@ -109,7 +111,10 @@ def hum():
 
 def wall():
     """A wall 2 mm wide from a table of place, higher than the energy of a slide at 10 m/s; made harmless it is a hill 0.5 m wide."""
-    forms = {False: ((0.0, 1.0, 1.001, 1.002, 3.0), (0.0, 0.0, -1e5, 0.0, 0.0)), True: ((0.0, 1.0, 1.25, 1.5, 3.0), (0.0, 0.0, -400.0, 0.0, 0.0))}
+    forms = {
+        False: ((0.0, 1.0, 1.001, 1.002, 3.0), (0.0, 0.0, -1e5, 0.0, 0.0)),
+        True: ((0.0, 1.0, 1.25, 1.5, 3.0), (0.0, 0.0, -400.0, 0.0, 0.0)),
+    }
 
     def machine(harmless):
         points, values = forms[harmless]
@@ -152,7 +157,14 @@ def flywheel(speed):
     def machine(harmless):
         return MachineRecord(
             name="flywheel",
-            bodies=(Body(name="wheel", mass=1, inertia=(0.02, 0.02, 0.02), angular_velocity=(0, 0, 100.0 if harmless else speed)),),
+            bodies=(
+                Body(
+                    name="wheel",
+                    mass=1,
+                    inertia=(0.02, 0.02, 0.02),
+                    angular_velocity=(0, 0, 100.0 if harmless else speed),
+                ),
+            ),
             joints=(Joint(name="axle", bodies=("ground", "wheel"), **ABOUT_Z),),
             simulation=SimulationSettings(duration=1.0, step=1e-3),
         )
@@ -170,7 +182,12 @@ def sphere():
         return MachineRecord(
             name="sphere",
             bodies=(
-                Body(name="ball", mass=1, inertia=(0.01, 0.01, 0.01), angular_velocity=(0, 0, 50.0 if harmless else 1000.0)),
+                Body(
+                    name="ball",
+                    mass=1,
+                    inertia=(0.01, 0.01, 0.01),
+                    angular_velocity=(0, 0, 50.0 if harmless else 1000.0),
+                ),
                 Body(name="weight", mass=1, inertia=(0.01, 0.01, 0.01), position=(0.3, 0, 0)),
             ),
             simulation=SimulationSettings(duration=1.0, step=1e-3),
@@ -301,31 +318,38 @@ def chaos():
         )
 
     @cache
-    def solution():
+    def solution(end):
         J = L**2 / 12
 
         def rates(_t, s):
             a, b, da, db = s
             M = np.array([[J + L**2 / 4 + L**2, L**2 / 2 * np.cos(a - b)], [L**2 / 2 * np.cos(a - b), J + L**2 / 4]])
-            Q = np.array([-(L**2) / 2 * np.sin(a - b) * db**2 - 1.5 * g * L * np.cos(a), L**2 / 2 * np.sin(a - b) * da**2 - 0.5 * g * L * np.cos(b)])
+            Q = np.array(
+                [
+                    -(L**2) / 2 * np.sin(a - b) * db**2 - 1.5 * g * L * np.cos(a),
+                    L**2 / 2 * np.sin(a - b) * da**2 - 0.5 * g * L * np.cos(b),
+                ]
+            )
             return [da, db, *np.linalg.solve(M, Q)]
 
-        return solve_ivp(rates, (0, 25), [0.0] * 4, method="DOP853", rtol=1e-12, atol=1e-13, dense_output=True).sol
+        return solve_ivp(rates, (0, end), [0.0] * 4, method="DOP853", rtol=1e-12, atol=1e-13, dense_output=True).sol
 
     def exact(time, harmless):
-        a, b = solution()(time)[:2]
+        a, b = solution(1.0 if harmless else 25.0)(time)[:2]
         return L * np.cos(a) + L / 2 * np.cos(b)
 
     return Deceiving("chaos", machine, "lower.position.x", exact)
 
 
 def stiction():
-    """A block that a push of 12 N sin(10 t) lets stick and slide, 0.5 of friction, in steps of 5 ms; one of 4 N is harmless, and it rests."""
+    """A block that a push of 12 N sin(10 t) lets stick and slide, in steps of 5 ms; harmless with 4 N: it rests."""
     mass, g, mu, push, pace = 1.0, 9.81, 0.5, 12.0, 10.0
 
     def machine(harmless):
         record = slide(f"{4.0 if harmless else push}*sin({pace}*time)", mass=mass, duration=1.0)
-        friction = Friction(name="rub", coordinate="rail.displacement", coefficient=mu, normal_load=mass * g, model="stiction")
+        friction = Friction(
+            name="rub", coordinate="rail.displacement", coefficient=mu, normal_load=mass * g, model="stiction"
+        )
         settings = record.simulation.replace(step=5e-3)
         return record.replace(forces=(*record.forces, friction), simulation=settings)
 

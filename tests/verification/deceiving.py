@@ -201,8 +201,8 @@ def sphere():
             angle = (50.0 if harmless else 1000.0) * result.time
             theta = result.array("ball.orientation")
             half = np.stack([np.cos(angle / 2), 0 * angle, 0 * angle, np.sin(angle / 2)], axis=1)
-            along = np.clip(np.abs(np.sum(theta * half, axis=1)), 0.0, 1.0)
-            return 0.3 * float(np.max(2.0 * np.arccos(along)))
+            chord = np.minimum(np.linalg.norm(theta - half, axis=1), np.linalg.norm(theta + half, axis=1))
+            return 0.3 * float(np.max(4.0 * np.arcsin(0.5 * chord)))
 
     return Sphere("sphere-1-rad", machine, "ball.orientation.0", exact)
 

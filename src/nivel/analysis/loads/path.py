@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 AXES = {"x": 0, "y": 1, "z": 2}
 # Steps that are looked at; of more, blocks all along the run.
 MOST_STEPS = 200_000
+# and in one part of the duration, where steps are chosen
+MOST_IN_PART = 2_000
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,7 @@ def steps_of(pace: Array, duration: float, step: float | None, corners: tuple[fl
         return _thinned(begin, np.full(count, step))
     part = duration / PARTS
     taken = np.where(np.isfinite(pace[LEAST]), pace[LEAST], part)
-    count = np.maximum(1, np.ceil(part / taken).astype(int))
+    count = np.clip(np.ceil(part / taken), 1, MOST_IN_PART).astype(int)
     # a step longer than a part begins where the one before it ends
     grid = [np.linspace(k * part, (k + 1) * part, count[k], endpoint=False) for k in range(PARTS)]
     times, last = [], 0.0

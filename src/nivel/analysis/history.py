@@ -23,6 +23,7 @@ from nivel.integrate.run import (
     INTERVAL,
     LARGEST,
     LAST_FRAME,
+    LEAST,
     MOST_ITERATIONS,
     NEWTON,
     OPEN_LIMIT,
@@ -112,7 +113,8 @@ def _clock(settings: RunSettings, open_limit: float) -> Array:
 
 def _pace(prepared: Prepared, settings: RunSettings) -> Array:
     """Nothing done yet, and steps as long as the settings and the functions of time allow."""
-    pace = np.zeros((3, PARTS))
+    pace = np.zeros((4, PARTS))
+    pace[LEAST] = np.inf
     pace[ALLOWED] = settings.largest_step
     if prepared.allowed is not None:
         pace[ALLOWED] = np.minimum(pace[ALLOWED], prepared.allowed)

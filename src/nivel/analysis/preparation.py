@@ -88,7 +88,7 @@ def prepare(methods: Methods) -> Prepared:
         len(machine.drivers),
         integrator,
         machine.beams,
-        corners(machine) if methods.chooses_steps and not integrator.residual else (),
+        corners(machine) if methods.chooses_steps and not integrator.knows_corners else (),
         allowed_steps(machine, machine.simulation.duration) if methods.chooses_steps else None,
     )
 

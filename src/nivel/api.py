@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cached_property
 from html import escape
 from os import PathLike, fspath
 from pathlib import Path
@@ -44,6 +45,7 @@ from nivel.machine import (
 
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
+    from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.posing import Posing
     from nivel.results.comparison import Comparison
     from nivel.results.efforts import Efforts
@@ -445,6 +447,47 @@ class Machine:
                 raise ModelError(Fault("", 0, 0, "inverse.motion", message))
         with self._faults_in_file():
             return inverse(methods, settings, followed, listener=listener)
+
+    @checked_arguments
+    def mechanics(self, *, coordinates: str | None = None, listener: Listener | None = None) -> Mechanics:
+        """The machine as robotics knows it, to be asked for many states: `names`, `start`, `mass_matrix(q)`, `bias(q, v)`,
+        `inverse_dynamics(q, v, a)`, `forward_dynamics(q, v, tau)`, `jacobian(point, q)`, `jacobian_bias(point, q, v)`.
+
+        coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
+        """
+        from nivel.analysis.linearise.refusals import refuse_jumps
+        from nivel.analysis.neutral import neutral
+
+        with self._faults_in_file():
+            refuse_jumps(self.record)
+            plain, chosen = neutral(self.record, coordinates or "auto")
+            methods = methods_of(plain, "newton-euler", chosen)
+        build(linear_entries(methods), listener or Listener())
+        from nivel.analysis.inverse.mechanics import Mechanics
+        from nivel.analysis.moment import at_start
+
+        with self._faults_in_file():
+            return Mechanics(plain, at_start(methods))
+
+    @cached_property
+    def _mechanics(self) -> Mechanics:
+        return self.mechanics()
+
+    def mass_matrix(self, q: Any = None) -> Any:
+        """(f, f) mass matrix in the independent coordinates `mechanics().names`, at positions q; default: the start."""
+        return self._mechanics.mass_matrix(q)
+
+    def bias(self, q: Any = None, v: Any = None) -> Any:
+        """(f,) efforts that no acceleration asks for at positions q and velocities v: weight, centrifugal and all other forces."""
+        return self._mechanics.bias(q, v)
+
+    def inverse_dynamics(self, q: Any, v: Any, a: Any) -> Any:
+        """(f,) efforts that make the accelerations a at positions q and velocities v."""
+        return self._mechanics.inverse_dynamics(q, v, a)
+
+    def jacobian(self, point: str, q: Any = None) -> Any:
+        """(6, f) velocity and angular velocity of a marker or body per velocity, global axes, at positions q."""
+        return self._mechanics.jacobian(point, q)
 
     @checked_arguments
     def linearise(

@@ -19,7 +19,9 @@ def _named(_context: click.Context, parameter: click.Parameter, values: tuple[st
     for text in values:
         name, equals, value = text.partition("=")
         if not equals or not name.strip():
-            raise click.BadParameter(f"'{text}' is not of the form NAME=VALUE, e.g. hinge.angle='20 N m'", param=parameter)
+            raise click.BadParameter(
+                f"'{text}' is not of the form NAME=VALUE, e.g. hinge.angle='20 N m'", param=parameter
+            )
         out[name.strip()] = value.strip()
     return out or None
 
@@ -33,7 +35,9 @@ def _named(_context: click.Context, parameter: click.Parameter, values: tuple[st
     callback=separated,
     help="Joint coordinates or motors; default: the motors, or what the drivers prescribe.",
 )
-@click.option("--motion", metavar="RESULT.nc", help="A result of a run or of kinematics; default: what the drivers prescribe.")
+@click.option(
+    "--motion", metavar="RESULT.nc", help="A result of a run or of kinematics; default: what the drivers prescribe."
+)
 @click.option("--trajectory", metavar="FILE.csv", help="Joint coordinates over time, in place of a motion.")
 @click.option(
     "--limit", "limits", metavar="NAME=VALUE", multiple=True, callback=_named, help="Greatest effort. May be repeated."
@@ -46,7 +50,9 @@ def _named(_context: click.Context, parameter: click.Parameter, values: tuple[st
     callback=_named,
     help="Of an effort, where there are more than needed. May be repeated.",
 )
-@click.option("--hold", metavar="DRIVERS", multiple=True, callback=separated, help="Drivers that go on holding their motion.")
+@click.option(
+    "--hold", metavar="DRIVERS", multiple=True, callback=separated, help="Drivers that go on holding their motion."
+)
 @click.option("--positions", metavar="NUMBER", help="Of the motion of drivers or of a trajectory; default 361.")
 @override_option
 @allow_code_option

@@ -30,11 +30,15 @@ def efforts_html(efforts: Efforts) -> str:
 def _plots(efforts: Efforts) -> list[tuple[str, str]]:
     out, shown = [], range(min(len(efforts.actuators), TONES))
     for unit, word in (("N m", "Torques"), ("N", "Forces")):
-        lines = [Line(efforts.actuators[k], efforts.time, efforts.effort[:, k]) for k in shown if efforts.units[k] == unit]
+        lines = [
+            Line(efforts.actuators[k], efforts.time, efforts.effort[:, k]) for k in shown if efforts.units[k] == unit
+        ]
         if lines:
             out.append((word, curves(lines, "time [s]", f"effort [{unit}]")))
     powers = [Line(efforts.actuators[k], efforts.time, efforts.power[:, k]) for k in shown]
     out.append(("Power", curves(powers, "time [s]", "power [W]")))
     if not efforts.complete:
-        out.append(("Missing", curves([Line("", efforts.time, 100.0 * efforts.missing_share)], "time [s]", "missing [%]")))
+        out.append(
+            ("Missing", curves([Line("", efforts.time, 100.0 * efforts.missing_share)], "time [s]", "missing [%]"))
+        )
     return out

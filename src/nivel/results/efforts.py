@@ -95,7 +95,9 @@ class Efforts:
             )
         if not self.unique:
             more = len(self.actuators) - self.rank
-            out.append(f"{more} more actuator{'s' * (more > 1)} than needed: the efforts are those of least weighted norm, others do as well")
+            out.append(
+                f"{more} more actuator{'s' * (more > 1)} than needed: the efforts are those of least weighted norm, others do as well"
+            )
         return out
 
     def to_xarray(self) -> xarray.Dataset:
@@ -109,7 +111,9 @@ class Efforts:
             "power": (dims, self.power, {"units": "W"}),
             "missing_share": (("time",), self.missing_share, {"units": "1"}),
         }
-        return xarray.Dataset(values, coords={"time": self.time, "actuator": list(self.actuators)}, attrs={"machine": self.name})
+        return xarray.Dataset(
+            values, coords={"time": self.time, "actuator": list(self.actuators)}, attrs={"machine": self.name}
+        )
 
     def summary(self) -> dict[str, Any]:
         """Numbers and words for programs."""

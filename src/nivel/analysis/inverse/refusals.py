@@ -10,7 +10,13 @@ from nivel.machine.machine_record import MachineRecord
 def refuse_for_inverse(machine: MachineRecord) -> None:
     """Raises ModelError with everything that has no part in inverse dynamics."""
     faults = [
-        Fault("", 0, 0, f"bodies.{body.name}.flexible", "the motion of a body that bends is not given by its frame: leave it rigid")
+        Fault(
+            "",
+            0,
+            0,
+            f"bodies.{body.name}.flexible",
+            "the motion of a body that bends is not given by its frame: leave it rigid",
+        )
         for body in machine.bodies
         if body.flexible is not None
     ]

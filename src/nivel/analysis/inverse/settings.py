@@ -53,7 +53,9 @@ def inverse_settings(machine: MachineRecord, given: Mapping[str, Any]) -> Invers
         names = list(motors) or free
     actuators = [each for each in (_actuator(machine, motors, name, faults) for name in names) if each is not None]
     if not names and not faults:
-        faults.append(_fault("actuators", "the machine has no motors and no drivers: name coordinates with `actuators`"))
+        faults.append(
+            _fault("actuators", "the machine has no motors and no drivers: name coordinates with `actuators`")
+        )
     limits, weights = _numbers("limits", given, actuators, faults), _numbers("weights", given, actuators, faults)
     bounds = np.array([_limit(each, motors, limits) for each in actuators])
     default = np.where(np.isfinite(bounds), 1.0 / bounds, 1.0)

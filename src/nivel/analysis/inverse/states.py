@@ -33,7 +33,8 @@ def moving_states(system: System, result: Result) -> Iterator[MovingState]:
     position, orientation = result.array("position"), result.array("orientation")
     rates = [result.array(name) for name in ("velocity", "angular_velocity", "acceleration", "angular_acceleration")]
     states = [
-        result.array(f"state.{fact.name}") if f"state.{fact.name}" in result.variables else None for fact in system.states
+        result.array(f"state.{fact.name}") if f"state.{fact.name}" in result.variables else None
+        for fact in system.states
     ]
     for k, time in enumerate(result.time):
         A = rotation_matrices(orientation[k])

@@ -15,11 +15,12 @@ TREES, STATES, BODIES, GRAVITY = 20, 10, 7, (0.3, -0.2, -9.81)
 def tree(rng):
     """Parents, kinds, points, axes, masses, inertias and centres of a random tree, drawn with all frames parallel."""
     count = int(rng.integers(2, BODIES + 1))
+    axis = rng.normal(size=(count, 3))
     return {
         "parent": [int(rng.integers(-1, k)) if k else -1 for k in range(count)],
         "kind": [["revolute", "translational"][int(rng.random() < 0.3)] for _ in range(count)],
         "point": rng.normal(size=(count, 3)).tolist(),
-        "axis": (lambda a: (a / np.linalg.norm(a, axis=1, keepdims=True)).tolist())(rng.normal(size=(count, 3))),
+        "axis": (axis / np.linalg.norm(axis, axis=1, keepdims=True)).tolist(),
         "mass": rng.uniform(0.5, 5.0, count).tolist(),
         "inertia": (rng.uniform(1.0, 1.5, (count, 3))).tolist(),
         "centre": rng.normal(size=(count, 3)).tolist(),

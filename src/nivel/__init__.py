@@ -54,11 +54,6 @@ if TYPE_CHECKING:
     from nivel.machine import Torque as Torque
     from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
     from nivel.results.comparison import Comparison as Comparison
-    from nivel.results.efforts import Efforts as Efforts
-    from nivel.results.linear_model import LinearModel as LinearModel
-    from nivel.results.mechanism import Range as Range
-    from nivel.results.mechanism import coupler_curve as coupler_curve
-    from nivel.results.mechanism import transmission_angle as transmission_angle
     from nivel.results.result import Result as Result
 
 _HOME = {
@@ -98,12 +93,7 @@ _HOME = {
     "Torque": "nivel.machine",
     "TorsionalSpringDamper": "nivel.machine",
     "Comparison": "nivel.results.comparison",
-    "Efforts": "nivel.results.efforts",
-    "LinearModel": "nivel.results.linear_model",
-    "Range": "nivel.results.mechanism",
     "Result": "nivel.results.result",
-    "coupler_curve": "nivel.results.mechanism",
-    "transmission_angle": "nivel.results.mechanism",
 }
 
 __all__ = [
@@ -115,7 +105,6 @@ __all__ = [
     "Comparison",
     "Contact",
     "Driver",
-    "Efforts",
     "Event",
     "Expression",
     "Friction",
@@ -123,7 +112,6 @@ __all__ = [
     "Joint",
     "JointSpringDamper",
     "LinearCoupling",
-    "LinearModel",
     "Machine",
     "MachineRecord",
     "Marker",
@@ -134,7 +122,6 @@ __all__ = [
     "PointForce",
     "PythonLaw",
     "Rack",
-    "Range",
     "Result",
     "Sensor",
     "SimulationSettings",
@@ -145,10 +132,8 @@ __all__ = [
     "Table",
     "Torque",
     "TorsionalSpringDamper",
-    "coupler_curve",
     "load",
     "open_result",
-    "transmission_angle",
 ]
 
 

@@ -212,7 +212,7 @@ def test_the_jacobian_is_the_derivative_of_the_place_and_its_bias_that_of_the_ve
 
 def test_positions_that_cannot_be_closed_are_told(crank):
     mechanics = crank.mechanics(coordinates="relative")
-    with pytest.raises(nivel.ModelError, match="4 numbers, one for each of hinge.angle"):
+    with pytest.raises(nivel.ModelError, match=r"4 numbers, one for each of hinge\.angle"):
         mechanics.mass_matrix([0.0])
     with pytest.raises(nivel.ModelError, match="no marker or body `sliderr`"):
         mechanics.jacobian("sliderr")

@@ -2,9 +2,9 @@
 
     M(q) a + h(q, v) = τ        velocities of all unknowns Z v + drift
 
-M = Zᵀ M Z and h = Zᵀ r(v̇₀), v̇₀ the accelerations for a = 0, so that the equation is exact whatever closes the loops; h holds weight, springs
-and all other forces of the machine. Velocities v (f,) belong to `names`; of machines with loops these are chosen among the coordinates of the
-spanning tree, and positions of the others are closed by Newton's method.
+M = Zᵀ M Z and h = Zᵀ r(v̇₀), v̇₀ the accelerations for a = 0, so that the equation is exact whatever closes the loops; h holds weight,
+springs and all other forces of the machine. Velocities v (f,) belong to `names`; of machines with loops these are chosen among the
+coordinates of the spanning tree, and positions of the others are closed by Newton's method.
 """
 
 from __future__ import annotations

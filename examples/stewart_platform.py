@@ -2,7 +2,8 @@
 
 python examples/stewart_platform.py
 
-Each leg is a cylinder on a universal joint and a rod in it on a ball joint, so that the plate has its six freedoms and nothing is redundant.
+Each leg is a cylinder on a universal joint and a rod in it on a ball joint: the plate has six freedoms, and nothing is
+redundant.
 """
 
 import numpy as np

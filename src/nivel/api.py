@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from nivel.analysis.posing import Posing
     from nivel.results.comparison import Comparison
     from nivel.results.efforts import Efforts
+    from nivel.results.joint_path import JointPath
     from nivel.results.linear_model import LinearModel
     from nivel.results.mechanism import Range
     from nivel.results.result import Result
@@ -468,6 +469,32 @@ class Machine:
 
         with self._faults_in_file():
             return Mechanics(plain, at_start(methods))
+
+    @checked_arguments
+    def inverse_kinematics(
+        self,
+        point: str,
+        places: Any,
+        *,
+        times: Any = None,
+        orientations: Any = None,
+        limits: Mapping[str, Any] | None = None,
+        posture: Mapping[str, Any] | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> JointPath:
+        """Joint coordinates that lead a marker, or the frame of a body, along a path.
+
+        places : (T, 3) [m] global. times : (T,) [s], default 0, 1, 2 …. orientations : (T, 4) Euler parameters of its axes, scalar first;
+        default: they do not matter. limits : (low, high) by joint coordinate. posture : preferred values of joint coordinates, for freedoms
+        that the path leaves. Places that cannot be reached are told, with the nearest posture found.
+        Raises ModelError where the machine cannot be assembled, or arguments do not fit.
+        """
+        from nivel.analysis.inverse.paths import PathFollower, path_times, task_for
+
+        mechanics = self.mechanics(coordinates=coordinates, listener=listener)
+        task = task_for(mechanics, point, places, orientations, limits, posture)
+        return PathFollower(mechanics, task).follow(path_times(times, len(task.places)))
 
     @cached_property
     def _mechanics(self) -> Mechanics:

@@ -16,14 +16,18 @@ from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue
 from nivel.analysis.linearise.reduction import Ports, Reduction
 from nivel.analysis.moment import Moment
-from nivel.analysis.user_frames import point_acceleration, point_velocity
+from nivel.analysis.statics.equations import turned
+from nivel.analysis.user_frames import frame_axes, frame_place, point_acceleration, point_velocity
 from nivel.errors import ModelError
 from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.placement import marker_frame
 from nivel.system.system import Array
 
 # positions are closed to this share of the scales of the rows, in so many iterations at most
 CLOSED, MOST = 1e-13, 50
+# axes of turns are numbered up to this; plain positions have none
+LAST_AXIS = 2
 
 
 class Mechanics:
@@ -87,6 +91,19 @@ class Mechanics:
             y[: own.positions] += own.position_rates(psi)
         raise ModelError(f"the loops cannot be closed with {', '.join(self.names)} where they are asked for")
 
+    def displaced(self, q: Array, change: Array) -> Array:
+        """Positions after a change (f,) of the independent coordinates, turns about axes of their bodies; loops closed again."""
+        own, out = self._instant, q * self._position_signs()
+        psi = np.zeros(own.n)
+        psi[own.free[self._selected]] = self._chosen_signs * change
+        plain = own.place[:, 1] > LAST_AXIS
+        out[own.place[plain, 0]] += psi[plain]
+        first = np.flatnonzero(own.place[:, 1] == 0)
+        if len(first):
+            at = own.place[first, 0][:, None] + np.arange(4)
+            out[at] = turned(out[at], psi[first[:, None] + np.arange(3)])
+        return self.close(out * self._position_signs())
+
     def _at(self, q: Array | None, v: Array | None) -> Reduction:
         """The equations at positions q (closed first) and velocities v, with accelerations for a = 0."""
         own = self._instant
@@ -147,6 +164,24 @@ class Mechanics:
         self._at(q, v)
         return self._instant.read(lambda own: point_acceleration(_measured(own), b, position))
 
+    def pose(self, point: str, q: Array | None = None) -> tuple[Array, Array]:
+        """Place (3,) [m] and axes (3, 3) (columns) of a marker or the frame of a body at positions q, which are closed."""
+        b, position = self._point(point)
+        own = self._instant
+        y = self._moment.y.copy()
+        y[: own.positions] = (self.start if q is None else q) * self._position_signs()
+        own.move_to(0.0, y, np.zeros(own.n))
+        own.value()
+        axes = frame_axes(own, b).real
+        marker = self._machine.marker_named.get(point)
+        place = frame_place(own, b).real + axes @ position
+        return place, axes if marker is None else axes @ marker_frame(marker)[1]
+
+    @property
+    def size(self) -> float:
+        """[m] length of the machine."""
+        return self._instant.system.size
+
     # --- names and signs ---
 
     @property
@@ -156,7 +191,7 @@ class Mechanics:
     def _position_signs(self) -> Array:
         own, out = self._instant, np.ones(self._instant.positions)
         for j, (place, axis) in enumerate(own.place.tolist()):
-            if axis > 2:
+            if axis > LAST_AXIS:
                 out[place] = self._signs[j]
         return out
 
@@ -202,6 +237,6 @@ def _position_names(own: Instant, names: list[str]) -> tuple[str, ...]:
         if axis == 0:
             owner = names[j].rpartition(".")[0]
             out[place : place + 4] = [f"{owner}.parameter_{k}" for k in range(4)]
-        elif axis > 2:
+        elif axis > LAST_AXIS:
             out[place] = names[j]
     return tuple(out)

@@ -149,7 +149,8 @@ class Mechanics:
 
     def forward_dynamics(self, q: Array, v: Array, tau: Array) -> Array:
         """(f,) accelerations for efforts τ (f,) on the independent coordinates."""
-        return np.linalg.solve(self.mass_matrix(q), self._checked(tau, len(self.names), "tau") - self.bias(q, v))
+        right = self._checked(tau, len(self.names), "tau") - self.bias(q, v)
+        return np.asarray(np.linalg.solve(self.mass_matrix(q), right), dtype=np.float64)
 
     def jacobian(self, point: str, q: Array | None = None) -> Array:
         """(6, f) velocity and angular velocity (global axes) of a marker, or of the frame of a body, per velocity."""

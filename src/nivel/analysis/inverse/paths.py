@@ -229,7 +229,7 @@ def task_for(
         if k is None:
             continue
         listed = isinstance(pair, Sequence) and not isinstance(pair, str)
-        ends = [_quantity("limits", name, each, faults) for each in pair] if listed else []
+        ends = [_quantity("limits", mechanics.names[k], each, faults) for each in pair] if listed else []
         if len(ends) != 2:
             faults.append(_fault("limits", f"two values, low and high, were expected for {name}, got {shown(pair)}"))
         elif not ends[0] < ends[1]:
@@ -239,7 +239,7 @@ def task_for(
     for name, value in (posture or {}).items():
         k = _place("posture", name, mechanics.names, faults)
         if k is not None:
-            wished[k] = _quantity("posture", name, value, faults)
+            wished[k] = _quantity("posture", mechanics.names[k], value, faults)
     if faults:
         raise ModelError(faults)
     mechanics.pose(point)  # whether there is such a point

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections import Counter
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.analysis.instant import Instant
 from nivel.analysis.inverse.least import Least, least_efforts
@@ -99,7 +100,7 @@ def _at(
     state: MovingState,
     settings: InverseSettings,
     places: list[int],
-    index: Array,
+    index: NDArray[np.int64],
     names: list[str],
 ) -> tuple[Least, Array, Array, tuple[str, float]]:
     """The efforts at a state, what they are to give, the rates of their coordinates, and where most is missing, and how much."""
@@ -135,7 +136,7 @@ def _where(columns: Array, missing: Array, actuators: list[int], names: list[str
     return names[chosen], float(columns[:, chosen] @ missing / sizes[chosen] ** 2)
 
 
-def _jacobians(instant: Instant, index: Array) -> tuple[Array, Array]:
+def _jacobians(instant: Instant, index: NDArray[np.int64]) -> tuple[Array, Array]:
     """(constraint rows, rows of all joint coordinates) with respect to the velocities, at the present state."""
     motion, system = instant.motion, instant.system
     motion.evaluate(instant.t, instant.y)

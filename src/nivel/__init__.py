@@ -58,11 +58,6 @@ if TYPE_CHECKING:
     from nivel.machine import Torque as Torque
     from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
     from nivel.results.comparison import Comparison as Comparison
-    from nivel.results.efforts import Efforts as Efforts
-    from nivel.results.linear_model import LinearModel as LinearModel
-    from nivel.results.mechanism import Range as Range
-    from nivel.results.mechanism import coupler_curve as coupler_curve
-    from nivel.results.mechanism import transmission_angle as transmission_angle
     from nivel.results.result import Result as Result
 
 _HOME = {
@@ -106,12 +101,7 @@ _HOME = {
     "Torque": "nivel.machine",
     "TorsionalSpringDamper": "nivel.machine",
     "Comparison": "nivel.results.comparison",
-    "Efforts": "nivel.results.efforts",
-    "LinearModel": "nivel.results.linear_model",
-    "Range": "nivel.results.mechanism",
     "Result": "nivel.results.result",
-    "coupler_curve": "nivel.results.mechanism",
-    "transmission_angle": "nivel.results.mechanism",
 }
 
 __all__ = [
@@ -125,7 +115,6 @@ __all__ = [
     "Comparison",
     "Contact",
     "Driver",
-    "Efforts",
     "Event",
     "Expression",
     "Friction",
@@ -134,7 +123,6 @@ __all__ = [
     "Joint",
     "JointSpringDamper",
     "LinearCoupling",
-    "LinearModel",
     "Machine",
     "MachineRecord",
     "Marker",
@@ -145,7 +133,6 @@ __all__ = [
     "PointForce",
     "PythonLaw",
     "Rack",
-    "Range",
     "Result",
     "Rope",
     "Sensor",
@@ -157,10 +144,8 @@ __all__ = [
     "Table",
     "Torque",
     "TorsionalSpringDamper",
-    "coupler_curve",
     "load",
     "open_result",
-    "transmission_angle",
 ]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -50,12 +51,14 @@ from nivel.model import Model
 
 if TYPE_CHECKING:
     from nivel.analysis.check import Check
+    from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.posing import Posing
     from nivel.analysis.stepping import Simulation
     from nivel.c_library.writer import Files
     from nivel.native.entry import Entry
     from nivel.results.comparison import Comparison
     from nivel.results.efforts import Efforts
+    from nivel.results.joint_path import JointPath
     from nivel.results.linear_model import LinearModel
     from nivel.results.mechanism import Range
     from nivel.results.result import Result
@@ -503,6 +506,73 @@ class Machine(Model):
                 raise ModelError(Fault("", 0, 0, "inverse.motion", message))
         with self._faults_in_file():
             return inverse(methods, settings, followed, listener=listener)
+
+    @checked_arguments
+    def mechanics(self, *, coordinates: str | None = None, listener: Listener | None = None) -> Mechanics:
+        """The machine as robotics knows it, to be asked for many states: `names`, `start`, `mass_matrix(q)`, `bias(q, v)`,
+        `inverse_dynamics(q, v, a)`, `forward_dynamics(q, v, tau)`, `jacobian(point, q)`, `jacobian_bias(point, q, v)`.
+
+        coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
+        """
+        from nivel.analysis.linearise.refusals import refuse_jumps
+        from nivel.analysis.neutral import neutral
+
+        with self._faults_in_file():
+            refuse_jumps(self.record)
+            plain, chosen = neutral(self.record, coordinates or "auto")
+            methods = methods_of(plain, "newton-euler", chosen)
+        build(linear_entries(methods), listener or Listener())
+        from nivel.analysis.inverse.mechanics import Mechanics
+        from nivel.analysis.moment import at_start
+
+        with self._faults_in_file():
+            return Mechanics(plain, at_start(methods))
+
+    @checked_arguments
+    def inverse_kinematics(
+        self,
+        point: str,
+        places: Any,
+        *,
+        times: Any = None,
+        orientations: Any = None,
+        limits: Mapping[str, Any] | None = None,
+        posture: Mapping[str, Any] | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> JointPath:
+        """Joint coordinates that lead a marker, or the frame of a body, along a path.
+
+        places : (T, 3) [m] global. times : (T,) [s], default 0, 1, 2 …. orientations : (T, 4) Euler parameters of its axes, scalar first;
+        default: they do not matter. limits : (low, high) by joint coordinate. posture : preferred values of joint coordinates, for freedoms
+        that the path leaves. Places that cannot be reached are told, with the nearest posture found.
+        Raises ModelError where the machine cannot be assembled, or arguments do not fit.
+        """
+        from nivel.analysis.inverse.paths import PathFollower, path_times, task_for
+
+        mechanics = self.mechanics(coordinates=coordinates, listener=listener)
+        task = task_for(mechanics, point, places, orientations, limits, posture)
+        return PathFollower(mechanics, task).follow(path_times(times, len(task.places)))
+
+    @cached_property
+    def _mechanics(self) -> Mechanics:
+        return self.mechanics()
+
+    def mass_matrix(self, q: Any = None) -> Any:
+        """(f, f) mass matrix in the independent coordinates `mechanics().names`, at positions q; default: the start."""
+        return self._mechanics.mass_matrix(q)
+
+    def bias(self, q: Any = None, v: Any = None) -> Any:
+        """(f,) efforts that no acceleration asks for at positions q and velocities v: weight, centrifugal and all other forces."""
+        return self._mechanics.bias(q, v)
+
+    def inverse_dynamics(self, q: Any, v: Any, a: Any) -> Any:
+        """(f,) efforts that make the accelerations a at positions q and velocities v."""
+        return self._mechanics.inverse_dynamics(q, v, a)
+
+    def jacobian(self, point: str, q: Any = None) -> Any:
+        """(6, f) velocity and angular velocity of a marker or body per velocity, global axes, at positions q."""
+        return self._mechanics.jacobian(point, q)
 
     @checked_arguments
     def linearise(

@@ -126,7 +126,7 @@ def test_a_locked_machine_keeps_its_positions_and_says_what_holds_it():
 def test_the_transmission_angle_is_that_of_the_cosine_law():
     machine = nivel.load(f"{EXAMPLES}/four-bar-revolutes.yaml")
     result = machine.kinematics(drive="crank_pivot", positions=91)
-    found = nivel.transmission_angle(result, "crank_pin", "rocker_pin", "rocker_pivot")
+    found = result.transmission_angle("crank_pin", "rocker_pin", "rocker_pivot")
     a, b, c, d = FOUR_BAR
     turn = np.pi / 2 + result.array("crank_pivot.angle") - result.array("crank_pivot.angle")[0]
     far = a * a + d * d - 2.0 * a * d * np.cos(turn)
@@ -136,10 +136,10 @@ def test_the_transmission_angle_is_that_of_the_cosine_law():
 def test_the_curvature_of_a_cranks_pin_is_one_over_its_radius():
     machine = nivel.load(f"{EXAMPLES}/slider-crank.yaml")
     result = machine.kinematics(drive="hinge", positions=37)
-    curve = nivel.coupler_curve(result, "crank", (0.25, 0.0, 0.0))
+    curve = result.coupler_curve("crank", (0.25, 0.0, 0.0))
     np.testing.assert_allclose(curve["curvature"], 2.0, rtol=1e-10)
     assert int(curve["cusp"].sum()) == 0
-    rolling = nivel.coupler_curve(result, "slider")  # a straight line, with a dwell at both dead centres
+    rolling = result.coupler_curve("slider")  # a straight line, with a dwell at both dead centres
     assert np.nanmax(np.abs(rolling["curvature"])) < 1e-6
 
 

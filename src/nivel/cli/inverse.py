@@ -54,6 +54,10 @@ def _named(_context: click.Context, parameter: click.Parameter, values: tuple[st
     "--hold", metavar="DRIVERS", multiple=True, callback=separated, help="Drivers that go on holding their motion."
 )
 @click.option("--positions", metavar="NUMBER", help="Of the motion of drivers or of a trajectory; default 361.")
+@click.option(
+    "--path", metavar="FILE.csv", help="Path of --point: time,x,y,z, and Euler parameters or not; inverse kinematics."
+)
+@click.option("--point", metavar="MARKER", help="Marker, or body, that is led along --path.")
 @override_option
 @allow_code_option
 @click.option("--out", metavar="FILE.nc", type=click.Path(), help="Histories. Default: NAME-inverse.nc, here.")
@@ -70,15 +74,23 @@ def command(
     no_report: bool,
     quiet: bool,
     as_json: bool,
+    path: str | None,
+    point: str | None,
     **options: Any,
 ) -> None:
     """Find the efforts of actuators that make MACHINE follow a motion: that of its drivers, a recorded one, or joint trajectories.
+
+    With --path and --point the joint coordinates are found that lead the point along the path, as a table NAME-joints.csv, which
+    --trajectory reads.
 
     Exit code 0 done, 2 the input is at fault, 3 the motion cannot be had, 130 interrupted.
     """
     from nivel.api import load
 
     loaded = load(machine, overrides, allow_code=allow_code)
+    if path is not None or point is not None:
+        _lead(loaded, path, point, options, Path(out or f"{loaded.name}-joints.csv"), force, quiet, as_json)
+        return
     target = Path(out) if out is not None else Path(f"{loaded.name}-inverse.nc")
     report = None if no_report else beside(target)
     refuse_to_replace(report, target, force, Path(machine))
@@ -92,3 +104,35 @@ def command(
     if not quiet:
         click.echo(str(efforts), err=True)
         click.echo(f"data: {target}" + (f"\nreport: {report}" if report is not None else ""), err=True)
+
+
+def _lead(
+    loaded: Any,
+    path: str | None,
+    point: str | None,
+    options: dict[str, Any],
+    target: Path,
+    force: bool,
+    quiet: bool,
+    as_json: bool,
+) -> None:
+    """Inverse kinematics: write the table of joint coordinates."""
+    from nivel.analysis.inverse.path_file import read_path
+    from nivel.errors import Fault, ModelError
+    from nivel.results.target import check_target
+
+    if path is None or point is None:
+        missing = "path" if path is None else "point"
+        raise ModelError(Fault("", 0, 0, f"inverse.{missing}", "is missing: a path leads a point, so both are needed"))
+    idle = [name for name, value in options.items() if value is not None]
+    if idle:
+        raise ModelError(Fault("", 0, 0, f"inverse.{idle[0]}", "has no part in inverse kinematics: leave it out"))
+    check_target(target, "table", force=force, sources=[Path(path)])
+    times, places, orientations = read_path(path)
+    with progress_listener(quiet) as listener:
+        found = loaded.inverse_kinematics(point, places, times=times, orientations=orientations, listener=listener)
+        found.save_csv(target)
+    if as_json:
+        click.echo(json.dumps(found.summary(), indent=2))
+    if not quiet:
+        click.echo(f"{found}\ntable: {target}", err=True)

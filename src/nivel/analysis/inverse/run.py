@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections import Counter
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.analysis.instant import Instant
 from nivel.analysis.inverse.least import Least, least_efforts
@@ -32,6 +33,8 @@ from nivel.system.system import Array
 RANK = 1e-9
 # generalised forces missing below this share of the largest are round-off
 MISSING = 1e-6
+# coordinates that do as much to this share are alike
+ALIKE = 0.999
 
 
 def without_actuators(machine: MachineRecord, settings: InverseSettings) -> MachineRecord:
@@ -97,7 +100,7 @@ def _at(
     state: MovingState,
     settings: InverseSettings,
     places: list[int],
-    index: Array,
+    index: NDArray[np.int64],
     names: list[str],
 ) -> tuple[Least, Array, Array, tuple[str, float]]:
     """The efforts at a state, what they are to give, the rates of their coordinates, and where most is missing, and how much."""
@@ -117,16 +120,23 @@ def _at(
     reach = np.linalg.norm(by_coordinate[:, free] * length, axis=1)[column]
     found = least_efforts(every_coordinate[:, column], b, settings.weights, -limit, limit, reach)
     named = ("", 0.0)
-    if np.abs(found.missing).max(initial=0.0) > MISSING * max(float(np.abs(b).max(initial=0.0)), 1e-300) and len(names):
-        # as an effort on the one joint coordinate that would do most of it
-        sizes = np.linalg.norm(every_coordinate, axis=0)
-        along = every_coordinate.T @ found.missing / np.where(sizes > 0.0, sizes, 1.0)
-        best = int(np.argmax(np.abs(along)))
-        named = names[best], float(along[best] / max(sizes[best], 1e-300))
+    if names and np.abs(found.missing).max(initial=0.0) > MISSING * max(float(np.abs(b).max(initial=0.0)), 1e-300):
+        named = _where(every_coordinate, found.missing, column, names)
     return found, b, rates[column], named
 
 
-def _jacobians(instant: Instant, index: Array) -> tuple[Array, Array]:
+def _where(columns: Array, missing: Array, actuators: list[int], names: list[str]) -> tuple[str, float]:
+    """The joint coordinate on which an effort would give most of what is missing, one with an actuator where there is a choice; that
+    effort."""
+    sizes = np.linalg.norm(columns, axis=0)
+    given = np.abs(columns.T @ missing) / np.where(sizes > RANK * max(float(sizes.max()), 1e-300), sizes, np.inf)
+    best = np.flatnonzero(given >= ALIKE * given.max())
+    acting = [k for k in best if k in actuators]
+    chosen = acting[0] if acting else int(best[np.argmax(sizes[best])])
+    return names[chosen], float(columns[:, chosen] @ missing / sizes[chosen] ** 2)
+
+
+def _jacobians(instant: Instant, index: NDArray[np.int64]) -> tuple[Array, Array]:
     """(constraint rows, rows of all joint coordinates) with respect to the velocities, at the present state."""
     motion, system = instant.motion, instant.system
     motion.evaluate(instant.t, instant.y)

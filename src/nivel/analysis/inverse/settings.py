@@ -44,9 +44,7 @@ def inverse_settings(machine: MachineRecord, given: Mapping[str, Any]) -> Invers
     names = _words(given.get("actuators"))
     hold = tuple(_words(given.get("hold")) or ())
     drivers = {driver.name: driver for driver in machine.drivers}
-    for name in hold:
-        if name not in drivers:
-            faults.append(_fault("hold", unknown_name("driver", name, list(drivers))))
+    faults += [_fault("hold", unknown_name("driver", name, list(drivers))) for name in hold if name not in drivers]
     motors = {force.name: force for force in machine.forces if isinstance(force, Motor)}
     if names is None:
         free = [driver.coordinate for driver in machine.drivers if driver.name not in hold and driver.coordinate]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from math import pi
 from typing import Any
@@ -14,6 +15,7 @@ from nivel.analysis.kinematics.settings import KinematicsSettings
 from nivel.errors import Fault, ModelError
 from nivel.kernels.observe import observe
 from nivel.machine.driver import Driver
+from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beam_nodes import with_nodes
 
@@ -35,9 +37,28 @@ def driven(machine: MachineRecord, settings: KinematicsSettings) -> tuple[Machin
         taken = {driver.name for driver in machine.drivers}
         name = next(each for each in ("drive", *(f"drive_{k}" for k in range(2, len(taken) + 3))) if each not in taken)
         value: Any = f"{start!r} + ({(end - start) / settings.duration!r})*time"
-        out = machine.replace(drivers=(*machine.drivers, Driver(name=name, coordinate=settings.drive, value=value)))
+        drivers = (*machine.drivers, Driver(name=name, coordinate=settings.drive, value=value))
+        out = machine.replace(joints=released(machine.joints, {settings.drive}), drivers=drivers)
     simulation = out.simulation.replace(duration=settings.duration, step=settings.step, output_interval=settings.step)
     return out.replace(simulation=simulation), settings
+
+
+def released(joints: Sequence[Joint], driven: Collection[str]) -> tuple[Joint, ...]:
+    """The joints without start values and rates of coordinates that are driven, which say how they start."""
+    return tuple(
+        joint.replace(
+            start=_without(joint, joint.start, driven), start_rates=_without(joint, joint.start_rates, driven)
+        )
+        if joint.start is not None or joint.start_rates is not None
+        else joint
+        for joint in joints
+    )
+
+
+def _without(joint: Joint, values: Any, driven: Collection[str]) -> dict[str, float] | None:
+    if values is None:
+        return None
+    return {name: value for name, value in values.given.items() if f"{joint.name}.{name}" not in driven} or None
 
 
 def present_value(machine: MachineRecord, name: str) -> tuple[float, str, float]:

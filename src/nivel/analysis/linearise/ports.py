@@ -8,10 +8,10 @@ from difflib import get_close_matches
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nivel.analysis.instant import Complex, Instant
 from nivel.analysis.linearise.reduction import Ports
+from nivel.analysis.user_frames import frame_place, frame_velocity
 from nivel.errors import Fault, ModelError
 from nivel.kernels import sensor
 from nivel.kernels.record import SENSE
@@ -200,16 +200,3 @@ def _rate(own: Instant, each: Input) -> complex:
     if each.kind == "torque":
         return own.twin.bodies.omega[each.place]
     return 0.0
-
-
-def frame_place(own: Instant, b: int) -> NDArray[np.complex128]:
-    """(3,) [m] place of the frame of a body as its user placed it."""
-    bodies, tree = own.twin.bodies, own.twin.tree
-    return bodies.R[b] + (bodies.A[b] @ tree.own[b] if len(tree.node) else 0.0)
-
-
-def frame_velocity(own: Instant, b: int) -> NDArray[np.complex128]:
-    """(3,) [m/s] its velocity."""
-    bodies, tree = own.twin.bodies, own.twin.tree
-    offset = bodies.A[b] @ tree.own[b] if len(tree.node) else np.zeros(3, dtype=np.complex128)
-    return bodies.Rdot[b] + np.cross(bodies.omega[b], offset)

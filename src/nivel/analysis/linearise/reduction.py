@@ -53,10 +53,32 @@ class Reduction:
     def __init__(
         self, instant: Instant, ports: Ports, reader: Reader, selected: NDArray[np.intp] | None = None
     ) -> None:
-        self.instant, self.ports, self._selected = instant, ports, selected
-        self.by_q, self.by_v = instant.along("q", reader), instant.along("v", reader)
-        self.by_x, self.by_rate = instant.along("x", reader), instant.along("vdot", reader)
-        self.by_force = instant.along("lam", reader)
+        self.instant, self.ports, self._selected, self._reader = instant, ports, selected, reader
+
+    @cached_property
+    def by_q(self) -> Slopes:
+        """Derivatives with respect to positions."""
+        return self.instant.along("q", self._reader)
+
+    @cached_property
+    def by_v(self) -> Slopes:
+        """Derivatives with respect to velocities."""
+        return self.instant.along("v", self._reader)
+
+    @cached_property
+    def by_x(self) -> Slopes:
+        """Derivatives with respect to states of elements."""
+        return self.instant.along("x", self._reader)
+
+    @cached_property
+    def by_rate(self) -> Slopes:
+        """Derivatives with respect to accelerations."""
+        return self.instant.along("vdot", self._reader)
+
+    @cached_property
+    def by_force(self) -> Slopes:
+        """Derivatives with respect to multipliers."""
+        return self.instant.along("lam", self._reader)
 
     @cached_property
     def J(self) -> Array:
@@ -82,7 +104,7 @@ class Reduction:
         return np.sort(pivoted[2][: N.shape[1]])
 
     @cached_property
-    def _inverse(self) -> Array:
+    def inverse(self) -> Array:
         """[C_q; S]⁻¹ (f, K + m), least norm where rows repeat each other."""
         f, m = len(self.instant.free), len(self.selected)
         length = self.instant.length[self.instant.free]
@@ -96,12 +118,12 @@ class Reduction:
     @cached_property
     def Z(self) -> Array:
         """(f, m) motion of all unknowns for a unit rate of each independent one."""
-        return self._inverse[:, len(self.kept) :]
+        return self.inverse[:, len(self.kept) :]
 
     @cached_property
     def Y(self) -> Array:
         """(f, m) velocities that displaced independent coordinates ask for at rest."""
-        return -self._inverse[:, : len(self.kept)] @ (self.by_q.Cdot[self.kept] @ self.Z)
+        return -self.inverse[:, : len(self.kept)] @ (self.by_q.Cdot[self.kept] @ self.Z)
 
     @cached_property
     def E(self) -> Array:

@@ -12,7 +12,7 @@ from nivel.analysis.attributes import run_attributes
 from nivel.analysis.instant import Instant
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues
 from nivel.analysis.linearise.names import velocity_names
-from nivel.analysis.linearise.ports import Catalogue, Input, frame_place
+from nivel.analysis.linearise.ports import Catalogue, Input
 from nivel.analysis.linearise.reduction import Reduction, StateSpace
 from nivel.analysis.linearise.refusals import MOST, refuse_jumps
 from nivel.analysis.linearise.settings import LineariseSettings
@@ -21,6 +21,7 @@ from nivel.analysis.listener import Listener
 from nivel.analysis.moment import Moment, Posture, at_posture, at_start
 from nivel.analysis.plan import Methods
 from nivel.analysis.unknowns import unknown_name
+from nivel.analysis.user_frames import frame_axes, frame_place
 from nivel.errors import Fault, ModelError
 from nivel.kernels.record import NONE
 from nivel.machine.machine_record import MachineRecord
@@ -267,11 +268,8 @@ def _posed(machine: MachineRecord, source: str, moment: Moment, instant: Instant
     own = instant
     own.value()
     places = np.array([frame_place(own, b).real for b in range(count)]).reshape(count, 3)
-    bodies, tree = own.twin.bodies, own.twin.tree
-    axes = Rotation.from_matrix(bodies.A[:count].real)
-    if len(tree.node):
-        axes = axes * Rotation.from_quat(tree.own_theta[:count], scalar_first=True)
-    theta = axes.as_quat(scalar_first=True)
+    axes = np.array([frame_axes(own, b).real for b in range(count)]).reshape(count, 3, 3)
+    theta = Rotation.from_matrix(axes).as_quat(scalar_first=True)
     return Posed(tuple(own.system.bodies), places, theta, own.system.size, {**attributes, "outcome": "done"})
 
 

@@ -161,11 +161,12 @@ class _Pose:
 
 
 def gauges(layout: FrameLayout) -> list[tuple[str, Variable]]:
-    """Single numbers that are worth to be watched: sensors and states, else joint coordinates."""
+    """Single numbers that are worth to be watched: sensors, else states, else joint coordinates."""
     single = [each for each in layout.variables if each.columns.stop == each.columns.start + 1]
-    chosen = [(each.name.partition(".")[2], each) for each in single if each.name.startswith(SHOWN_FIRST)]
-    if chosen:
-        return chosen[:MOST_GAUGES]
+    for kind in SHOWN_FIRST:
+        chosen = [(each.name.partition(".")[2], each) for each in single if each.name.startswith(kind)]
+        if chosen:
+            return chosen[:MOST_GAUGES]
     whole = next(each for each in layout.variables if each.name == "joint_coordinate")
     names = layout.coordinates["joint_coordinate"]
     return [

@@ -15,6 +15,7 @@ import { Follower } from "./stage/follower";
 import { Handled } from "./stage/handled";
 import { listenToPicks } from "./stage/picking";
 import { Traces } from "./stage/traces";
+import { Trails } from "./stage/trails";
 import { Violations } from "./stage/violations";
 import type { View } from "./stage/views";
 import { World } from "./stage/world";
@@ -54,6 +55,8 @@ export class App {
   private readonly inspector: Inspector;
   private readonly coordinates: Coordinates | null = null;
   readonly live: Live | null = null;
+  private trails: Trails | null = null;
+  private shownTime = 0;
   private readonly panels: Panels;
   private readonly dialog = helpDialog();
   private readonly status = el("p", { class: "status", role: "status" });
@@ -125,13 +128,16 @@ export class App {
       );
     }
     if (content.mode === "live" && connection && content.controls.length + content.gauges.length) {
+      this.trails = new Trails(this.actor);
+      this.world.scene.add(this.trails.root);
+      this.actor.show("signs", false);
       this.live = new Live(content.controls, content.gauges, (message) => connection.send(message));
     }
     const data = el("div", {}, this.live?.panel ?? null, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;
     this.panels = new Panels(stage, others, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? this.live?.bar ?? null, this.status, () => this.dialog.showModal());
     document.body.append(...this.panels.elements, this.dialog);
-    this.panels.settle(!!this.coordinates || !!this.live);
+    this.panels.settle(!!this.coordinates || !!this.live, !this.live);
     if (this.live) this.panels.rename("data", "Controls and data");
     this.world.onBeforeRender = (now) => this.beforeRender(now);
     this.world.onEdges = (on) => this.actor.show("edges", on);
@@ -196,8 +202,11 @@ export class App {
       this.live?.show(this.latest.time, this.latest.values.subarray(this.actor.frame.length));
       // the next one may travel while this one is drawn
       this.connection?.send({ type: "shown", frame: this.latest.number });
+      if (this.latest.time < this.shownTime) this.trails?.clear();
+      this.shownTime = this.latest.time;
       this.latest = null;
       this.refreshFrame();
+      this.trails?.add();
       this.handled.keepInSight();
     }
     const { clientWidth, clientHeight } = this.world.holder;

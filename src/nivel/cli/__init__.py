@@ -23,6 +23,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "new": CommandPlace("nivel.cli.new", "Write a commented machine file that runs, to start from."),
     "check": CommandPlace("nivel.cli.check", "Check and assemble a machine; say what it is."),
     "run": CommandPlace("nivel.cli.run", "Simulate a machine: result file, report, summary."),
+    "demo": CommandPlace("nivel.cli.demo", "Drive a machine that comes with nivel."),
     "live": CommandPlace("nivel.cli.live", "Operate a machine in real time in the browser."),
     "replay": CommandPlace("nivel.cli.replay", "Repeat a recorded live run exactly, or by other methods."),
     "statics": CommandPlace("nivel.cli.statics", "Find where a machine rests under its loads."),

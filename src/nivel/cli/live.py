@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 @method_option("coordinates")
 @method_option("stabilisation")
 @click.option("--record", type=click.Path(dir_okay=False), help="Write the recording to this file, for `nivel replay`.")
+@click.option("--udp", metavar="HOST:PORT", help="Take inputs from datagrams that come in here; pages only look then.")
+@click.option("--udp-to", metavar="HOST:PORT", help="Send sensors there with every frame.")
 @click.option("--host", default="127.0.0.1", help="Address to listen at; others than this machine need the token then.")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen at; default: a free one.")
 @click.option("--no-browser", is_flag=True, help="Open no browser.")
@@ -38,6 +40,8 @@ def command(
     allow_code: bool,
     tick: float | None,
     record: str | None,
+    udp: str | None,
+    udp_to: str | None,
     host: str,
     port: int,
     no_browser: bool,
@@ -52,6 +56,7 @@ def command(
     """
     from nivel.api import load
     from nivel.cli.progress import progress_listener
+    from nivel.live.datagrams import Datagrams, place_of
     from nivel.live.opening import session_of
     from nivel.live.recorder import write_recording
     from nivel.live.source import LiveSource
@@ -63,13 +68,17 @@ def command(
             click.echo(text, err=True)
 
     settings = {name: value for name, value in methods.items() if value is not None}
+    listen, send = udp and place_of(udp, "udp"), udp_to and place_of(udp_to, "udp_to")
     loaded = load(machine, overrides, allow_code=allow_code)
     with ExitStack() as stack:
         with progress_listener(quiet) as listener:
             listener.say("preparing")
             opened = session_of(loaded, settings, tick=tick, urgent=not no_priority, listener=listener)
             session = stack.enter_context(opened)
-            source = LiveSource(session)
+            outside = Datagrams(session, listen or None, send or None)
+            stack.callback(outside.close)
+            source = LiveSource(session, outside if listen else None)
+            session.on_frame = both(session.on_frame, outside.send)
         for line in introduction(session):
             say(line)
         session.command("run")
@@ -77,11 +86,23 @@ def command(
         timing = session.timing
     for line in in_words(timing):
         say(line)
+    if listen:
+        say(f"datagrams: {outside.counts}")
     if record is not None:
         write_recording(
             record, session.plan.machine, loaded.origin.source, settings, session.pace, session.recorder.takes
         )
         say(f"recording: {record}")
+
+
+def both(first: Callable[[], None], second: Callable[[], None]) -> Callable[[], None]:
+    """One after the other."""
+
+    def call() -> None:
+        first()
+        second()
+
+    return call
 
 
 def introduction(session: Session) -> Iterator[str]:

@@ -28,8 +28,8 @@ CLOCKS = 4
 # entries of Live.control, set from outside
 COMMAND, TICKS, PACED, FROM_TAPE, SUBSTEPS, HEARD = 0, 1, 2, 3, 4, 5
 # and by the loop
-DONE, SHOWN, LOST, OVERRUNS, OWN, STRETCHED, LONGEST, LATEST, NEXT, MODE = 6, 7, 8, 9, 10, 11, 12, 13, 14, 15
-CONTROLS = 16
+DONE, SHOWN, LOST, OVERRUNS, OWN, STRETCHED, LONGEST, LATEST, NEXT, MODE, SAVED = 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16
+CONTROLS = 17
 # columns of Live.limit
 LOW, HIGH, RATE, REST = 0, 1, 2, 3
 # entries of Live.address
@@ -50,9 +50,9 @@ class Live(NamedTuple):
     # TICK, simulated time of a tick; SPEED, simulated over real time; BOUND, largest delay that is caught up; WATCHDOG, longest silence
     # of the operator: beyond it all inputs go to rest [s]
     clock: F1
-    # COMMAND, not zero: return at the next tick; TICKS to do; PACED, 0: as fast as possible; FROM_TAPE: inputs come from the tape;
+    # COMMAND, not zero: return after the next tick; TICKS to do; PACED, 0: as fast as possible; FROM_TAPE: inputs come from the tape;
     # SUBSTEPS of a tick; HEARD, when the operator was last heard. DONE ticks; SHOWN frames; LOST, whether the operator is; OVERRUNS, those
-    # of them of OWN computing; STRETCHED, by which deadlines were moved; LONGEST computing; LATEST start; NEXT deadline, 0: now; MODE, of the program
+    # of them of OWN computing; STRETCHED, by which deadlines were moved; LONGEST computing; LATEST start; NEXT deadline, 0: now; MODE and ticks SAVED, of the program
     control: I1
     function: U1  # (inputs,) of the machine
     limit: F2  # (inputs, 4)
@@ -183,15 +183,15 @@ def tick(advance, evaluate, correct, step, machine, history, session, heard):
 
 @entry(DRIVE)
 def drive(advance, evaluate, correct, step, machine, history, session):
-    """Tick until there is a command, TICKS are done, or the run ends or fails. Returns the status of the last tick."""
+    """Tick until TICKS are done, there is a command after a tick, or the run ends or fails. Returns the status of the last tick."""
     live = live_at(session)
     clock, control = live.clock, live.control
     status, left, paced = BUDGET_SPENT, control[TICKS], control[PACED] == 1
     deadline = control[NEXT]
     if paced and deadline == 0:
         deadline = read_clock(session, MONOTONIC)
-    while left > 0 and status == BUDGET_SPENT and control[COMMAND] == 0:
-        left -= 1
+    while left > 0 and status == BUDGET_SPENT:
+        left = left - 1 if control[COMMAND] == 0 else 0
         if not paced:
             status = tick(advance, evaluate, correct, step, machine, history, session, True)
             continue

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.plan import Plan
 from nivel.errors import Fault, ModelError
-from nivel.integrate.paced import COMMAND, DONE, HEARD, LOST, MODE, SPEED, Live
+from nivel.integrate.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
 from nivel.live import shared
 from nivel.live.preparation import Pace
 from nivel.live.recorder import Recorder
@@ -161,7 +161,7 @@ class Session:
             if not self._do(COMMANDS[word]):
                 return "the solver does not answer"
             if word == "save":
-                self._saved = int(self.live.control[DONE])
+                self._saved = int(self.live.control[SAVED])
                 self.recorder.gather()
             if word in ("reset", "restore"):
                 self.problem = ""

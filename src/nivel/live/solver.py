@@ -21,6 +21,7 @@ from nivel.integrate.paced import (
     NEXT,
     NOW,
     PACED,
+    SAVED,
     SHOWN,
     SLEEP,
     TICKS,
@@ -150,11 +151,11 @@ class Solver:
             control[MODE] = shared.PAUSED
         elif command == shared.STEP and alive:
             control[MODE] = shared.PAUSED
-            control[COMMAND] = 0
             self._drive_once(1)
             self._show()
         elif command == shared.SAVE and alive:
             self._saved = taken(self._arrays, int(control[DONE]))
+            control[SAVED] = self._saved.ticks
         elif command == shared.RESET or (command == shared.RESTORE and self._saved is not None):
             self._go_to(self._start if command == shared.RESET or self._saved is None else self._saved)
 

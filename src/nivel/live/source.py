@@ -27,12 +27,13 @@ SHOWN_FIRST: Final = ("sensor.", "state.")
 class LiveSource(Still):
     """A session that pages look at; one of them at a time operates it."""
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: Session, operator: object | None = None) -> None:
+        """operator : something other than a page that operates the machine; pages only look then."""
         super().__init__()
         self.forgiving = True
         self._session = session
         self._lock = threading.Lock()
-        self._driver: object | None = None
+        self._driver = self._other = operator
         self._heard = 0.0
         attributes, layout = session.facts["attributes"], session.facts["layout"]
         self._places = _Places(layout)
@@ -80,7 +81,7 @@ class LiveSource(Still):
     def _take(self, page: object, on: bool) -> Note | None:
         with self._lock:
             silent = time.monotonic() - self._heard > PATIENCE
-            if on and self._driver not in (None, page) and not silent:
+            if on and (self._other is not None or (self._driver not in (None, page) and not silent)):
                 return Note("note", "somebody else operates the machine")
             if on:
                 self._driver, self._heard = page, time.monotonic()
@@ -89,7 +90,7 @@ class LiveSource(Still):
         return None
 
     def _command(self, page: object, word: str, number: float) -> Note | None:
-        if page is not self._driver:
+        if page is not self._driver and self._other is None:
             return Note("note", "take the controls first")
         if word == "speed":
             self._session.set_speed(number)
@@ -163,11 +164,12 @@ class _Pose:
 
 
 def gauges(layout: FrameLayout) -> list[tuple[str, Variable]]:
-    """Single numbers that are worth to be watched: sensors and states, else joint coordinates."""
+    """Single numbers that are worth to be watched: sensors, else states, else joint coordinates."""
     single = [each for each in layout.variables if each.columns.stop == each.columns.start + 1]
-    chosen = [(each.name.partition(".")[2], each) for each in single if each.name.startswith(SHOWN_FIRST)]
-    if chosen:
-        return chosen[:MOST_GAUGES]
+    for kind in SHOWN_FIRST:
+        chosen = [(each.name.partition(".")[2], each) for each in single if each.name.startswith(kind)]
+        if chosen:
+            return chosen[:MOST_GAUGES]
     whole = next(each for each in layout.variables if each.name == "joint_coordinate")
     names = layout.coordinates["joint_coordinate"]
     return [

@@ -100,14 +100,21 @@ def _signal(name: str, function: Varying, machine: MachineRecord, result: Result
             coordinate = symbol.quantity.removesuffix("_rate")
             rate = ".rate" if coordinate != symbol.quantity else ""
             return result.array(f"{symbol.name}.{coordinate}{rate}")
-        case "states" | "forces":
+        case "inputs":
+            return result.array(f"{symbol.name}.value")
+        case "states":
             return result.array(f"state.{symbol.name}")
+        case "forces":
+            is_state = f"state.{name}" in result.variables
+            return result.array(f"state.{name}" if is_state else f"force.{name}")
         case "sensors":
             return result.array(f"sensor.{symbol.name}")
         case "markers":
             marker = next(each for each in machine.markers if each.name == symbol.name)
             return _of_point(symbol, marker.body, np.array(marker.position, dtype=float), result)
-    return _of_point(symbol, symbol.name, np.zeros(3), result)
+        case "bodies":
+            return _of_point(symbol, symbol.name, np.zeros(3), result)
+    raise UnknownSymbolError(name)
 
 
 def _of_point(symbol: Symbol, body: str, place: Array, result: Result) -> Array:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from nivel.machine import Baumgarte as Baumgarte
     from nivel.machine import Beam as Beam
     from nivel.machine import Belt as Belt
+    from nivel.machine import Block as Block
     from nivel.machine import Body as Body
     from nivel.machine import Bushing as Bushing
     from nivel.machine import Contact as Contact
@@ -68,6 +69,7 @@ _HOME = {
     "Baumgarte": "nivel.machine",
     "Beam": "nivel.machine",
     "Belt": "nivel.machine",
+    "Block": "nivel.machine",
     "Body": "nivel.machine",
     "Bushing": "nivel.machine",
     "Contact": "nivel.machine",
@@ -103,6 +105,7 @@ __all__ = [
     "Baumgarte",
     "Beam",
     "Belt",
+    "Block",
     "Body",
     "Bushing",
     "Comparison",

@@ -6,13 +6,13 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
-from nivel.analysis.changes import changed
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import assembly_entries, build, preparation_entries, run_entries, statics_entries
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan, methods_of, plan_run
+from nivel.analysis.settings import waiting_time
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
@@ -21,6 +21,7 @@ from nivel.files.values import outside_paths
 from nivel.machine import (
     AssemblySettings,
     Beam,
+    Block,
     Body,
     Coupling,
     Driver,
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     from nivel.analysis.check import Check
     from nivel.analysis.posing import Posing
     from nivel.analysis.stepping import Simulation
+    from nivel.c_library.writer import Files
     from nivel.native.entry import Entry
     from nivel.results.comparison import Comparison
     from nivel.results.result import Result
@@ -72,6 +74,7 @@ class Machine(Model):
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
         states: Sequence[State] = (),
+        control: Sequence[Block] = (),
         sensors: Sequence[Sensor] = (),
         events: Sequence[Event] = (),
         gravity: Sequence[float | str] = (0.0, 0.0, 0.0),
@@ -88,6 +91,7 @@ class Machine(Model):
             "drivers": drivers,
             "forces": forces,
             "states": states,
+            "control": control,
             "sensors": sensors,
             "events": events,
         }
@@ -157,6 +161,7 @@ class Machine(Model):
         out: str | PathLike[str] | None = None,
         force: bool = False,
         verify: bool = False,
+        verify_limit: float | str | None = None,
         listener: Listener | None = None,
     ) -> Result:
         """Motion in time. Options given here override those of the machine's `simulation`.
@@ -166,9 +171,10 @@ class Machine(Model):
         tolerance, where the integrator can do both. tolerance : of integrators that choose their steps.
         cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte, newmark,
         hht, generalised_alpha : mappings as in a machine file.
-        out : result file (NetCDF); in memory if None. force : replace an existing file. verify : estimate the accuracy with a second
-        run, at half the step or a tenth of the tolerance. A setting given here that has no effect with the methods of the run is
-        refused; set in the file, it is ignored.
+        out : result file (NetCDF); in memory if None. force : replace an existing file. verify : a second run
+        beside this one, with finer steps on other times, tells how exact every number is; `nivel run` does so by itself. verify_limit
+        [s] : the second run goes on for so long after the first at most, by default as long again as that took.
+        A setting given here that has no effect with the methods of the run is refused; set in the file, it is ignored.
         Raises ModelError (nothing was computed) or SolveError (its `result` holds everything up to the failure).
         """
         given = {
@@ -193,6 +199,7 @@ class Machine(Model):
             "generalised_alpha": generalised_alpha,
         }
         given = {key: value for key, value in given.items() if value is not None}
+        limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         compile_seconds = build(_entries_of(plan, chosen.record), listener)
@@ -209,9 +216,23 @@ class Machine(Model):
                 out=out,
                 force=force,
                 verify=verify,
+                verify_limit=limit,
                 listener=listener,
                 compile_seconds=compile_seconds,
             )
+
+    def export_c(self, folder: str | PathLike[str], *, listener: Listener | None = None) -> Files:
+        """Write the machine as a C library: what a run with its settings does step by step, for programs without Python.
+
+        folder : a new one, for header, source, machine code of this processor, an example and a Makefile.
+        Raises ModelError where steps are not fixed, a Python law takes part, or the folder is there already.
+        """
+        plan = self._plan({})
+        build(run_entries(plan), listener)
+        from nivel.c_library.writer import write_c_library
+
+        with self._faults_in_file():
+            return write_c_library(plan, Path(folder))
 
     @checked_arguments
     def start(
@@ -377,23 +398,6 @@ class Machine(Model):
             yield
         except ModelError as error:
             raise ModelError(self.origin.placed(error.faults)) from error
-
-    @checked_arguments
-    def with_settings(self, settings: Mapping[str, Any]) -> Self:
-        """The same machine with some simulation settings replaced."""
-        if not settings:
-            return self
-        # what was set from outside of the file is asked for as well, and never left behind
-        outside, origin = self.origin.settings_outside, self.origin.with_settings(settings)
-        asked = {name: getattr(self.record.simulation, name) for name in outside if name in ("rotations", "baumgarte")}
-        try:
-            simulation = changed(self.record.simulation, {**asked, **settings})
-        except ModelError as error:
-            raise ModelError(origin.placed(origin.of_settings(fault, settings) for fault in error.faults)) from None
-        try:
-            return type(self).from_record(self.record.replace(simulation=simulation), origin)
-        except ModelError as error:
-            raise ModelError(origin.placed(error.faults)) from None
 
 
 def _entries_of(plan: Plan, record: MachineRecord) -> list[Entry]:

@@ -9,12 +9,19 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import nivel
+from nivel.analysis import posing
 from nivel.analysis.posing import Posing
 from nivel.analysis.turned_frame import cardan, nearest_angles, rates_of_angles
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 OPEN = 1e-9
 CLOSED_LOOPS = ("slider-crank", "four-bar", "andrews-squeezer", "rssr", "watt-six-bar", "cam", "gear-train")
+
+
+@pytest.fixture(autouse=True)
+def patience(monkeypatch):
+    """On a busy machine too all ranges are explored."""
+    monkeypatch.setattr(posing, "EXPLORING", 100.0)
 
 
 def posed(name) -> Posing:

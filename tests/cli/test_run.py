@@ -11,6 +11,7 @@ import time
 from contextlib import chdir
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -60,15 +61,29 @@ def test_result_and_report_stand_beside_each_other(folder, call):
     assert result.outcome == "done"
     assert result.trust.verdict == "green"
     assert len(result.time) == 101
-    assert "trust: green" in done.stderr
+    assert "trust: green, within " in done.stderr
+    assert 0 < np.nanmax(result.estimated_error("hinge.angle")) < 1e-6
+
+
+def test_a_run_without_verification_is_never_a_plain_yes(folder):
+    done = nivel(folder, "run", "pendulum.yaml", "--no-verify")
+    assert "trust: not verified" in done.stderr
+    assert "green," not in done.stderr
+    result = Result.open(folder / "pendulum.nc")
+    assert result.trust.headline == "not verified"
+    assert np.isnan(result.estimated_error("hinge.angle")).all()
+    page = (folder / "pendulum.html").read_text(encoding="utf-8")
+    assert "Not verified" in page
+    assert "Yes, everything is in the green" not in page
 
 
 def test_json_summary_is_all_that_stands_on_standard_output(folder):
-    done = nivel(folder, "run", "pendulum.yaml", "--json", "--quiet", "--no-report", "--verify")
+    done = nivel(folder, "run", "pendulum.yaml", "--json", "--quiet", "--no-report")
     summary = json.loads(done.stdout)
     assert summary["outcome"] == "done"
     assert summary["trust"]["degrees_of_freedom"] == 1
     assert 0 < summary["trust"]["accuracy_estimate"] < 1e-6
+    assert summary["headline"].startswith("within ")
     assert done.stderr == ""
     assert not (folder / "pendulum.html").exists()
 

@@ -86,7 +86,7 @@ def test_joint_angles_count_their_turns(integrator, rate):
 
 
 def test_force_that_jumps_is_passed():
-    """A push that ends at once: the step is cut down to the jump and grows again."""
+    """A push that ends at once, at a corner of `abs`: a step ends there, or is cut down to the jump and grows again."""
     machine = MachineRecord(
         name="pushed",
         bodies=(Body(name="stone", mass=2, inertia=(1, 1, 1)),),
@@ -96,7 +96,7 @@ def test_force_that_jumps_is_passed():
     for integrator in ("dopri5", "dop853", "adams", "gear"):
         result = run(machine, integrator=integrator, tolerance=1e-8, output_interval=0.5)
         assert abs(result.position[-1, 0, 0] - (0.09 + 0.6 * 0.7)) < 1e-7
-        assert 0 < result.finished.timing["rejected"] < 100
+        assert result.finished.timing["rejected"] < 100
 
 
 def test_force_that_becomes_infinite_is_named():

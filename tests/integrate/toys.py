@@ -78,6 +78,8 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
         frames=np.zeros((1, 1)),
         event_values=np.zeros((2, 0)),
         samples=np.zeros(0, dtype=np.int64),
+        corners=np.zeros(0),
+        pace=np.full((3, names.PARTS), np.inf),
         events=np.zeros((0, 3)),
     )
     machine, history = resting(), Handle(run)

@@ -257,8 +257,12 @@ def law(text):
             "sensors.s.value: `rod` has no `vv`; it has x, y, z",
         ),
         (
-            {"sensors": ({"name": "s", "value": "spring.length"},), "forces": (SPRING,)},
-            "sensors.s.value: `spring` is a force and has no symbols; what it depends on is measured by a sensor",
+            {"sensors": ({"name": "s", "value": "spring.lenght"},), "forces": (SPRING,)},
+            "sensors.s.value: `spring` has no `lenght`; did you mean `spring.length`?",
+        ),
+        (
+            {"states": ({"name": "x", "rate": "spring.length"},), "forces": (SPRING,)},
+            "states.x.rate: `spring.length` is known only when all forces are, on which this depends; take a sample of it",
         ),
     ],
 )

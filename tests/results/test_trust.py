@@ -7,7 +7,7 @@ import pytest
 
 import synthetic_run as pendulum
 from nivel.results import Memory
-from nivel.results.accuracy import step_halving
+from nivel.results.accuracy import MARGIN, error_from_finer
 from nivel.results.neglected import Cost
 from nivel.results.trust import Facts, Peak, Trust, assess
 from nivel.results.verdicts import THRESHOLDS
@@ -194,29 +194,48 @@ def test_json_has_the_agreed_keys():
     assert set(agreed.split()) <= set(data)
 
 
-def test_step_halving_finds_the_worst_body_and_time():
+def test_a_finer_run_finds_the_worst_body_and_time():
     moved = pendulum.histories(TIME)["position"].copy()
     moved[77, 0, 1] += 15e-6
-    peak = step_halving(run(position=moved), run(), order=4)
-    assert peak.value == pytest.approx(16e-6)  # 15/16 of the error of the coarser run is seen
+    peak = error_from_finer(run(position=moved), run(), 1 / 16)
+    assert peak.value == pytest.approx(MARGIN * 16e-6)  # 15/16 of the error of the coarser run is seen
     assert (peak.row, peak.time) == ("arm", TIME[77])
 
 
-def test_step_halving_sees_a_rotor_whose_origin_rests():
+def test_what_was_not_verified_says_so_and_what_was_says_how_exact():
+    assert assess(run(), Facts("done", 1)).headline == "not verified"
+    found = Facts("done", 1, accuracy=Peak(3.1e-6, "rod", 7.2), refinement="steps of 0.6 ms")
+    assert (
+        assess(run(), found).headline == "within 3.1e-6 m of the exact motion of this model; largest at rod, t = 7.2 s"
+    )
+
+
+def test_verification_that_ends_early_is_amber_and_says_up_to_when():
+    found = Facts(
+        "done", 1, accuracy=Peak(1e-9, "rod", 0.5), verified_until=0.7, verification_ended="its time was spent"
+    )
+    trust = assess(run(), found)
+    assert trust.verdict == "amber"
+    assert "up to t = 0.7 s, not verified beyond" in trust.headline
+    assert "its time was spent" in item(trust, "verified").text
+    assert Trust.from_json(trust.to_json()) == trust
+
+
+def test_a_finer_run_sees_a_rotor_whose_origin_rests():
     turned = -pendulum.histories(TIME)["orientation"]  # θ and -θ are the same orientation
     angle = 1e-5
     half = np.array([np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2)])
     c, s = turned[10, 0, 0], turned[10, 0, 3]
     turned[10, 0] = [c * half[0] - s * half[3], 0.0, 0.0, c * half[3] + s * half[0]]
-    peak = step_halving(run(orientation=turned), run(), order=1)
-    assert peak.value == pytest.approx(2.0 * angle * pendulum.SIZE, rel=1e-6)
+    peak = error_from_finer(run(orientation=turned), run(), 1 / 2)
+    assert peak.value == pytest.approx(MARGIN * 2.0 * angle * pendulum.SIZE, rel=1e-6)
     assert peak.time == TIME[10]
 
 
-def test_step_halving_compares_equal_times():
+def test_a_finer_run_is_compared_at_equal_times():
     finer = np.linspace(0.0, 2.0, 401)
-    assert step_halving(run(), run(finer), order=4).value < 1e-15
-    assert step_halving(run(), run(finer[:200]), order=4).value < 1e-15  # a finer run that stopped early
+    assert error_from_finer(run(), run(finer), 1 / 16).value < 4e-15
+    assert error_from_finer(run(), run(finer[:200]), 1 / 16).value < 4e-15  # a finer run that stopped early
 
 
 def assessed(length, mass, duration, error):
@@ -297,7 +316,7 @@ def test_a_run_beyond_all_bounds_is_red_without_warnings():
     )
     assert trust.verdict == "red"
     position = pendulum.histories(TIME)["position"] * 1e300
-    assert step_halving(run(position=position), run(), order=4).value > 1e200
+    assert error_from_finer(run(position=position), run(), 1 / 16).value > 1e200
 
 
 def test_angles_that_are_held_are_said_in_radians():

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.analysis.beam_facts import BeamFacts, beam_facts
+from nivel.analysis.control_words import block_in_words, control_in_words
 from nivel.analysis.elements import (
     coupling_in_words,
     driver_in_words,
@@ -73,6 +74,8 @@ class Check:
     drivers: tuple[str, ...]
     forces: tuple[str, ...]
     states: tuple[str, ...]
+    control: tuple[str, ...]
+    control_size: str  # how many blocks, states and sampled values, in words; empty without a control
     sensors: tuple[str, ...]
     events: tuple[str, ...]
     degrees_of_freedom: int
@@ -128,10 +131,10 @@ def _lines(facts: Check) -> Iterator[str]:
             yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}"
     for kind, convention in {joint.type: joint.convention for joint in facts.joints if joint.coordinates}.items():
         yield f"  {kind}: {convention}"
-    for title in ("couplings", "drivers", "forces", "states", "sensors", "events"):
+    for title in ("couplings", "drivers", "forces", "states", "control", "sensors", "events"):
         elements: tuple[str, ...] = getattr(facts, title)
         if elements:
-            yield title
+            yield f"{title}: {facts.control_size}" if title == "control" else title
         yield from (f"  {words}" for words in elements)
     yield from _assembly_lines(facts)
     yield from _redundancy_lines(facts)
@@ -232,6 +235,8 @@ def check(plan: Plan) -> Check:
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
         states=tuple(state_in_words(state) for state in machine.states),
+        control=tuple(block_in_words(block) for block in machine.control),
+        control_size=control_in_words(machine.control) if machine.control else "",
         sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
         events=tuple(event_in_words(event) for event in machine.events),
         degrees_of_freedom=redundancy.degrees_of_freedom,

@@ -11,6 +11,7 @@ from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Methods, Plan
 from nivel.errors import NivelError
 from nivel.integrate.catalogue import BY_MODES, INTEGRATORS
+from nivel.kernels.control import apply as compute
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.hook import Family
@@ -174,7 +175,7 @@ def all_entries() -> list[Entry]:
         OUTPUT,
     ]
     families = dict.fromkeys(
-        [*(each for kind in FORCES.values() for each in kind.families), *BEAMS, state_rate, run_expression]
+        [*(each for kind in FORCES.values() for each in kind.families), *BEAMS, compute, state_rate, run_expression]
     )
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)]
@@ -225,7 +226,8 @@ def _families(machine: MachineRecord) -> list[Family]:
     """The families of forces that a machine has, and what runs its expressions."""
     families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
-    return [*families, *([state_rate] if machine.states else []), run_expression]
+    families |= dict.fromkeys([compute, state_rate] if machine.control else [state_rate] if machine.states else [])
+    return [*families, run_expression]
 
 
 def _node_modules(methods: Methods) -> list[str]:
@@ -249,7 +251,7 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
         RAIL: any(JOINT_KINDS[joint.type].rail for joint in machine.joints),
         POINTS: any(beam.has_gradients for beam in machine.beams),
         SENSOR: bool(machine.sensors),
-        SAMPLING: any(state.update is not None for state in machine.states),
+        SAMPLING: any(state.update is not None for state in machine.states) or bool(machine.control),
         OF_BEAMS: ELASTIC in map(family_of, machine.beams),
     }
     return [module for module, asked in needed.items() if asked]

@@ -25,7 +25,7 @@ def corners(machine: MachineRecord) -> tuple[float, ...]:
     """Corners within the run [s], ascending."""
     end = machine.simulation.duration
     found: set[float] = set()
-    for part in (*machine.drivers, *machine.forces):
+    for part in (*machine.drivers, *machine.forces, *machine.states):
         for function in _functions(part):
             found |= set(corners_of(function, end))
     return tuple(sorted(found))
@@ -68,9 +68,22 @@ def _of_expression(expression: Expression, end: float) -> Iterator[float]:
             values = np.array([difference(float(time)) for time in times])
         except ExpressionError:
             continue
-        for k in np.flatnonzero(values[:-1] * values[1:] < 0.0):
-            yield root_scalar(difference, bracket=(times[k], times[k + 1]), xtol=1e-15 * end, rtol=1e-14).root
-        yield from (float(time) for time in times[values == 0.0])
+        roots = [
+            root_scalar(difference, bracket=(times[k], times[k + 1]), xtol=1e-15 * end, rtol=1e-14).root
+            for k in np.flatnonzero(values[:-1] * values[1:] < 0.0)
+        ]
+        yield from (time for time in (*roots, *map(float, times[values == 0.0])) if _holds(expression, time))
+
+
+def _holds(expression: Expression, time: float) -> bool:
+    """Whether a function has a value at a corner: a step cannot end where it has none."""
+    if expression.signals:
+        return True
+    try:
+        evaluate(expression.tree, time)
+    except ExpressionError:
+        return False
+    return True
 
 
 def _sides(node: Node) -> Iterator[tuple[Node, Node | None]]:

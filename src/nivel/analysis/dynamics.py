@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from types import ModuleType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
 from nivel.analysis.lockup import Jam, can_be_asked, find_jam
 from nivel.analysis.outcome import failure
+from nivel.analysis.pacing import Pacing
 from nivel.analysis.penalties import feedback
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.settings import RunSettings
@@ -56,8 +58,9 @@ from nivel.kernels.status import (
     SINGULAR,
     STEP_TOO_SMALL,
 )
+from nivel.native.entry import Entry
 from nivel.results.occurrence import Occurrence
-from nivel.system.system import System
+from nivel.system.system import Array, System
 
 # A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
 CHUNK = 0.05
@@ -71,7 +74,7 @@ class RunOutcome:
     """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s]).
 
     events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
-    steps were made, so that the run itself is done.
+    steps were made, so that the run itself is done. pace : of `nivel.integrate.run.Run`.
     """
 
     outcome: str
@@ -80,6 +83,23 @@ class RunOutcome:
     asked_to_stop: bool = False
     timing: dict[str, float] = field(default_factory=dict)
     failure: tuple[str, str, float] | None = None
+    pace: Array | None = None
+
+
+class Loop(NamedTuple):
+    """What the compiled loop works on: entries of the equations, of what puts states back and of the step, the machine's record, that of
+    the run."""
+
+    evaluate: Entry
+    correct: Entry
+    step: Entry
+    machine: Handle
+    history: Handle
+
+    def advance(self) -> int:
+        """Go on for the budget of steps in the history's counter. Returns a status."""
+        codes = self.evaluate.address, self.correct.address, self.step.address
+        return advance(*codes, self.machine.address, self.history.address)
 
 
 def march(
@@ -89,22 +109,20 @@ def march(
     *,
     progress: Progress | None = None,
     chunk_steps: int | None = None,
+    pacing: Pacing | None = None,
 ) -> RunOutcome:
     """Run `prepared` and give every frame to all `sinks` (already begun).
 
     progress : called with the time reached [s] after every chunk. chunk_steps : steps a chunk, instead of as many as fit into 50 ms;
-    the result does not depend on it.
+    the result does not depend on it. pacing : accompanies the run from chunk to chunk.
     """
-    system, stabilisation = prepared.motion.system, STABILISATIONS[settings.stabilisation]
-    set_feedback(system, settings, stabilisation)
-    run = start_history(prepared, settings, prepared.integrator)
-    run.counter[CONSERVE] = int(stabilisation.CONSERVES)
-    advance = compiled_loop(prepared, run, stabilisation)
+    system, loop = prepared.motion.system, start_loop(prepared, settings)
+    run = loop.history.record
     finished = RunOutcome("done")
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
     while status in GOES_ON and finished.outcome == "done":
-        status, spent = _march_in_chunks(advance, system, run, sinks, finished, progress, chunk_steps)
+        status, spent = _march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing)
         loop_seconds += spent
         if status in BEFORE_A_JAM:
             jam = jam_of(prepared, settings, run)
@@ -118,6 +136,7 @@ def march(
         finished.failure = failure_of(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
             _keep_last(prepared.motion, run, sinks)
+    finished.pace = run.pace
     finished.timing = {
         **counts_of(system, run),
         "loop_seconds": loop_seconds,
@@ -126,35 +145,24 @@ def march(
     return finished
 
 
-def set_feedback(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
+def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
+    """The compiled loop at the start of a run of `prepared`."""
+    stabilisation = STABILISATIONS[settings.stabilisation]
+    _feed_back(prepared.motion.system, settings, stabilisation)
+    kernels, facts = prepared.motion.kernels, prepared.integrator
+    correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
+    run = start_history(prepared, settings, facts)
+    run.counter[CONSERVE] = int(stabilisation.CONSERVES)
+    step = getattr(import_module(facts.module), facts.function)
+    return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))
+
+
+def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
     """Set what the stabilisation, or a penalty method, adds to the accelerations of the constraints, and what it leaves open."""
     stabilise = system.record.control.stabilise
     stabilise[:] = stabilisation.coefficients(settings.step, *(settings.baumgarte or (None, None)))
     if settings.penalty is not None:
         stabilise[:2] = feedback(settings.penalty, settings.step, stabilisation.CORRECTS)
-
-
-def compiled_loop(prepared: Prepared, run: Run, stabilisation: ModuleType) -> Callable[[], int]:
-    """The compiled loop of the run: goes on for the budget of steps in its counter, and returns a status."""
-    addresses, handles = loop_addresses(prepared, run, stabilisation)
-
-    def go() -> int:
-        assert handles  # what the addresses are of stays in place
-        return advance(*addresses)
-
-    return go
-
-
-def loop_addresses(
-    prepared: Prepared, run: Run, stabilisation: ModuleType
-) -> tuple[tuple[int, ...], tuple[Handle, ...]]:
-    """What `nivel.integrate.loop.advance` is called with, and the handles of the records among it, to be kept alive."""
-    kernels, facts = prepared.motion.kernels, prepared.integrator
-    correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
-    step = getattr(import_module(facts.module), facts.function)
-    machine, history = prepared.motion.handle, Handle(run)
-    addresses = kernels.evaluate.address, correct.address, step.address, machine.address, history.address
-    return addresses, (machine, history)
 
 
 def _march_in_chunks(
@@ -165,20 +173,26 @@ def _march_in_chunks(
     finished: RunOutcome,
     progress: Progress | None,
     chunk_steps: int | None,
+    pacing: Pacing | None,
 ) -> tuple[int, float]:
     """The last status, and the time [s] spent in the compiled loop. Events, and an interruption, are noted in `finished`."""
     budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
     with interruptible() as interrupted:
         while status in GOES_ON:
+            if pacing is not None and not pacing.before(run):
+                finished.outcome = "interrupted"
+                break
             run.counter[BUDGET] = budget
-            begin = clock_of_python.process_time()
+            begin = clock_of_python.thread_time()
             status = advance()
-            spent = clock_of_python.process_time() - begin
+            spent = clock_of_python.thread_time() - begin
             loop_seconds += spent
             give_frames(run, sinks)
             finished.events += taken_events(run, system.events)
             if progress is not None:
                 progress(float(run.clock[TIME]))
+            if pacing is not None:
+                pacing.after(run)
             if chunk_steps is None and status == BUDGET_SPENT:
                 budget = _next_budget(budget, spent)
             if status in GOES_ON and interrupted():

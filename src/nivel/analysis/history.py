@@ -12,12 +12,14 @@ from nivel.analysis.settings import RunSettings
 from nivel.integrate.catalogue import IntegratorFacts
 from nivel.integrate.run import (
     ALL_STEPS,
+    ALLOWED,
     CLOCKS,
     CORRECTOR_TOLERANCE,
     COUNTS,
     DENSE_ROWS,
     END,
     EVERY,
+    HORIZON,
     INTERVAL,
     LARGEST,
     LAST_FRAME,
@@ -25,6 +27,7 @@ from nivel.integrate.run import (
     NEWTON,
     OPEN_LIMIT,
     ORDER,
+    PARTS,
     SHOWN,
     STEP,
     SWITCHED,
@@ -85,6 +88,8 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         frames=np.zeros((rows, width)),
         event_values=np.zeros((6, values)),
         samples=np.zeros(len(system.record.sampled.state), dtype=np.int64),
+        corners=np.array(prepared.corners, dtype=float),
+        pace=_pace(prepared, settings),
         events=np.zeros((EVENT_ROWS if len(system.record.watched.event) else 0, 3)),
     )
 
@@ -93,11 +98,20 @@ def _clock(settings: RunSettings, open_limit: float) -> Array:
     clock = np.zeros(CLOCKS)
     clock[STEP], clock[END], clock[INTERVAL] = settings.step, settings.duration, settings.output_interval
     clock[TOLERANCE], clock[LARGEST] = settings.tolerance or 0.0, settings.largest_step
-    clock[SHOWN] = -np.inf
+    clock[SHOWN], clock[HORIZON] = -np.inf, np.inf
     clock[OPEN_LIMIT] = open_limit
     if settings.corrector is not None:
         clock[CORRECTOR_TOLERANCE] = settings.corrector.tolerance
     return clock
+
+
+def _pace(prepared: Prepared, settings: RunSettings) -> Array:
+    """Nothing done yet, and steps as long as the settings and the functions of time allow."""
+    pace = np.zeros((3, PARTS))
+    pace[ALLOWED] = settings.largest_step
+    if prepared.allowed is not None:
+        pace[ALLOWED] = np.minimum(pace[ALLOWED], prepared.allowed)
+    return pace
 
 
 def _open_limit(prepared: Prepared, settings: RunSettings) -> float:

@@ -13,6 +13,7 @@ from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.ground import touches_ground
 from nivel.analysis.implicit import ResidualOptions, constraint_index, with_residual
+from nivel.analysis.loads.ahead import allowed_steps
 from nivel.analysis.mobility import bound_pivots
 from nivel.analysis.modal_rows import modal_rows
 from nivel.analysis.penalties import penalise
@@ -39,7 +40,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Prepared:
     """A machine ready to run: where its equations are, these and its state at the start in the coordinates of the run, both again in
-    absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings, its beams."""
+    absolute ones as assembled, its redundancy, the number of its drivers, the integrator of its settings, its beams, and the corners [s]
+    of its functions of time at which the steps of the loop have to end; where steps are chosen, how long they may be in which part [s]."""
 
     path: PathFacts
     motion: MotionEquations
@@ -50,6 +52,8 @@ class Prepared:
     drivers: int
     integrator: IntegratorFacts
     beams: tuple[Beam, ...] = ()
+    corners: tuple[float, ...] = ()
+    allowed: Array | None = None
 
 
 def prepare(methods: Methods) -> Prepared:
@@ -69,7 +73,19 @@ def prepare(methods: Methods) -> Prepared:
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
     if integrator.residual:
         prepared = with_residual(prepared, y, methods.coordinates, _wanted(prepared, methods), path)
-    return Prepared(path, prepared, y, absolute, assembly, redundancy, len(machine.drivers), integrator, machine.beams)
+    return Prepared(
+        path,
+        prepared,
+        y,
+        absolute,
+        assembly,
+        redundancy,
+        len(machine.drivers),
+        integrator,
+        machine.beams,
+        corners(machine) if methods.chooses_steps and not integrator.residual else (),
+        allowed_steps(machine, machine.simulation.duration) if methods.chooses_steps else None,
+    )
 
 
 def _assembled(machine: MachineRecord, motion: MotionEquations) -> tuple[Assembly, Settled | None]:

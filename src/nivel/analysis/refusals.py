@@ -52,16 +52,22 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
 
 
 def refuse_samples_between_steps(machine: MachineRecord, step: float, *, fixed: bool) -> None:
-    """Sampled states whose times are not ends of fixed steps [s]."""
+    """Sampled states and blocks whose times are not ends of fixed steps [s]."""
     faults = []
-    for state in machine.states if fixed else ():
-        count = round(state.every / step) if state.every else 0
-        if state.every and (count < 1 or abs(count * step - state.every) > WHOLE * state.every):
+    times = [(f"states.{state.name}.every", state.every) for state in machine.states]
+    times += [
+        (f"control.{block.name}.{key}", getattr(block, key))
+        for block in machine.control
+        for key in ("sample_time", "offset", "latency")
+    ]
+    for place, time in times if fixed else ():
+        count = round(time / step) if time else 0
+        if time and (count < 1 or abs(count * step - time) > WHOLE * time):
             message = (
-                f"{state.every:.6g} s is no whole number of steps of {step:.6g} s, and fixed steps stay as they are: "
-                f"`simulation: {{step: {state.every / max(count, 1):.6g}}}` would fit, or an integrator that chooses its steps"
+                f"{time:.6g} s is no whole number of steps of {step:.6g} s, and fixed steps stay as they are: "
+                f"`simulation: {{step: {time / max(count, 1):.6g}}}` would fit, or an integrator that chooses its steps"
             )
-            faults.append(Fault("", 0, 0, f"states.{state.name}.every", message))
+            faults.append(Fault("", 0, 0, place, message))
     if faults:
         raise ModelError(faults)
 

@@ -10,6 +10,8 @@ from nivel.errors import Fault, ModelError
 from nivel.integrate.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
 from nivel.integrate.catalogue import INTEGRATORS, IntegratorFacts, chooses
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.machine.arithmetic import ExpressionError
+from nivel.machine.quantity import expression_fault, read_quantity, shown
 from nivel.machine.settings import Corrector, Penalty, SimulationSettings
 from nivel.motion.catalogue import FORMULATIONS
 
@@ -140,6 +142,17 @@ def complete(settings: SimulationSettings, coordinates: str = "absolute") -> Run
         constants=_constants(settings),
         start=settings.start,
     )
+
+
+def waiting_time(name: str, value: float | str) -> float:
+    """A time [s] that the option `name` gives as a number or a text; zero is none to wait. Raises ModelError."""
+    try:
+        seconds = read_quantity(value, "time", {})
+    except ExpressionError as problem:
+        raise ModelError(Fault("", 0, 0, name, expression_fault(problem, value).message())) from None
+    if seconds < 0.0:
+        raise ModelError(Fault("", 0, 0, name, f"a time was expected, got {shown(value)}"))
+    return seconds
 
 
 def _corrector(given: Corrector, facts: IntegratorFacts) -> Corrector:

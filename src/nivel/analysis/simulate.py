@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import json
 import time
-from dataclasses import replace
 from os import PathLike
 
 from nivel.analysis.attributes import run_attributes
 from nivel.analysis.dynamics import RunOutcome, march
+from nivel.analysis.findings import find
 from nivel.analysis.held_friction import resting_frictions
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
-from nivel.analysis.settings import RunSettings
+from nivel.analysis.saturation import saturated_blocks
+from nivel.analysis.second_run import SecondRun, Verified
 from nivel.errors import SolveError
-from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.sink import Header
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.accuracy import error_from_finer
+from nivel.results.accuracy import error_from_finer, factor
+from nivel.results.estimate import ATTRIBUTE as ESTIMATES
+from nivel.results.estimate import estimate_errors
+from nivel.results.findings import finding_items
 from nivel.results.held import Held, shared_loads
 from nivel.results.held_together import Sticking, loads_held_together
 from nivel.results.memory import Memory
@@ -26,7 +29,7 @@ from nivel.results.neglected import Neglected, cost
 from nivel.results.occurrence import to_json
 from nivel.results.result import Result
 from nivel.results.store import Store
-from nivel.results.trust import Facts, Peak, SmallState, assess, peak
+from nivel.results.trust import Facts, SmallState, assess, peak
 from nivel.system.flexible import bending_bodies
 
 # A state whose values stay below this share of its scale is not followed to the tolerance.
@@ -40,46 +43,70 @@ def simulate(
     out: str | PathLike[str] | None = None,
     force: bool = False,
     verify: bool = False,
+    verify_limit: float | None = None,
     listener: Listener | None = None,
     compile_seconds: float = 0.0,
 ) -> Result:
     """Run as planned; the result is in memory, or streamed to the file `out`.
 
     compile_seconds : what was spent on compiling before, for the result's timing.
-    verify : run again with half the step, or a tenth of the tolerance, and estimate the accuracy from the difference.
+    verify : a second run goes beside this one, with finer steps on other times, and its distance tells how exact this one is; it goes on
+    after it for `verify_limit` [s] at most, by default as long again as it took.
     Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails.
     """
     listener = listener or Listener()
-    machine, settings = plan.machine, plan.settings
     sink = Memory() if out is None else Store(out, force)
     begin = time.perf_counter()
     listener.say("preparing")
     prepared = prepare(plan.methods)
+    second = SecondRun(plan, verify_limit) if verify else None
+    try:
+        return _run(plan, prepared, sink, second, source, listener, begin, compile_seconds)
+    finally:
+        if second is not None:
+            second.cancel()
+
+
+def _run(
+    plan: Plan,
+    prepared: Prepared,
+    sink: Memory | Store,
+    second: SecondRun | None,
+    source: str,
+    listener: Listener,
+    begin: float,
+    compile_seconds: float,
+) -> Result:
+    """The run, with the second one beside it."""
+    machine, settings = plan.machine, plan.settings
     sink.begin(Header(prepared.motion.system.layout, run_attributes(machine, source, prepared, settings)))
     resting = resting_frictions(machine, prepared.absolute, prepared.assembly.y)
     prepare_seconds = time.perf_counter() - begin
     listener.say("running", settings.duration)
-    finished = march(prepared, settings, [sink], progress=listener.progress)
-    accuracy = None
-    if verify and finished.outcome == "done" and not finished.asked_to_stop:
-        listener.say(f"verifying with {_finer(settings)[1]}", settings.duration)
-        accuracy = _estimate(plan, sink.result(), listener)
+    finished = march(
+        prepared, settings, [sink], progress=listener.progress, pacing=second.leader if second is not None else None
+    )
+    verified = None
+    if second is not None and finished.outcome == "done" and not finished.asked_to_stop:
+        verified = second.wait(listener)
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
-    return _close(sink, machine, prepared, finished, accuracy, _finer(settings)[1], resting, seconds)
+    return _close(sink, plan, prepared, finished, verified, resting, seconds)
 
 
 def _close(
     sink: Memory | Store,
-    machine: MachineRecord,
+    plan: Plan,
     prepared: Prepared,
     finished: RunOutcome,
-    accuracy: Peak | None,
-    refinement: str,
+    verified: Verified | None,
     resting: tuple[tuple[Held, ...], tuple[Sticking, ...]],
     timing: dict[str, float],
 ) -> Result:
-    redundancy = prepared.redundancy
+    redundancy, machine = prepared.redundancy, plan.machine
     message, advice, at = finished.failure or ("", "", 0.0)
+    left = verified.refinement.left if verified is not None else 0.0
+    estimate = estimate_errors(sink.result(), verified.result, factor(left)) if verified is not None else None
+    findings = find(plan, prepared, finished, sink.result(), verified, estimate)
     facts = Facts(
         outcome=finished.outcome,
         degrees_of_freedom=redundancy.degrees_of_freedom,
@@ -87,12 +114,16 @@ def _close(
         drivers=prepared.drivers,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
-        accuracy=accuracy,
-        refinement=refinement,
+        accuracy=error_from_finer(sink.result(), verified.result, left) if verified is not None else None,
+        refinement=verified.refinement.words if verified is not None else "",
+        verified_until=verified.until if verified is not None and verified.ended else None,
+        verification_ended=verified.ended if verified is not None else "",
         failure=message,
         stopped_by=finished.stopped_by,
         neglected=cost(sink.result(), _neglected(machine)),
+        further=tuple(finding_items(findings)),
         small_states=_small_states(sink.result(), prepared),
+        saturated=saturated_blocks(machine, sink.result()),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
     attributes: dict[str, str | float | int] = {
@@ -104,6 +135,8 @@ def _close(
         "trust": assess(sink.result(), facts).to_json(),
         "timing": json.dumps({**finished.timing, **timing}),
     }
+    if estimate is not None:
+        attributes[ESTIMATES] = estimate.to_json()
     result = sink.close(attributes)
     if finished.failure is not None:
         raise SolveError(message, time=at, advice=advice, result=result)
@@ -116,7 +149,7 @@ def _small_states(result: Result, prepared: Prepared) -> tuple[SmallState, ...]:
         return ()
     out = []
     for fact in prepared.motion.system.states:
-        largest = peak(result, f"state.{fact.name}").value
+        largest = peak(result, fact.result).value
         if not fact.sampled and 0.0 < largest < SMALL * fact.scale:
             out.append(SmallState(fact.name, largest, fact.scale))
     return tuple(out)
@@ -132,25 +165,3 @@ def _neglected(machine: MachineRecord) -> tuple[Neglected, ...]:
             out.append(Neglected(name, first, last, each.reduced.invariants, each.neglected))
         first = last
     return tuple(out)
-
-
-def _finer(settings: RunSettings) -> tuple[RunSettings, str, float]:
-    """A finer run with frames at the same times, what is finer in words, and the share of the error that is left in it.
-
-    Where steps are chosen, half the first one would change nothing: errors follow the tolerance.
-    """
-    if settings.tolerance is not None:
-        return replace(settings, tolerance=0.1 * settings.tolerance), "a tenth of the tolerance", 0.1
-    halved = replace(settings, step=settings.step / 2, every=2 * settings.every, steps=2 * settings.steps)
-    return halved, "half the step", 0.5 ** INTEGRATORS[settings.integrator].order
-
-
-def _estimate(plan: Plan, coarse: Result, listener: Listener) -> Peak | None:
-    """Estimated error of `coarse`, from its largest difference from a finer run; None where that was broken off."""
-    finer, _, left = _finer(plan.settings)
-    sink = Memory()
-    prepared = prepare(plan.methods)
-    sink.begin(Header(prepared.motion.system.layout, {}))
-    if march(prepared, finer, [sink], progress=listener.progress).asked_to_stop:
-        return None
-    return error_from_finer(coarse, sink.result(), left)

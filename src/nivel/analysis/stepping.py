@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike, fspath
@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.attributes import run_attributes
 from nivel.analysis.bound_entry import BoundEntry
-from nivel.analysis.dynamics import BEFORE_A_JAM, failure_of, jam_of, loop_addresses, set_feedback, taken_events
-from nivel.analysis.history import start_history
+from nivel.analysis.dynamics import BEFORE_A_JAM, failure_of, jam_of, start_loop, taken_events
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
 from nivel.arguments import plain
@@ -27,7 +26,6 @@ from nivel.integrate.loop import advance
 from nivel.integrate.run import (
     ALL_STEPS,
     BUDGET,
-    CONSERVE,
     DONE_STEPS,
     END,
     EVENTS,
@@ -39,7 +37,6 @@ from nivel.integrate.run import (
     Run,
 )
 from nivel.integrate.sink import Header
-from nivel.integrate.stabilise.catalogue import STABILISATIONS
 from nivel.kernels.observe import observe
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE, OK
 from nivel.results.memory import Memory, MemoryContents
@@ -302,15 +299,13 @@ def refuse_chosen_steps(plan: Plan) -> None:
         raise ModelError(Fault("", 0, 0, "integrator", message))
 
 
-def _endless(prepared: Prepared, plan: Plan) -> tuple[Run, Callable[[], int]]:
+def _endless(prepared: Prepared, plan: Plan) -> tuple[Run, BoundEntry]:
     """A run without an end, and its compiled loop."""
-    settings, stabilisation = plan.settings, plan.stabilisation
-    set_feedback(prepared.motion.system, settings, stabilisation)
-    run = start_history(prepared, settings, prepared.integrator)
-    run.counter[CONSERVE] = int(STABILISATIONS[settings.stabilisation].CONSERVES)
+    loop = start_loop(prepared, plan.settings)
+    run: Run = loop.history.record
     run.counter[ALL_STEPS], run.clock[END] = ENDLESS, np.inf
-    addresses, handles = loop_addresses(prepared, run, stabilisation)
-    return run, BoundEntry(advance, addresses, handles)
+    codes = loop.evaluate.address, loop.correct.address, loop.step.address
+    return run, BoundEntry(advance, [*codes, loop.machine.address, loop.history.address], keep=loop)
 
 
 def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:

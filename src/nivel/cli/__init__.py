@@ -29,7 +29,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "view": CommandPlace("nivel.cli.view", "Play a result, or move a machine, in the browser."),
     "explain": CommandPlace("nivel.cli.explain", "Say how far a result can be trusted, and why."),
     "stress": CommandPlace("nivel.cli.stress", "Say where and when a flexible body is stressed most."),
-    "export": CommandPlace("nivel.cli.export", "Write a result in another format."),
+    "export": CommandPlace("nivel.cli.export", "Write a result as a table, or a machine as a C library."),
     "warmup": CommandPlace("nivel.cli.warmup", "Compile all kernels ahead of the first run."),
 }
 

@@ -43,7 +43,10 @@ def _print(result: Result) -> None:
     time = result.time
     extent = f"{time[0]:.6g} to {time[-1]:.6g} s, {len(time)} frames" if len(time) else "no frame"
     console.print(Text.assemble((result.name, "bold"), f": {extent}"))
-    console.print(Text.assemble("trust: ", (trust.verdict, f"bold {COLOURS[trust.verdict]}"), "\n"))
+    verified = result.is_statics or trust.accuracy_estimate is not None
+    verdict = (trust.verdict, f"bold {COLOURS[trust.verdict]}") if verified or trust.verdict != "green" else ""
+    headline = "" if result.is_statics else f"{', ' if verdict else ''}{trust.headline}"
+    console.print(Text.assemble("trust: ", verdict, headline, "\n"))
     lines = Table.grid(padding=(0, 1))
     for item in trust.items:
         lines.add_row(Text(f"{SIGNS[item.verdict]} {item.verdict}", COLOURS[item.verdict]), Text(item.text))

@@ -1,4 +1,4 @@
-"""`nivel export RESULT --csv [FILE]`: a result as a table for other programs."""
+"""`nivel export RESULT --csv [FILE]`, a result as a table, and `nivel export MACHINE --c FOLDER`, a machine as a C library."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from pathlib import Path
 
 import click
 
-from nivel.cli.options import file_argument
+from nivel.cli.options import file_argument, override_option
 
 BESIDE = "\0"  # stands for `--csv` without a file
 
 
-@click.command(short_help="Write a result in another format.")
-@file_argument("result")
+@click.command(short_help="Write a result as a table, or a machine as a C library.")
+@file_argument("source")
 @click.option(
     "--csv",
     "target",
@@ -29,11 +29,38 @@ BESIDE = "\0"  # stands for `--csv` without a file
     help="Only these columns, separated by commas: hinge.angle, crank.position, crank, '*.force'. May be repeated.",
 )
 @click.option("--force", is_flag=True, help="Replace an existing file.")
-def command(result: str, target: str | None, select: tuple[str, ...], force: bool) -> None:
-    """Write RESULT in another format.
+@click.option("--c", "folder", metavar="FOLDER", help="Write a C library of the machine SOURCE into a new folder.")
+@override_option
+def command(
+    source: str, target: str | None, select: tuple[str, ...], force: bool, folder: str | None, overrides: dict[str, str]
+) -> None:
+    """Write SOURCE in another form: a result as a table, or a machine as a C library.
 
-    RESULT may be of a run that still goes on or was killed. Numbers are written so that they are read back exactly.
+    A result may be of a run that still goes on or was killed. Numbers are written so that they are read back exactly.
+    The library steps the machine with the fixed step of its simulation settings; `make` builds it and an example.
     """
+    if folder is not None:
+        if target is not None or select or force:
+            raise click.UsageError("--c takes a machine; --csv, --select and --force belong to results")
+        _write_c_library(source, folder, overrides)
+        return
+    if overrides:
+        raise click.UsageError("--set changes a machine; it belongs to --c")
+    _write_table(source, target, select, force)
+
+
+def _write_c_library(machine: str, folder: str, overrides: dict[str, str]) -> None:
+    from nivel.api import load
+
+    written = load(machine, overrides).export_c(folder)
+    click.echo(
+        f"C library: {written.folder}/{written.name}.h, {len(written.outputs)} outputs, {written.size / 1000:.0f} kB a machine; "
+        f"`make -C {written.folder}` builds it",
+        err=True,
+    )
+
+
+def _write_table(result: str, target: str | None, select: tuple[str, ...], force: bool) -> None:
     import sys
 
     from nivel.results import Result
@@ -41,7 +68,7 @@ def command(result: str, target: str | None, select: tuple[str, ...], force: boo
     from nivel.results.target import check_target
 
     if target is None:
-        raise click.UsageError("say in which format: --csv [FILE]")
+        raise click.UsageError("say in which form: --csv [FILE] of a result, --c FOLDER of a machine")
     opened = Result.open(result)
     names = [name.strip() for entry in select for name in entry.split(",") if name.strip()]
     if target == "-":

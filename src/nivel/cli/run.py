@@ -15,6 +15,7 @@ from nivel.cli.progress import progress_listener
 
 if TYPE_CHECKING:
     from nivel.results import Result
+    from nivel.results.verdicts import Trust
 
 COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 
@@ -26,10 +27,11 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 @allow_code_option
 @click.option("--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here.")
 @click.option("--force", is_flag=True, help="Replace an existing result.")
+@click.option("--no-verify", is_flag=True, help="Make no second run, and say nothing of how exact the result is.")
 @click.option(
-    "--verify",
-    is_flag=True,
-    help="Run again with half the step, or a tenth of the tolerance, and estimate the accuracy.",
+    "--verify-limit",
+    metavar="TIME",
+    help="How long the second run may go on after the first, e.g. '1 min'; default: as long again as that took, and at least 10 s.",
 )
 @click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
 @quiet_option
@@ -40,13 +42,16 @@ def command(
     allow_code: bool,
     out: str | None,
     force: bool,
-    verify: bool,
+    no_verify: bool,
+    verify_limit: str | None,
     no_report: bool,
     quiet: bool,
     as_json: bool,
     settings: dict[str, Any],
 ) -> None:
     """Simulate MACHINE and write its result (NetCDF) and report (HTML).
+
+    A second run with finer steps goes beside the first on another core and tells how exact the result is, every number of it.
 
     Options go before what the machine file says under `simulation:`. The file may hold settings of several methods; an option that has
     no effect with the methods of this run is refused. Exit code 0 done, 2 the input is at fault, 3 the computation failed, 130
@@ -67,7 +72,8 @@ def command(
                 **settings,
                 out=target,
                 force=force,
-                verify=verify,
+                verify=not no_verify,
+                verify_limit=verify_limit,
                 listener=listener,
             )
         except SolveError as error:
@@ -124,7 +130,6 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
     console = Console(stderr=True, highlight=False)
     trust = result.trust
     timing = result.timing
-    colour = COLOURS[trust.verdict]
     done = f"[bold]{result.name}[/bold]: {result.outcome}, {result.time[-1] if len(result.time) else 0:.6g} s simulated"
     if timing:  # not where the run was broken off
         per_step = 1e6 * timing["loop_seconds"] / max(timing["steps"], 1)
@@ -134,10 +139,17 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
         console.print(line)
     for line in in_words(result.events, result.stopped_by):
         console.print(f"event: {line}", markup=False)
-    console.print(f"trust: [{colour}]{trust.verdict}[/{colour}]")
+    console.print(f"trust: {said_in_colour(trust)}", soft_wrap=True)
     for item in trust.items:
         console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
     console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
+
+
+def said_in_colour(trust: Trust) -> str:
+    """The verdict and the headline; of a run that was not verified no green one."""
+    verdict = "" if trust.accuracy_estimate is None and trust.verdict == "green" else trust.verdict
+    coloured = f"[{COLOURS[verdict]}]{verdict}[/], " if verdict else ""
+    return f"{coloured}{trust.headline}"
 
 
 def assembly_lines(result: Result) -> Iterator[str]:

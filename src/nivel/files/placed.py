@@ -11,7 +11,7 @@ from nivel.files.placed_forces import placed_force
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement
 from nivel.files.scene import Scene
 from nivel.files.substitution import NotRepresentableError, negative
-from nivel.machine import Driver, Event, LinearCoupling, Rack, Record, Sensor, State
+from nivel.machine import Block, Driver, Event, LinearCoupling, Rack, Record, Sensor, State
 from nivel.machine.record import entry
 
 Elements = Mapping[str, Sequence[Record]]
@@ -37,6 +37,7 @@ def placed(elements: Elements, placing: Placement) -> dict[str, tuple[Record, ..
         "forces": lambda force: placed_force(force, scene),
         "sensors": lambda sensor: placed_sensor(sensor, scene),
         "states": lambda state: placed_state(state, scene),
+        "control": lambda block: placed_block(block, scene),
         "events": lambda event: placed_event(event, scene),
     }
     made = {section: tuple(_by(rules[section], record) for record in elements[section]) for section in elements}
@@ -94,6 +95,14 @@ def placed_state(state: State, scene: Scene) -> State:
     """
     name = "rate" if state.rate is not None else "update"
     return state.replace(**{name: scene.varied(getattr(state, name))})
+
+
+def placed_block(block: Block, scene: Scene) -> Block:
+    """`block` of a control in the placed part: it computes what it would in the part.
+
+    Raises NotRepresentableError.
+    """
+    return scene.followed(block)
 
 
 def placed_event(event: Event, scene: Scene) -> Event:

@@ -4,12 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from nivel.files.placement import AXIAL_Z, Placement, Triple, orientation_of, triple
 from nivel.files.substitution import Linear, same, substituted
-from nivel.machine import GROUND, Beam, Body, Joint, Marker, Record, TimeFunction, marker_frame, placement
+from nivel.machine import (
+    GROUND,
+    Beam,
+    Body,
+    Expression,
+    Joint,
+    Marker,
+    PythonLaw,
+    Record,
+    Table,
+    TimeFunction,
+    marker_frame,
+    placement,
+)
 from nivel.machine.orientation import matrix_from_euler_parameters
 
 _QUANTITIES = {f"{kind}{axis}": (kind, at) for kind in ("", "v", "w") for at, axis in enumerate("xyz")}
@@ -62,6 +76,25 @@ class Scene:
         Raises NotRepresentableError.
         """
         return substituted(function, self.signal)
+
+    def followed(self, record: Any) -> Any:
+        """A record whose functions, and those of records in it, have the signals of the placed part.
+
+        Raises NotRepresentableError.
+        """
+        changes = {name: self._followed(getattr(record, name)) for name in record.model_fields_set - {"name"}}
+        changes = {name: value for name, value in changes.items() if value is not getattr(record, name)}
+        return record.replace(**changes) if changes else record
+
+    def _followed(self, value: Any) -> Any:
+        match value:
+            case Expression() | Table() | PythonLaw():
+                return self.varied(value)
+            case Record():
+                return self.followed(value)
+            case tuple() if any(isinstance(each, Expression | Table | PythonLaw | Record) for each in value):
+                return tuple(self._followed(each) for each in value)
+        return value
 
     def marker(self, marker: Marker, kept: Triple = AXIAL_Z) -> Marker:
         """`marker` in the placed part. `kept`: which of its axes are images where the part is mirrored."""

@@ -16,6 +16,7 @@ from pydantic import ValidationError
 from nivel.errors import Fault, ModelError
 from nivel.files.assembly import Assembly, given_parameters, made_by, read_assembly
 from nivel.files.body_files import place_body_files
+from nivel.files.csv_tables import read_csv_tables
 from nivel.files.include import include
 from nivel.files.mass_file import read_mass_properties
 from nivel.files.mesh_file import read_meshes
@@ -25,7 +26,7 @@ from nivel.files.python_laws import read_python_laws
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine import MachineRecord, Record
-from nivel.machine.arithmetic import Number, Parameters
+from nivel.machine.arithmetic import Number, Parameters, Signal
 from nivel.machine.parameters import resolve
 from nivel.machine.quantity import FAULT
 from nivel.machine.references import SECTIONS
@@ -92,6 +93,7 @@ def _tree_of(
         given_parameters(tree, *user)
     read_meshes(tree, sources)
     read_python_laws(tree, sources)
+    read_csv_tables(tree, sources)
     parameters, faults = resolve(section_of(tree, "parameters"))
     tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]
     return tree, parameters
@@ -185,8 +187,9 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
         else:
             data.pop(section, None)
     data.setdefault("bodies", [])
+    signals = {name: Signal(f"{name}.value") for name in names["control"] if name not in parameters}
     try:
-        record = MachineRecord.model_validate(data, context={"parameters": parameters})
+        record = MachineRecord.model_validate(data, context={"parameters": {**parameters, **signals}})
     except ValidationError as error:
         for line in error.errors(include_url=False):
             path = _path_in_file(line["loc"], names)

@@ -7,6 +7,7 @@ import numpy as np
 from nivel.integrate.dense import cubic, frame_time, inside
 from nivel.integrate.energy import conserve
 from nivel.integrate.events import begin_events, find_events, hand_out_events
+from nivel.integrate.pace import allow, note_step
 from nivel.integrate.run import (
     ACCEPTED,
     ADVANCE,
@@ -20,6 +21,7 @@ from nivel.integrate.run import (
     EVALUATIONS,
     EVERY,
     FRAMES,
+    HORIZON,
     INSIDE,
     KNOWN,
     LAST_FRAME,
@@ -37,6 +39,7 @@ from nivel.integrate.run import (
     run_at,
 )
 from nivel.integrate.samples import find_bound, take_samples
+from nivel.integrate.step_control import fastest_turn
 from nivel.kernels.function import NEAR
 from nivel.kernels.hook import call_correct, call_evaluate, call_hook
 from nivel.kernels.observe import accept, observe
@@ -259,8 +262,11 @@ def take_step(evaluate, correct, step, machine, history):
     if fixed:
         clock[REACHED] = time_of(run, n + 1)
         clock[STEP] = clock[REACHED] - clock[TIME] if n + 1 == counter[ALL_STEPS] else h
+    else:
+        allow(run)
     find_bound(machine, run)
     counter[DENSE] = 0
+    speed = fastest_turn(machine)
     status = call_step(step, evaluate, machine, history)
     if fixed:
         clock[STEP] = h
@@ -270,6 +276,8 @@ def take_step(evaluate, correct, step, machine, history):
         status = correct_reached(correct, machine, history)
     if status == OK and not finite(run.y):
         status = NOT_FINITE
+    if status == OK:
+        note_step(machine, run, speed)
     if status == OK and run.event_values.shape[1] > 0:
         status = find_events(evaluate, correct, machine, history)
     return status
@@ -277,7 +285,8 @@ def take_step(evaluate, correct, step, machine, history):
 
 @entry(ADVANCE)
 def advance(evaluate, correct, step, machine, history):
-    """Advance until Python must act: buffer full, budget spent, end, or failure. Returns a status of `nivel.kernels.status`.
+    """Advance until Python must act: buffer full, budget spent, horizon reached, end, or failure. Returns a status of
+    `nivel.kernels.status`.
 
     Each step: evaluate at the accepted state, accept it, write a frame if one is due, step, correct, find the events of the step, hand
     them out with the frames inside the step.
@@ -305,7 +314,7 @@ def advance(evaluate, correct, step, machine, history):
                 return status
         if at_end(run):
             return DONE
-        if budget == 0:
+        if budget == 0 or clock[TIME] >= clock[HORIZON]:
             return BUDGET_SPENT
         budget -= 1
         status = take_step(evaluate, correct, step, machine, history)

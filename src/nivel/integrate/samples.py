@@ -1,11 +1,11 @@
-"""Samples: states that change at given times or at events, between two steps."""
+"""Samples: states that change at given times or at events, between two steps; and the times at which steps end, theirs among them."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from nivel.integrate.crossing import read_values
-from nivel.integrate.run import BEFORE, BOUND, DONE_STEPS, END, EVALUATIONS, RESTART, TIME, run_at
+from nivel.integrate.run import BEFORE, BOUND, CORNER, DONE_STEPS, END, EVALUATIONS, RESTART, TIME, run_at
 from nivel.kernels.function import NEAR
 from nivel.kernels.hook import call_evaluate, call_hook
 from nivel.kernels.record import NONE, SAMPLE, record_at
@@ -15,13 +15,23 @@ from nivel.native.function import leaf
 
 @leaf
 def find_bound(machine, run):
-    """clock[BOUND] := the time of the next sample, or the end of the run where that is earlier: no step goes beyond it."""
-    period = record_at(machine).sampled.period
+    """clock[BOUND] := the time of the next sample or corner, or the end of the run where that is earlier: no step goes beyond it."""
+    sampled = record_at(machine).sampled
     run.clock[BOUND] = run.clock[END]
-    for k in range(period.shape[0]):
-        if period[k] > 0.0:
-            # a product, not a running sum, so that times carry no round-off from sample to sample
-            run.clock[BOUND] = min(run.clock[BOUND], run.samples[k] * period[k])
+    for k in range(sampled.period.shape[0]):
+        if sampled.period[k] > 0.0:
+            run.clock[BOUND] = min(run.clock[BOUND], next_sample(sampled, run, k))
+    corners, t = run.corners, run.clock[TIME]
+    while run.counter[CORNER] < corners.shape[0] and corners[run.counter[CORNER]] <= t + NEAR * np.abs(t):
+        run.counter[CORNER] += 1
+    if run.counter[CORNER] < corners.shape[0]:
+        run.clock[BOUND] = min(run.clock[BOUND], corners[run.counter[CORNER]])
+
+
+@leaf
+def next_sample(sampled, run, k):
+    """Time of the next sample of entry k [s]: a product, not a running sum, so that times carry no round-off from sample to sample."""
+    return sampled.offset[k] + run.samples[k] * sampled.period[k]
 
 
 @leaf
@@ -31,7 +41,7 @@ def find_due(sampled, run):
     for k in range(sampled.state.shape[0]):
         sampled.due[k] = 0
         if sampled.period[k] > 0.0:
-            at = run.samples[k] * sampled.period[k]
+            at = next_sample(sampled, run, k)
             if t >= at - NEAR * np.abs(at):
                 sampled.due[k] = 1
                 run.samples[k] += 1
@@ -45,7 +55,7 @@ def find_due(sampled, run):
 
 @leaf
 def take_samples(evaluate, machine, history):
-    """Give sampled states that are due their new values, all from the values before, at the accepted state just evaluated.
+    """Give sampled states that are due their new values, in the order of `Sampled`, at the accepted state just evaluated.
 
     Where one changes, the state is evaluated again, and the method begins anew. Returns a status.
     """
@@ -56,8 +66,10 @@ def take_samples(evaluate, machine, history):
     first = np.int64(run.y.shape[0]) - 2 - record_at(machine).elements.state.shape[0]
     changed = False
     for k in range(sampled.state.shape[0]):
+        if sampled.due[k] == 0:
+            continue
         place = first + np.int64(sampled.state[k])
-        if sampled.due[k] == 1 and run.y[place] != sampled.value[k]:
+        if run.y[place] != sampled.value[k]:
             run.y[place] = run.previous[place] = sampled.value[k]
             changed = True
     if status != OK or not changed:

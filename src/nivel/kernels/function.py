@@ -13,9 +13,9 @@ from nivel.native.signature import COMPLEX_LAW, LAW
 # A table is past a knot where its argument comes within this share of it: times of steps are products and sums.
 NEAR = 16.0 * 2.220446049250313e-16
 # kinds of functions; a held table keeps its end values outside, an extended one its end pieces
-CONSTANT, TABLE_HELD, TABLE_EXTENDED, CODE = 0, 1, 2, 3
+CONSTANT, TABLE_HELD, TABLE_EXTENDED, CODE, LINEAR = 0, 1, 2, 3, 4
 # kinds of signals: index and component say of what
-NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY, STATE = 0, 1, 2, 3, 4, 5, 6, 7
+NUMBER, TIME, COORDINATE, RATE, POSITION, VELOCITY, ANGULAR_VELOCITY, STATE, OUTPUT = 0, 1, 2, 3, 4, 5, 6, 7, 8
 
 
 # call_law(address, arguments): the value of a law or an expression; about 3 ns
@@ -75,6 +75,18 @@ def read_arguments(machine, k, t):
             functions.arguments[place] = record.bodies.omega[record.markers.body[index], component]
         elif kind == STATE:
             functions.arguments[place] = record.elements.state[index]
+        elif kind == OUTPUT:
+            functions.arguments[place] = record.outputs.value[index]
+
+
+@leaf
+def linear_value(functions, k):
+    """value + Σ factor argument of function k, whose factors stand where tables have their knots."""
+    first, factor = np.int64(functions.span[k, 2]), np.int64(functions.table[k, 0])
+    value = functions.value[k] + 0.0 * functions.arguments[first]
+    for j in range(np.int64(functions.table[k, 1]) - factor):
+        value += functions.knots[factor + j] * functions.arguments[first + j]
+    return value
 
 
 @stage
@@ -89,6 +101,8 @@ def evaluate_function(machine, k, t):
     first = np.int64(functions.span[k, 2])
     if kind == CODE:
         return call_law(functions.address[k], functions.arguments[np.int64(functions.span[k, 3]) :])
+    if kind == LINEAR:
+        return linear_value(functions, k)
     value, _, _ = table_value(functions, k, functions.arguments[first])
     return value
 

@@ -11,12 +11,15 @@ import numpy as np
 
 from nivel.kernels.analytic import absolute, arctan2, maximum, minimum, power, real
 from nivel.kernels.hook import law
+from nivel.kernels.smooth_step import step, step_acceleration, step_rate
 from nivel.native.function import leaf
 
 LENGTH = 4  # of an instruction
 # the end, which gives the value at its place; operations of two operands, and of one
 END, ADD, SUBTRACT, MULTIPLY, DIVIDE, POWER, ATAN2, MIN, MAX = range(9)
 COPY, NEGATIVE, SQUARE, SIN, COS, TAN, ASIN, ACOS, ATAN, SQRT, EXP, LOG, ABS = range(9, 22)
+# of an operand and four levels, which stand one behind the other from the place of the second operand on
+STEP, STEP_RATE, STEP_ACCELERATION = range(22, 25)
 
 
 @leaf
@@ -66,6 +69,17 @@ def operate(operation, x, y):
 
 
 @leaf
+def smooth(operation, x, levels):
+    """Value of a smooth step, or of its first or second derivative."""
+    x0, y0, x1, y1 = levels[0], levels[1], levels[2], levels[3]
+    if operation == STEP:
+        return step(x, x0, y0, x1, y1)
+    if operation == STEP_RATE:
+        return step_rate(x, x0, y0, x1, y1)
+    return step_acceleration(x, x0, y0, x1, y1)
+
+
+@leaf
 def place(x):
     """A place of a row, or an operation, that a number of it says."""
     return np.uint64(np.int64(real(x)))
@@ -79,5 +93,8 @@ def run(row):
         operation, to = place(row[at]), place(row[at + 1])
         if operation == END:
             return row[to]
-        row[to] = operate(operation, row[place(row[at + 2])], row[place(row[at + 3])])
+        x, second = row[place(row[at + 2])], place(row[at + 3])
+        row[to] = (
+            operate(operation, x, row[second]) if operation < STEP else smooth(operation, x, row[second : second + 4])
+        )
         at += np.uint64(LENGTH)

@@ -209,12 +209,17 @@ class Watched(NamedTuple):
 
 
 class Sampled(NamedTuple):
-    """States of elements that change at given times or events only."""
+    """What is computed at given times or events only, in this order: values of states, and signals that they are made of."""
 
-    state: U1  # (samples,) number of the state
+    state: U1  # (samples,) number of the state, or NONE: a signal
+    output: U1  # (samples,) place of a signal in `outputs.value`, or NONE: a state
+    at_once: (
+        U1  # (samples,) whether those behind it read its new value; others change together, all from the values before
+    )
     function: U1  # (samples,) its next value
     event: U1  # (samples,) event that takes a sample, or NONE
-    period: F1  # (samples,) [s] between samples, the first one at t = 0; zero: at the event only
+    period: F1  # (samples,) [s] between samples; zero: at the event only, or a signal, which is computed at all of them
+    offset: F1  # (samples,) [s] time of the first sample
     at_rest: U1  # (1,) 1: in statics, where the rate of such a state is what a sample would change it by
     # work
     came: U1  # (events,) whether the event came in the last step

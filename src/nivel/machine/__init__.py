@@ -3,6 +3,7 @@
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beam import Beam
 from nivel.machine.body import Body
+from nivel.machine.control import Block
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.coupling import Belt, Coupling, Gear, LinearCoupling, Rack
 from nivel.machine.dimension import KINDS
@@ -46,6 +47,7 @@ __all__ = [
     "Baumgarte",
     "Beam",
     "Belt",
+    "Block",
     "Body",
     "Box",
     "Bushing",

@@ -82,7 +82,25 @@ class Call:
 
 
 Node = Number | Time | Signal | Name | Negative | Operation | Call
-Parameters = Mapping[str, Number | None]  # None marks a parameter at fault
+# None marks a parameter at fault; blocks of a control stand among the parameters as their signals
+Parameters = Mapping[str, Number | Signal | None]
+
+
+def _step(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
+    """y0 up to x0, y1 from x1 on, and between them a way that is smooth to the second derivative."""
+    s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)
+    return y0 + (y1 - y0) * s**3 * (10.0 + s * (-15.0 + s * 6.0))
+
+
+def _step_rate(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
+    s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)
+    return (y1 - y0) / (x1 - x0) * 30.0 * s**2 * (1.0 - s) ** 2
+
+
+def _step_acceleration(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
+    s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)
+    return (y1 - y0) / (x1 - x0) ** 2 * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)
+
 
 NOT_FINITE: Final = ("nan", "inf", "infinity")
 CONSTANTS: Final = {"pi": math.pi, "e": math.e}
@@ -100,6 +118,9 @@ FUNCTIONS: Final[dict[str, tuple[Callable[..., float], tuple[int, int]]]] = {  #
     "abs": (math.fabs, (1, 1)),
     "min": (min, (2, 99)),
     "max": (max, (2, 99)),
+    "step": (_step, (5, 5)),
+    "step_rate": (_step_rate, (5, 5)),
+    "step_acceleration": (_step_acceleration, (5, 5)),
 }
 TIME: Final = "time"
 RESERVED: Final = frozenset({TIME, *CONSTANTS, *FUNCTIONS})
@@ -201,7 +222,7 @@ def _hinting_at_hyphen(problem: UnknownNameError, node: Operation) -> Expression
     )
 
 
-def _value_of(name: str, parameters: Parameters, local: Collection[str]) -> Number:
+def _value_of(name: str, parameters: Parameters, local: Collection[str]) -> Number | Signal:
     if name in parameters:
         value = parameters[name]
         if value is None:

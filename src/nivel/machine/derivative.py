@@ -26,7 +26,7 @@ from nivel.machine.arithmetic import (
 )
 
 _MOST_LEAVES: Final = 4000  # second derivatives of long products grow with the cube of their length
-_CORNERS: Final = ("abs", "min", "max")
+_CORNERS: Final = ("abs", "min", "max", "step_acceleration")
 _ZERO, _ONE, _TWO = Number(0.0), Number(1.0), Number(2.0)
 
 
@@ -58,6 +58,11 @@ def _derivative(node: Node) -> Node:
         case Call("atan2", (y, x)):
             rise = minus(times(x, _derivative(y)), times(y, _derivative(x)))
             return over(rise, plus(times(x, x), times(y, y)))
+        case Call("step" | "step_rate" as function, (argument, *levels)):
+            if any(varies(level) for level in levels):
+                raise ExpressionError(f"the levels of `{function}` vary; a driver needs constant ones")
+            after = "step_rate" if function == "step" else "step_acceleration"
+            return times(Call(after, (argument, *levels)), _derivative(argument))
         case Call(function, (argument, *_)) if function not in _CORNERS:
             return times(_outer(function, argument), _derivative(argument))
         case Call(function, _):

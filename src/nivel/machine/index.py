@@ -18,6 +18,7 @@ SECTIONS: Final = (
     "drivers",
     "forces",
     "states",
+    "control",
     "sensors",
     "events",
 )
@@ -43,7 +44,7 @@ class Index:
     """What the elements of a machine are, by name.
 
     bodies : type of the shape ("" without one), also of the stations of beams. beams : names of the stations.
-    point_masses : bodies that are. markers : the body. joints : the type. forces, states, sensors : the element.
+    point_masses : bodies that are. markers : the body. joints : the type. forces, states, control, sensors : the element.
     """
 
     bodies: Mapping[str, str]
@@ -53,6 +54,7 @@ class Index:
     joints: Mapping[str, str]
     forces: Mapping[str, Any]
     states: Mapping[str, Any]
+    control: Mapping[str, Any]
     sensors: Mapping[str, Any]
 
     @classmethod
@@ -68,6 +70,7 @@ class Index:
             joints={name: _text(entry(joint, "type")) for name, joint in _by_name(machine, "joints").items()},
             forces=_by_name(machine, "forces"),
             states=_by_name(machine, "states"),
+            control=_by_name(machine, "control"),
             sensors=_by_name(machine, "sensors"),
         )
 

@@ -20,6 +20,8 @@ from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beam import Beam
 from nivel.machine.body import Body
 from nivel.machine.checked import Checked, Problem
+from nivel.machine.control import ControlBlock
+from nivel.machine.control.problems import problems_of_control
 from nivel.machine.coordinate_uses import with_whole_coordinates
 from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
@@ -63,7 +65,7 @@ Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"
 class MachineRecord(Checked):
     """Everything nivel is told about a machine. SI, angles in radians."""
 
-    tagged = {"couplings": 2, "forces": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "forces": 2, "control": 2}  # noqa: RUF012
 
     name: Title
     description: str = ""
@@ -76,6 +78,7 @@ class MachineRecord(Checked):
     drivers: tuple[Driver, ...] = ()
     forces: tuple[Force, ...] = ()
     states: tuple[State, ...] = ()
+    control: tuple[ControlBlock, ...] = ()
     sensors: tuple[Sensor, ...] = ()
     events: tuple[Event, ...] = ()
     assembly: AssemblySettings = AssemblySettings()
@@ -123,3 +126,4 @@ class MachineRecord(Checked):
     def problems(self) -> Iterator[Problem]:
         yield from problems_of_points(self)
         yield from problems_of_interfaces(self)
+        yield from problems_of_control(self)

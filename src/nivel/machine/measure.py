@@ -167,6 +167,10 @@ def _of_call(function: str, arguments: list[Dimension | None]) -> Dimension | No
         case "atan2":
             _same(arguments[0], arguments[1], "compared")
             return _RADIAN
+        case "step" | "step_rate" | "step_acceleration":
+            along = _same(_same(arguments[0], arguments[1], "compared"), arguments[3], "compared")
+            order = ("step", "step_rate", "step_acceleration").index(function)
+            return product_of(_same(arguments[2], arguments[4], "compared"), power(along, -order) if order else None)
     if without_angle(arguments[0]) != without_angle(None):
         wanted = "an angle" if function in ("sin", "cos", "tan") else "a pure number"
         raise ExpressionError(f"`{function}` is taken of {wanted}, not of {described(arguments[0])}")

@@ -76,9 +76,13 @@ class PythonLaw:
 
 
 def read_python_law(
-    given: PythonLaw | Mapping[str, object], parameters: Parameters, local: Collection[str] = (), *, results: int = 1
+    given: PythonLaw | Mapping[str, object],
+    parameters: Parameters,
+    local: Collection[str] = (),
+    *,
+    results: int | None = 1,
 ) -> PythonLaw:
-    """`given` as a law, its arguments in SI. `results` is the count of numbers that it has to return.
+    """`given` as a law, its arguments in SI. `results` is the count of numbers that it has to return, if that is known.
 
     Raises ValidationError with all faults and their places.
     """
@@ -147,7 +151,7 @@ def _read_argument(entry: object, parameters: Parameters, local: Collection[str]
 
 
 def _faults_of_text(
-    source: str, function: str, file: str, arguments: Sequence[object], results: int
+    source: str, function: str, file: str, arguments: Sequence[object], results: int | None
 ) -> Iterator[tuple[str, str]]:
     """What is wrong with the text or with the call: (key, message)."""
     place = f"`{file}`" if file else "the Python text"
@@ -172,7 +176,8 @@ def _faults_of_text(
             message = f"{place}, line {part.lineno}: compiled code knows no `{word}`; return `math.nan` to stop the run"
             yield "source", message
     yield from _faults_of_call(defined[function], len(arguments))
-    yield from _faults_of_results(defined[function], results)
+    if results is not None:
+        yield from _faults_of_results(defined[function], results)
 
 
 def _faults_of_call(function: ast.FunctionDef, count: int) -> Iterator[tuple[str, str]]:
@@ -205,6 +210,15 @@ def _faults_of_results(function: ast.FunctionDef, count: int) -> Iterator[tuple[
             returned = f"{got} number{'s' if got != 1 else ''} in line {result.lineno}"
             yield "function", f"`{function.name}` returns {returned}; {wanted} must be returned"
             return
+
+
+def returned_count(law: PythonLaw) -> int | None:
+    """How many numbers a law returns, where that can be seen in its text."""
+    for part in ast.parse(law.source).body:
+        if isinstance(part, ast.FunctionDef) and part.name == law.function:
+            counts = [_count(found.value) for found in _returns(part) if found.value is not None]
+            return next((count for count in counts if count is not None), None)
+    return None
 
 
 def _count(result: ast.expr) -> int | None:

@@ -8,20 +8,22 @@ from typing import Any, Final
 from nivel.machine.arithmetic import Parameters
 from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.coordinate_uses import coordinate_faults
-from nivel.machine.forces import FORCES, Contact
+from nivel.machine.forces import Contact
 from nivel.machine.forces.contact import SHAPES_ON_PLANE
 from nivel.machine.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.point_masses import point_mass_faults
 from nivel.machine.record import GROUND, Record, entry, unknown_word
-from nivel.machine.symbols import symbol_faults
+from nivel.machine.symbols import outputs_of, states_of, symbol_faults
 
 __all__ = ["SECTIONS", "reference_faults"]
 
 Faults = Iterator[tuple[Place, str]]
 
 WITH_ROWS: Final = ("joints", "couplings", "drivers")  # their rows are called NAME.…, so they share their names
-_OUTPUTS: Final = {force.model_fields["type"].default: force.outputs for force in FORCES}
+# keys of blocks that may use symbols; conditions are looked at in `nivel.machine.control.problems`
+CONTROL_KEYS: Final = ("value", "input", "inputs", "reference", "measured", "feedforward", "then", "otherwise", "law")
+SHARING: Final = {"beams": "bodies and beams", "control": "states and blocks of the control"}
 _SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "extrusion", "mesh")
 
 
@@ -43,6 +45,8 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
         yield from _of_force(force, index, ("forces", at))
     for at, sensor in enumerate(elements(machine, "sensors")):
         yield from _of_sensor(sensor, index, ("sensors", at))
+    for at, block in enumerate(elements(machine, "control")):
+        yield from symbol_faults(block, ("control", at), index, parameters or {}, CONTROL_KEYS)
     for section in ("forces", "states", "sensors", "events"):
         for at, element in enumerate(elements(machine, section)):
             yield from symbol_faults(element, (section, at), index, parameters or {})
@@ -56,7 +60,15 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
 
 
 def _twice(machine: Any) -> Faults:
-    for sections in (("bodies", "beams"), ("markers",), WITH_ROWS, ("forces",), ("states",), ("sensors",), ("events",)):
+    for sections in (
+        ("bodies", "beams"),
+        ("markers",),
+        WITH_ROWS,
+        ("forces",),
+        ("states", "control"),
+        ("sensors",),
+        ("events",),
+    ):
         seen: dict[str, str] = {}
         for section in sections:
             for at, element in enumerate(elements(machine, section)):
@@ -68,7 +80,7 @@ def _twice(machine: Any) -> Faults:
                     continue
                 message = f"the name `{name}` stands twice in {section}"
                 if seen[name] != section:
-                    sharing = "bodies and beams" if section == "beams" else "joints, couplings and drivers"
+                    sharing = SHARING.get(section, "joints, couplings and drivers")
                     message = f"the name `{name}` stands in {seen[name]}; {sharing} share their names"
                 yield (section, at, "name"), message
 
@@ -133,17 +145,12 @@ def _of_sensor(sensor: Any, index: Index, place: Place) -> Faults:
             yield from _of_end(end, index, (*place, form, at))
     force, quantity = entry(sensor, "force"), entry(sensor, "quantity")
     yield from _unknown(force, index.forces, "force", (*place, "force"))
-    outputs = _outputs(index.forces.get(force)) if isinstance(force, str) else ()
+    known = index.forces.get(force) if isinstance(force, str) else None
+    outputs = (*outputs_of(known), *states_of(known)) if known is not None else ()
     if outputs and isinstance(quantity, str) and quantity not in outputs:
         type_ = entry(index.forces[str(force)], "type")
         message = f"of the {type_} `{force}`, {unknown_word(quantity, outputs, 'quantity')}"
         yield (*place, "quantity"), message
-
-
-def _outputs(force: Any) -> tuple[str, ...]:
-    """What a sensor can read of a force."""
-    its = _OUTPUTS.get(str(entry(force, "type")), ())
-    return its if entry(force, "model") in (None, "lugre") else tuple(name for name in its if name != "bristle")
 
 
 def _of_joint(joint: Any, index: Index, place: Place) -> Faults:

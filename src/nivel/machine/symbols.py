@@ -1,12 +1,12 @@
 """What expressions can use of the machine itself: `hinge.angle_rate`, `tip.vx`.
 
 A symbol is the name of an element, a dot and a quantity. Where several elements have one name, the first that has
-the quantity is meant: of joints, states, forces, sensors, markers and bodies, in this order.
+the quantity is meant: of joints, states, blocks of the control, forces, sensors, markers and bodies, in this order.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any, Final, Literal
@@ -19,6 +19,8 @@ from nivel.machine.arithmetic import (
     bind,
     signals,
 )
+from nivel.machine.control import BLOCK_TYPES
+from nivel.machine.forces import FORCES
 from nivel.machine.grammar import parse
 from nivel.machine.index import Index, Place
 from nivel.machine.joint import JOINT_COORDINATES
@@ -26,7 +28,7 @@ from nivel.machine.record import entry
 from nivel.machine.table import SIGNAL_PATH
 from nivel.machine.time_function import Expression, PythonLaw, Table
 
-Section = Literal["joints", "states", "forces", "sensors", "markers", "bodies"]
+Section = Literal["joints", "states", "control", "forces", "sensors", "markers", "bodies"]
 
 POINT_QUANTITIES: Final = ("x", "y", "z", "vx", "vy", "vz")
 STATE_QUANTITY: Final = "value"
@@ -43,6 +45,9 @@ VARYING_KEYS: Final = (
     "rate",
     "update",
 )  # keys of what may use symbols
+
+
+_OUTPUTS: Final = {force.model_fields["type"].default: force.outputs for force in FORCES}
 
 
 @dataclass(frozen=True)
@@ -83,9 +88,6 @@ def find_in(path: str, index: Index) -> Symbol:
         raise UnknownSymbolError(f"`{name}` has no `{quantity}`; {hint}")
     if name == "state" and quantity in index.states:
         raise UnknownSymbolError(f"the value of the state `{quantity}` is written `{quantity}.{STATE_QUANTITY}`")
-    if name in index.forces:
-        message = f"`{name}` is a force and has no symbols; what it depends on is measured by a sensor of `distance` or `angle`"
-        raise UnknownSymbolError(message)
     if name in index.beams:
         raise UnknownSymbolError(
             f"`{name}` is a beam and has no symbols; name a marker at one of its stations and use that"
@@ -94,7 +96,7 @@ def find_in(path: str, index: Index) -> Symbol:
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""
     empty = any(name in elements for elements in _quantities(index).values())
-    what = f"`{name}` has no symbols" if empty else f"there is no joint, state, sensor, marker or body `{name}`"
+    what = f"`{name}` has no symbols" if empty else f"there is no joint, state, block, sensor, marker or body `{name}`"
     raise UnknownSymbolError(f"{what}{hint}")
 
 
@@ -103,7 +105,8 @@ def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
     return {
         "joints": {name: _of_joint(type_) for name, type_ in index.joints.items()},
         "states": dict.fromkeys(index.states, (STATE_QUANTITY,)),
-        "forces": {name: states_of(force) for name, force in index.forces.items()},
+        "control": {name: quantities_of(block) for name, block in index.control.items()},
+        "forces": {name: (*states_of(force), *outputs_of(force)) for name, force in index.forces.items()},
         "sensors": {name: _of_sensor(sensor) for name, sensor in index.sensors.items()},
         "markers": {name: _of_frame(body, index) for name, body in index.markers.items()},
         "bodies": {name: _of_frame(name, index) for name in index.bodies if "." not in name},
@@ -124,19 +127,57 @@ def states_of(force: Any) -> tuple[str, ...]:
     return ("bristle",) if entry(force, "model") == "lugre" else ()
 
 
+def outputs_of(force: Any) -> tuple[str, ...]:
+    """What a force reports, states left out."""
+    return tuple(name for name in _OUTPUTS.get(str(entry(force, "type")), ()) if name != "bristle")
+
+
+def is_output(symbol: Symbol, index: Index) -> bool:
+    """Whether it is reported by a force, and thus known only when all forces are."""
+    return symbol.section == "forces" and symbol.quantity not in states_of(index.forces[symbol.name])
+
+
+def quantities_of(block: Any) -> tuple[str, ...]:
+    """The symbols of a block of a control: its value, and what else its kind has."""
+    kind = BLOCK_TYPES.get(str(entry(block, "type")))
+    return (STATE_QUANTITY,) if kind is None else kind.symbols(block)
+
+
 def _of_frame(body: str, index: Index) -> tuple[str, ...]:
     return POINT_QUANTITIES if body in index.point_masses else (*POINT_QUANTITIES, *TURN_QUANTITIES)
 
 
-def symbol_faults(element: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
-    """Symbols that a force, state, sensor or event uses in vain."""
-    for key in VARYING_KEYS:
+def symbol_faults(
+    element: Any, place: Place, index: Index, parameters: Parameters, keys: Sequence[str] = VARYING_KEYS
+) -> Iterator[tuple[Place, str]]:
+    """Symbols that a force, state, block, sensor or event uses in vain, under the `keys` that may use any."""
+    late = reads_outputs(str(place[0]), element)
+    for key in keys:
         value = entry(element, key)
         for where, path in _used(value, (*place, key), index, parameters):
             try:
-                find_in(path, index)
+                symbol = find_in(path, index)
             except UnknownSymbolError as problem:
                 yield where, str(problem)
+                continue
+            if not late and is_output(symbol, index):
+                yield where, of_forces(path)
+
+
+def reads_outputs(section: str, element: Any) -> bool:
+    """Whether functions of an element are taken when all forces are known: of events, sensors and whatever is sampled."""
+    if section in ("states", "control"):
+        return any(entry(element, key) is not None for key in ("update", "sample_time"))
+    return section in ("sensors", "events")
+
+
+def of_forces(path: str) -> str:
+    """What is wrong with an output of a force where forces are not known yet."""
+    name = path.replace(".", "_")
+    return (
+        f"`{path}` is known only when all forces are, on which this depends; take a sample of it: "
+        f"`control: {{{name}: {{type: signal, value: {path}, sample_time: 1 ms}}}}`, and here `{name}.value`"
+    )
 
 
 def _used(value: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
@@ -176,6 +217,6 @@ def _has_hyphen(path: str, index: Index) -> bool:
     ending = f"-{path.partition('.')[0]}"
     return any(
         name.endswith(ending)
-        for its in (index.joints, index.states, index.sensors, index.markers, index.bodies)
+        for its in (index.joints, index.states, index.control, index.sensors, index.markers, index.bodies)
         for name in its
     )

@@ -22,20 +22,26 @@ def address_of(entry: Entry) -> int:
         return found
     if (shipped := address_in_library(entry)) is not None:
         return _loaded.setdefault(entry.name, shipped)
-    path = _path(entry)
-    code = store.read(path)
-    if code is None:
+    if not _path(entry).exists():
         print(f"compiling {entry.name} (only the first run does this)", file=sys.stderr)
-        workers.compile_all([_job(entry)])
-        code = store.read(path)
-    assert code is not None, f"{path} cannot be read"
-    return _loaded.setdefault(entry.name, _link(entry.symbol, code))
+    return _loaded.setdefault(entry.name, _link(entry.symbol, object_code(entry)))
 
 
 def missing(entries: Iterable[Entry]) -> list[Entry]:
     """Those without machine code."""
     left = (entry for entry in dict.fromkeys(entries) if entry.name not in _loaded and not fits(entry))
     return [entry for entry in left if not _path(entry).exists()]
+
+
+def object_code(entry: Entry) -> bytes:
+    """The object file of an entry, for this processor. Raises CompilationError where nothing is installed that compiles."""
+    path = _path(entry)
+    code = store.read(path)
+    if code is None:
+        workers.compile_all([_job(entry)])
+        code = store.read(path)
+    assert code is not None, f"{path} cannot be read"
+    return code
 
 
 def build(entries: Iterable[Entry], done: Callable[[str], None] = lambda name: None) -> None:

@@ -30,6 +30,7 @@ VERDICTS: dict[Verdict, str] = {
     "amber": "With care: see what is amber",
     "red": "No: see what is red",
 }
+UNVERIFIED = "Not verified"
 NAMES = {
     "outcome": "Outcome",
     "energy": "Energy",
@@ -50,12 +51,14 @@ NAMES = {
 
 @dataclass(frozen=True)
 class Headline:
-    """The two answers on top: did it run, can I trust it."""
+    """The two answers on top: did it run, can I trust it. trust_text : how exact it is."""
 
     outcome: str
     outcome_verdict: Verdict
     outcome_text: str
     trust: str
+    trust_verdict: Verdict
+    trust_text: str
 
 
 @dataclass(frozen=True)
@@ -90,7 +93,19 @@ def headline(result: Result) -> Headline:
         "interrupted": f"{reached}{took}, then it was stopped by hand.",
         "failed": f"{reached}{took}. {_sentence(result.failure)}",
     }.get(result.outcome, f"{reached}{took}")
-    return Headline(outcome, verdict, text, VERDICTS[result.trust.verdict])
+    return Headline(outcome, verdict, text, *_trusted(result))
+
+
+def _trusted(result: Result) -> tuple[str, Verdict, str]:
+    """Whether to believe it, and how exact it is. Of a run that was not verified there is no plain yes."""
+    trust = result.trust
+    if result.is_statics:
+        return VERDICTS[trust.verdict], trust.verdict, ""
+    if trust.accuracy_estimate is not None:
+        return VERDICTS[trust.verdict], trust.verdict, _breaking(_sentence(trust.headline))
+    if trust.verdict != "green":
+        return VERDICTS[trust.verdict], trust.verdict, f"{UNVERIFIED}."
+    return UNVERIFIED, "amber", "Nothing below is against it, but no second run says how exact it is."
 
 
 def _reached(result: Result) -> str:
@@ -189,10 +204,13 @@ def _amount(value: float, unit: str) -> str:
 
 
 def _statement(item: Item) -> str:
-    text = item.text.split(": ", maxsplit=1)[-1]
-    text = text.replace("e-", "e\u2011")  # a line does not break within 1e-4, nor before a unit
-    text = re.sub(r"(?<=\d) (?=(m|s|J|m/s|1/s)\b)", "\u00a0", text)
+    text = _breaking(item.text.split(": ", maxsplit=1)[-1])
     return text[:1].upper() + text[1:]
+
+
+def _breaking(text: str) -> str:
+    """A text whose lines do not break within 1e-4, nor before a unit."""
+    return re.sub(r"(?<=\d) (?=(m|s|J|m/s|1/s)\b)", "\u00a0", text.replace("e-", "e\u2011"))
 
 
 def _gauge(item: Item) -> Gauge | None:

@@ -45,16 +45,22 @@ def distance(a: Motion, b: Motion, size: float) -> Peak:
 
     Only frames at times that both have count; the first NaN counts as the largest.
     """
-    first, second = common_frames(a.time, b.time)
-    if not len(first) or not a.bodies:
+    time, worst = distances(a, b, size)
+    if not worst.size:
         return Peak(0.0)
+    k, body = np.unravel_index(int(np.argmax(worst)), worst.shape)
+    return Peak(float(worst[k, body]), a.bodies[body], float(time[k]))
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def distances(a: Motion, b: Motion, size: float) -> tuple[Array, Array]:
+    """Times (n,) [s] that both motions have, and how far each body is from itself then (n, bodies), as DEFINITION says."""
+    first, second = common_frames(a.time, b.time)
     off = np.linalg.norm(a.position[first] - b.position[second], axis=-1) / size
     p, q = a.orientation[first], b.orientation[second]
     # θ and -θ are one orientation; |θ_a - θ_b| = 2 sin(angle/4)
     chord = np.minimum(np.linalg.norm(p - q, axis=-1), np.linalg.norm(p + q, axis=-1))
-    worst = np.maximum(off, 4.0 * np.arcsin(np.clip(0.5 * chord, 0.0, 1.0)))
-    k, body = np.unravel_index(int(np.argmax(worst)), worst.shape)
-    return Peak(float(worst[k, body]), a.bodies[body], float(a.time[first][k]))
+    return a.time[first], np.maximum(off, 4.0 * np.arcsin(np.clip(0.5 * chord, 0.0, 1.0)))
 
 
 def common_frames(a: Array, b: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -15,8 +15,11 @@ if TYPE_CHECKING:
 QUIET_LINES = 10  # more curves than this get no legend: it would hide them
 
 
-def plot(result: Result, names: tuple[str, ...]) -> Figure:
-    """One pair of axes per unit, one curve per number; without names the joint coordinates, or else the energies."""
+def plot(result: Result, names: tuple[str, ...], band: bool = False) -> Figure:
+    """One pair of axes per unit, one curve per number; without names the joint coordinates, or else the energies.
+
+    band : from each curve less its estimated error to the curve and that, as far as the run was verified.
+    """
     try:
         from matplotlib import pyplot
     except ModuleNotFoundError:
@@ -30,7 +33,13 @@ def plot(result: Result, names: tuple[str, ...]) -> Figure:
     )
     for axis, (unit, group) in zip(axes[:, 0], by_unit.items(), strict=True):
         for name in group:
-            axis.plot(result.time, result.array(name), label=name, linewidth=1.2)
+            values = result.array(name)
+            (line,) = axis.plot(result.time, values, label=name, linewidth=1.2)
+            if band:
+                error = result.estimated_error(name)
+                axis.fill_between(
+                    result.time, values - error, values + error, color=line.get_color(), alpha=0.25, linewidth=0
+                )
         axis.set_ylabel(f"[{unit}]" if len(group) > 1 else f"{group[0]} [{unit}]")
         axis.grid(alpha=0.3)
         if 1 < len(group) <= QUIET_LINES:

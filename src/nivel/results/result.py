@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from nivel.arguments import checked_arguments
 from nivel.results.contents import Contents
+from nivel.results.estimate import ATTRIBUTE, Estimate
 from nivel.results.names import Selection, selections, unknown_name
 from nivel.results.occurrence import Occurrence, from_json
 from nivel.results.row_units import own_units
@@ -185,6 +186,25 @@ class Result:
         found = self.selection(name)
         return self._contents.read(found.variable, (frames, *found.where[1:]))
 
+    @cached_property
+    def _estimate(self) -> Estimate | None:
+        text = self.attributes.get(ATTRIBUTE)
+        return None if text is None else Estimate.from_json(str(text))
+
+    @checked_arguments
+    def estimated_error(self, name: str) -> NDArray[np.float64]:
+        """Estimated errors of `array(name)`, of the same shape and units: at each frame the largest up to then, by a second run.
+
+        They are not a number where the run was not verified, and after the time up to which it was.
+        """
+        values = self.array(name)
+        if self._estimate is None or name == "time":
+            return np.full_like(values, np.nan if name != "time" else 0.0)
+        found = self.selection(name)
+        if found.variable not in self._estimate.values:
+            return np.full_like(values, np.nan)
+        return self._estimate.at(found.variable, self.time)[(slice(None), *found.where[1:])]
+
     @checked_arguments
     def units(self, name: str) -> str:
         """SI units of `name`; nothing for all joint coordinates or constraint rows together: each has its own."""
@@ -230,11 +250,14 @@ class Result:
     # --- for people ---
 
     @checked_arguments
-    def plot(self, *names: str) -> Figure:
-        """Curves of `names` over time, one below the other where units differ; without names the joint coordinates."""
+    def plot(self, *names: str, band: bool = False) -> Figure:
+        """Curves of `names` over time, one below the other where units differ; without names the joint coordinates.
+
+        band : the estimated error of each curve around it, where the run was verified.
+        """
         from nivel.results.plot import plot
 
-        return plot(self, names)
+        return plot(self, names, band)
 
     @checked_arguments
     def mode(self, number: int, frame: int = -1) -> Result:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from nivel.results.held import Shared, in_words
 from nivel.results.unresolved import Unresolved
-from nivel.results.verdicts import THRESHOLDS, Item, Threshold, Trust, Verdict
+from nivel.results.verdicts import THRESHOLDS, Item, Threshold, Trust, Verdict, number
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
     "done": ("green", "Outcome: the run reached its end"),
@@ -41,6 +41,8 @@ def statements(
         yield _shared_item(shared)
     if trust.accuracy_estimate is not None:
         yield _accuracy_item(trust, trust.accuracy_estimate)
+        if trust.verified_until is not None:
+            yield _partly_verified_item(trust, trust.verified_until)
     if trust.neglected_share is not None:
         yield _neglected_item(trust, trust.neglected_share)
 
@@ -105,11 +107,17 @@ def _rate_item(trust: Trust) -> Item:
 
 def _accuracy_item(trust: Trust, estimate: float) -> Item:
     fraction = estimate / trust.size
-    moved = f"{trust.accuracy_refinement} moves nothing by more than {number(estimate)} m"
-    said = f"Accuracy: {moved}, {number(fraction)} of the {_size(trust)}"
-    where = f", largest at {trust.accuracy_body}" if trust.accuracy_body else ""
-    when = f" at t = {trust.accuracy_time:.6g} s" if trust.accuracy_time is not None else ""
-    return numeric("accuracy", f"{said}{where}{when}", fraction, trust.accuracy_time, trust.accuracy_body)
+    until = f" up to t = {trust.verified_until:.6g} s" if trust.verified_until is not None else ""
+    within = f"within {number(estimate)} m of the exact motion of this model{until}, {number(fraction)} of the {_size(trust)}"
+    where = f"; largest at {trust.accuracy_body}" if trust.accuracy_body else ""
+    when = f", t = {trust.accuracy_time:.6g} s" if trust.accuracy_time is not None else ""
+    said = f"Accuracy: {within}, by a second run with {trust.accuracy_refinement}{where}{when}"
+    return numeric("accuracy", said, fraction, trust.accuracy_time, trust.accuracy_body)
+
+
+def _partly_verified_item(trust: Trust, until: float) -> Item:
+    text = f"Verified: up to t = {until:.6g} s only, nothing is known of what follows: {trust.verification_ended}"
+    return Item("verified", "amber", f"{text} (green where to the end, amber otherwise)", time=until)
 
 
 def _neglected_item(trust: Trust, share: float) -> Item:
@@ -181,13 +189,3 @@ def numeric(
         row,
         time,
     )
-
-
-def number(value: float) -> str:
-    """Two significant digits for what is tiny or huge, three for the sizes one can picture."""
-    if value == 0.0 or not math.isfinite(value):
-        return f"{value:g}"
-    if 1e-3 <= abs(value) < 1e6:
-        return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
-    mantissa, exponent = f"{value:.1e}".split("e")
-    return f"{float(mantissa):g}e{int(exponent)}"

@@ -29,6 +29,7 @@ def summary(result: Result) -> dict[str, Any]:
         "stopped_by": result.stopped_by,
         "settings": result.settings,
         "timing": result.timing,
+        "headline": "" if result.is_statics else result.trust.headline,
         "trust": json.loads(result.trust.to_json()),
     }
 
@@ -36,6 +37,8 @@ def summary(result: Result) -> dict[str, Any]:
 def summary_text(result: Result) -> str:
     """Name, outcome, extent and trust; then what can be asked for."""
     lines = [f"<Result of {result.name}: {_outcome(result)}>", f"  {_extent(result)}"]
+    if not result.is_statics:
+        lines.append(f"  {result.trust.headline}")
     lines += [f"  {item.verdict:>5}  {item.text}" for item in result.trust.items]
     lines += [f"  event  {line}" for line in in_words(result.events, result.stopped_by)]
     lines.append(f"  for instance: {', '.join(_examples(result))}")
@@ -49,12 +52,13 @@ def summary_html(result: Result) -> str:
         f'● {item.verdict}</td><td style="text-align:left;padding:.15em 0">{escape(item.text)}</td></tr>'
         for item in result.trust.items
     )
+    headline = "" if result.is_statics else f" · {escape(result.trust.headline)}"
     events = "".join(f"<div>event {escape(line)}</div>" for line in in_words(result.events, result.stopped_by))
     names = " ".join(f"<code>{escape(name)}</code>" for name in _examples(result))
     return (
         '<div style="border:1px solid rgba(128,128,128,.35);border-radius:8px;padding:.8em 1.1em;max-width:56em">'
         f'<div style="font-size:1.15em;font-weight:600">{escape(result.name)}</div>'
-        f'<div style="opacity:.75;margin-bottom:.5em">{escape(_outcome(result))} · {escape(_extent(result))}</div>'
+        f'<div style="opacity:.75;margin-bottom:.5em">{escape(_outcome(result))} · {escape(_extent(result))}{headline}</div>'
         f'<table style="border-collapse:collapse;background:none">{rows}</table>'
         f"{events}"
         f'<div style="opacity:.75;margin-top:.5em">for instance {names}</div></div>'

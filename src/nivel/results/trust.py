@@ -44,10 +44,13 @@ class Facts:
     outcome : done, interrupted, failed or running.
     degrees_of_freedom : None where unknown; modes : of flexible bodies. drivers : motions that are prescribed.
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
-    accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
+    accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found;
+    verified_until : the time [s] up to which, None: to the end; verification_ended : why not further.
     neglected : what it cost that flexible bodies moved without some of their inertia invariants. shared : frictions at rest on motions
     that are prescribed, or that others hold too.
-    small_states : those whose errors were hardly controlled. failure : what stopped the run, in a sentence. stopped_by : name of the
+    further : lines of checks that only tell what is not green, see `nivel.results.findings`.
+    small_states : those whose errors were hardly controlled. saturated : blocks of the control at a limit all the time.
+    failure : what stopped the run, in a sentence. stopped_by : name of the
     event that ended it as it was to do.
     """
 
@@ -57,6 +60,8 @@ class Facts:
     non_unique_joints: tuple[str, ...] = ()
     accuracy: Peak | None = None
     refinement: str = "half the step"
+    verified_until: float | None = None
+    verification_ended: str = ""
     failure: str = ""
     drivers: int = 0
     stopped_by: str = ""
@@ -64,6 +69,8 @@ class Facts:
     neglected: Cost | None = None
     shared: tuple[Shared, ...] = ()
     small_states: tuple[SmallState, ...] = ()
+    further: tuple[Item, ...] = ()
+    saturated: tuple[str, ...] = ()
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -107,6 +114,8 @@ def assess(result: Readable, facts: Facts) -> Trust:
         accuracy_body=facts.accuracy.row if facts.accuracy else "",
         accuracy_time=facts.accuracy.time if facts.accuracy else None,
         accuracy_refinement=facts.refinement,
+        verified_until=facts.verified_until,
+        verification_ended=facts.verification_ended,
         size_kind=size_kind,
         at_rest=at_rest,
         neglected_share=lacking.share if lacking else None,
@@ -120,7 +129,9 @@ def assess(result: Readable, facts: Facts) -> Trust:
     )
     items = (
         *statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved),
+        *facts.further,
         *(_small_state(each) for each in facts.small_states),
+        *(_saturated(name) for name in facts.saturated),
     )
     return replace(trust, items=items, verdict=worst(items))
 
@@ -128,8 +139,19 @@ def assess(result: Readable, facts: Facts) -> Trust:
 def _small_state(state: SmallState) -> Item:
     """A state of which the tolerance says little."""
     said = f"the largest value of {state.name} is {number(state.largest)}, its scale is {number(state.scale)}: the tolerance hardly held"
-    advice = f"write `states: {{{state.name}: {{scale: {state.largest:.1g}}}}}`"
+    section, name = ("states", state.name)
+    if state.name.startswith("control."):
+        section, name = state.name.split(".")[:2]
+    advice = f"write `{section}: {{{name}: {{scale: {state.largest:.1g}}}}}`"
     return Item("states", "amber", f"States: {said} it; {advice}", row=state.name)
+
+
+def _saturated(name: str) -> Item:
+    """A block whose gains did nothing."""
+    said = f"{name} stood at its limits for the whole run, so its gains did nothing"
+    return Item(
+        "control", "amber", f"Control: {said}; check the signs of its inputs, its gains and its limits", row=name
+    )
 
 
 def peak(result: Readable, name: str) -> Peak:

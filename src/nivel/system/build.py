@@ -38,6 +38,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams import add_beam, no_tangent, shared_mass
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
 from nivel.system.builder import SystemBuilder
+from nivel.system.control import add_control
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.forces import FORCES
 from nivel.system.gradient_beams import point_inertia
@@ -78,7 +79,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
     states = draft.elements.states
     layout = frame_layout(names, joints, list(draft.joint_coordinates), row_names, draft.outputs.entries, states)
     system = System(
-        record=record._replace(outputs=record.outputs._replace(column=index_array(first_columns(layout), 1))),
+        record=record._replace(outputs=record.outputs._replace(column=index_array(first_columns(layout, states), 1))),
         equations=equations,
         layout=layout,
         bodies=names,
@@ -110,6 +111,7 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
             add_joint(draft, rows, joint)
     add_couplings(draft, rows)
     add_drivers(draft, rows)
+    add_control(draft)
     add_states(draft)
     for force in machine.forces:
         _add_force(draft, force)
@@ -163,7 +165,7 @@ def _record(draft: SystemBuilder, rows: RowTable, units: list[str], equations: E
         watched=watched,
         sampled=sampled,
         outputs=Outputs(np.zeros(len(draft.outputs.entries)), index_array(rows.reports, 2), index_array([], 1)),
-        hooks=_hooks(draft, bool(sensors)),
+        hooks=_hooks(draft, sensors=bool(sensors), sampled=len(sampled.state) > 0),
         control=_control(count),
     )
     return record, size
@@ -191,7 +193,7 @@ def _watched(draft: SystemBuilder) -> Watched:
     )
 
 
-def _hooks(draft: SystemBuilder, sensors: bool) -> Hooks:
+def _hooks(draft: SystemBuilder, *, sensors: bool, sampled: bool) -> Hooks:
     """Addresses of the optional components of this machine."""
     address = np.zeros(HOOKS, dtype=np.uint64)
     if draft.coordinates.what:
@@ -202,7 +204,7 @@ def _hooks(draft: SystemBuilder, sensors: bool) -> Hooks:
         address[POINTS] = points.apply.address
     if draft.frictions:
         address[FRICTION] = friction.apply.address
-    if any(state.update is not None for state in draft.machine.states):
+    if sampled:
         address[SAMPLE] = sample.address
     if sensors:
         address[SENSE] = sensor.apply.address

@@ -9,12 +9,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from nivel.kernels.coordinate import DISTANCE, ROTATION
-from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, POSITION, RATE, STATE, VELOCITY
+from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
 from nivel.machine.coordinate_reference import Kind, resolve
 from nivel.machine.forces import End, GlobalPoint
+from nivel.machine.index import Index
+from nivel.machine.linear_function import LinearFunction
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
-from nivel.machine.symbols import find_symbol
+from nivel.machine.symbols import find_symbol, is_output
 from nivel.machine.time_function import TimeFunction
 from nivel.system.functions import FunctionTable, Signal
 from nivel.system.interfaces import marker_place
@@ -32,7 +34,8 @@ class SystemBuilder:
 
     joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
     frictions : (columns of index, of number) of `nivel.kernels.friction`. owners : `joints.hinge`, `markers.tip`, …: what made each
-    marker. noted : the bodies and states used in each `noting`.
+    marker. noted : the bodies and states used in each `noting`. control : the signal of every part of a block by its path.
+    behind_signals : what a part that is no state depends on. functions_of : the function of every part.
     """
 
     machine: MachineRecord
@@ -45,6 +48,9 @@ class SystemBuilder:
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
     noted: list[Coupled] = field(default_factory=list)
     owners: list[str] = field(default_factory=list)
+    control: dict[str, Signal] = field(default_factory=dict)
+    behind_signals: dict[str, Coupled] = field(default_factory=dict)
+    functions_of: dict[str, int] = field(default_factory=dict)
     _owner: str = ""
     _noting: set[int] = field(default_factory=set)
     _noting_states: set[int] = field(default_factory=set)
@@ -158,7 +164,9 @@ class SystemBuilder:
         self._note(*self.coordinates.markers(index))
         return self.coordinates.use(index)
 
-    def function(self, value: TimeFunction, local: dict[str, Signal] | None = None, *, motion: bool = False) -> int:
+    def function(
+        self, value: TimeFunction | LinearFunction, local: dict[str, Signal] | None = None, *, motion: bool = False
+    ) -> int:
         """Index of a new function; `local` are the symbols that only this one knows."""
 
         def find(path: str) -> Signal:
@@ -166,13 +174,27 @@ class SystemBuilder:
 
         return self.functions.add(value, find, motion=motion, end=self.machine.simulation.duration)
 
+    def signal_at(self, path: str) -> Signal:
+        """The signal of a part of a block; what it depends on is noted."""
+        kind, index, component = self.control[path]
+        if kind == STATE:
+            self._noting_states.add(index)
+        elif path in self.behind_signals:
+            self._noting |= self.behind_signals[path].bodies
+            self._noting_states |= self.behind_signals[path].states
+        return kind, index, component
+
     def signal(self, path: str) -> Signal:
         """The signal that a symbol of the machine stands for; a coordinate among them is measured from now on."""
+        if path in self.control:
+            return self.signal_at(path)
         symbol = find_symbol(path, self.machine)
         if symbol.section == "joints":
             name = symbol.quantity.removesuffix("_rate")
             index = self._measured(f"{symbol.name}.{name}")
             return (COORDINATE if name == symbol.quantity else RATE, index, 0)
+        if symbol.section == "forces" and is_output(symbol, Index.of(self.machine)):
+            return (OUTPUT, self.outputs.index(f"force.{path}"), 0)
         if symbol.section in ("states", "forces"):
             return (STATE, self.state(symbol.name if symbol.section == "states" else path), 0)
         if symbol.section == "sensors":

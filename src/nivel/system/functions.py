@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from nivel.kernels.function import CODE, CONSTANT, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
+from nivel.kernels.function import CODE, CONSTANT, LINEAR, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
 from nivel.kernels.program import run
 from nivel.kernels.record import Functions
 from nivel.machine.arithmetic import TIME as TIME_SYMBOL
 from nivel.machine.expression import Expression
+from nivel.machine.linear_function import LinearFunction, linear_function
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.table import Table
 from nivel.machine.time_function import TimeFunction
@@ -38,7 +39,9 @@ class FunctionTable:
     argument: list[tuple[int, int, int, int]] = field(default_factory=list)
     arguments: list[float] = field(default_factory=list)
 
-    def add(self, function: TimeFunction, find: Find, *, motion: bool = False, end: float = math.inf) -> int:
+    def add(
+        self, function: TimeFunction | LinearFunction, find: Find, *, motion: bool = False, end: float = math.inf
+    ) -> int:
         """Index of a new function; `find` gives the signal of a path. motion : its derivatives are needed, up to the `end` of the run [s].
 
         Raises ModelError where a law cannot be compiled.
@@ -52,6 +55,10 @@ class FunctionTable:
                     # at its end it has the rate of what follows, as at every other point
                     times, rows = [*times, math.inf], [*rows, last]
                 return self._append(TABLE_HELD, [function.of], find, table=(times, rows))
+            case LinearFunction():
+                return self._append_linear(function, find)
+            case Expression() if not motion and (linear := linear_function(function.tree)) is not None:
+                return self._append_linear(linear, find)
             case Expression():
                 signals = list(dict.fromkeys([TIME_SYMBOL, *function.signals]))
                 program = motion_program(function) if motion else expression_program(function, signals)
@@ -60,6 +67,10 @@ class FunctionTable:
                 address = law_address(function, motion=motion)
                 return self._append(CODE, list(function.arguments), find, address=address)
         return self._append(CONSTANT, [], find, value=float(function))
+
+    def _append_linear(self, function: LinearFunction, find: Find) -> int:
+        factors, paths = [factor for factor, _ in function.terms], [path for _, path in function.terms]
+        return self._append(LINEAR, paths, find, value=function.offset, table=(factors, [[0.0] * 4] * len(factors)))
 
     def add_table(self, knots: Sequence[float], coefficients: Array) -> int:
         """Index of a new table that goes on beyond its ends; `coefficients` (n, 4) as `Functions.coefficients`."""

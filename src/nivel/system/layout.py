@@ -97,7 +97,7 @@ def frame_layout(
     }
     entries = list(VARIABLES)
     entries += [(name, ("time",), units, long_name) for name, units, long_name in outputs]
-    entries += [(f"state.{fact.name}", ("time",), fact.units, fact.long_name) for fact in states]
+    entries += [(fact.result, ("time",), fact.units, fact.long_name) for fact in states]
     return laid_out(entries, coordinates)
 
 
@@ -117,12 +117,12 @@ def with_modal_coordinates(layout: FrameLayout, modes: Sequence[str]) -> FrameLa
     return FrameLayout(added.width, layout.variables + added.variables, added.coordinates)
 
 
-def first_columns(layout: FrameLayout) -> list[int]:
+def first_columns(layout: FrameLayout, states: Sequence[StateFact]) -> list[int]:
     """First columns of what elements report, their states, VARIABLES and OF_MODES, as `nivel.kernels.observe` numbers them."""
     start = {variable.name: variable.columns.start for variable in layout.variables}
     reports = layout.variables[len(VARIABLES) - 1].columns.stop
-    states = next((column for name, column in start.items() if name.startswith("state.")), layout.width)
-    return [reports, states, *(start.get(name, layout.width) for name, *_ in (*VARIABLES, *OF_MODES))]
+    of_states = start[states[0].result] if states else layout.width
+    return [reports, of_states, *(start.get(name, layout.width) for name, *_ in (*VARIABLES, *OF_MODES))]
 
 
 def reported(layout: FrameLayout, count: int) -> tuple[Variable, ...]:

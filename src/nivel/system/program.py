@@ -17,6 +17,7 @@ OPERATIONS = {
     **{name: getattr(kernel, name.upper()) for name in ("atan2", "min", "max")},
     **{name: getattr(kernel, name.upper()) for name in ("sin", "cos", "tan", "asin", "acos", "atan")},
     **{name: getattr(kernel, name.upper()) for name in ("sqrt", "exp", "log", "abs")},
+    **{name: getattr(kernel, name.upper()) for name in ("step", "step_rate", "step_acceleration")},
 }
 TWO = Number(2.0)
 
@@ -65,6 +66,8 @@ class _Program:
                 return self._operation(kernel.SQUARE, self.place_of(left))
             case Operation(symbol, left, right):
                 return self._operation(OPERATIONS[symbol], self.place_of(left), self.place_of(right))
+            case Call("step" | "step_rate" | "step_acceleration" as function, (argument, *levels)):
+                return self._operation(OPERATIONS[function], self.place_of(argument), self._together(levels))
             case Call(function, (first, *others)):
                 place = self.place_of(first)
                 if not others:
@@ -73,6 +76,14 @@ class _Program:
                     place = self._operation(OPERATIONS[function], place, self.place_of(other))
                 return place
         raise ValueError(f"{node} is not bound")
+
+    def _together(self, nodes: Sequence[Node]) -> int:
+        """Place of the first of these values, behind which the others stand."""
+        values = [self.place_of(node) for node in nodes]
+        cells = [self._cell(0.0) for _ in nodes][::-1]  # of later numbers the place is the earlier one
+        for cell, value in zip(cells, values, strict=True):
+            self.leave(cell, value)
+        return cells[0]
 
     def _operation(self, operation: int, first: int, second: int | None = None) -> int:
         place = self._cell(0.0)
@@ -84,7 +95,7 @@ class _Program:
         return -len(self._numbers)
 
     def leave(self, place: int, value: int) -> None:
-        """Put what stands at `value` into a place behind the first argument."""
+        """Copy what stands at `value`."""
         self._instructions.append((kernel.COPY, place, value, value))
 
     def end(self, place: int) -> None:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 class StateFact:
     """One first-order state x of an element.
 
-    name : result variable `state.NAME`, and signal where it has a dot. units, long_name : of the variable, SI. start : value at t = 0.
+    name : signal where it has a dot. variable : of the result, default `state.NAME`; units, long_name : of that, SI. start : at t = 0.
     scale : what errors of x are measured by, at least; the largest |x| of the run counts where it is larger. sampled : x has no rate, it
     changes at given times or events only.
     """
@@ -21,6 +21,12 @@ class StateFact:
     start: float
     scale: float
     sampled: bool = False
+    variable: str = ""
+
+    @property
+    def result(self) -> str:
+        """Name of the result variable."""
+        return self.variable or f"state.{self.name}"
 
 
 class Coupled(NamedTuple):

@@ -8,6 +8,7 @@ from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.record import NONE, Sampled
 from nivel.machine.state import State
 from nivel.system.builder import SystemBuilder
+from nivel.system.control import SampleTable, add_samples
 from nivel.system.located import located
 from nivel.system.state_facts import StateFact
 from nivel.system.tables import index_array
@@ -37,21 +38,29 @@ def _fact(state: State) -> StateFact:
 
 
 def sampled_states(draft: SystemBuilder) -> Sampled:
-    """The table of sampled states."""
-    states = [state for state in draft.machine.states if state.update is not None]
+    """The table of what is sampled: user states, then blocks of the control."""
     events = [event.name for event in draft.machine.events]
-    functions = []
-    for state in states:
-        assert state.update is not None
+    table = SampleTable()
+    for state in draft.machine.states:
+        if state.update is None:
+            continue
         with located(f"states.{state.name}.update"):
-            functions.append(draft.function(state.update))
+            function = draft.function(state.update)
+        event = NONE if state.event is None else events.index(state.event)
+        table.add(draft.state(state.name), function, period=state.every or 0.0, event=event)
+    add_samples(draft, table)
+    count = len(table.rows)
+    state, output, at_once, function, event, period, offset = zip(*table.rows, strict=True) if count else ((),) * 7
     return Sampled(
-        state=index_array([draft.state(state.name) for state in states], 1),
-        function=index_array(functions, 1),
-        event=index_array([NONE if state.event is None else events.index(state.event) for state in states], 1),
-        period=np.array([state.every or 0.0 for state in states]),
+        state=index_array(state, 1),
+        output=index_array(output, 1),
+        at_once=index_array(at_once, 1),
+        function=index_array(function, 1),
+        event=index_array(event, 1),
+        period=np.array(period, dtype=float),
+        offset=np.array(offset, dtype=float),
         at_rest=np.zeros(1, dtype=np.uint32),
         came=np.zeros(len(events), dtype=np.uint32),
-        due=np.zeros(len(states), dtype=np.uint32),
-        value=np.zeros(len(states)),
+        due=np.zeros(count, dtype=np.uint32),
+        value=np.zeros(count),
     )

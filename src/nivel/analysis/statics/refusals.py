@@ -31,6 +31,7 @@ def refuse_friction(machine: MachineRecord) -> None:
 def refuse_with_states(machine: MachineRecord, settings: StaticsSettings) -> None:
     """What first-order states have no part in: paths by arc length, vibrations and buckling loads."""
     names = [state.name for state in machine.states if state.rate is not None or state.every is not None]
+    names += [block.name for block in machine.control if any(part.role != "signal" for part in block.parts)]
     asked = {"arc_length": settings.arc_length, "modes": settings.modes, "buckling": settings.buckling}
     faults = [
         Fault(

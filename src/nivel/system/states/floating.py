@@ -140,7 +140,9 @@ def with_modes(
     layout = with_modal_coordinates(absolute.layout, names)
     system = replace(
         absolute,
-        record=record._replace(outputs=old.outputs._replace(column=index_array(first_columns(layout), 1))),
+        record=record._replace(
+            outputs=old.outputs._replace(column=index_array(first_columns(layout, absolute.states), 1))
+        ),
         layout=layout,
         state_map=_map(absolute, modes),
         start=np.zeros(0),

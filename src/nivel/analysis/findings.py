@@ -1,0 +1,58 @@
+"""What is looked at after a run beside the balance of energy: whether its steps saw its loads, and what a second run tells of its parts."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.analysis.corners import corners
+from nivel.analysis.dynamics import RunOutcome
+from nivel.analysis.loads.path import steps_of
+from nivel.analysis.loads.seen import unseen_loads
+from nivel.analysis.plan import Plan
+from nivel.analysis.preparation import Prepared
+from nivel.analysis.second_run import Verified
+from nivel.integrate.run import TURNED
+from nivel.results.estimate import Estimate
+from nivel.results.findings import Findings
+from nivel.results.result import Result
+from nivel.results.second_look import damped, growth, own_error
+from nivel.results.steps_seen import largest_turn, rounding
+from nivel.results.unseen import Unseen
+
+
+@np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
+def find(
+    plan: Plan,
+    prepared: Prepared,
+    finished: RunOutcome,
+    result: Result,
+    verified: Verified | None,
+    estimate: Estimate | None,
+) -> Findings:
+    """Everything that was found of a run, whether it came to its end or not."""
+    if finished.pace is None or not len(result.time):
+        return Findings()
+    settings, fixed = plan.settings, plan.settings.steps > 0
+    turned = finished.pace[TURNED]
+    return Findings(
+        unseen=_unseen(plan, prepared, finished, result),
+        # where steps are chosen no body turns too far
+        turn=largest_turn(result, turned, settings.duration, counted=settings.coordinates == "relative")
+        if fixed
+        else None,
+        rounding=rounding(result, int(finished.timing["steps"])),
+        own=own_error(result, estimate) if estimate is not None else None,
+        damped=damped(result, verified.result) if verified is not None and prepared.integrator.residual else None,
+        growth=growth(result, verified.result, verified.refinement.left) if verified is not None else None,
+        method=settings.integrator,
+    )
+
+
+def _unseen(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result) -> list[Unseen]:
+    end = float(result.time[-1])
+    if finished.pace is None or not end > 0.0:
+        return []
+    settings = plan.settings
+    step = settings.step if settings.steps else None
+    steps = steps_of(finished.pace, settings.duration, step, () if step else corners(plan.machine))
+    return list(unseen_loads(plan.machine, result, steps.until(end), prepared.integrator))

@@ -1,0 +1,186 @@
+"""How much of the impulse of every function the steps of a run have missed.
+
+Over each step the integral of the function, and that of its magnitude, are compared with what a method finds that looks at it where
+methods of this order do. What is missed is summed over a twentieth of the run, where errors of both signs cancel as they do in the
+motion, and held against the integral of the magnitude. Features narrower than what lies between samples are found by bounds of the
+function over intervals, which are halved as long as they allow more than was sampled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.loads.functions import Varying, varying
+from nivel.analysis.loads.path import Path, Steps, path_of
+from nivel.integrate.catalogue import IntegratorFacts
+from nivel.machine.arithmetic import TIME
+from nivel.machine.bounds import Interval
+from nivel.machine.machine_record import MachineRecord
+from nivel.results.result import Result
+from nivel.results.unseen import Unseen
+
+Array = NDArray[np.float64]
+# Parts of a step between samples, and how many parts of the run are judged by themselves.
+SAMPLES, WINDOWS = 16, 20
+# A part of the run where a function is below this share of its largest mean magnitude counts as if it had that.
+QUIET = 1e-3
+# Bounds that allow this share of the largest magnitude beyond what was sampled are looked into, by so many halvings, so many at once.
+BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 14, 20_000
+# A found feature is sampled by so many points; at most so many are.
+FEATURE, MOST_FEATURES = 2048, 32
+SIMPSON = np.array([1.0, 4.0, 1.0]) / 6.0
+BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90.0
+ENDS = np.array([0.5, 0.5])
+
+
+def unseen_loads(machine: MachineRecord, result: Result, steps: Steps, facts: IntegratorFacts) -> Iterator[Unseen]:
+    """What the steps of a run have missed of each function whose signals are known."""
+    for function in varying(machine):
+        path = path_of(function, machine, result)
+        if path is not None and len(path.time) > 1:
+            found = missed(function, path, steps, weights_of(facts))
+            if found is not None:
+                yield found
+
+
+def weights_of(facts: IntegratorFacts) -> Array:
+    """The weights of places, evenly spaced over a step, at which a method looks at a function: one of its own stages, or as exact."""
+    if (
+        facts.order <= 2
+        or (facts.implicit and not facts.first_order)
+        or facts.module.endswith(("adams", "moulton", "gear"))
+    ):
+        return ENDS
+    return SIMPSON if facts.order <= 4 else BOOLE
+
+
+def missed(function: Varying, path: Path, steps: Steps, weights: Array) -> Unseen | None:
+    """What was missed of one function; None where it has no value anywhere."""
+    share = np.arange(SAMPLES + 1) / SAMPLES
+    time = steps.begin[:, None] + steps.length[:, None] * share
+    known = path.at(time.ravel())
+    values = function.curve.values(known).reshape(time.shape)
+    if not np.isfinite(values).any():
+        return None
+    values = np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0)
+    exact, magnitude = _integrals(values, steps.length)
+    nodes = np.linspace(0, SAMPLES, len(weights)).astype(int)
+    seen = steps.length * (values[:, nodes] @ weights)
+    seen_magnitude = steps.length * (np.abs(values[:, nodes]) @ weights)
+    narrow = _look_closer(function, path, steps, values, exact, magnitude)
+    return _judged(function, steps, (exact - seen, magnitude - seen_magnitude, magnitude), values, narrow)
+
+
+def _integrals(values: Array, length: Array) -> tuple[Array, Array]:
+    """∫F and ∫|F| over the rows of `values` (n, SAMPLES + 1): composite Simpson, the trapezoidal rule for the magnitude where F changes
+    its sign."""
+    h = length / (values.shape[1] - 1)
+
+    def simpson(f: Array) -> Array:
+        return h / 3.0 * (f[:, 0] + f[:, -1] + 4.0 * f[:, 1:-1:2].sum(axis=1) + 2.0 * f[:, 2:-1:2].sum(axis=1))
+
+    size = np.abs(values)
+    changes = (values.min(axis=1) < 0.0) & (values.max(axis=1) > 0.0)
+    trapezoidal = h * (size[:, 1:-1].sum(axis=1) + 0.5 * (size[:, 0] + size[:, -1]))
+    exact = simpson(values)
+    return exact, np.where(changes, trapezoidal, np.abs(exact))
+
+
+def _look_closer(
+    function: Varying, path: Path, steps: Steps, values: Array, exact: Array, magnitude: Array
+) -> float | None:
+    """Put right the integrals over steps in which the function goes beyond what was sampled; the shortest time [s] in which it
+    changes by its range there, None where there is no such step."""
+    low, high = values.min(axis=1), values.max(axis=1)
+    begin, width = steps.begin, steps.length
+    of = np.arange(len(begin))
+    largest, found = float(np.abs(values).max()), set[int]()
+    for _ in range(HALVINGS):
+        bounds = function.curve.bounds(_intervals(path, begin, width))
+        if bounds is None:
+            return None
+        least, most = bounds
+        beyond = np.maximum(np.maximum(most - high[of], low[of] - least), 0.0)
+        floor = max(BEYOND * largest, 1e-6 * float(np.max(beyond, initial=0.0, where=np.isfinite(beyond))))
+        keep = np.flatnonzero(beyond > floor)
+        if len(keep) > MOST_INTERVALS:
+            keep = keep[np.argsort(-beyond[keep], kind="stable")[:MOST_INTERVALS]]
+        if not len(keep):
+            break
+        begin, width, of = begin[keep], width[keep], of[keep]
+        middle = begin + 0.5 * width
+        inside = np.nan_to_num(function.curve.values(path.at(middle)))
+        is_feature = np.maximum(inside - high[of], low[of] - inside) > floor
+        largest = max(largest, float(np.abs(inside).max()))
+        if is_feature.any():
+            found |= set(of[is_feature].tolist())
+        begin, width, of = np.concatenate([begin, middle]), np.tile(0.5 * width, 2), np.tile(of, 2)
+    return _put_right(function, path, steps, np.array(sorted(found), dtype=int), exact, magnitude)
+
+
+def _put_right(
+    function: Varying, path: Path, steps: Steps, found: NDArray[np.int64], exact: Array, magnitude: Array
+) -> float | None:
+    """The integrals over the steps `found`, of many over MOST_FEATURES of them, which then stand for the others; the shortest time [s] in
+    which the function changes by its range there, None where nothing was found."""
+    if not len(found):
+        return None
+    chosen = found[np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_FEATURES)).astype(int))]
+    refined = np.array([_refined(function, path, float(steps.begin[k]), float(steps.length[k])) for k in chosen])
+    mean = refined[:, :2].sum(axis=0) / steps.length[chosen].sum()
+    exact[found], magnitude[found] = mean[0] * steps.length[found], mean[1] * steps.length[found]
+    exact[chosen], magnitude[chosen] = refined[:, 0], refined[:, 1]
+    return float(refined[:, 2].min())
+
+
+def _refined(function: Varying, path: Path, begin: float, length: float) -> tuple[float, float, float]:
+    """∫F and ∫|F| over one step, with a sample wherever the function may have a feature, and the time [s] in which it changes by its
+    range."""
+    time = begin + length * np.linspace(0.0, 1.0, FEATURE + 1)
+    values = np.nan_to_num(function.curve.values(path.at(time)))
+    for _ in range(HALVINGS):
+        jump = np.abs(np.diff(values))
+        split = np.flatnonzero(jump > 0.02 * max(float(np.abs(values).max()), 1e-300))
+        if not len(split) or len(time) > 4 * FEATURE:
+            break
+        middle = 0.5 * (time[split] + time[split + 1])
+        time = np.insert(time, split + 1, middle)
+        values = np.insert(values, split + 1, np.nan_to_num(function.curve.values(path.at(middle))))
+    slope = float(np.max(np.abs(np.diff(values)) / np.maximum(np.diff(time), 1e-300)))
+    scale = float(np.ptp(values)) / slope if slope > 0.0 else length
+    return float(np.trapezoid(values, time)), float(np.trapezoid(np.abs(values), time)), scale
+
+
+def _intervals(path: Path, begin: Array, width: Array) -> dict[str, Interval]:
+    """The time and all signals over intervals of time: straight between their ends."""
+    first, last = path.at(begin), path.at(begin + width)
+    return {name: (np.minimum(first[name], last[name]), np.maximum(first[name], last[name])) for name in first}
+
+
+def _judged(
+    function: Varying, steps: Steps, sums: tuple[Array, Array, Array], values: Array, narrow: float | None
+) -> Unseen:
+    """The part of the run in which most is missed."""
+    end = float(steps.begin[-1] + steps.length[-1])
+    window = np.minimum((steps.begin / end * WINDOWS).astype(int), WINDOWS - 1)
+    off, off_magnitude, magnitude = (np.bincount(window, each, WINDOWS) for each in sums)
+    scale = np.maximum(magnitude, max(QUIET * float(magnitude.max()), 1e-300))
+    share = np.maximum(np.abs(off), np.abs(off_magnitude)) / scale
+    worst = int(np.argmax(share))
+    inside = np.flatnonzero(window == worst)
+    if not len(inside):
+        return Unseen(function.name, 0.0, 0.0, 0.0, 0.0)
+    k = int(inside[np.argmax(np.abs(sums[0][inside]) + np.abs(sums[1][inside]))])
+    slope = float(np.abs(np.diff(values[k])).max()) * SAMPLES / float(steps.length[k])
+    scale_of_time = float(np.ptp(values)) / slope if slope > 0.0 else float(steps.length[k])
+    return Unseen(
+        function.name,
+        float(share[worst]),
+        float(steps.begin[k]),
+        min(scale_of_time, narrow if narrow is not None else np.inf),
+        float(steps.length[k]),
+        TIME if not function.curve.signals else function.curve.signals[0],
+    )

@@ -1,0 +1,157 @@
+"""The files of a C library: header, source, machine code, an example, and how they are built."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from nivel.analysis.attributes import run_attributes
+from nivel.analysis.compilation import run_entries
+from nivel.analysis.dynamics import Loop, start_loop
+from nivel.analysis.plan import Plan
+from nivel.analysis.preparation import Prepared, prepare
+from nivel.c_library.image import WORD, Image, UnknownAddressError
+from nivel.c_library.templates import EXAMPLE, HEADER, MAKEFILE, SOURCE
+from nivel.errors import Fault, ModelError
+from nivel.integrate.loop import advance
+from nivel.integrate.run import ALL_STEPS, BUDGET, END, EVENTS, EVERY, FRAMES, TIME
+from nivel.integrate.sink import Header
+from nivel.kernels.handle import Handle
+from nivel.kernels.status import BUDGET_SPENT
+from nivel.native import library
+from nivel.native.entry import Entry
+from nivel.native.workers import CompilationError
+from nivel.results.csv_table import columns
+from nivel.results.memory import Memory
+
+# as many frames as a step may leave: its own, and that of the start
+FRAMES_KEPT = 2
+# steps without end, in which times are still exact products of the step
+ENDLESS = 2**52
+
+
+@dataclass(frozen=True)
+class Files:
+    """What was written. outputs : names of the numbers that the library gives after each step. size : bytes of one machine."""
+
+    folder: Path
+    name: str
+    outputs: tuple[str, ...]
+    size: int
+
+
+def write_c_library(plan: Plan, folder: Path) -> Files:
+    """Write the library of a run with a fixed step into a new folder.
+
+    Raises ModelError where the integrator chooses its steps, or a Python law takes part.
+    """
+    if plan.settings.steps == 0:
+        raise _fault(
+            f"a C library takes steps of one length, and {plan.settings.integrator} chooses them; "
+            "take --integrator rk4, or --step-control fixed"
+        )
+    prepared = prepare(plan.methods)
+    loop = _endless(start_loop(prepared, plan.settings))
+    entries = [*dict.fromkeys(run_entries(plan))]
+    symbols = {entry.address: entry.symbol for entry in entries}
+    twins = [prepared.motion.twin] if prepared.motion.twin is not None else []
+    try:
+        image = Image([loop.machine, *twins, loop.history], symbols)
+    except UnknownAddressError:
+        raise _fault("Python laws cannot go into a C library; write them as expressions") from None
+    name = re.sub(r"\W", "_", plan.machine.name.lower())
+    outputs = output_names(plan, prepared)
+    _write(folder, name, image, loop, outputs, plan.settings.step)
+    _write_machine_code(folder / "kernels", [each for each in entries if each.symbol in _used(image, loop)])
+    return Files(folder, name, outputs, image.words.nbytes)
+
+
+def _fault(message: str) -> ModelError:
+    return ModelError(Fault("", 0, 0, "", message))
+
+
+def _endless(loop: Loop) -> Loop:
+    """The loop with a frame after each step and room for no more than that, and without an end."""
+    run = loop.history.record
+    run.counter[EVERY], run.counter[ALL_STEPS], run.clock[END] = 1, ENDLESS, 1e300
+    kept = run._replace(frames=run.frames[:FRAMES_KEPT].copy())
+    return loop._replace(history=Handle(kept))
+
+
+def output_names(plan: Plan, prepared: Prepared) -> tuple[str, ...]:
+    """Names of the numbers of a frame, as results have them: `time`, `crank.position.x`, `kinetic_energy`."""
+    sink = Memory()
+    attributes = run_attributes(plan.machine, "", prepared, plan.settings)
+    sink.begin(Header(prepared.motion.system.layout, attributes))
+    return ("time", *columns(sink.result()))
+
+
+def _used(image: Image, loop: Loop) -> set[str]:
+    """Symbols that the library reaches. Families of forces call no entries but by addresses in the image."""
+    return {*image.outer.values(), advance.symbol, loop.evaluate.symbol, loop.correct.symbol, loop.step.symbol}
+
+
+def _write(folder: Path, name: str, image: Image, loop: Loop, outputs: Sequence[str], step: float) -> None:
+    try:
+        folder.mkdir(parents=True)
+    except FileExistsError:
+        raise _fault(f"{folder} is there already; name another folder") from None
+    run = loop.history.record
+    words = image.words.nonzero()[0]
+    values = {
+        "name": name,
+        "NAME": name.upper(),
+        "size": image.words.nbytes,
+        "step": repr(step),
+        "width": len(outputs),
+        "count": len(words),
+        "inner_count": len(image.inner),
+        "outer_count": len(image.outer),
+        "output_names": _lines(f'"{each}"' for each in outputs),
+        "enumeration": _lines(f"{name.upper()}_{re.sub(r'[^A-Za-z0-9]', '_', each).upper()}" for each in outputs),
+        "places": _lines(map(str, words.tolist())),
+        "words": _lines(f"0x{each:x}u" for each in image.words[words].tolist()),
+        "inner": _lines(f"{{{word},{byte}}}" for word, byte in image.inner.items()),
+        "outer": _lines(f"{{{word},{symbol}}}" for word, symbol in image.outer.items()),
+        "declarations": "\n".join(
+            f"extern char {symbol}[];" for symbol in sorted(_used(image, loop) - {advance.symbol})
+        ),
+        "advance": advance.symbol,
+        "evaluate": loop.evaluate.symbol,
+        "correct": loop.correct.symbol,
+        "take_step": loop.step.symbol,
+        "machine": image.byte_of(int(loop.machine.address)),
+        "history": image.byte_of(int(loop.history.address)),
+        "budget": image.byte_of(run.counter.ctypes.data) + WORD * BUDGET,
+        "frame_count": image.byte_of(run.counter.ctypes.data) + WORD * FRAMES,
+        "event_count": image.byte_of(run.counter.ctypes.data) + WORD * EVENTS,
+        "time": image.byte_of(run.clock.ctypes.data) + WORD * TIME,
+        "frames": image.byte_of(run.frames.ctypes.data),
+        "spent": BUDGET_SPENT,
+    }
+    for file, template in (
+        (f"{name}.h", HEADER),
+        (f"{name}.c", SOURCE),
+        ("example.c", EXAMPLE),
+        ("Makefile", MAKEFILE),
+    ):
+        (folder / file).write_text(template.substitute(values), encoding="utf-8")
+
+
+def _lines(parts: Iterable[str], wide: int = 12) -> str:
+    """Parts with commas between them, some on each line."""
+    listed = list(parts)
+    return ",\n".join(", ".join(listed[k : k + wide]) for k in range(0, len(listed), wide))
+
+
+def _write_machine_code(folder: Path, entries: Sequence[Entry]) -> None:
+    folder.mkdir()
+    try:
+        for entry in entries:
+            (folder / f"{entry.symbol}.o").write_bytes(library.object_code(entry))
+    except CompilationError as problem:
+        shutil.rmtree(folder.parent)
+        raise _fault(f"a C library is made of object files, and {problem}") from None

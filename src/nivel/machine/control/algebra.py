@@ -1,0 +1,161 @@
+"""Blocks without memory: signal, gain, sum, limit, dead zone, switch, lookup table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.checked import Problem
+from nivel.machine.control.block import Block, Number, Numbers, Pair
+from nivel.machine.control.condition import Condition
+from nivel.machine.control.laws import beyond, chosen, limited
+from nivel.machine.control.part import Part, law
+from nivel.machine.linear_function import linear
+from nivel.machine.quantity import listed
+from nivel.machine.table import Interpolation, Table
+from nivel.machine.time_function import Measured
+
+
+class SignalBlock(Block):
+    """A function of time and symbols under a name: a set-point, a measured value, a law in Python."""
+
+    type: Literal["signal"] = "signal"
+    value: Measured = Field(description="expression of `time` and symbols, table, or law in Python")
+
+    def computation(self) -> tuple[Part, ...]:
+        return (self.present(self.output, self.value, key="value"),)
+
+
+class OfInput(Block):
+    """A block with one input."""
+
+    quantities = ("value", "input")
+
+    input: Measured = Field(description="expression of `time` and symbols")
+
+    @property
+    def taken(self) -> Part:
+        """The input, or its sample."""
+        return self.present("input", self.input, key="input")
+
+    @property
+    def input_path(self) -> str:
+        return self.path("input")
+
+
+class Gain(OfInput):
+    """gain · input."""
+
+    type: Literal["gain"] = "gain"
+    gain: Number
+
+    def computation(self) -> tuple[Part, ...]:
+        return self.taken, self.present(self.output, linear((self.gain, self.input_path)))
+
+
+class Sum(Block):
+    """Σ factor · input."""
+
+    type: Literal["sum"] = "sum"
+    inputs: Annotated[tuple[Measured, ...], BeforeValidator(listed)] = Field(
+        description="expressions of `time` and symbols"
+    )
+    factors: Numbers | None = Field(default=None, description="one for each input; default 1")
+
+    def computation(self) -> tuple[Part, ...]:
+        names = [f"input_{k + 1}" for k in range(len(self.inputs))]
+        factors = self.factors or (1.0,) * len(names)
+        taken = [self.present(name, each, key="inputs") for name, each in zip(names, self.inputs, strict=True)]
+        total = linear(*((factor, self.path(name)) for factor, name in zip(factors, names, strict=True)))
+        return (*taken, self.present(self.output, total))
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if not self.inputs:
+            yield Problem(("inputs",), "a sum needs at least one input")
+        if self.factors is not None and len(self.factors) != len(self.inputs):
+            message = f"there are {len(self.inputs)} inputs and {len(self.factors)} factors; each input has one"
+            yield Problem(("factors",), message)
+
+
+class Limit(OfInput):
+    """The input, cut off at both limits."""
+
+    type: Literal["limit"] = "limit"
+    limits: Pair = Field(description="lower and upper limit")
+
+    def computation(self) -> tuple[Part, ...]:
+        return self.taken, self.present(self.output, law(limited, self.input_path, *self.limits))
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        yield from refuse_order(self.limits)
+
+
+class DeadZone(OfInput):
+    """How far the input is outside of a band: zero within, its distance from the band outside."""
+
+    type: Literal["dead-zone"] = "dead-zone"
+    band: Pair = Field(description="lower and upper end")
+
+    def computation(self) -> tuple[Part, ...]:
+        return self.taken, self.present(self.output, law(beyond, self.input_path, *self.band))
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        yield from refuse_order(self.band, "band")
+
+
+class Switch(Block):
+    """`then` while the condition holds, else `otherwise`."""
+
+    type: Literal["switch"] = "switch"
+    when: Condition = Field(description="comparison such as `boom.angle > 0.5`, or a value that is positive")
+    then: Measured = Field(description="expression of `time` and symbols")
+    otherwise: Measured = Field(description="expression of `time` and symbols")
+
+    def computation(self) -> tuple[Part, ...]:
+        parts = {"condition": self.when, "then": self.then, "otherwise": self.otherwise}
+        keys = {"condition": "when"}
+        taken = [self.present(name, each, key=keys.get(name, name)) for name, each in parts.items()]
+        return (*taken, self.present(self.output, law(chosen, *(self.path(name) for name in parts))))
+
+
+class Lookup(OfInput):
+    """A table over the input; beyond its ends the end values hold."""
+
+    type: Literal["lookup"] = "lookup"
+    points: Numbers = Field(description="values of the input, increasing")
+    values: Numbers = Field(description="what the table gives there")
+    interpolation: Interpolation = Field(default="linear", description="straight lines, or a natural cubic spline")
+
+    def computation(self) -> tuple[Part, ...]:
+        table = Table(self.points, self.values, self.interpolation, self.input_path)
+        return self.taken, self.present(self.output, table)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if len(self.points) != len(self.values) or len(self.points) < 2:
+            counts = f"got {len(self.points)} and {len(self.values)}"
+            yield Problem(("values",), f"a table needs as many values as points, two or more; {counts}")
+        elif any(after <= before for before, after in zip(self.points, self.points[1:], strict=False)):
+            yield Problem(("points",), "points increase strictly")
+        elif self.interpolation == "cubic" and len(self.points) < 3:
+            yield Problem(("points",), "a cubic table needs three points or more")
+
+
+def refuse_order(limits: tuple[float, float], key: str = "limits") -> Iterator[Problem]:
+    """Limits of which the first is not the lower one."""
+    lower, upper = limits
+    if not lower < upper:
+        yield Problem(
+            (key,), f"the lower limit comes first and is less than the upper one; got {lower:g} and {upper:g}"
+        )
+
+
+def both(limits: tuple[float, float] | None) -> tuple[float, float]:
+    """The limits, or infinite ones."""
+    return (-math.inf, math.inf) if limits is None else limits

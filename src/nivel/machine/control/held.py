@@ -1,0 +1,136 @@
+"""Blocks that remember: delay, rate limit, moving average, hysteresis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Literal
+
+from pydantic import Field
+
+from nivel.machine.checked import Problem
+from nivel.machine.control.algebra import OfInput
+from nivel.machine.control.block import MOST_DELAYED, WHOLE, Number, Pair, PositiveNumber
+from nivel.machine.control.laws import approach, followed, switched
+from nivel.machine.control.part import Part, law
+from nivel.machine.linear_function import linear
+from nivel.machine.quantity import Duration
+
+
+class Delay(OfInput):
+    """The input of some time ago, a whole number of samples."""
+
+    type: Literal["delay"] = "delay"
+    time: Duration = Field(description="a whole multiple of `sample_time`")
+    start: Number = Field(default=0.0, description="value until the first sample comes out")
+
+    def computation(self) -> tuple[Part, ...]:
+        names = [f"waiting_{k + 1}" for k in range(round(self.time / self.period))]
+        parts = [self.taken]
+        for before, name in zip([self.input_path, *map(self.path, names)], names, strict=False):
+            parts.append(Part(name, "memory", linear((1.0, before)), self.start))
+        return *parts, self.present(self.output, linear((1.0, self.path(names[-1]))), start=self.start)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.sample_time is None:
+            yield Problem((), "`sample_time` is missing: a delay holds samples; for a smooth lag take a low-pass")
+            return
+        count = self.time / self.sample_time
+        if round(count) < 1 or abs(count - round(count)) > WHOLE * count:
+            yield Problem(("time",), f"{self.time:g} s is no whole number of samples of {self.sample_time:g} s")
+        elif count > MOST_DELAYED:
+            message = f"{count:.4g} samples would wait; up to {MOST_DELAYED} are taken: take a longer `sample_time`"
+            yield Problem(("time",), message)
+
+
+class MovingAverage(OfInput):
+    """The mean of the last samples of the input."""
+
+    type: Literal["moving-average"] = "moving-average"
+    samples: int = Field(ge=2, le=MOST_DELAYED, description="how many")
+    start: Number = Field(default=0.0, description="what stands for samples before the start")
+
+    def computation(self) -> tuple[Part, ...]:
+        names = [f"waiting_{k + 1}" for k in range(self.samples - 1)]
+        paths = [self.input_path, *map(self.path, names)]
+        waiting = [
+            Part(name, "memory", linear((1.0, before)), self.start) for before, name in zip(paths, names, strict=False)
+        ]
+        mean = linear(*((1.0 / self.samples, path) for path in paths))
+        return self.taken, *waiting, self.present(self.output, mean, start=self.start)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.sample_time is None:
+            yield Problem((), "`sample_time` is missing: a moving average is one of samples; else take a low-pass")
+
+
+class RateLimit(OfInput):
+    """The input, followed no faster than a rate."""
+
+    type: Literal["rate-limit"] = "rate-limit"
+    rate: PositiveNumber | None = Field(default=None, description="greatest change per second, up and down")
+    rates: Pair | None = Field(default=None, description="in place of `rate`: fastest fall (negative) and fastest rise")
+    time_constant: Duration | None = Field(
+        default=None, description="of a continuous one, with which it follows slow inputs"
+    )
+    start: Number | None = Field(default=None, description="value before the first sample; default the input then")
+
+    def computation(self) -> tuple[Part, ...]:
+        fall, rise = self.rates or (-(self.rate or 0.0), self.rate or 0.0)
+        own = self.path(self.output)
+        if self.is_sampled:
+            change = law(followed, self.path("before"), self.input_path, fall * self.period, rise * self.period)
+            return (
+                self.taken,
+                *self._began(Part("before", "memory", linear((1.0, own)))),
+                self.present(self.output, change),
+            )
+        rate = law(approach, own, self.input_path, self.time_constant or 1.0, fall, rise)
+        return self.taken, *self._began(Part(self.output, "state", rate))
+
+    def _began(self, part: Part) -> tuple[Part]:
+        """The part with its start, or with the input at the beginning."""
+        begins = linear((1.0, self.input_path)) if self.start is None else None
+        return (replace(part, start=self.start or 0.0, begins=begins),)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if (self.rate is None) == (self.rates is None):
+            yield Problem((), "a rate limit needs `rate`, or `rates` for fall and rise")
+        if self.rates is not None and not self.rates[0] < 0.0 < self.rates[1]:
+            yield Problem(("rates",), "the fastest fall is negative and comes first, the fastest rise is positive")
+        if self.sample_time is None and self.time_constant is None:
+            yield Problem(
+                (), "`sample_time` is missing, or for a continuous one the `time_constant` with which it follows"
+            )
+
+
+class Hysteresis(OfInput):
+    """On from where the input is greater than `on` until it is less than `off`."""
+
+    type: Literal["hysteresis"] = "hysteresis"
+    on: Number = Field(description="input above which it switches on")
+    off: Number = Field(description="input below which it switches off")
+    values: Pair = Field(default=(0.0, 1.0), description="value when off, and when on")
+    start: Literal["off", "on"] = Field(default="off", description="until the first sample says otherwise")
+
+    def computation(self) -> tuple[Part, ...]:
+        low, high = self.values
+        began = 1.0 if self.start == "on" else 0.0
+        is_on = law(switched, self.path("on"), self.input_path, self.on, self.off)
+        value = linear((high - low, self.path("on")), offset=low)
+        return (
+            self.taken,
+            Part("on", "sample", is_on, began, holds=True),
+            self.present(self.output, value, start=low + began * (high - low)),
+        )
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.off > self.on or math.isclose(self.off, self.on):
+            yield Problem(("off",), f"`off` is less than `on`; got {self.off:g} and {self.on:g}")
+        if self.sample_time is None:
+            yield Problem((), "`sample_time` is missing: it looks at its input at samples")

@@ -1,0 +1,98 @@
+"""The order in which parts are computed, and algebraic loops, in which there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from nivel.machine.control.block import Block
+from nivel.machine.control.part import Part, PartFunction
+from nivel.machine.linear_function import LinearFunction
+from nivel.machine.time_function import signals_of
+
+
+@dataclass(frozen=True)
+class PartOf:
+    """A part of a block."""
+
+    block: Block
+    part: Part
+
+    @property
+    def path(self) -> str:
+        """Its symbol."""
+        return self.block.path(self.part.name)
+
+    @property
+    def is_instantaneous(self) -> bool:
+        """Whether it is computed from what others are at the same instant: always, or when it begins."""
+        return self.part.role in ("signal", "sample") or self.part.begins is not None
+
+    @property
+    def present(self) -> PartFunction:
+        """What it is computed with then."""
+        return self.part.function if self.part.begins is None else self.part.begins
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        """Paths that its function reads."""
+        function = self.part.function
+        return function.signals if isinstance(function, LinearFunction) else signals_of(function)
+
+    @property
+    def feedthrough(self) -> tuple[str, ...]:
+        """Paths that it reads at the instant at which it is computed; a sample that reads itself reads its value before."""
+        function = self.present
+        paths = function.signals if isinstance(function, LinearFunction) else signals_of(function)
+        return paths if self.part.role == "signal" else tuple(path for path in paths if path != self.path)
+
+
+def parts_of(blocks: Sequence[Block]) -> list[PartOf]:
+    """The parts of all blocks."""
+    return [PartOf(block, part) for block in blocks for part in block.parts]
+
+
+def in_order(parts: Sequence[PartOf]) -> tuple[list[PartOf], list[list[PartOf]]]:
+    """What is computed at an instant, each after all that it reads there, and the algebraic loops among it.
+
+    What stands in a loop is ordered somehow. Tarjan's strongly connected components (1972) of the graph of direct feedthrough.
+    """
+    nodes = {each.path: each for each in parts if each.is_instantaneous}
+    reads = {path: [other for other in each.feedthrough if other in nodes] for path, each in nodes.items()}
+    order, loops = [], []
+    for component in _components(reads):
+        order += [nodes[path] for path in component]
+        if len(component) > 1 or component[0] in reads[component[0]]:
+            loops.append([nodes[path] for path in component])
+    return order, loops
+
+
+def _components(reads: Mapping[str, Sequence[str]]) -> Iterator[list[str]]:
+    """Strongly connected components, each after those that it reads."""
+    number: dict[str, int] = {}
+    low: dict[str, int] = {}
+    stack: list[str] = []
+    for root in reads:
+        if root in number:
+            continue
+        work: list[tuple[str, Iterator[str]]] = [(root, iter(reads[root]))]
+        number[root] = low[root] = len(number)
+        stack.append(root)
+        while work:
+            path, left = work[-1]
+            for other in left:
+                if other not in number:
+                    number[other] = low[other] = len(number)
+                    stack.append(other)
+                    work.append((other, iter(reads[other])))
+                    break
+                if other in stack:
+                    low[path] = min(low[path], number[other])
+            else:
+                work.pop()
+                if work:
+                    low[work[-1][0]] = min(low[work[-1][0]], low[path])
+                if low[path] == number[path]:
+                    at = stack.index(path)
+                    component, stack[at:] = stack[at:], []
+                    yield component

@@ -1,0 +1,50 @@
+"""What blocks are made of: parts, each one number with a function that gives it, its rate, or its value after a sample."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Literal
+
+from nivel.machine.linear_function import LinearFunction
+from nivel.machine.python_law import PythonLaw
+from nivel.machine.python_source import source_of
+from nivel.machine.time_function import TimeFunction
+
+Role = Literal["signal", "state", "sample", "memory"]
+
+VALUE = "value"
+
+
+PartFunction = TimeFunction | LinearFunction
+
+
+@dataclass(frozen=True)
+class Part:
+    """One number of a block; its symbol is `BLOCK.name`, and `value` is what the block puts out.
+
+    role : "signal", a function of the present; "state", whose rate the function is; "sample", which the function gives at each sample
+    and which holds between them, and "memory", the same after all samples of that time, from the values before.
+    start : of states, samples and memories. begins : gives the value just before the first sample of the block, in place of `start`.
+    offset : after the samples of its block [s]. holds : it keeps its value in statics. key : of the block, whose text the function is.
+    """
+
+    name: str
+    role: Role
+    function: PartFunction
+    start: float = 0.0
+    begins: PartFunction | None = None
+    offset: float = 0.0
+    holds: bool = False
+    key: str = ""
+
+
+def law(function: Callable[..., float], *arguments: str | float) -> PythonLaw:
+    """A function of `nivel.machine.control.laws` of these signals and numbers."""
+    return PythonLaw(_text(function), function.__name__, arguments)
+
+
+@cache
+def _text(function: Callable[..., float]) -> str:
+    return source_of(function)

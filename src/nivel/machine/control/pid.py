@@ -1,0 +1,137 @@
+"""PID controllers, continuous and sampled, with anti-windup."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Literal
+
+from pydantic import Field
+
+from nivel.machine.checked import Problem, superfluous
+from nivel.machine.control.algebra import both, refuse_order
+from nivel.machine.control.block import Block, NotNegativeTime, Number, Pair
+from nivel.machine.control.laws import limited
+from nivel.machine.control.part import Part, law
+from nivel.machine.linear_function import linear
+from nivel.machine.quantity import Duration
+from nivel.machine.time_function import Measured
+
+
+class Pid(Block):
+    """kp (β r - y) + ki ∫(r - y) + kd of the filtered -ẏ + feedforward, cut off at the limits; the integral does not wind up there.
+
+    Given the `input` r - y alone, all three act on it. At a limit the integral is led back with the tracking time (Åström & Hägglund,
+    Advanced PID Control, 2006, §3.5; sampled: §13.3 with the integral by forward and the derivative by backward differences).
+    """
+
+    quantities = ("value", "error", "integral", "unlimited")
+
+    type: Literal["pid"] = "pid"
+    input: Measured | None = Field(default=None, description="the error, set-point less measured value")
+    reference: Measured | None = Field(
+        default=None, description="the set-point r, in place of `input`; with `measured`"
+    )
+    measured: Measured | None = Field(default=None, description="the measured value y, in place of `input`")
+    kp: Number = Field(default=0.0, description="proportional gain")
+    ki: Number = Field(default=0.0, description="integral gain, per second")
+    kd: Number = Field(default=0.0, description="derivative gain, seconds")
+    limits: Pair | None = Field(default=None, description="lower and upper limit of the value")
+    feedforward: Measured | None = Field(default=None, description="what is added before the limits")
+    set_point_weight: Number = Field(default=1.0, description="β, the share of the set-point in the proportional part")
+    filter_time: NotNegativeTime | None = Field(
+        default=None, description="time constant of the derivative's filter; default a tenth of kd/kp"
+    )
+    tracking_time: Duration | None = Field(
+        default=None, description="with which the integral is led back at a limit; default √(kp/ki · kd/kp), or kp/ki"
+    )
+    start: Number = Field(default=0.0, description="value of the integral at the start")
+
+    @property
+    def filter(self) -> float:
+        """Time constant of the filter [s]."""
+        return self.filter_time if self.filter_time is not None else 0.1 * abs(self.kd / self.kp)
+
+    @property
+    def tracking(self) -> float:
+        """Tracking time [s], of sampled ones at least one period."""
+        if self.tracking_time is not None:
+            return self.tracking_time
+        integral = abs(self.kp / self.ki)
+        time = math.sqrt(integral * abs(self.kd / self.kp)) if self.kd else integral
+        return max(time, self.period)
+
+    def computation(self) -> tuple[Part, ...]:
+        parts = [*self._taken()]
+        y, minus = (self.path("measured"), 1.0) if self.input is None else (self.path("error"), -1.0)
+        error, integral = self.path("error"), self.path("integral")
+        weight = self.kp * self.set_point_weight
+        terms = [(weight, self.path("reference")), (-self.kp, y)] if self.input is None else [(self.kp, error)]
+        if self.kd:
+            parts += self._derivative_parts(y, minus)
+            terms.append((1.0, self.path("derivative")))
+        if self.ki:
+            terms.append((1.0, integral))
+        if self.feedforward is not None:
+            terms.append((1.0, self.path("feedforward")))
+        if self.limits is None:
+            parts.append(self.present(self.output, linear(*terms)))
+        else:
+            parts.append(self.present("unlimited", linear(*terms)))
+            parts.append(self.present(self.output, law(limited, self.path("unlimited"), *both(self.limits))))
+        if self.ki:
+            parts.append(self._integral_part(error, integral))
+        return tuple(parts)
+
+    def _taken(self) -> Iterator[Part]:
+        if self.input is not None:
+            yield self.present("error", self.input, key="input")
+        else:
+            assert self.reference is not None  # the record was checked
+            assert self.measured is not None
+            yield self.present("reference", self.reference, key="reference")
+            yield self.present("measured", self.measured, key="measured")
+            yield self.present("error", linear((1.0, self.path("reference")), (-1.0, self.path("measured"))))
+        if self.feedforward is not None:
+            yield self.present("feedforward", self.feedforward, key="feedforward")
+
+    def _derivative_parts(self, y: str, minus: float) -> Iterator[Part]:
+        """-kd s/(T_f s + 1) of y, or of minus y. Sampled: D_k = a D_{k-1} + (1 - a) K_d (y_{k-1} - y_k)/T, a = T_f/(T_f + T)."""
+        before, own, gain = self.path("before"), self.path("derivative"), minus * self.kd
+        if self.is_sampled:
+            share = self.filter / (self.filter + self.period)
+            slope = (1.0 - share) * gain / self.period
+            yield self.present("derivative", linear((share, own), (slope, before), (-slope, y)))
+            yield Part("before", "memory", linear((1.0, y)), begins=linear((1.0, y)))
+        else:
+            rate = linear((1.0 / self.filter, y), (-1.0 / self.filter, before))
+            yield Part("before", "state", rate, begins=linear((1.0, y)))
+            yield self.present("derivative", linear((gain / self.filter, before), (-gain / self.filter, y)))
+
+    def _integral_part(self, error: str, integral: str) -> Part:
+        back = []
+        if self.limits is not None:
+            back = [(1.0 / self.tracking, self.path(self.output)), (-1.0 / self.tracking, self.path("unlimited"))]
+        rate = linear((self.ki, error), *back)
+        after = linear((1.0, integral), *((self.period * factor, path) for factor, path in rate.terms))
+        return self.remembered("integral", rate, after, self.start)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.input is None and (self.reference is None or self.measured is None):
+            yield Problem((), "a controller needs its `input`, the error, or `reference` and `measured`")
+        for key in ("reference", "measured"):
+            if self.input is not None and getattr(self, key) is not None:
+                yield superfluous(key, "stands in place of `input`; give one of them")
+        if not (self.kp or self.ki or self.kd):
+            yield Problem((), "all gains are zero; give `kp`, `ki` or `kd`")
+        if self.kd and not self.kp and self.filter_time is None:
+            yield Problem((), "`filter_time` is missing: time constant of the derivative's filter")
+        if self.kd and not self.is_sampled and self.filter_time == 0.0:
+            yield Problem(
+                ("filter_time",), "a continuous derivative needs a filter; a time greater than zero was expected"
+            )
+        if self.limits is not None:
+            yield from refuse_order(self.limits)
+            if self.ki and not self.kp and self.tracking_time is None:
+                yield Problem((), "`tracking_time` is missing: with which the integral is led back at a limit")

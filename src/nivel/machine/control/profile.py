@@ -1,0 +1,83 @@
+"""Set-points that go from place to place: with a limited speed and acceleration, or smooth by times."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.checked import Problem
+from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
+from nivel.machine.control.laws import trapezoid, trapezoid_rate
+from nivel.machine.control.part import Part, PartFunction, law
+from nivel.machine.expression import Expression
+from nivel.machine.quantity import Quantity, listed
+
+Times = Annotated[tuple[Annotated[float, Quantity("time")], ...], BeforeValidator(listed)]
+
+
+class Trapezoid(Block):
+    """From one value to another with a limited speed and acceleration; `NAME.rate` is its speed."""
+
+    quantities = ("value", "rate")
+
+    type: Literal["trapezoid"] = "trapezoid"
+    first: Number = Field(default=0.0, description="value before")
+    last: Number = Field(description="value after")
+    begin: Annotated[float, Quantity("time")] = Field(default=0.0, description="time at which it starts to move")
+    speed: PositiveNumber = Field(description="greatest speed, per second")
+    acceleration: PositiveNumber = Field(description="of speeding up and slowing down, per second squared")
+
+    def computation(self) -> tuple[Part, ...]:
+        numbers = (self.begin, self.first, self.last - self.first, self.speed, self.acceleration)
+        return (
+            self.present(self.output, law(trapezoid, "time", *numbers), start=self.first),
+            self.present("rate", law(trapezoid_rate, "time", *numbers)),
+        )
+
+
+class Waypoints(Block):
+    """Rests at each value, and goes between two times from one to the next: smooth to the second derivative (quintic)."""
+
+    quantities = ("value", "rate")
+
+    type: Literal["waypoints"] = "waypoints"
+    times: Times = Field(
+        description="arrival at the first value, departure, arrival at the second, departure, …; or one time for each value"
+    )
+    values: Numbers
+
+    @property
+    def moves(self) -> list[tuple[float, float, float]]:
+        """(begin, end, change) of each move."""
+        changes = [after - before for before, after in pairwise(self.values)]
+        each = len(self.times) == len(self.values)
+        spans = pairwise(self.times) if each else zip(self.times[::2], self.times[1::2], strict=True)
+        return [(*span, change) for span, change in zip(spans, changes, strict=True) if change]
+
+    def computation(self) -> tuple[Part, ...]:
+        steps = [f"step(time, {begin!r}, 0, {end!r}, {change!r})" for begin, end, change in self.moves]
+        value: PartFunction = self.values[0]
+        rate: PartFunction = 0.0
+        if steps:
+            value = Expression(" + ".join([repr(self.values[0]), *steps]))
+            rate = value.derivative
+        return self.present(self.output, value, start=self.values[0]), self.present("rate", rate)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        count = len(self.values)
+        if count < 2:
+            yield Problem(("values",), f"two values or more were expected, got {count}")
+        elif len(self.times) not in (count, 2 * (count - 1)):
+            message = (
+                f"{count} values go with {count} times, one for each, or with {2 * (count - 1)}: departure and arrival of each move; "
+                f"got {len(self.times)}"
+            )
+            yield Problem(("times",), message)
+        elif any(after < before for before, after in pairwise(self.times)) or any(
+            begin == end for begin, end, _ in self.moves
+        ):
+            yield Problem(("times",), "times increase")

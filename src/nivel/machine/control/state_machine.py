@@ -1,0 +1,180 @@
+"""State machines: at each sample the guards of the present state are looked at, and the first that holds leads on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.checked import Problem
+from nivel.machine.control.block import Block
+from nivel.machine.control.condition import Condition
+from nivel.machine.control.laws import entered
+from nivel.machine.control.part import Part, PartFunction, law
+from nivel.machine.linear_function import linear
+from nivel.machine.python_law import PythonLaw
+from nivel.machine.record import Name, Record, entry, unknown_word
+from nivel.machine.time_function import Measured
+
+
+def _conditions(value: Any) -> Any:
+    return value if isinstance(value, list | tuple) else [value]
+
+
+def _named(key: str, content: str) -> Any:
+    """Validator: a mapping from names to what they are, as a list of records."""
+
+    def listed(value: Any) -> Any:
+        if not isinstance(value, Mapping):
+            return value
+        return [
+            {key: name, **each} if not content and isinstance(each, Mapping) else {key: name, content: each}
+            for name, each in value.items()
+        ]
+
+    return BeforeValidator(listed)
+
+
+class Transition(Record):
+    """To another state, as soon as all conditions hold."""
+
+    to: Name
+    when: Annotated[tuple[Condition, ...], BeforeValidator(_conditions)]
+
+
+class StateOutput(Record):
+    """A value that a state gives to an output of its machine."""
+
+    name: Name
+    value: Measured
+
+
+class MachineState(Record):
+    """One state: its value, what else it puts out, and where it leads."""
+
+    name: Name
+    value: Measured | None = Field(default=None, description="default its number, from 0")
+    outputs: Annotated[tuple[StateOutput, ...], _named("name", "value")] = Field(
+        default=(), description="further values by name, which are zero in states that do not give them"
+    )
+    next: Annotated[tuple[Transition, ...], _named("to", "when")] = Field(
+        default=(), description="state → condition, or list of conditions that all hold; the first that holds is taken"
+    )
+
+
+class StateMachine(Block):
+    """One of several states at a time; at each sample at most one transition."""
+
+    quantities = ("value", "state", "time")
+
+    type: Literal["state-machine"] = "state-machine"
+    states: Annotated[tuple[MachineState, ...], _named("name", "")]
+    start: Name | None = Field(default=None, description="default the first state")
+
+    @classmethod
+    def symbols(cls, given: Any) -> tuple[str, ...]:
+        states = entry(given, "states")
+        each = states.values() if isinstance(states, Mapping) else states if isinstance(states, list | tuple) else ()
+        return (*cls.quantities, *_output_names(entry(one, "outputs") for one in each))
+
+    def computation(self) -> tuple[Part, ...]:
+        names = [state.name for state in self.states]
+        began = float(names.index(self.start)) if self.start else 0.0
+        guards, arms, number = [], [], 0
+        for k, state in enumerate(self.states):
+            for transition in state.next:
+                first = number
+                for condition in transition.when:
+                    number += 1
+                    guards.append(Part(f"guard_{number}", "sample", condition, key="states"))
+                arms.append((k, range(first, number), names.index(transition.to)))
+        own = self.path("state")
+        step = _step_law(own, [self.path(part.name) for part in guards], arms)
+        since = law(entered, "time", self.path("entered"), own, self.path("before"))
+        return (
+            *guards,
+            Part("state", "sample", step, began, holds=True),
+            *self._values(
+                self.output,
+                [state.value if state.value is not None else float(k) for k, state in enumerate(self.states)],
+            ),
+            *(
+                part
+                for name in _output_names(state.outputs for state in self.states)
+                for part in self._named_values(name)
+            ),
+            Part("before", "memory", linear((1.0, own)), began, holds=True),
+            Part("entered", "memory", since, holds=True),
+            Part("time", "signal", linear((1.0, "time"), (-1.0, self.path("entered")))),
+        )
+
+    def _named_values(self, name: str) -> Iterator[Part]:
+        given = [{each.name: each.value for each in state.outputs}.get(name, 0.0) for state in self.states]
+        return self._values(name, given)
+
+    def _values(self, name: str, given: Sequence[PartFunction]) -> Iterator[Part]:
+        """What the states give, and of it that of the present state."""
+        arguments: list[str | float] = []
+        for k, value in enumerate(given):
+            if isinstance(value, float | int):
+                arguments.append(float(value))
+            else:
+                part = f"{name}_{k}"
+                yield Part(part, "sample", value, key="states")
+                arguments.append(self.path(part))
+        start = arguments[[state.name for state in self.states].index(self.start) if self.start else 0]
+        select = PythonLaw(_selection(len(given)), "select", (self.path("state"), *arguments))
+        yield Part(name, "sample", select, start if isinstance(start, float) else 0.0)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        names = [state.name for state in self.states]
+        if not names:
+            yield Problem(("states",), "a state was expected, got none")
+        for name in dict.fromkeys(name for name in names if names.count(name) > 1):
+            yield Problem(("states",), f"the state `{name}` stands twice")
+        if self.start is not None and self.start not in names:
+            yield Problem(("start",), unknown_word(self.start, names, "state"))
+        for state in self.states:
+            for transition in state.next:
+                if transition.to not in names:
+                    yield Problem(
+                        ("states",),
+                        f"`{state.name}` leads to a state that is not there: {unknown_word(transition.to, names, 'state')}",
+                    )
+            for each in state.outputs:
+                if each.name in self.quantities or each.name.startswith(("guard_", "before", "entered")):
+                    yield Problem(
+                        ("states",),
+                        f"the output `{each.name}` of `{state.name}` has a meaning already; choose another name",
+                    )
+        if self.sample_time is None:
+            yield Problem((), "`sample_time` is missing: guards are looked at at samples")
+
+
+def _output_names(outputs: Any) -> tuple[str, ...]:
+    """Names of the outputs of all states, which may be raw data."""
+    names: dict[str, None] = {}
+    for each in outputs:
+        found = each if isinstance(each, Mapping) else [entry(one, "name") for one in each or ()]
+        names |= dict.fromkeys(name for name in found if isinstance(name, str))
+    return tuple(names)
+
+
+def _step_law(own: str, guards: list[str], arms: list[tuple[int, range, int]]) -> PythonLaw:
+    """The state after a sample. arms : (state, its guards, the state that they lead to)."""
+    lines = [f"def step({', '.join(['state', *(f'g{k}' for k in range(len(guards)))])}):"]
+    for state, span, to in arms:
+        conditions = [f"state == {state}.0", *(f"g{k} > 0.0" for k in span)]
+        lines += [f"    if {' and '.join(conditions)}:", f"        return {to}.0"]
+    return PythonLaw("\n".join([*lines, "    return state", ""]), "step", (own, *guards))
+
+
+def _selection(count: int) -> str:
+    """A function of a number from 0 and `count` values that returns the value of this number."""
+    names = [f"v{k}" for k in range(count)]
+    lines = [f"def select({', '.join(['state', *names])}):"]
+    for k, name in enumerate(names[:-1]):
+        lines += [f"    if state < {k}.5:", f"        return {name}"]
+    return "\n".join([*lines, f"    return {names[-1]}", ""])

@@ -1,0 +1,107 @@
+"""What checks beyond the balance of energy have found, as lines of the trust report; what is in order is not told."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from nivel.results.second_look import Damped, Growth, OwnError
+from nivel.results.steps_seen import Rounding, Turn
+from nivel.results.unseen import Unseen
+from nivel.results.verdicts import CHECKS, Item, Threshold, number
+
+SHOWN = 5  # functions of which each has a line
+
+
+@dataclass(frozen=True)
+class Findings:
+    """Each None, or empty, where it was not looked at; see the modules of their types. method : the integrator."""
+
+    unseen: Sequence[Unseen] = ()
+    turn: Turn | None = None
+    rounding: Rounding | None = None
+    own: OwnError | None = None
+    damped: Damped | None = None
+    growth: Growth | None = None
+    method: str = ""
+
+
+def finding_items(found: Findings) -> Iterator[Item]:
+    """The lines of what is not green."""
+    yield from _unseen_items(found.unseen)
+    if found.turn is not None:
+        yield from _told(_turn_item(found.turn))
+    if found.rounding is not None:
+        yield from _told(_rounding_item(found.rounding))
+    if found.own is not None:
+        yield from _told(_own_item(found.own))
+    if found.damped is not None:
+        yield _damped_item(found.damped, found.method)
+    if found.growth is not None:
+        yield _growth_item(found.growth)
+
+
+def _told(item: Item) -> Iterator[Item]:
+    if item.verdict != "green":
+        yield item
+
+
+def _measured(
+    name: str, text: str, value: float, time: float | None, row: str, threshold: Threshold | None = None
+) -> Item:
+    threshold = threshold or CHECKS[name]
+    verdict = threshold.verdict(value)
+    return Item(name, verdict, f"{text} ({threshold})", value, threshold.green, threshold.amber, row, time)
+
+
+def _unseen_items(unseen: Sequence[Unseen]) -> Iterator[Item]:
+    told = sorted((each for each in unseen if not each.share < CHECKS["loads"].green), key=lambda each: -each.share)
+    for each in told[:SHOWN]:
+        by = "" if each.of == "time" else f" along {each.of}"
+        said = f"the steps miss {number(min(each.share, 1.0))} of {each.name} at t = {each.time:.6g} s, where it changes{by} within"
+        advice = (
+            f"{number(each.scale)} s, in steps of {number(each.step)} s; take steps of {number(each.scale / 10.0)} s"
+        )
+        yield _measured("loads", f"Loads: {said} {advice}", each.share, each.time, each.name)
+
+
+def _turn_item(turn: Turn) -> Item:
+    threshold = Threshold(CHECKS["turn"].amber, math.inf, "") if turn.counted else CHECKS["turn"]
+    lost = "what depends on its angle is not followed" if turn.counted else "its turns can no longer be counted"
+    meaning = lost if turn.angle > CHECKS["turn"].amber else "that is more than the method resolves"
+    said = f"Turning: {turn.body} turns by {number(turn.angle)} rad in one step at t = {turn.time:.6g} s, and {meaning}"
+    return _measured("turn", f"{said}; take shorter steps", turn.angle, turn.time, turn.body, threshold)
+
+
+def _rounding_item(rounding: Rounding) -> Item:
+    far = f"{rounding.body} is {number(rounding.distance)} m from the origin, where places are rounded to {number(rounding.unit)} m"
+    lost = f"in all steps that may add up to {number(rounding.share)} of the machine's size"
+    return _measured(
+        "rounding", f"Round-off: {far}; {lost}; move the machine to the origin", rounding.share, None, rounding.body
+    )
+
+
+def _own_item(own: OwnError) -> Item:
+    its = f"{number(own.extent)} {own.units}"
+    said = f"{own.name} is off by {number(own.error)} {own.units}, {number(own.share)} of its own motion over {its}"
+    return _measured("parts", f"Parts: {said}", own.share, None, own.name)
+
+
+def _damped_item(damped: Damped, method: str) -> Item:
+    by = f"{method} takes" if method else "the method takes"
+    text = (
+        f"Damped: {by} {number(damped.lost)} J from the motion, and {number(damped.lost_finer)} J with finer steps: vibrations faster than "
+        f"the steps are damped away; take steps of a tenth of their period, or say that they do not matter by damping them yourself "
+        f"(green where finer steps lose less, amber otherwise)"
+    )
+    return Item("damped", "amber", text, damped.lost)
+
+
+def _growth_item(growth: Growth) -> Item:
+    text = (
+        f"Sensitivity: neighbouring motions part by a factor e every {number(growth.time_constant)} s, and have parted at t = "
+        f"{growth.parted:.6g} s: the motion is chaotic, and what follows is one of many; only means and extremes of it tell anything "
+        f"(green where they stay together, amber otherwise)"
+    )
+    return Item("sensitivity", "amber", text, time=growth.parted)

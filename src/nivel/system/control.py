@@ -1,0 +1,142 @@
+"""Blocks of a control in numbers: signals are elements that come before all forces, memories are states, samples a table of their own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from nivel.kernels.control import apply as compute
+from nivel.kernels.forces.state_rate import apply as state_rate
+from nivel.kernels.function import OUTPUT, STATE
+from nivel.kernels.record import NONE
+from nivel.machine.control.order import PartOf, in_order, parts_of
+from nivel.machine.control.part import VALUE
+from nivel.machine.index import Index
+from nivel.machine.symbols import find_in, is_output
+from nivel.system.builder import SystemBuilder
+from nivel.system.located import located
+from nivel.system.state_facts import StateFact
+
+ONCE = 1e300  # [s] period of what is sampled once
+
+
+@dataclass
+class SampleTable:
+    """Rows of `Sampled`: state, output, at once, function, event, period, offset."""
+
+    rows: list[tuple[int, int, int, int, int, float, float]] = field(default_factory=list)
+
+    def add(
+        self, state: int, function: int, *, period: float, offset: float = 0.0, event: int = NONE, at_once: bool = False
+    ) -> None:
+        """A sample of a state: after a period [s], at an event, or both."""
+        self.rows.append((state, NONE, int(at_once), function, event, period, offset))
+
+    def add_signal(self, output: int, function: int) -> None:
+        """A signal, which is computed anew at all samples."""
+        self.rows.append((NONE, output, 1, function, NONE, 0.0, 0.0))
+
+
+def variable_of(each: PartOf) -> str:
+    """Result variable of a part."""
+    return f"control.{each.block.name}" if each.part.name == VALUE else f"control.{each.path}"
+
+
+def add_control(draft: SystemBuilder) -> None:
+    """All parts of all blocks, and what computes signals and rates in every evaluation."""
+    parts = parts_of(draft.machine.control)
+    for each in parts:
+        if each.part.role == "signal":
+            output = draft.outputs.add((variable_of(each), _units(each), _words(each)))
+            draft.control[each.path] = (OUTPUT, output, 0)
+        else:
+            draft.control[each.path] = (STATE, draft.own_state(_fact(each)), 0)
+    order, _ = in_order(parts)
+    for each in order:
+        if each.part.role == "signal":
+            draft.elements.add(compute, [draft.control[each.path][1], _noted(draft, each)])
+    for each in parts:
+        if each.part.role == "state":
+            draft.elements.add(state_rate, [draft.control[each.path][1], _noted(draft, each), 0])
+        elif each.part.role in ("sample", "memory") and not each.part.holds and not _reads_forces(draft, each):
+            draft.elements.add(state_rate, [draft.control[each.path][1], _noted(draft, each), 1])
+
+
+def add_samples(draft: SystemBuilder, table: SampleTable) -> None:
+    """What is sampled: first what is computed at an instant, in order, then memories, all from the values before."""
+    parts = parts_of(draft.machine.control)
+    if not any(
+        each.part.role != "signal" and (each.block.is_sampled or each.part.begins is not None) for each in parts
+    ):
+        return
+    order, _ = in_order(parts)
+    for each in order:
+        index, place = draft.control[each.path][1], _place(each)
+        with located(place):
+            if each.part.role == "signal":
+                table.add_signal(index, _function(draft, each))
+            elif each.part.begins is not None:
+                table.add(index, draft.function(each.present), period=ONCE, offset=each.block.offset, at_once=True)
+            else:
+                table.add(
+                    index,
+                    _function(draft, each),
+                    period=each.block.period,
+                    offset=each.block.offset,
+                    at_once=True,
+                )
+    for each in parts:
+        if each.part.role == "memory":
+            offset = each.block.offset + each.part.offset
+            table.add(draft.control[each.path][1], _function(draft, each), period=each.block.period, offset=offset)
+
+
+def _function(draft: SystemBuilder, each: PartOf) -> int:
+    """Index of the function of a part; one that nothing has asked for before reads what forces report."""
+    if each.path not in draft.functions_of:
+        with located(_place(each)):
+            draft.functions_of[each.path] = draft.function(each.part.function)
+    return draft.functions_of[each.path]
+
+
+def _reads_forces(draft: SystemBuilder, each: PartOf) -> bool:
+    """Whether a sample takes something that forces report: it then keeps its value in statics."""
+    index = Index.of(draft.machine)
+    paths = [path for path in each.signals if path not in draft.control]
+    return any(is_output(find_in(path, index), index) for path in paths)
+
+
+def _noted(draft: SystemBuilder, each: PartOf) -> int:
+    """The function of a part. What it depends on is noted, also for those that read its signal."""
+    with draft.noting(), located(_place(each)):
+        if each.part.role != "signal":
+            draft.signal_at(each.path)
+        function = draft.function(each.part.function)
+    if each.part.role == "signal":
+        draft.behind_signals[each.path] = draft.noted[-1]
+    draft.functions_of[each.path] = function
+    return function
+
+
+def _place(each: PartOf) -> str:
+    return f"control.{each.block.name}{f'.{each.part.key}' if each.part.key else ''}"
+
+
+def _units(each: PartOf) -> str:
+    return (each.block.units if each.part.name == VALUE else "") or "1"
+
+
+def _words(each: PartOf) -> str:
+    return f"{each.part.name.replace('_', ' ')} of {each.block.name}"
+
+
+def _fact(each: PartOf) -> StateFact:
+    name = variable_of(each)
+    return StateFact(
+        name=name,
+        units=_units(each),
+        long_name=_words(each),
+        start=each.part.start,
+        scale=max(each.block.size, abs(each.part.start)),
+        sampled=each.part.role != "state",
+        variable=name,
+    )

@@ -1,0 +1,113 @@
+"""Machines as C libraries: built by the system's compiler, they step as nivel does, to the last bit."""
+
+import csv
+import ctypes
+import io
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+from nivel.results.csv_table import columns
+
+EXAMPLES = Path(__file__).parent.parent.parent / "examples"
+CASES = {
+    "explicit": ("slider-crank.yaml", {}),
+    "implicit": ("slider-crank.yaml", {"integrator": "generalised-alpha"}),
+    "absolute": ("four-bar.yaml", {"coordinates": "absolute"}),
+    "friction": ("friction-brake.yaml", {}),
+}
+BEAMS = pytest.param("beams/slider-crank.yaml", {}, marks=pytest.mark.full, id="beams")
+
+pytestmark = pytest.mark.skipif(shutil.which("cc") is None, reason="there is no C compiler")
+
+
+def build(folder, *targets):
+    subprocess.run(["make", "-s", "-C", folder, *targets], check=True, capture_output=True, timeout=120)
+    return folder
+
+
+@pytest.mark.parametrize(("file", "settings"), [*(pytest.param(*case, id=name) for name, case in CASES.items()), BEAMS])
+def test_the_example_in_c_prints_what_a_run_gives(file, settings, tmp_path):
+    machine = nivel.load(EXAMPLES / file).with_settings(settings)
+    written = machine.export_c(tmp_path / "c")
+    done = subprocess.run([build(written.folder) / "example"], check=True, capture_output=True, text=True, timeout=120)
+    names, *rows = csv.reader(io.StringIO(done.stdout))
+    result = machine.simulate(output_interval=machine.record.simulation.step)
+    count = min(len(rows), len(result.time) - 1)  # the last step of a run ends at its end exactly
+    assert count > 900
+    assert names == ["time", *columns(result)]
+    table = np.array(rows[:count], dtype=float)
+    np.testing.assert_array_equal(table[:, 0], result.time[:count])
+    for k, name in enumerate(names[1:], start=1):
+        found = result.selection(name)
+        np.testing.assert_array_equal(table[:, k], result.array(found.variable)[:count, *found.where[1:]], err_msg=name)
+
+
+@pytest.fixture(scope="module")
+def pendulum(tmp_path_factory):
+    """The library of the pendulum as Python sees it: functions, and a maker of blocks."""
+    folder = nivel.load(EXAMPLES / "simple-pendulum.yaml").export_c(tmp_path_factory.mktemp("c") / "c").folder
+    library = ctypes.CDLL(str(build(folder, "libsimple_pendulum.so") / "libsimple_pendulum.so"))
+    library.simple_pendulum_size.restype = ctypes.c_size_t
+    library.simple_pendulum_time.restype = ctypes.c_double
+    library.simple_pendulum_outputs.restype = ctypes.POINTER(ctypes.c_double)
+    kept = []
+
+    def block():
+        size = library.simple_pendulum_size()
+        kept.append(ctypes.create_string_buffer(size + 64))
+        return ctypes.c_void_p(-(-ctypes.addressof(kept[-1]) // 64) * 64)
+
+    return library, block
+
+
+def outputs(library, machine):
+    return library.simple_pendulum_outputs(machine)[:20]
+
+
+def test_a_saved_state_goes_on_as_it_did(pendulum):
+    library, block = pendulum
+    machine, copy = block(), block()
+    assert library.simple_pendulum_start(machine) == 0
+    for _ in range(50):
+        assert library.simple_pendulum_step(machine) == 0
+    library.simple_pendulum_save(machine, copy)
+    runs = []
+    for _ in range(2):
+        for _ in range(50):
+            library.simple_pendulum_step(machine)
+        runs.append((library.simple_pendulum_time(machine), outputs(library, machine)))
+        library.simple_pendulum_restore(machine, copy)
+    assert runs[0] == runs[1]
+    assert outputs(library, machine) != runs[0][1]
+
+
+def test_machines_beside_each_other_do_not_meet(pendulum):
+    library, block = pendulum
+    alone, first, second = block(), block(), block()
+    for machine in (alone, first, second):
+        library.simple_pendulum_start(machine)
+    for _ in range(30):
+        library.simple_pendulum_step(alone)
+    for k in range(30):
+        library.simple_pendulum_step(first)
+        if k % 2:
+            library.simple_pendulum_step(second)
+    assert outputs(library, first) == outputs(library, alone)
+    assert library.simple_pendulum_time(second) == pytest.approx(library.simple_pendulum_time(first) / 2)
+
+
+def test_what_a_library_cannot_be_is_refused(tmp_path):
+    machine = nivel.load(EXAMPLES / "slider-crank.yaml")
+    with pytest.raises(nivel.ModelError, match=r"steps of one length.*--integrator rk4"):
+        machine.with_settings({"integrator": "dopri5"}).export_c(tmp_path / "c")
+    with pytest.raises(nivel.ModelError, match="Python laws cannot go into a C library"):
+        nivel.load(EXAMPLES / "python-law.yaml", allow_code=True).export_c(tmp_path / "c")
+    assert not (tmp_path / "c").exists()
+    (tmp_path / "c").mkdir()
+    with pytest.raises(nivel.ModelError, match="is there already"):
+        machine.export_c(tmp_path / "c")

@@ -74,7 +74,7 @@ def run_variant(base: Model, values: Mapping[str, Any], save: tuple[str, ...]) -
 def _usual(result: Result, machine: Model) -> tuple[str, ...]:
     """Joint coordinates and sensors, or the positions of the bodies."""
     sensors = tuple(name for name in result.variables if name.partition(".")[0] in machine.sensors)
-    names = (*result.coordinates.get("joint_coordinate", ()), *sensors)
+    names = (*result.coordinates.get("joint_coordinate_name", ()), *sensors)
     return names or ("position",)
 
 

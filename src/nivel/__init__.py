@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from nivel.api import Machine as Machine
     from nivel.api import load as load
     from nivel.api import open_result as open_result
+    from nivel.api import sweep as sweep
     from nivel.errors import ModelError as ModelError
     from nivel.errors import NivelError as NivelError
     from nivel.errors import SolveError as SolveError
@@ -64,6 +65,7 @@ _HOME = {
     "Machine": "nivel.api",
     "load": "nivel.api",
     "open_result": "nivel.api",
+    "sweep": "nivel.api",
     "ModelError": "nivel.errors",
     "NivelError": "nivel.errors",
     "SolveError": "nivel.errors",
@@ -146,6 +148,7 @@ __all__ = [
     "TorsionalSpringDamper",
     "load",
     "open_result",
+    "sweep",
 ]
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Literal
 
-from nivel.analysis.changes import changed
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
 from nivel.analysis.compilation import (
     assembly_entries,
@@ -48,8 +47,11 @@ from nivel.machine import (
 )
 from nivel.machine.hydraulics import Fluid, HydraulicComponent
 from nivel.model import Model
+from nivel.wording import shown
 
 if TYPE_CHECKING:
+    import xarray
+
     from nivel.analysis.check import Check
     from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.posing import Posing
@@ -296,6 +298,34 @@ class Machine(Model):
 
         with chosen._faults_in_file():
             return Simulation(plan, source=self.origin.source, record=record)
+
+    @checked_arguments
+    def sweep(
+        self,
+        values: Mapping[str, Any],
+        *,
+        combine: Literal["grid", "rows"] = "grid",
+        samples: int | None = None,
+        seed: int = 0,
+        save: Sequence[str] | str = (),
+        processes: int | None = None,
+        listener: Listener | None = None,
+        **settings: Any,
+    ) -> xarray.Dataset:
+        """Run the machine with other values, on all processors, into one xarray dataset.
+
+        values : lists by path, ``{"bodies.rod.mass": [1, 2, 3], "parameters.length": ["20 cm", "30 cm"]}``. combine : `grid`, every value
+        with every other, one dimension each; or `rows`, the first of all lists, the second of all, along the dimension `variant`.
+        samples : so many variants of a Latin hypercube between two bounds, ``{"bodies.rod.mass": (1, 3)}``, or over distributions of
+        `scipy.stats`; seed : of its random numbers. save : names of results; default all joint coordinates and sensors.
+        processes : as many as there are processors by default. settings : as of `simulate`, for all variants.
+
+        A variant that fails or is refused has its `reason` in the dataset, and NaN where nothing was computed. `outcome`, `end_time` and
+        `verdict` stand there for every variant. Ctrl-C ends the sweep; what was computed is returned.
+        Raises ModelError where values or names are not known, or no variant can be run.
+        """
+        machine = self.with_settings(settings)
+        return _sweep([machine], values, (combine, samples, seed), (save, processes), listener)
 
     @checked_arguments
     def statics(
@@ -693,23 +723,6 @@ class Machine(Model):
             raise ModelError(self.origin.placed(error.faults)) from error
 
     @checked_arguments
-    def with_settings(self, settings: Mapping[str, Any]) -> Self:
-        """The same machine with some simulation settings replaced."""
-        if not settings:
-            return self
-        # what was set from outside of the file is asked for as well, and never left behind
-        outside, origin = self.origin.settings_outside, self.origin.with_settings(settings)
-        asked = {name: getattr(self.record.simulation, name) for name in outside if name in ("rotations", "baumgarte")}
-        try:
-            simulation = changed(self.record.simulation, {**asked, **settings})
-        except ModelError as error:
-            raise ModelError(origin.placed(origin.of_settings(fault, settings) for fault in error.faults)) from None
-        try:
-            return type(self).from_record(self.record.replace(simulation=simulation), origin)
-        except ModelError as error:
-            raise ModelError(origin.placed(error.faults)) from None
-
-    @checked_arguments
     def with_inputs(self, inputs: Mapping[str, float | str | PathLike[str] | Table]) -> Machine:
         """The same machine whose inputs follow numbers, tables of time, or files of columns `time`, `value` (CSV).
 
@@ -720,6 +733,50 @@ class Machine(Model):
         from nivel.files.input_table import with_signals
 
         return Machine.from_record(with_signals(self.record, inputs), self.origin)
+
+
+@checked_arguments
+def sweep(
+    make: Callable[..., Any],
+    values: Mapping[str, Any],
+    *,
+    combine: Literal["grid", "rows"] = "grid",
+    samples: int | None = None,
+    seed: int = 0,
+    save: Sequence[str] | str = (),
+    processes: int | None = None,
+    listener: Listener | None = None,
+) -> xarray.Dataset:
+    """As `Machine.sweep`, of machines that a function makes: ``nivel.sweep(make_crane, {"length": [4, 5, 6]})`` calls
+    ``make_crane(length=4)`` and so on. Every machine runs by its own settings.
+    """
+    return _sweep(make, values, (combine, samples, seed), (save, processes), listener)
+
+
+def _sweep(
+    machines: Sequence[Machine] | Callable[..., Any],
+    values: Mapping[str, Any],
+    layout: tuple[str, int | None, int],
+    run: tuple[Sequence[str] | str, int | None],
+    listener: Listener | None,
+) -> xarray.Dataset:
+    from nivel.analysis.sweep.sweep import progress_bar, sweep
+    from nivel.analysis.sweep.variants import lay_out
+    from nivel.native.workers import processors
+
+    variants = lay_out(values, *layout)
+    made = [machines(**each) for each in variants.values] if callable(machines) else machines
+    for machine in made:
+        if not isinstance(machine, Machine):
+            raise ModelError(
+                Fault("", 0, 0, "make", f"a function that returns a Machine was expected; it returned {shown(machine)}")
+            )
+    plan = made[0]._plan(made[0].origin.settings_outside)
+    build(_entries_of(plan, made[0].record), listener)
+    save, processes = run
+    names = (save,) if isinstance(save, str) else tuple(save)
+    with nullcontext(listener) if listener else progress_bar(len(variants.values)) as hearer:
+        return sweep(made, variants, names, processes=processes or processors(), listener=hearer)
 
 
 def _entries_of(plan: Plan, record: MachineRecord) -> list[Entry]:

@@ -32,6 +32,7 @@ from nivel.machine import (
     SimulationSettings,
     State,
 )
+from nivel.machine.changes import changed
 from nivel.machine.named import Named
 from nivel.machine.record import entry
 from nivel.machine.references import SECTIONS
@@ -93,6 +94,11 @@ class Elements:
     def states(self) -> Named[State]:
         """States beside the motion, by name."""
         return self._named("state", self.record.states)
+
+    @property
+    def control(self) -> Named[Any]:
+        """Blocks of the control by name."""
+        return self._named("block", self.record.control)
 
     @property
     def sensors(self) -> Named[Sensor]:
@@ -220,9 +226,22 @@ class Model(Elements):
         machine = type(self).from_record(record, origin)
         return machine.with_settings(given) if given else machine
 
+    @checked_arguments
     def with_settings(self, settings: Mapping[str, Any]) -> Self:
         """The same machine with some simulation settings replaced."""
-        raise NotImplementedError
+        if not settings:
+            return self
+        # what was set from outside of the file is asked for as well, and never left behind
+        outside, origin = self.origin.settings_outside, self.origin.with_settings(settings)
+        asked = {name: getattr(self.record.simulation, name) for name in outside if name in ("rotations", "baumgarte")}
+        try:
+            simulation = changed(self.record.simulation, {**asked, **settings})
+        except ModelError as error:
+            raise ModelError(origin.placed(origin.of_settings(fault, settings) for fault in error.faults)) from None
+        try:
+            return type(self).from_record(self.record.replace(simulation=simulation), origin)
+        except ModelError as error:
+            raise ModelError(origin.placed(error.faults)) from None
 
     @checked_arguments
     def replace(self, *elements: Record, **words: Any) -> Self:

@@ -4,6 +4,7 @@ minimum or a maximum of expressions of time alone changes sides."""
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 from scipy.optimize import root_scalar
@@ -57,7 +58,13 @@ def _of_table(table: Table) -> Iterator[float]:
             yield float(time)
 
 
-def _of_expression(expression: Expression, end: float) -> Iterator[float]:
+@lru_cache(maxsize=256)
+def _of_expression(expression: Expression, end: float) -> tuple[float, ...]:
+    """Remembered, as many runs of one machine ask for the same."""
+    return tuple(_found(expression, end))
+
+
+def _found(expression: Expression, end: float) -> Iterator[float]:
     times = np.linspace(0.0, end, SAMPLES + 1)
     for first, second in _sides(expression.tree):
 

@@ -153,7 +153,7 @@ def march(
 def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
     """The compiled loop at the start of a run of `prepared`."""
     stabilisation = STABILISATIONS[settings.stabilisation]
-    set_feedback(prepared.motion.system, settings, stabilisation)
+    _feed_back(prepared.motion.system, settings, stabilisation)
     kernels, facts = prepared.motion.kernels, prepared.integrator
     correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
     run = start_history(prepared, settings, facts)
@@ -162,7 +162,7 @@ def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
     return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))
 
 
-def set_feedback(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
+def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
     """Set what the stabilisation, or a penalty method, adds to the accelerations of the constraints, and what it leaves open."""
     stabilise = system.record.control.stabilise
     stabilise[:] = stabilisation.coefficients(settings.step, *(settings.baumgarte or (None, None)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike, fspath
@@ -299,12 +299,13 @@ def refuse_chosen_steps(plan: Plan) -> None:
         raise ModelError(Fault("", 0, 0, "integrator", message))
 
 
-def _endless(prepared: Prepared, plan: Plan) -> tuple[Run, Callable[[], int]]:
+def _endless(prepared: Prepared, plan: Plan) -> tuple[Run, BoundEntry]:
     """A run without an end, and its compiled loop."""
     loop = start_loop(prepared, plan.settings)
-    run = loop.history.record
+    run: Run = loop.history.record
     run.counter[ALL_STEPS], run.clock[END] = ENDLESS, np.inf
-    return run, BoundEntry(advance, loop.addresses, (loop.machine, loop.history))
+    codes = loop.evaluate.address, loop.correct.address, loop.step.address
+    return run, BoundEntry(advance, [*codes, loop.machine.address, loop.history.address], keep=loop)
 
 
 def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:

@@ -81,7 +81,9 @@ class Datagrams:
                 self._socket.bind(listen)
             except OSError as error:
                 where = f"{listen[0]}:{listen[1]}"
-                raise ModelError(Fault("", 0, 0, "udp", f"{where} cannot be listened at: {error.strerror or error}")) from None
+                raise ModelError(
+                    Fault("", 0, 0, "udp", f"{where} cannot be listened at: {error.strerror or error}")
+                ) from None
             self._socket.settimeout(WAIT)
             self._thread = threading.Thread(target=self._listen, daemon=True)
             self._thread.start()

@@ -13,6 +13,8 @@ def _ball(name, **more):
     return {"name": name, "mass": 1, "shape": {"type": "sphere", "radius": 0.1}, **more}
 
 
+OWN = "def own(t, x):\n    return t + x, -x\n"
+
 EVERYTHING = {
     "name": "everything",
     "description": "one of each",
@@ -251,6 +253,79 @@ EVERYTHING = {
     ],
     "states": [
         {"name": "lag", "start": 0.5, "rate": "hinge.angle - lag.value", "scale": 2.0, "units": "rad"},
+    ],
+    "control": [
+        {"name": "wish", "type": "signal", "value": "step(time, 0, 0, 1 s, 0.5)", "units": "rad"},
+        {"name": "scaled", "type": "gain", "input": "wish.value", "gain": 2},
+        {"name": "total", "type": "sum", "inputs": ["wish.value", "time"], "factors": [1, -2]},
+        {"name": "cut", "type": "limit", "input": "hinge.angle", "limits": [-1, "30 deg"]},
+        {"name": "dead", "type": "dead-zone", "input": "hinge.angle", "band": [-0.1, 0.1]},
+        {"name": "pick", "type": "switch", "when": "hinge.angle > 0.5", "then": 1, "otherwise": "wish.value"},
+        {
+            "name": "curve",
+            "type": "lookup",
+            "input": "time",
+            "points": [0, 1, 2],
+            "values": [0, 1, 4],
+            "interpolation": "cubic",
+        },
+        {
+            "name": "position",
+            "type": "pid",
+            "reference": "wish.value",
+            "measured": "hinge.angle",
+            "kp": "4 N m/rad",
+            "ki": 2,
+            "kd": 0.1,
+            "limits": [-1, 1],
+            "sample_time": "1 ms",
+            "latency": "1.5 ms",
+        },
+        {"name": "summed", "type": "integrator", "input": "dead.value", "limits": [-1, 1]},
+        {"name": "slope", "type": "derivative", "input": "hinge.angle", "time_constant": 0.01},
+        {"name": "plant", "type": "transfer-function", "input": "time", "numerator": [1, 2], "denominator": [1, 2, 3]},
+        {
+            "name": "observer",
+            "type": "state-space",
+            "inputs": ["hinge.angle", 1],
+            "A": [[-1, 0], [0, -2]],
+            "B": [[1, 0], [0, 1]],
+            "C": [[1, 0], [0, 1]],
+            "sample_time": 0.01,
+        },
+        {"name": "smooth", "type": "low-pass", "input": "hinge.angle", "frequency": "10 Hz", "damping": 0.7},
+        {"name": "rough", "type": "high-pass", "input": "observer.y2", "time_constant": 0.1},
+        {"name": "quiet", "type": "notch", "input": "time", "frequency": "50 Hz"},
+        {"name": "early", "type": "lead-lag", "input": "time", "lead": 0.1, "lag": 0.01},
+        {"name": "slowly", "type": "rate-limit", "input": "wish.value", "rate": 2, "sample_time": 0.01},
+        {
+            "name": "later",
+            "type": "delay",
+            "input": "spring.magnitude",
+            "time": 0.02,
+            "sample_time": 0.01,
+            "offset": 0.001,
+        },
+        {"name": "mean", "type": "moving-average", "input": "time", "samples": 3, "sample_time": 0.01},
+        {"name": "relay", "type": "hysteresis", "input": "hinge.angle", "on": 1, "off": -1, "sample_time": 0.01},
+        {
+            "name": "cycle",
+            "type": "state-machine",
+            "sample_time": 0.01,
+            "states": [
+                {"name": "idle", "next": [{"to": "lift", "when": ["hinge.angle > 1", "cycle.time > 0.5"]}]},
+                {"name": "lift", "value": 3, "outputs": [{"name": "valve", "value": "wish.value"}]},
+            ],
+            "start": "lift",
+        },
+        {"name": "way", "type": "trapezoid", "last": 1, "speed": 2, "acceleration": 3},
+        {"name": "stops", "type": "waypoints", "times": [0, 1, 2], "values": [0, 1, 0]},
+        {
+            "name": "own",
+            "type": "python",
+            "law": {"source": OWN, "function": "own", "arguments": ["time", "own.x"], "file": "own.py"},
+            "states": [{"name": "x", "start": 1}],
+        },
     ],
     "sensors": [
         {"name": "speed", "marker": "tip", "quantity": "velocity", "relative_to": "eye"},

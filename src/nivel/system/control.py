@@ -87,9 +87,7 @@ def add_samples(draft: SystemBuilder, table: SampleTable) -> None:
     for each in parts:
         if each.part.role == "memory":
             offset = each.block.offset + each.part.offset
-            table.add(
-                draft.control[each.path][1], _function(draft, each), period=each.block.period, offset=offset
-            )
+            table.add(draft.control[each.path][1], _function(draft, each), period=each.block.period, offset=offset)
 
 
 def _function(draft: SystemBuilder, each: PartOf) -> int:

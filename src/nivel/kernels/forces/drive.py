@@ -43,12 +43,16 @@ def winding(machine, k, command, omega):
     if index[STATE] == NONE:
         i = clipped((u - n[CONSTANT] * omega) / n[RESISTANCE], limit)
         return i, n[RESISTANCE] * i + n[CONSTANT] * omega
-    i = elements.state[index[STATE]]
+    # a step may leave the state beyond the limit, at which the current stays until the state comes back
+    x = elements.state[index[STATE]]
+    i = clipped(x, limit)
     rate = (u - n[RESISTANCE] * i - n[CONSTANT] * omega) / n[LAG]
-    if (real(i) >= real(limit) and real(rate) > 0.0) or (real(i) <= -real(limit) and real(rate) < 0.0):
+    if (real(x) >= real(limit) and real(rate) > 0.0) or (real(x) <= -real(limit) and real(rate) < 0.0):
         rate = 0.0 * rate
     elements.state_rate[index[STATE]] += rate
     record_at(machine).control.stored[0] += 0.5 * n[LAG] * i * i
+    if np.abs(real(x)) > real(limit):
+        rate = 0.0 * rate
     return i, n[RESISTANCE] * i + n[CONSTANT] * omega + n[LAG] * rate
 
 

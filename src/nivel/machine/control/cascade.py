@@ -8,9 +8,8 @@ from typing import Literal
 from pydantic import Field
 
 from nivel.machine.checked import Problem, superfluous
-from nivel.machine.control.algebra import both
+from nivel.machine.control.algebra import both, refuse_order
 from nivel.machine.control.block import Block, Number, Pair, PositiveNumber
-from nivel.machine.control.algebra import refuse_order
 from nivel.machine.control.laws import limited
 from nivel.machine.control.part import Part, law
 from nivel.machine.linear_function import linear
@@ -19,8 +18,10 @@ from nivel.machine.time_function import Measured
 
 
 class Cascade(Block):
-    """Wished speed w = position_gain (r - y) + speed_reference, within the speed limit; value = speed_gain (w - ẏ + ∫(w - ẏ)/T) + feedforward,
-    within the limits, at which the integral is led back with the integral time T."""
+    """Wished speed w = position_gain (r - y) + speed_reference, within the speed limit; then a PI controller of the speed.
+
+    value = speed_gain (w - ẏ + ∫(w - ẏ)/T) + feedforward, within the limits, at which the integral is led back with the time T.
+    """
 
     quantities = ("value", "error", "wished_speed", "speed_error", "integral")
 
@@ -28,7 +29,9 @@ class Cascade(Block):
     reference: Measured | None = Field(default=None, description="wished position r")
     measured: Measured | None = Field(default=None, description="position y")
     measured_speed: Measured = Field(description="its rate ẏ")
-    speed_reference: Measured = Field(default=0.0, description="wished speed, or with a `reference` its rate, fed forward")
+    speed_reference: Measured = Field(
+        default=0.0, description="wished speed, or with a `reference` its rate, fed forward"
+    )
     position_gain: PositiveNumber | None = Field(default=None, description="speed per position error, 1/s")
     speed_gain: PositiveNumber = Field(description="value per speed error")
     integral_time: Duration | None = Field(default=None, description="T; without it there is no integral")
@@ -87,6 +90,9 @@ class Cascade(Block):
             missing = ", ".join(f"`{key}`" for key in outer if key not in given)
             yield Problem((), f"of a position controller {missing} is missing; leave all three out for one of speed")
         if not given and not self.speed_reference:
-            yield superfluous("speed_gain", "has nothing to follow: give `reference`, `measured` and `position_gain`, or `speed_reference`")
+            yield superfluous(
+                "speed_gain",
+                "has nothing to follow: give `reference`, `measured` and `position_gain`, or `speed_reference`",
+            )
         if self.limits is not None:
             yield from refuse_order(self.limits)

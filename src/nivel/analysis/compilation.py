@@ -37,6 +37,7 @@ STATICS, RESIDUAL = "nivel.kernels.static_entries", "nivel.kernels.tangent_entri
 TANGENT_ENTRIES = "nivel.kernels.tangent_entries"
 FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
+DRIVES = ("dc-motor", "servo-motor")
 MEASURE, FRICTION = "nivel.kernels.measure", "nivel.kernels.friction"
 SENSOR, WATCH, SAMPLING = "nivel.kernels.sensor", "nivel.kernels.watch", "nivel.kernels.sampling"
 GIVEN_FRICTION, RAIL = "nivel.kernels.friction_residual", "nivel.kernels.rail"
@@ -290,7 +291,8 @@ def _rare_modules(machine: MachineRecord) -> list[str]:
         RAIL: any(JOINT_KINDS[joint.type].rail for joint in machine.joints),
         POINTS: any(beam.has_gradients for beam in machine.beams),
         SENSOR: bool(machine.sensors),
-        SAMPLING: any(state.update is not None for state in machine.states) or bool(machine.control),
+        SAMPLING: any(state.update is not None for state in machine.states)
+        or bool(machine.control or types & {*DRIVES}),
         OF_BEAMS: ELASTIC in map(family_of, machine.beams),
     }
     return [module for module, asked in needed.items() if asked]

@@ -40,9 +40,11 @@ from nivel.kernels import friction as columns
 from nivel.kernels.observe import observe
 from nivel.kernels.record import WATCH
 from nivel.kernels.saddle import CONTRADICTORY, MOST_UNSETTLED
+from nivel.kernels.sampling import sample
 from nivel.kernels.watch import watch
 from nivel.motion.direct import VISIBLE
 from nivel.results.held import STILL
+from nivel.system.control import ONCE
 from nivel.system.partition import forget
 from nivel.system.system import Array, System
 
@@ -70,6 +72,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
     numbers[: len(settings.constants)] = settings.constants
     _forget_runs(prepared, settings, facts)
     system.hold_sliders(y)
+    _begin_states(prepared, y)
     _refer_energies(prepared, y)
     values = _watch(system, chosen=settings.steps == 0)
     count[SWITCHED] = system.record.watched.followed[0]
@@ -169,6 +172,19 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
         record.friction.number[:, columns.REST] = (
             STILL * np.where(turns, 1.0, prepared.motion.system.size) / settings.duration
         )
+
+
+def _begin_states(prepared: Prepared, y: Array) -> None:
+    """States that begin with what a function gives at t = 0, from there on: energies are referred to them."""
+    motion, sampled = prepared.motion, prepared.motion.system.record.sampled
+    begins = (sampled.period >= ONCE) & (sampled.offset == 0.0)
+    if not begins.any():
+        return
+    motion.evaluate(0.0, y)
+    sampled.due[:] = begins
+    sample.code(motion.handle.address, 0, 0.0)
+    first = len(y) - len(motion.system.start_of_states)
+    y[first + sampled.state[begins]] = sampled.value[begins]
 
 
 def _refer_energies(prepared: Prepared, y: Array) -> None:

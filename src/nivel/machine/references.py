@@ -23,7 +23,19 @@ Faults = Iterator[tuple[Place, str]]
 
 WITH_ROWS: Final = ("joints", "couplings", "drivers")  # their rows are called NAME.…, so they share their names
 # keys of blocks that may use symbols; conditions are looked at in `nivel.machine.control.problems`
-CONTROL_KEYS: Final = ("value", "input", "inputs", "reference", "measured", "feedforward", "then", "otherwise", "law")
+CONTROL_KEYS: Final = (
+    "value",
+    "input",
+    "inputs",
+    "reference",
+    "measured",
+    "feedforward",
+    "measured_speed",
+    "speed_reference",
+    "then",
+    "otherwise",
+    "law",
+)
 SHARING: Final = {"beams": "bodies and beams", "control": "states and blocks of the control"}
 _SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "extrusion", "mesh")
 

@@ -39,6 +39,7 @@ class SystemBuilder:
     marker. noted : the bodies and states used in each `noting`. inputs : the signal of every input. input_functions : the function of
     each, in the order of the machine. control : the signal of every part of a block by its path.
     behind_signals : what a part that is no state depends on. functions_of : the function of every part.
+    begins : states that begin with what a function gives at the start.
     """
 
     machine: MachineRecord
@@ -57,6 +58,7 @@ class SystemBuilder:
     control: dict[str, Signal] = field(default_factory=dict)
     behind_signals: dict[str, Coupled] = field(default_factory=dict)
     functions_of: dict[str, int] = field(default_factory=dict)
+    begins: list[tuple[int, LinearFunction]] = field(default_factory=list)
     _owner: str = ""
     _noting: set[int] = field(default_factory=set)
     _noting_states: set[int] = field(default_factory=set)

@@ -11,6 +11,7 @@ from nivel.machine.forces.between import Between, BetweenMarkers, End, Ends, Glo
 from nivel.machine.forces.bushing import Bushing
 from nivel.machine.forces.characteristic import Characteristic, EffortTable, ForceTable, TorqueTable
 from nivel.machine.forces.contact import Contact, Material
+from nivel.machine.forces.drives import DcMotor, ServoMotor, TorqueSpeed
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.forces.friction import Friction
 from nivel.machine.forces.joint_spring_damper import JointSpringDamper
@@ -31,6 +32,8 @@ FORCES: list[type[ForceElement]] = [
     Stop,
     Friction,
     Motor,
+    DcMotor,
+    ServoMotor,
     PairForce,
     Bushing,
     Contact,
@@ -64,6 +67,7 @@ __all__ = [
     "Bushing",
     "Characteristic",
     "Contact",
+    "DcMotor",
     "EffortTable",
     "End",
     "Ends",
@@ -78,9 +82,11 @@ __all__ = [
     "PairForce",
     "PointForce",
     "Rope",
+    "ServoMotor",
     "SpringDamper",
     "Stop",
     "Torque",
+    "TorqueSpeed",
     "TorqueTable",
     "TorsionalSpringDamper",
     "register",

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from nivel.machine import PythonLaw as PythonLaw
     from nivel.machine import Rack as Rack
     from nivel.machine import Sensor as Sensor
+    from nivel.machine import Servo as Servo
     from nivel.machine import SimulationSettings as SimulationSettings
     from nivel.machine import SpringDamper as SpringDamper
     from nivel.machine import State as State
@@ -85,6 +86,7 @@ _HOME = {
     "PythonLaw": "nivel.machine",
     "Rack": "nivel.machine",
     "Sensor": "nivel.machine",
+    "Servo": "nivel.machine",
     "SimulationSettings": "nivel.machine",
     "SpringDamper": "nivel.machine",
     "State": "nivel.machine",
@@ -124,6 +126,7 @@ __all__ = [
     "Rack",
     "Result",
     "Sensor",
+    "Servo",
     "SimulationSettings",
     "SolveError",
     "SpringDamper",

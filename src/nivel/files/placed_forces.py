@@ -21,6 +21,7 @@ from nivel.machine import (
     PointForce,
     PythonLaw,
     Record,
+    Servo,
     SpringDamper,
     Stop,
     TimeFunction,
@@ -125,9 +126,11 @@ def _contact(force: Contact, scene: Scene) -> Changes:
     return {} if force.plane is None else {"plane": scene.end(force.plane, POLAR_Z)}
 
 
-def _on_coordinate(force: JointSpringDamper | Motor | Stop | Friction, scene: Scene) -> Changes:
+def _on_coordinate(force: JointSpringDamper | Motor | Servo | Stop | Friction, scene: Scene) -> Changes:
     """What acts on a joint coordinate keeps its numbers, unless the coordinate counts the other way."""
-    fields = {"JointSpringDamper": ("law",), "Motor": ("effort", "speed")}.get(type(force).__name__, ())
+    fields = {"JointSpringDamper": ("law",), "Motor": ("effort", "speed"), "Servo": ("target",)}.get(
+        type(force).__name__, ()
+    )
     changes = _varied(force, scene, *fields)
     if not scene.is_opposite(force.coordinate):
         return changes
@@ -144,7 +147,7 @@ def _on_coordinate(force: JointSpringDamper | Motor | Stop | Friction, scene: Sc
                 "lower": None if force.upper is None else -force.upper + 0.0,
                 "upper": None if force.lower is None else -force.lower + 0.0,
             }
-        case Motor():
+        case Motor() | Servo():
             changes |= {field: negative(changes[field]) for field in fields if field in changes}
     return changes
 
@@ -171,6 +174,7 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     TorsionalSpringDamper: _torsional_spring_damper,
     JointSpringDamper: _on_coordinate,
     Motor: _on_coordinate,
+    Servo: _on_coordinate,
     Stop: _on_coordinate,
     Friction: _on_coordinate,
     PairForce: _pair_force,

@@ -19,13 +19,14 @@ from nivel.files.body_files import place_body_files
 from nivel.files.include import include
 from nivel.files.mass_file import read_mass_properties
 from nivel.files.mesh_file import read_meshes
-from nivel.files.outline import as_part, check_sections, check_start, section_of
+from nivel.files.outline import VALUES, as_part, check_sections, check_start, section_of
 from nivel.files.overrides import in_order, override, prefix_of
 from nivel.files.python_laws import read_python_laws
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine import MachineRecord, Record
 from nivel.machine.arithmetic import Parameters
+from nivel.machine.named_function import resolve_functions
 from nivel.machine.parameters import resolve
 from nivel.machine.quantity import FAULT
 from nivel.machine.references import SECTIONS
@@ -63,7 +64,10 @@ def read_scope(
     read_python_laws(tree, sources)
     parameters, faults = resolve(section_of(tree, "parameters"))
     tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]
-    return _record(tree, parameters, _expanded(tree, parameters, sources))
+    functions, wrong = resolve_functions(section_of(tree, "functions"), parameters)
+    tree.faults += [tree.fault(("functions", *place), message) for place, message in wrong.items()]
+    values = {**parameters, **functions}
+    return _record(tree, values, _expanded(tree, values, sources))
 
 
 def _expanded(tree: Tree, parameters: Parameters, sources: Sources) -> Elements:
@@ -142,7 +146,8 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
     Raises ModelError.
     """
     data: dict[str, Any] = {"name": FilePath(tree.file).stem or "machine", **tree.data}
-    data.pop("parameters", None)
+    for section in VALUES:
+        data.pop(section, None)
     if data.get("simulation", ...) is None:
         del data["simulation"]
     names: dict[str, list[str]] = {}

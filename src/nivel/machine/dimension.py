@@ -100,6 +100,12 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "mass per length": ("a mass per length", "kg/m", dimension(kg=1, m=-1)),
     "inertia per length": ("a moment of inertia per length", "kg*m", dimension(kg=1, m=1)),
     "bending stiffness": ("a bending stiffness", "N*m^2", dimension(kg=1, m=3, s=-2)),
+    "stiffness per time": ("a stiffness per time", "N/(m*s)", dimension(kg=1, s=-3)),
+    "torsional stiffness per time": (
+        "a torsional stiffness per time",
+        "N*m/(rad*s)",
+        dimension(kg=1, m=2, s=-3, rad=-1),
+    ),
     "damping per load": ("a damping per load", "s/m", dimension(m=-1, s=1)),
 }
 

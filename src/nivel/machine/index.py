@@ -43,7 +43,8 @@ class Index:
     """What the elements of a machine are, by name.
 
     bodies : type of the shape ("" without one), also of the stations of beams. beams : names of the stations.
-    point_masses : bodies that are. markers : the body. joints : the type. forces, states, sensors : the element.
+    point_masses : bodies that are. markers : the body. joints : the type. locked : motions that generic joints lock.
+    forces, states, sensors : the element.
     """
 
     bodies: Mapping[str, str]
@@ -51,6 +52,7 @@ class Index:
     point_masses: frozenset[str]
     markers: Mapping[str, str]
     joints: Mapping[str, str]
+    locked: Mapping[str, tuple[Any, ...]]
     forces: Mapping[str, Any]
     states: Mapping[str, Any]
     sensors: Mapping[str, Any]
@@ -66,6 +68,9 @@ class Index:
             point_masses=frozenset(name for name, body in bodies.items() if entry(body, "point_mass") is True),
             markers={name: _text(entry(marker, "body")) for name, marker in _by_name(machine, "markers").items()},
             joints={name: _text(entry(joint, "type")) for name, joint in _by_name(machine, "joints").items()},
+            locked={
+                name: tuple(as_list(entry(joint, "locked"))) for name, joint in _by_name(machine, "joints").items()
+            },
             forces=_by_name(machine, "forces"),
             states=_by_name(machine, "states"),
             sensors=_by_name(machine, "sensors"),

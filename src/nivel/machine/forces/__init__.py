@@ -17,6 +17,7 @@ from nivel.machine.forces.joint_spring_damper import JointSpringDamper
 from nivel.machine.forces.load import PointForce, Torque
 from nivel.machine.forces.motor import Motor
 from nivel.machine.forces.pair_force import PairForce
+from nivel.machine.forces.servo import Servo
 from nivel.machine.forces.spring_damper import SpringDamper
 from nivel.machine.forces.stop import Stop
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
@@ -30,6 +31,7 @@ FORCES: list[type[ForceElement]] = [
     Stop,
     Friction,
     Motor,
+    Servo,
     PairForce,
     Bushing,
     Contact,
@@ -74,6 +76,7 @@ __all__ = [
     "Motor",
     "PairForce",
     "PointForce",
+    "Servo",
     "SpringDamper",
     "Stop",
     "Torque",

@@ -87,7 +87,7 @@ class Simulation:
         self._plan, self._settings = plan, plan.settings
         self._prepared: Prepared = prepare(plan.methods)
         self._run, self._advance = _endless(self._prepared, plan)
-        self._counter, self._clock = memoryview(self._run.counter), memoryview(self._run.clock)
+        self._counter, self._clock = memoryview(self._run.counter.data), memoryview(self._run.clock.data)
         self._step = float(plan.settings.step)
         self._states = _places_of_states(self._prepared, self._run)
         layout = self._prepared.motion.system.layout
@@ -304,8 +304,7 @@ def _endless(prepared: Prepared, plan: Plan) -> tuple[Run, BoundEntry]:
     loop = start_loop(prepared, plan.settings)
     run: Run = loop.history.record
     run.counter[ALL_STEPS], run.clock[END] = ENDLESS, np.inf
-    codes = loop.evaluate.address, loop.correct.address, loop.step.address
-    return run, BoundEntry(advance, [*codes, loop.machine.address, loop.history.address], keep=loop)
+    return run, BoundEntry(advance, loop.addresses, keep=loop)
 
 
 def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:

@@ -19,6 +19,7 @@ from nivel.integrate.run import Run
 from nivel.kernels.handle import Handle
 from nivel.live.shared import Sizes
 from nivel.machine import MachineRecord, Table
+from nivel.machine.changes import changed
 
 LONGEST: Final = 86400.0  # s of a live run
 SHORTEST_TICK: Final = 1e-3  # s: more ticks a second cost more than they tell
@@ -58,8 +59,6 @@ def live_plan(machine: MachineRecord, settings: Mapping[str, Any], tick: float |
 
     Raises ModelError where the machine has no inputs to drive it, or its integrator chooses its steps.
     """
-    from nivel.analysis.changes import changed
-
     driven = [each.replace(signal=Table((0.0, 1.0), (each.rest_value, each.rest_value))) for each in machine.inputs]
     # limits hold for what an operator does; this table is at rest
     simulation = changed(machine.simulation, {**settings, "duration": LONGEST})

@@ -17,8 +17,8 @@ ATMOSPHERE = 101325.0  # [Pa]
 # columns of `Circuit.fluid`: fraction of air, bulk modulus [Pa] of the liquid at pa, its slope, polytropic exponent, ρ₀ [kg/m³],
 # kinematic viscosity [m²/s]
 AIR, MODULUS, SLOPE, EXPONENT, DENSITY, VISCOSITY = 0, 1, 2, 3, 4, 5
-# Newton's iteration of the pressure ends at a change of this share: the error is then its square.
-EXACT, MOST = 1e-9, 100
+# Newton's iteration of the pressure ends at a change of this share: the error is then its square, and one more step follows.
+EXACT, MOST = 1e-5, 100
 
 
 @leaf

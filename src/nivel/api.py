@@ -33,7 +33,6 @@ from nivel.machine import (
     SimulationSettings,
     State,
 )
-
 from nivel.machine.hydraulics import Fluid, HydraulicComponent
 
 if TYPE_CHECKING:

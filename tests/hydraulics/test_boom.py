@@ -114,7 +114,12 @@ def reference():
 
 
 def ends(result):
-    names = ("joint_coordinate", "hydraulics.supply.pressure", "hydraulics.lift.pressure_A", "hydraulics.lift.pressure_B")
+    names = (
+        "joint_coordinate",
+        "hydraulics.supply.pressure",
+        "hydraulics.lift.pressure_A",
+        "hydraulics.lift.pressure_B",
+    )
     return np.array([float(np.ravel(result.array(name))[-1]) for name in names])
 
 

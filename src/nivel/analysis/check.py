@@ -9,10 +9,10 @@ import numpy as np
 
 from nivel.analysis.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.elements import (
+    component_in_words,
     coupling_in_words,
     driver_in_words,
     event_in_words,
-    component_in_words,
     force_in_words,
     sensor_in_words,
     state_in_words,

@@ -102,7 +102,9 @@ class _Start:
         self.velocities = slice(system.positions, self.first)
         self.moving = y[self.velocities].copy()
         self.y[self.velocities] = 0.0
-        self.tank = min((self._given(k) for k, node in enumerate(self.nodes) if not _has_state(node)), default=ATMOSPHERE)
+        self.tank = min(
+            (self._given(k) for k, node in enumerate(self.nodes) if not _has_state(node)), default=ATMOSPHERE
+        )
         self.pressure = np.array([self._at_first(k, node) for k, node in enumerate(self.nodes)])
         self.held = {k for k, node in enumerate(self.nodes) if node.start is not None}
 
@@ -160,7 +162,7 @@ class _Start:
         free = self._accelerations(base)
         effect = {k: self._effect(base, free, k) for pair in pairs for k in (pair.a, pair.b) if k is not None}
         open_pairs = [pair for pair in pairs if pair.a not in self.held and pair.b not in self.held]
-        columns = np.array([effect[pair.a] for pair in open_pairs]).reshape(len(open_pairs), -1).T
+        columns = np.array([effect[pair.a] for pair in open_pairs]).reshape(len(open_pairs), len(free)).T
         half_held = [pair for pair in pairs if pair not in open_pairs]
         loads = self._solved(columns, -free)
         for pair, load in zip(open_pairs, loads, strict=True):

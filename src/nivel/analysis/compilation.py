@@ -151,7 +151,9 @@ def all_entries() -> list[Entry]:
         RESIDUAL.partition(":")[0],
         OUTPUT,
     ]
-    families = dict.fromkeys([*(each for kind in FORCES.values() for each in kind.families), *CIRCUITS, *BEAMS, state_rate])
+    families = dict.fromkeys(
+        [*(each for kind in FORCES.values() for each in kind.families), *CIRCUITS, *BEAMS, state_rate]
+    )
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
     twins += [family.twin for family in (*families, hold)]
     entries = [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
@@ -226,7 +228,9 @@ def _has_surfaces(machine: MachineRecord) -> bool:
 def _rare_modules(machine: MachineRecord) -> list[str]:
     """Modules of what only some machines have, besides forces: measured coordinates, friction, sensors, samples."""
     types = {force.type for force in machine.forces}
-    measured = machine.joints or machine.drivers or machine.sensors or machine.events or machine.hydraulics or types - {*LOADS}
+    measured = (
+        machine.joints or machine.drivers or machine.sensors or machine.events or machine.hydraulics or types - {*LOADS}
+    )
     needed = {
         MEASURE: bool(measured),
         FRICTION: "friction" in types,

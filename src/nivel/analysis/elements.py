@@ -105,7 +105,11 @@ def state_in_words(state: State) -> str:
 def component_in_words(component: Component) -> str:
     """Type of a component of a circuit, and where its ports are connected."""
     ports = ", ".join(f"{port} to {node}" for port, node in component.ports.items())
-    on = f" on {' and '.join(end if isinstance(end, str) else end.body for end in component.ends)}" if isinstance(component, Ends) else ""
+    on = (
+        f" on {' and '.join(end if isinstance(end, str) else end.body for end in component.ends)}"
+        if isinstance(component, Ends)
+        else ""
+    )
     return f"{component.name}: {component.type}{on}{f', {ports}' if ports else ''}"
 
 

@@ -205,7 +205,11 @@ def _scales(system: System, y: Array, duration: float) -> Array:
 def _raised(system: System, y: Array) -> NDArray[np.bool_]:
     """Whether the scale of each entry of y follows its largest value."""
     out = np.ones(len(y), dtype=bool)
-    out[len(y) - len(system.start_of_states) :] = [*(fact.relative and not fact.integral for fact in system.states), True, True]
+    out[len(y) - len(system.start_of_states) :] = [
+        *(fact.relative and not fact.integral for fact in system.states),
+        True,
+        True,
+    ]
     return out
 
 

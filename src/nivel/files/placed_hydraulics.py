@@ -20,5 +20,7 @@ def placed_component(component: Any, scene: Scene) -> Any:
     if coordinate is not None and scene.is_opposite(coordinate):
         raise NotRepresentableError(f"`{coordinate}` counts the other way there")
     changes = placed_ends(component, scene, with_axes=False) if isinstance(component, Ends) else {}
-    varied = {name: scene.varied(value) for name, value in component if isinstance(value, Expression | PythonLaw | Table)}
+    varied = {
+        name: scene.varied(value) for name, value in component if isinstance(value, Expression | PythonLaw | Table)
+    }
     return component.replace(**changes, **varied) if changes or varied else component

@@ -8,7 +8,6 @@ from typing import Any, Final
 from nivel.machine.arithmetic import Parameters
 from nivel.machine.coordinate_reference import UnknownCoordinateError, find, unknown_name
 from nivel.machine.hydraulics import COMPONENT_OF
-from nivel.machine.hydraulics.directional import PORTS
 from nivel.machine.index import Index, Place, as_list, elements
 from nivel.machine.record import entry
 from nivel.machine.symbols import paths_in, symbol_faults
@@ -72,13 +71,19 @@ def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: P
         if node not in nodes:
             whole = [each for each in nodes if each.startswith(f"{node}.")]
             hint = f"; a chamber of it is needed: {' or '.join(f'`{each}`' for each in whole)}" if whole else ""
-            yield where, f"`{node}` is no node of the circuit{hint}" if hint else unknown_name("node", node, tuple(nodes))
+            yield (
+                where,
+                f"`{node}` is no node of the circuit{hint}" if hint else unknown_name("node", node, tuple(nodes)),
+            )
         elif nodes[node] == SIGNAL and port not in SENSING:
             yield where, f"`{node}` is a signal, into which nothing flows; a port {' or '.join(SENSING)} may read it"
         elif type_ in CHAMBERED and nodes[node] != "volume":
             yield where, f"a chamber is part of a volume, and `{node}` is a {nodes[node]}"
-        elif port not in SENSING and seen.setdefault(node, port) != port:
-            yield where, f"ports {seen[node]} and {port} are both connected to `{node}`: nothing would flow"
+        elif port not in SENSING:
+            seen[port] = node
+    if len(seen) > 1 and len(set(seen.values())) == 1 and type_ not in CHAMBERED:
+        node = next(iter(seen.values()))
+        yield (*place, "ports"), f"ports {' and '.join(seen)} are all connected to `{node}`: nothing would flow"
 
 
 def _of_fluid(component: Any, index: Index, place: Place) -> Faults:
@@ -129,7 +134,10 @@ def _late(component: Any, keys: tuple[str, ...], index: Index, parameters: Param
             if kind is not None and quantity in kind.late and name not in index.joints and name not in index.states:
                 early = [f"`{name}.{each}`" for each in kind.early]
                 hint = f"{' or '.join(early)}, or " if early else ""
-                yield where, f"`{path}` follows from the flows, and cannot steer them at once; use {hint}a state that follows it"
+                yield (
+                    where,
+                    f"`{path}` follows from the flows, and cannot steer them at once; use {hint}a state that follows it",
+                )
 
 
 def _unconnected(component: Any, used: set[str], place: Place) -> Faults:
@@ -169,6 +177,5 @@ def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
             reached.update(front)
         node = ports["B"]
         if node in nodes and not reached & (safe | tanks):
-            line = f"{{type: relief-valve, ports: {{P: {node}, T: …}}, opens_at: 250 bar, opening_range: 25 bar, flow: …, pressure_drop: …}}"
+            line = f"{{type: relief-valve, ports: {{P: {node}, T: …}}, opens_at: 250 bar, opening_range: 25 bar, …}}"
             yield ("hydraulics", at), f"no relief valve bounds the pressure at `{node}`; add one such as `{line}`"
-

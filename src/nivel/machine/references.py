@@ -60,7 +60,17 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
 
 
 def _twice(machine: Any) -> Faults:
-    for sections in (("bodies", "beams"), ("markers",), WITH_ROWS, ("forces",), ("fluids",), ("hydraulics",), ("states",), ("sensors",), ("events",)):
+    for sections in (
+        ("bodies", "beams"),
+        ("markers",),
+        WITH_ROWS,
+        ("forces",),
+        ("fluids",),
+        ("hydraulics",),
+        ("states",),
+        ("sensors",),
+        ("events",),
+    ):
         seen: dict[str, str] = {}
         for section in sections:
             for at, element in enumerate(elements(machine, section)):

@@ -95,7 +95,9 @@ def find_in(path: str, index: Index) -> Symbol:
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""
     empty = any(name in elements for elements in _quantities(index).values())
-    what = f"`{name}` has no symbols" if empty else f"there is no joint, state, component, sensor, marker or body `{name}`"
+    what = (
+        f"`{name}` has no symbols" if empty else f"there is no joint, state, component, sensor, marker or body `{name}`"
+    )
     raise UnknownSymbolError(f"{what}{hint}")
 
 

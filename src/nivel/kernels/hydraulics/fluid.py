@@ -34,10 +34,9 @@ def specific_volume(f, p):
         liquid = np.exp(-over / modulus)
         energy = modulus * (1.0 - liquid)
     air = (ATMOSPHERE / p) ** (1.0 / n)
+    air_energy = ATMOSPHERE * np.log(p / ATMOSPHERE)
     if n != 1.0:
         air_energy = ATMOSPHERE * n / (n - 1.0) * (p / ATMOSPHERE * air - 1.0)
-    else:
-        air_energy = ATMOSPHERE * np.log(p / ATMOSPHERE)
     value = (1.0 - alpha) * liquid + alpha * air
     derivative = -(1.0 - alpha) * liquid / (modulus * L) - alpha * air / (n * p)
     return value, derivative, (1.0 - alpha) * energy + alpha * air_energy

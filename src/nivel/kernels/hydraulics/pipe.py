@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.hook import family
 from nivel.kernels.analytic import real
+from nivel.kernels.hook import family
 from nivel.kernels.hydraulics.transfer import lose, transfer
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.status import OK

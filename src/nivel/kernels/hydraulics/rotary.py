@@ -72,7 +72,10 @@ def turn(machine, number, t):
         index, n = elements.columns[k], elements.number[k]
         a, b, out = index[FROM], index[TO], index[OUTPUT]
         if index[SPEED] == NONE:
-            omega, angle = n[RATIO] * coordinates.rate[index[COORDINATE]], n[RATIO] * coordinates.value[index[COORDINATE]]
+            omega, angle = (
+                n[RATIO] * coordinates.rate[index[COORDINATE]],
+                n[RATIO] * coordinates.value[index[COORDINATE]],
+            )
         else:
             omega = evaluate_function(machine, index[SPEED], t)
             angle = omega * t

@@ -70,8 +70,12 @@ class Actuator(Component):
         default=None, description="of B, with its hose, at the end of the stroke; default 2 % of what is swept"
     )
     wall_modulus: Pressure | None = Field(default=None, description="as of a volume, of dead volumes with their hoses")
-    start_A: Pressure | None = Field(default=None, description="pressure in A at the start; default: what carries the load")
-    start_B: Pressure | None = Field(default=None, description="pressure in B at the start; default: what carries the load")
+    start_A: Pressure | None = Field(
+        default=None, description="pressure in A at the start; default: what carries the load"
+    )
+    start_B: Pressure | None = Field(
+        default=None, description="pressure in B at the start; default: what carries the load"
+    )
     stop_stiffness: StopStiffness = Field(default=2e8, description="of the ends of the stroke")
     stop_restitution: Restitution = Field(default=0.2, description="speed after over speed before the end is met")
     fluid: Name | None = Field(default=None, description="default: the only one")
@@ -159,7 +163,8 @@ class TelescopicCylinder(Ends, Actuator):
         yield from self.problems_of_ports((), self.chambers)
         if len(self.stages) != len(self.strokes) or not 1 <= len(self.stages) <= MOST_STAGES:
             yield Problem(
-                ("strokes",), f"as many strokes as stages, at most {MOST_STAGES}, were expected, got {len(self.strokes)}"
+                ("strokes",),
+                f"as many strokes as stages, at most {MOST_STAGES}, were expected, got {len(self.strokes)}",
             )
         elif list(self.stages) != sorted(set(self.stages), reverse=True):
             yield Problem(("stages",), "diameters that fall from stage to stage were expected")
@@ -183,6 +188,6 @@ class RotaryActuator(Actuator):
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
         if self.upper <= self.lower:
-            yield Problem(("upper",), f"an angle above `lower`, {self.lower:g} rad, was expected, got {self.upper:g} rad")
-
-
+            yield Problem(
+                ("upper",), f"an angle above `lower`, {self.lower:g} rad, was expected, got {self.upper:g} rad"
+            )

@@ -75,6 +75,8 @@ class DirectionalValve(Rated):
         if self.centre != "closed" and self.ways != "4/3":
             yield superfluous("centre", f"belongs to a 4/3 valve, not to {self.ways}")
         if self.overlap + self.rounding > 1.0:
-            yield Problem(("rounding",), "an edge would not open within the stroke: overlap and rounding are more than 1")
+            yield Problem(
+                ("rounding",), "an edge would not open within the stroke: overlap and rounding are more than 1"
+            )
         if self.rate_limit is not None and self.frequency is None:
             yield Problem((), "`frequency` is missing: a spool with a `rate_limit` follows its command with it")

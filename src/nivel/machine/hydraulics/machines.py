@@ -28,7 +28,9 @@ class FlowSource(Component):
     late: ClassVar[tuple[str, ...]] = ("flow", "power")
 
     type: Literal["flow-source"] = "flow-source"
-    flow: Annotated[TimeFunction, varying("volume flow")] = Field(description="at the density of the side it comes from")
+    flow: Annotated[TimeFunction, varying("volume flow")] = Field(
+        description="at the density of the side it comes from"
+    )
 
 
 class RotaryMachine(Component):
@@ -38,15 +40,17 @@ class RotaryMachine(Component):
     late: ClassVar[tuple[str, ...]] = ("flow", "torque", "power", "setting")
 
     displacement: Displacement
-    coordinate: CoordinateReference | None = Field(default=None, description="angle of a joint that its shaft turns with")
+    coordinate: CoordinateReference | None = Field(
+        default=None, description="angle of a joint that its shaft turns with"
+    )
     ratio: PositiveNumber = Field(default=1.0, description="turns of the shaft per turn of the joint")
     volumetric_efficiency: Share = Field(default=1.0, description="at the nominal point")
     mechanical_efficiency: Share = Field(default=1.0, description="at the nominal point")
     nominal_pressure: Pressure | None = Field(default=None, description="difference of pressure of the efficiencies")
-    nominal_speed: PositiveAngularVelocity | None = Field(
-        default=None, description="speed of the efficiencies"
+    nominal_speed: PositiveAngularVelocity | None = Field(default=None, description="speed of the efficiencies")
+    leakage: Leakage = Field(
+        default=0.0, description="flow over the difference of pressure, beside that of the efficiency"
     )
-    leakage: Leakage = Field(default=0.0, description="flow over the difference of pressure, beside that of the efficiency")
     pistons: Whole | None = Field(default=None, description="their number, an odd one, for the ripple of the flow")
 
     @property
@@ -90,7 +94,9 @@ class Pump(RotaryMachine):
     speed: Speed | None = Field(default=None, description="of its shaft, in place of `coordinate`")
     setting: Setting = Field(default=1.0, description="share of the displacement")
     margin: Pressure | None = Field(default=None, description="load sensing: held between B and LS")
-    control_range: Pressure = Field(default=10e5, description="load sensing: pressure error at which it moves at full speed")
+    control_range: Pressure = Field(
+        default=10e5, description="load sensing: pressure error at which it moves at full speed"
+    )
     response: Duration = Field(default=0.08, description="load sensing: time from empty to full")
     cut_off: Pressure | None = Field(default=None, description="load sensing: greatest pressure at B")
 

@@ -40,7 +40,9 @@ class Orifice(Component):
         if self.diameter is not None and self.flow is not None:
             yield superfluous("flow", "stands in place of `diameter`; give one of them")
         if self.diameter is None and self.flow is None and not self.leakage:
-            yield Problem((), "`diameter`, `flow` and `pressure_drop`, or `leakage` is needed: what lets the fluid through")
+            yield Problem(
+                (), "`diameter`, `flow` and `pressure_drop`, or `leakage` is needed: what lets the fluid through"
+            )
 
 
 class Pipe(Component):

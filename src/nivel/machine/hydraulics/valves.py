@@ -31,7 +31,9 @@ class CheckValve(Rated):
     late: ClassVar[tuple[str, ...]] = ("flow", "position")
 
     type: Literal["check-valve"] = "check-valve"
-    opens_at: NotNegativePressure = Field(default=0.5e5, description="difference of pressure at which it begins to open")
+    opens_at: NotNegativePressure = Field(
+        default=0.5e5, description="difference of pressure at which it begins to open"
+    )
     opening_range: Pressure = Field(default=3e5, description="difference of pressure from there to fully open")
     pilot_ratio: PositiveNumber | None = Field(default=None, description="area of the pilot over that of the seat")
     lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Final
 
-from nivel.kernels.hydraulics import ledger, load_signal, pipe, piston, restriction, rotary, spool, volume
 from nivel.kernels.hook import Family
+from nivel.kernels.hydraulics import ledger, load_signal, pipe, piston, restriction, rotary, spool, volume
 from nivel.machine.hydraulics import (
     Accumulator,
     Actuator,

@@ -54,7 +54,9 @@ def _add_spool(draft: SystemBuilder, component: DirectionalValve) -> int:
     if component.frequency is not None:
         state = draft.own_state(StateFact(f"{name}.spool", "1", f"position of {name}", 0.0, 1.0))
         if component.rate_limit is None:
-            speed = draft.own_state(StateFact(f"{name}.spool_speed", "1/s", f"speed of {name}", 0.0, frequency(component)))
+            speed = draft.own_state(
+                StateFact(f"{name}.spool_speed", "1/s", f"speed of {name}", 0.0, frequency(component))
+            )
     least = -1.0 if component.ways == "4/3" else 0.0
     columns = [output, state, speed, draft.function(component.command)]
     draft.elements.add(

@@ -55,7 +55,9 @@ def ripple(pistons: int | None) -> tuple[float, float]:
 
 def _add_setting(draft: SystemBuilder, component: Pump | HydraulicMotor, output: int, high: int) -> None:
     if isinstance(component, Pump) and component.margin is not None:
-        state = draft.own_state(StateFact(f"{component.name}.setting", "1", f"displacement of {component.name}", 0.0, 1.0))
+        state = draft.own_state(
+            StateFact(f"{component.name}.setting", "1", f"displacement of {component.name}", 0.0, 1.0)
+        )
         cut_off = component.cut_off or WITHOUT_CUT_OFF
         numbers = [component.margin, component.control_range, cut_off, component.response]
         columns = [output, state, NONE, high, draft.node(component.ports["LS"])]

@@ -76,7 +76,10 @@ def _know_pressures(draft: SystemBuilder, component: Component) -> None:
             for chamber in _sweep(component)[1]:
                 name = chamber_node(component, chamber)
                 draft.node(name)
-                circuit.signals[f"{component.name}.pressure_{chamber}"] = (circuit.nodes[name].output, circuit.depends[name])
+                circuit.signals[f"{component.name}.pressure_{chamber}"] = (
+                    circuit.nodes[name].output,
+                    circuit.depends[name],
+                )
         for node in circuit.nodes.values():
             if node.owner == component.name:
                 circuit.depends.setdefault(node.name, _states(node.state))
@@ -98,10 +101,14 @@ def _own_nodes(draft: SystemBuilder, component: Component, swept: dict[str, floa
             yield _volume(draft, component, component.name, "", room, component.start, swept)
         case Tank():
             output = _pressure_output(draft, component.name, "pressure")
-            yield Node(component.name, volume.GIVEN, _fluid(draft, component), NONE, RIGID, 0.0, None, component.name, output)
+            yield Node(
+                component.name, volume.GIVEN, _fluid(draft, component), NONE, RIGID, 0.0, None, component.name, output
+            )
         case LoadSensing():
             output = _pressure_output(draft, component.name, "pressure")
-            fact = StateFact(f"{component.name}.pressure", "Pa", f"load signal of {component.name}", ATMOSPHERE, TYPICAL)
+            fact = StateFact(
+                f"{component.name}.pressure", "Pa", f"load signal of {component.name}", ATMOSPHERE, TYPICAL
+            )
             state = draft.own_state(fact)
             yield Node(component.name, volume.SIGNAL, 0, state, RIGID, 0.0, None, component.name, output)
         case Actuator():
@@ -115,7 +122,9 @@ def _own_nodes(draft: SystemBuilder, component: Component, swept: dict[str, floa
                 yield _volume(draft, component, inner, f"_{chamber}", room, start, swept)
                 if cushion is not None:
                     room = (cushion.port_volume, 0.0, 0.0, 1.0, 1.0)
-                    yield _volume(draft, component, f"{component.name}.{chamber}", f"_port_{chamber}", room, start, swept)
+                    yield _volume(
+                        draft, component, f"{component.name}.{chamber}", f"_port_{chamber}", room, start, swept
+                    )
 
 
 def chamber_node(component: Actuator, chamber: str) -> str:
@@ -153,7 +162,9 @@ def _volume(
 
 
 def _pressure_output(draft: SystemBuilder, name: str, quantity: str) -> int:
-    return draft.outputs.add((f"hydraulics.{name}.{quantity}", "Pa", f"{quantity.replace('_', ' in ', 1)} of {name}, absolute"))
+    return draft.outputs.add(
+        (f"hydraulics.{name}.{quantity}", "Pa", f"{quantity.replace('_', ' in ', 1)} of {name}, absolute")
+    )
 
 
 def _fluid(draft: SystemBuilder, component: Component) -> int:
@@ -175,7 +186,7 @@ def _sweep(component: Actuator) -> tuple[float, dict[str, tuple[float, ...]]]:
         case TelescopicCylinder():
             return component.stroke, {"A": component.areas}
         case RotaryActuator():
-            return component.upper - component.lower, {c: (component.displacement,) for c in ("A", "B")}
+            return component.upper - component.lower, dict.fromkeys(("A", "B"), (component.displacement,))
     raise TypeError(component.type)
 
 

@@ -27,7 +27,9 @@ def add_flow(
     opening: tuple[int, int] = (restriction.FIXED, 0),
 ) -> None:
     """A restriction between two nodes. opening : its kind, and the output or function that it follows."""
-    first = draft.outputs.add((f"hydraulics.{component}.{quantity}", "m^3/s", f"{quantity.replace('_', ' ')} of {component}"))
+    first = draft.outputs.add(
+        (f"hydraulics.{component}.{quantity}", "m^3/s", f"{quantity.replace('_', ' ')} of {component}")
+    )
     draft.elements.add(restriction.apply, [first, draft.node(ends[0]), draft.node(ends[1]), *opening], numbers)
 
 
@@ -92,8 +94,12 @@ def add_cushions(draft: SystemBuilder, component: HydraulicCylinder) -> None:
         position, coupled = draft.circuit.signals[f"{component.name}.position"]
         draft.note(coupled)
         numbers = [conductance, TRANSITION, 0.0, sign, end, cushion.length, 1.0, cushion.least_opening]
-        add_flow(draft, component.name, f"cushion_flow_{chamber}", (inner, port), numbers, (restriction.CUSHION, position))
-        opening = add_poppet(draft, component.name, f"check_{chamber}", {port: 1.0, inner: -1.0}, (3e5, 0.0, -1.0, 0.0), 0.5e5)
+        add_flow(
+            draft, component.name, f"cushion_flow_{chamber}", (inner, port), numbers, (restriction.CUSHION, position)
+        )
+        opening = add_poppet(
+            draft, component.name, f"check_{chamber}", {port: 1.0, inner: -1.0}, (3e5, 0.0, -1.0, 0.0), 0.5e5
+        )
         add_flow(draft, component.name, f"check_flow_{chamber}", (port, inner), [conductance, TRANSITION, 0.0], opening)
 
 
@@ -109,7 +115,9 @@ def add_poppet(
 
     factors : of the pressures of nodes. numbers : range, time constant (0: none), factor of the setting, constant.
     """
-    output = draft.outputs.add((f"hydraulics.{component}.{quantity}", "1", f"{quantity.replace('_', ' ')} of {component}, 0 closed"))
+    output = draft.outputs.add(
+        (f"hydraulics.{component}.{quantity}", "1", f"{quantity.replace('_', ' ')} of {component}, 0 closed")
+    )
     state = NONE
     if numbers[1] > 0.0:
         state = draft.own_state(StateFact(f"{component}.{quantity}", "1", f"{quantity} of {component}", 0.0, 1.0))

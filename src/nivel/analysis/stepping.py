@@ -87,7 +87,7 @@ class Simulation:
         self._plan, self._settings = plan, plan.settings
         self._prepared: Prepared = prepare(plan.methods)
         self._run, self._advance = _endless(self._prepared, plan)
-        self._counter, self._clock = memoryview(self._run.counter), memoryview(self._run.clock)
+        self._counter, self._clock = self._run.counter.data, self._run.clock.data  # quicker to read than arrays
         self._step = float(plan.settings.step)
         self._states = _places_of_states(self._prepared, self._run)
         layout = self._prepared.motion.system.layout
@@ -209,6 +209,11 @@ class Simulation:
         """Everything that can be asked for."""
         return self._now.names
 
+    @property
+    def scene(self) -> dict[str, Any]:
+        """Bodies and joints as the viewer and the report draw them."""
+        return self._now.scene
+
     def _observe(self) -> None:
         """Write the frame of the present state, with accelerations and reactions free of Baumgarte's feedback."""
         if self._observed == self._clock[TIME]:
@@ -305,7 +310,7 @@ def _endless(prepared: Prepared, plan: Plan) -> tuple[Run, BoundEntry]:
     run: Run = loop.history.record
     run.counter[ALL_STEPS], run.clock[END] = ENDLESS, np.inf
     codes = loop.evaluate.address, loop.correct.address, loop.step.address
-    return run, BoundEntry(advance, [*codes, loop.machine.address, loop.history.address], keep=loop)
+    return run, BoundEntry(advance, [*codes, int(loop.machine.address), int(loop.history.address)], keep=loop)
 
 
 def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:

@@ -40,6 +40,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     def add(path: str, content: str | bytes) -> None:
         files.append(File.generated(config, path, content=content))
 
+    add("assets/nivel.css", STYLE)
     add("keys.md", key_page())
     add("command-line.md", command_page())
     for source, page in PAGES.items():
@@ -56,6 +57,14 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for name in MOVING if pictures else ():
         add(f"moving/{name}.html", moving_picture(name))
     return files
+
+
+STYLE = ".md-typeset td code{word-break:normal;white-space:nowrap}.md-typeset table:not([class]){font-size:.66rem}"
+
+
+def on_page_content(html: str, **_: Any) -> str:
+    """Docstrings end a sentence before code with two colons."""
+    return html.replace("::</p>", ":</p>")
 
 
 def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:

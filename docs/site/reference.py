@@ -12,8 +12,11 @@ def key_page() -> str:
     """Every key of every element: what it takes, its default and meaning."""
     from nivel.files.assembly import Assembly
     from nivel.machine import MachineRecord
+    from nivel.machine.control import BLOCKS
+    from nivel.machine.forces import FORCES
     from nivel.machine.references import SECTIONS
 
+    kinds = {"forces": FORCES, "control": BLOCKS}
     lines = [
         "# Every key",
         "",
@@ -23,7 +26,7 @@ def key_page() -> str:
     ]
     seen: set[type] = set()
     for section in (*SECTIONS, "assembly", "simulation"):
-        records = list(_records(MachineRecord.model_fields[section].annotation))
+        records = kinds.get(section) or list(_records(MachineRecord.model_fields[section].annotation))
         if len(records) > 1:
             lines += [f"## {section}", ""]
         for record in records:
@@ -61,7 +64,8 @@ def _table(record: Any, section: str, level: int) -> list[str]:
     from nivel.machine.signature import words_of
 
     kind = record.model_fields["type"].default if "type" in record.model_fields else None
-    title = section or (f"`type: {kind}`" if isinstance(kind, str) else record.__name__)
+    alone = bool(record.collection)  # an element is known by its type, a part of one by its name
+    title = section or (f"`type: {kind}`" if isinstance(kind, str) and alone else record.__name__)
     text = " ".join((record.__doc__ or "").split("\n\n")[0].split())
     lines = [f"{'#' * level} {title}", "", text, "", "| key | takes | default | meaning |", "|---|---|---|---|"]
     for name, field in record.model_fields.items():
@@ -78,7 +82,13 @@ def _default(field: Any) -> str:
     value = field.get_default(call_default_factory=True)
     if value is None or value in ((), {}):
         return ""
-    return f"`{value!r}`".replace("|", "or")
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    if isinstance(value, int | float):
+        return f"`{value:g}`"
+    if isinstance(value, tuple):
+        return f"`[{', '.join(map(str, value))}]`".replace(".0", "")
+    return f"`{value}`" if isinstance(value, str) else ""
 
 
 def command_page() -> str:

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from nivel.machine import Expression as Expression
     from nivel.machine import Friction as Friction
     from nivel.machine import Gear as Gear
+    from nivel.machine import Input as Input
     from nivel.machine import Joint as Joint
     from nivel.machine import JointSpringDamper as JointSpringDamper
     from nivel.machine import LinearCoupling as LinearCoupling
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
     from nivel.machine import PointForce as PointForce
     from nivel.machine import PythonLaw as PythonLaw
     from nivel.machine import Rack as Rack
+    from nivel.machine import Rope as Rope
     from nivel.machine import Sensor as Sensor
     from nivel.machine import SimulationSettings as SimulationSettings
     from nivel.machine import SpringDamper as SpringDamper
@@ -80,6 +82,7 @@ _HOME = {
     "Expression": "nivel.machine",
     "Friction": "nivel.machine",
     "Gear": "nivel.machine",
+    "Input": "nivel.machine",
     "Joint": "nivel.machine",
     "JointSpringDamper": "nivel.machine",
     "LinearCoupling": "nivel.machine",
@@ -90,6 +93,7 @@ _HOME = {
     "PointForce": "nivel.machine",
     "PythonLaw": "nivel.machine",
     "Rack": "nivel.machine",
+    "Rope": "nivel.machine",
     "Sensor": "nivel.machine",
     "SimulationSettings": "nivel.machine",
     "SpringDamper": "nivel.machine",
@@ -117,6 +121,7 @@ __all__ = [
     "Expression",
     "Friction",
     "Gear",
+    "Input",
     "Joint",
     "JointSpringDamper",
     "LinearCoupling",
@@ -131,6 +136,7 @@ __all__ = [
     "PythonLaw",
     "Rack",
     "Result",
+    "Rope",
     "Sensor",
     "SimulationSettings",
     "SolveError",

@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
+from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
-from nivel.analysis.compilation import assembly_entries, build, preparation_entries, run_entries, statics_entries
+from nivel.analysis.compilation import (
+    assembly_entries,
+    build,
+    kinematics_entries,
+    linear_entries,
+    preparation_entries,
+    run_entries,
+    statics_entries,
+)
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan, methods_of, plan_run
 from nivel.analysis.settings import waiting_time
@@ -27,13 +36,16 @@ from nivel.machine import (
     Driver,
     Event,
     Force,
+    Input,
     Joint,
     MachineRecord,
     Marker,
     Sensor,
     SimulationSettings,
     State,
+    Table,
 )
+from nivel.machine.hydraulics import Fluid, HydraulicComponent
 from nivel.model import Model
 from nivel.wording import shown
 
@@ -41,11 +53,16 @@ if TYPE_CHECKING:
     import xarray
 
     from nivel.analysis.check import Check
+    from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.posing import Posing
     from nivel.analysis.stepping import Simulation
     from nivel.c_library.writer import Files
     from nivel.native.entry import Entry
     from nivel.results.comparison import Comparison
+    from nivel.results.efforts import Efforts
+    from nivel.results.joint_path import JointPath
+    from nivel.results.linear_model import LinearModel
+    from nivel.results.mechanism import Range
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
 
@@ -76,6 +93,9 @@ class Machine(Model):
         couplings: Sequence[Coupling] = (),
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
+        fluids: Sequence[Fluid] = (),
+        hydraulics: Sequence[HydraulicComponent] = (),
+        inputs: Sequence[Input] = (),
         states: Sequence[State] = (),
         control: Sequence[Block] = (),
         sensors: Sequence[Sensor] = (),
@@ -93,6 +113,9 @@ class Machine(Model):
             "couplings": couplings,
             "drivers": drivers,
             "forces": forces,
+            "fluids": fluids,
+            "hydraulics": hydraulics,
+            "inputs": inputs,
             "states": states,
             "control": control,
             "sensors": sensors,
@@ -161,6 +184,7 @@ class Machine(Model):
         newmark: Mapping[str, Any] | None = None,
         hht: Mapping[str, Any] | None = None,
         generalised_alpha: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, float | str | PathLike[str] | Table] | None = None,
         out: str | PathLike[str] | None = None,
         force: bool = False,
         verify: bool = False,
@@ -174,6 +198,7 @@ class Machine(Model):
         tolerance, where the integrator can do both. tolerance : of integrators that choose their steps.
         cut : joints that stay constraints in relative coordinates. corrector, penalty, baumgarte, newmark,
         hht, generalised_alpha : mappings as in a machine file.
+        inputs : what inputs of the machine follow in this run: a number, a `Table` of time, or a file of columns `time`, `value` (CSV).
         out : result file (NetCDF); in memory if None. force : replace an existing file. verify : a second run
         beside this one, with finer steps on other times, tells how exact every number is; `nivel run` does so by itself. verify_limit
         [s] : the second run goes on for so long after the first at most, by default as long again as that took.
@@ -203,7 +228,7 @@ class Machine(Model):
         }
         given = {key: value for key, value in given.items() if value is not None}
         limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
-        chosen = self.with_settings(given)
+        chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         compile_seconds = build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
@@ -369,6 +394,273 @@ class Machine(Model):
             )
 
     @checked_arguments
+    def kinematics(
+        self,
+        *,
+        drive: str | None = None,
+        start: float | str | None = None,
+        end: float | str | None = None,
+        duration: float | str | None = None,
+        positions: int | str | None = None,
+        coordinates: str | None = None,
+        out: str | PathLike[str] | None = None,
+        force: bool = False,
+        listener: Listener | None = None,
+    ) -> Result:
+        """Positions, velocities, accelerations and reactions of a machine whose motions are all driven, without integration.
+
+        drive : a joint coordinate to be driven evenly besides what the machine's own drivers prescribe, from `start` (default: where it is)
+        to `end` (default: one turn further) [rad or m, or texts with units]. duration : of the motion [s], default that of the machine, 1 s
+        with `drive`. positions : so many, both ends included, default 361. coordinates : auto, absolute or relative. out : result file
+        (NetCDF); in memory if None. force : replace it.
+        Raises ModelError where motions are not driven (nothing was computed), SolveError where the machine cannot go on: its `result` holds
+        the positions until then, its message says what holds which driver.
+        """
+        from nivel.analysis.kinematics.refusals import refuse_what_bends
+        from nivel.analysis.kinematics.settings import kinematics_settings
+        from nivel.analysis.neutral import neutral
+
+        given = {"drive": drive, "start": start, "end": end, "duration": duration, "positions": positions}
+        settings = kinematics_settings(self.record, {**given, "coordinates": coordinates})
+        with self._faults_in_file():
+            refuse_what_bends(self.record)
+            build(assembly_entries(self.record), listener or Listener())
+            from nivel.analysis.kinematics.drive import driven
+
+            machine, settings = driven(self.record, settings)
+            plain, chosen = neutral(machine, settings.coordinates)
+            methods = methods_of(plain, "newton-euler", chosen)
+        compile_seconds = build(kinematics_entries(methods), listener or Listener())
+        # what follows takes longer to import
+        from nivel.analysis.kinematics.run import kinematics
+        from nivel.results.target import keep_sources
+
+        if out is not None and self.origin.file:
+            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
+        with self._faults_in_file():
+            return kinematics(
+                machine,
+                methods,
+                settings,
+                source=self.origin.source,
+                out=out,
+                force=force,
+                listener=listener,
+                compile_seconds=compile_seconds,
+            )
+
+    @checked_arguments
+    def range_of_motion(
+        self,
+        coordinate: str,
+        *,
+        positions: int | str | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> Range:
+        """How far a joint coordinate can be driven from where it is, both ways: a whole turn, or, of a length, twice the machine's size.
+
+        positions : so many each way, default 361. Raises ModelError where other motions are not driven.
+        """
+        from math import pi
+
+        from nivel.analysis.kinematics.ranges import range_of_motion
+        from nivel.analysis.kinematics.settings import kinematics_settings
+
+        settings = kinematics_settings(
+            self.record, {"drive": coordinate, "end": 0.0, "positions": positions, "coordinates": coordinates}
+        )
+        build(assembly_entries(self.record), listener or Listener())
+        with self._faults_in_file():
+            from nivel.analysis.kinematics.drive import present_value
+
+            name = settings.drive
+            start, unit, size = present_value(self.record, name)
+        return range_of_motion(
+            name,
+            unit,
+            start,
+            2.0 * pi if unit == "rad" else 2.0 * size,
+            lambda begin, end: self.kinematics(
+                drive=name, start=begin, end=end, positions=positions, coordinates=coordinates, listener=listener
+            ),
+        )
+
+    @checked_arguments
+    def inverse(
+        self,
+        *,
+        actuators: Sequence[str] | str | None = None,
+        motion: Any = None,
+        trajectory: str | PathLike[str] | None = None,
+        limits: Mapping[str, Any] | None = None,
+        weights: Mapping[str, Any] | None = None,
+        hold: Sequence[str] | str | None = None,
+        positions: int | str | None = None,
+        listener: Listener | None = None,
+    ) -> Efforts:
+        """Inverse dynamics: the efforts of actuators that make the machine follow a motion.
+
+        actuators : joint coordinates, or motors, which then do not act themselves; default: the motors, or without any what the drivers
+        prescribe. motion : a result, or its file; default: that of the machine's drivers. trajectory : CSV file of `time` and joint
+        coordinates, in place of it. limits, weights : by actuator; of more actuators than needed the least Σ (weight · effort)² is taken
+        within the limits, weights being one over the limit where there is one. hold : drivers that keep holding what they prescribe.
+        positions : of the motion of the drivers or the trajectory, default 361.
+        Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be had.
+        """
+        from nivel.analysis.inverse.refusals import refuse_for_inverse
+        from nivel.analysis.inverse.settings import inverse_settings
+        from nivel.analysis.inverse.trajectory import along_trajectory
+        from nivel.analysis.neutral import neutral
+
+        given = {"actuators": actuators, "limits": limits, "weights": weights, "hold": hold}
+        if motion is not None and trajectory is not None:
+            raise ModelError(Fault("", 0, 0, "inverse.trajectory", "stands in place of `motion`; give one of them"))
+        with self._faults_in_file():
+            refuse_for_inverse(self.record)
+            record = self.record if trajectory is None else along_trajectory(self.record, trajectory)
+            settings = inverse_settings(record, given)
+            from nivel.analysis.inverse.run import inverse, without_actuators
+
+            plain, _ = neutral(without_actuators(record, settings), "absolute")
+            methods = methods_of(plain, "newton-euler", "absolute")
+        build(linear_entries(methods), listener or Listener())
+        if motion is None:
+            followed = Machine.from_record(record, self.origin).kinematics(positions=positions, listener=listener)
+        else:
+            from nivel.results.result import Result
+
+            followed = open_result(motion) if isinstance(motion, str | PathLike) else motion
+            if not isinstance(followed, Result):
+                message = f"a result or the name of its file was expected, got {type(motion).__name__}"
+                raise ModelError(Fault("", 0, 0, "inverse.motion", message))
+        with self._faults_in_file():
+            return inverse(methods, settings, followed, listener=listener)
+
+    @checked_arguments
+    def mechanics(self, *, coordinates: str | None = None, listener: Listener | None = None) -> Mechanics:
+        """The machine as robotics knows it, to be asked for many states: `names`, `start`, `mass_matrix(q)`, `bias(q, v)`,
+        `inverse_dynamics(q, v, a)`, `forward_dynamics(q, v, tau)`, `jacobian(point, q)`, `jacobian_bias(point, q, v)`.
+
+        coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
+        """
+        from nivel.analysis.linearise.refusals import refuse_jumps
+        from nivel.analysis.neutral import neutral
+
+        with self._faults_in_file():
+            refuse_jumps(self.record)
+            plain, chosen = neutral(self.record, coordinates or "auto")
+            methods = methods_of(plain, "newton-euler", chosen)
+        build(linear_entries(methods), listener or Listener())
+        from nivel.analysis.inverse.mechanics import Mechanics
+        from nivel.analysis.moment import at_start
+
+        with self._faults_in_file():
+            return Mechanics(plain, at_start(methods))
+
+    @checked_arguments
+    def inverse_kinematics(
+        self,
+        point: str,
+        places: Any,
+        *,
+        times: Any = None,
+        orientations: Any = None,
+        limits: Mapping[str, Any] | None = None,
+        posture: Mapping[str, Any] | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> JointPath:
+        """Joint coordinates that lead a marker, or the frame of a body, along a path.
+
+        places : (T, 3) [m] global. times : (T,) [s], default 0, 1, 2 …. orientations : (T, 4) Euler parameters of its axes, scalar first;
+        default: they do not matter. limits : (low, high) by joint coordinate. posture : preferred values of joint coordinates, for freedoms
+        that the path leaves. Places that cannot be reached are told, with the nearest posture found.
+        Raises ModelError where the machine cannot be assembled, or arguments do not fit.
+        """
+        from nivel.analysis.inverse.paths import PathFollower, path_times, task_for
+
+        mechanics = self.mechanics(coordinates=coordinates, listener=listener)
+        task = task_for(mechanics, point, places, orientations, limits, posture)
+        return PathFollower(mechanics, task).follow(path_times(times, len(task.places)))
+
+    @cached_property
+    def _mechanics(self) -> Mechanics:
+        return self.mechanics()
+
+    def mass_matrix(self, q: Any = None) -> Any:
+        """(f, f) mass matrix in the independent coordinates `mechanics().names`, at positions q; default: the start."""
+        return self._mechanics.mass_matrix(q)
+
+    def bias(self, q: Any = None, v: Any = None) -> Any:
+        """(f,) efforts that no acceleration asks for at positions q and velocities v: weight, centrifugal and all other forces."""
+        return self._mechanics.bias(q, v)
+
+    def inverse_dynamics(self, q: Any, v: Any, a: Any) -> Any:
+        """(f,) efforts that make the accelerations a at positions q and velocities v."""
+        return self._mechanics.inverse_dynamics(q, v, a)
+
+    def jacobian(self, point: str, q: Any = None) -> Any:
+        """(6, f) velocity and angular velocity of a marker or body per velocity, global axes, at positions q."""
+        return self._mechanics.jacobian(point, q)
+
+    @checked_arguments
+    def linearise(
+        self,
+        *,
+        about: float | str | None = None,
+        inputs: Sequence[str] | str | None = None,
+        outputs: Sequence[str] | str | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> LinearModel:
+        """The equations of motion made linear about a state: eigenvalues, modes, and A, B, C, D between inputs and outputs.
+
+        about : `start` (the machine as it starts), `equilibrium` (at t = 0), or a time [s] to which it is run first.
+        inputs : joint coordinates (efforts on them), motors, drivers (accelerations of what they prescribe), `BODY.force.x`,
+        `BODY.torque.x`, `state.NAME`; default: motors and drivers. outputs : joint coordinates, their `.rate`, sensors, `BODY.position.x`,
+        `BODY.velocity.x`, `BODY.angular_velocity.x`, `driver.NAME.effort`, `force.NAME.…`, `state.NAME`; default: sensors, or without any
+        all joint coordinates. coordinates : auto, absolute or relative.
+        Raises ModelError (nothing was computed) or SolveError.
+        """
+        from nivel.analysis.linearise.refusals import refuse_jumps
+        from nivel.analysis.linearise.settings import linearise_settings
+        from nivel.analysis.neutral import neutral
+
+        simulation = self.record.simulation
+        wanted = simulation.coordinates if coordinates is None else coordinates
+        settings = linearise_settings(
+            about,
+            inputs,
+            outputs,
+            "auto" if coordinates is None and wanted == "independent" else wanted,
+            simulation.start,
+        )
+        with self._faults_in_file():
+            refuse_jumps(self.record)
+            plain, chosen = neutral(
+                self.record, settings.coordinates, "equilibrium" if settings.about == "equilibrium" else "as-given"
+            )
+            methods = methods_of(plain, "newton-euler", chosen)
+        entries = linear_entries(methods)
+        if settings.about == "equilibrium":
+            from nivel.analysis.statics.start import methods_at_rest
+
+            entries += statics_entries(methods_at_rest(plain))
+        run = None
+        if settings.time > 0.0:
+            run = self.with_settings({"duration": settings.time})._plan(())
+            entries += run_entries(run)
+        build(entries, listener or Listener())
+        # what follows takes longer to import
+        from nivel.analysis.linearise.run import linearise
+        from nivel.analysis.moment import run_until
+
+        with self._faults_in_file():
+            posture = None if run is None else run_until(run, listener or Listener())
+            return linearise(plain, methods, settings, posture=posture, source=self.origin.source, listener=listener)
+
+    @checked_arguments
     def compare(
         self,
         *,
@@ -429,6 +721,18 @@ class Machine(Model):
             yield
         except ModelError as error:
             raise ModelError(self.origin.placed(error.faults)) from error
+
+    @checked_arguments
+    def with_inputs(self, inputs: Mapping[str, float | str | PathLike[str] | Table]) -> Machine:
+        """The same machine whose inputs follow numbers, tables of time, or files of columns `time`, `value` (CSV).
+
+        Raises ModelError where there is no such input, or a value leaves its range or changes faster than its rate.
+        """
+        if not inputs:
+            return self
+        from nivel.files.input_table import with_signals
+
+        return Machine.from_record(with_signals(self.record, inputs), self.origin)
 
 
 @checked_arguments

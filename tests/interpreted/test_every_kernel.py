@@ -30,6 +30,7 @@ from running import run
 from simulating import hinge, machine, solid
 from unknowns import SHARES
 
+ROOT = Path(__file__).parents[2]
 STEP = 1e-3
 EXPLICIT = "rk4"
 # formulations and stabilisations that share the equations of a path
@@ -309,6 +310,13 @@ def test_flexible_bodies_beams_and_sliders(folder, coordinates):
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 def test_statics(coordinates):
     machine(test_statics_closed_forms.four_bar()).statics(coordinates=coordinates)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_kinematics_and_linear_equations(coordinates):
+    machine = nivel.load(ROOT / "examples" / "four-bar.yaml")
+    machine.kinematics(drive="crank_pivot", positions=3, end="1 rad", coordinates=coordinates)
+    machine.linearise(inputs=["crank_pivot"], coordinates=coordinates)
 
 
 # --- nothing is left out ---

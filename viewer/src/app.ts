@@ -15,6 +15,7 @@ import { Follower } from "./stage/follower";
 import { Handled } from "./stage/handled";
 import { listenToPicks } from "./stage/picking";
 import { Traces } from "./stage/traces";
+import { Trails } from "./stage/trails";
 import { Violations } from "./stage/violations";
 import type { View } from "./stage/views";
 import { World } from "./stage/world";
@@ -24,6 +25,7 @@ import { el, short } from "./ui/dom";
 import { Inspector } from "./ui/inspector";
 import { Legend } from "./ui/legend";
 import { helpDialog, listenToKeys } from "./ui/keys";
+import { Live } from "./ui/live";
 import { Panels, type PanelName } from "./ui/panels";
 import { Plots } from "./ui/plots";
 import { Timeline } from "./ui/timeline";
@@ -52,6 +54,9 @@ export class App {
   private readonly tree: Tree;
   private readonly inspector: Inspector;
   private readonly coordinates: Coordinates | null = null;
+  readonly live: Live | null = null;
+  private trails: Trails | null = null;
+  private shownTime = 0;
   private readonly panels: Panels;
   private readonly dialog = helpDialog();
   private readonly status = el("p", { class: "status", role: "status" });
@@ -122,11 +127,18 @@ export class App {
         () => this.reset(),
       );
     }
-    const data = el("div", {}, this.coordinates?.element ?? null, this.inspector.element);
+    if (content.mode === "live" && connection && content.controls.length + content.gauges.length) {
+      this.trails = new Trails(this.actor);
+      this.world.scene.add(this.trails.root);
+      this.actor.show("signs", false);
+      this.live = new Live(content.controls, content.gauges, (message) => connection.send(message));
+    }
+    const data = el("div", {}, this.live?.panel ?? null, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;
-    this.panels = new Panels(stage, others, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? null, this.status, () => this.dialog.showModal());
+    this.panels = new Panels(stage, others, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? this.live?.bar ?? null, this.status, () => this.dialog.showModal());
     document.body.append(...this.panels.elements, this.dialog);
-    this.panels.settle(!!this.coordinates);
+    this.panels.settle(!!this.coordinates || !!this.live, !this.live);
+    if (this.live) this.panels.rename("data", "Controls and data");
     this.world.onBeforeRender = (now) => this.beforeRender(now);
     this.world.onEdges = (on) => this.actor.show("edges", on);
     this.world.onRecolour = () => this.recolour();
@@ -174,6 +186,7 @@ export class App {
 
   message(message: FromServer): void {
     if (message.type === "note") this.say(message.text);
+    if (message.type === "status") this.live?.update(message);
     if (message.type === "moved") this.coordinates?.update(message.values, this.stage.coordinates, message.problem);
   }
 
@@ -186,10 +199,14 @@ export class App {
     if (this.came && now - this.came > IDLE) this.world.running = false;
     if (this.latest) {
       this.actor.frame.set(this.latest.values.subarray(0, this.actor.frame.length));
+      this.live?.show(this.latest.time, this.latest.values.subarray(this.actor.frame.length));
       // the next one may travel while this one is drawn
       this.connection?.send({ type: "shown", frame: this.latest.number });
+      if (this.latest.time < this.shownTime) this.trails?.clear();
+      this.shownTime = this.latest.time;
       this.latest = null;
       this.refreshFrame();
+      this.trails?.add();
       this.handled.keepInSight();
     }
     const { clientWidth, clientHeight } = this.world.holder;
@@ -288,6 +305,10 @@ export class App {
 
   /** A machine moved by hand goes back to its assembled position. */
   reset(): void {
+    if (this.live) {
+      this.live.say("reset");
+      return;
+    }
     this.connection?.send({ type: "reset" });
   }
 

@@ -65,7 +65,10 @@ function connect(): void {
     },
     onFrame: (frame) => app?.take(frame),
     onMessage: (message) => app?.message(message),
-    onState: (connected) => app?.say(connected ? "" : "The program that shows this page has ended; what is here stays."),
+    onState: (connected) => {
+      if (!connected) app?.live?.lose();
+      app?.say(connected ? "" : "The program that shows this page has ended; what is here stays.");
+    },
   });
 }
 

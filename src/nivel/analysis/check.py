@@ -10,10 +10,12 @@ import numpy as np
 from nivel.analysis.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.control_words import block_in_words, control_in_words
 from nivel.analysis.elements import (
+    component_in_words,
     coupling_in_words,
     driver_in_words,
     event_in_words,
     force_in_words,
+    input_in_words,
     sensor_in_words,
     state_in_words,
 )
@@ -70,9 +72,11 @@ class Check:
     bodies: tuple[BodyFacts, ...]
     beams: tuple[BeamFacts, ...]
     joints: tuple[JointFacts, ...]
-    couplings: tuple[str, ...]  # each in words, as drivers, forces, states, sensors and events
+    couplings: tuple[str, ...]  # each in words, as drivers, forces, inputs, states, sensors and events
     drivers: tuple[str, ...]
     forces: tuple[str, ...]
+    hydraulics: tuple[str, ...]
+    inputs: tuple[str, ...]
     states: tuple[str, ...]
     control: tuple[str, ...]
     control_size: str  # how many blocks, states and sampled values, in words; empty without a control
@@ -131,7 +135,7 @@ def _lines(facts: Check) -> Iterator[str]:
             yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}"
     for kind, convention in {joint.type: joint.convention for joint in facts.joints if joint.coordinates}.items():
         yield f"  {kind}: {convention}"
-    for title in ("couplings", "drivers", "forces", "states", "control", "sensors", "events"):
+    for title in ("couplings", "drivers", "forces", "hydraulics", "inputs", "states", "control", "sensors", "events"):
         elements: tuple[str, ...] = getattr(facts, title)
         if elements:
             yield f"{title}: {facts.control_size}" if title == "control" else title
@@ -234,6 +238,8 @@ def check(plan: Plan) -> Check:
         couplings=tuple(coupling_in_words(machine, coupling) for coupling in machine.couplings),
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
+        hydraulics=_hydraulics(machine, system),
+        inputs=tuple(input_in_words(each) for each in machine.inputs),
         states=tuple(state_in_words(state) for state in machine.states),
         control=tuple(block_in_words(block) for block in machine.control),
         control_size=control_in_words(machine.control) if machine.control else "",
@@ -250,6 +256,21 @@ def check(plan: Plan) -> Check:
         velocity_change=assembly.velocity_change,
         cut=_cut(plan.methods) if settings.coordinates == "relative" else (),
         settings=settings,
+    )
+
+
+def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:
+    """Components in words, pressures at the start, and how many states there are."""
+    if not machine.hydraulics:
+        return ()
+    record = system.record
+    pressures = [f"{node.name} {record.circuit.pressure[k] / 1e5:.4g} bar" for k, node in enumerate(system.nodes)]
+    names = {component.name for component in machine.hydraulics}
+    count = sum(not fact.integral and fact.name.partition(".")[0] in names for fact in system.states)
+    return (
+        *(component_in_words(component) for component in machine.hydraulics),
+        f"start: {', '.join(pressures)}",
+        f"{count} states of components",
     )
 
 

@@ -96,10 +96,15 @@ class Loop(NamedTuple):
     machine: Handle
     history: Handle
 
+    @property
+    def addresses(self) -> tuple[int, ...]:
+        """What `nivel.integrate.loop.advance` is called with."""
+        codes = self.evaluate.address, self.correct.address, self.step.address
+        return *codes, int(self.machine.address), int(self.history.address)
+
     def advance(self) -> int:
         """Go on for the budget of steps in the history's counter. Returns a status."""
-        codes = self.evaluate.address, self.correct.address, self.step.address
-        return advance(*codes, self.machine.address, self.history.address)
+        return advance(*self.addresses)
 
 
 def march(
@@ -122,7 +127,7 @@ def march(
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
     while status in GOES_ON and finished.outcome == "done":
-        status, spent = _march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing)
+        status, spent = march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing)
         loop_seconds += spent
         if status in BEFORE_A_JAM:
             jam = jam_of(prepared, settings, run)
@@ -135,7 +140,7 @@ def march(
         finished.outcome = "failed"
         finished.failure = failure_of(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
-            _keep_last(prepared.motion, run, sinks)
+            keep_last(prepared.motion, run, sinks)
     finished.pace = run.pace
     finished.timing = {
         **counts_of(system, run),
@@ -165,7 +170,7 @@ def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType)
         stabilise[:2] = feedback(settings.penalty, settings.step, stabilisation.CORRECTS)
 
 
-def _march_in_chunks(
+def march_in_chunks(
     advance: Callable[[], int],
     system: System,
     run: Run,
@@ -173,7 +178,7 @@ def _march_in_chunks(
     finished: RunOutcome,
     progress: Progress | None,
     chunk_steps: int | None,
-    pacing: Pacing | None,
+    pacing: Pacing | None = None,
 ) -> tuple[int, float]:
     """The last status, and the time [s] spent in the compiled loop. Events, and an interruption, are noted in `finished`."""
     budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
@@ -257,7 +262,7 @@ def counts_of(system: System, run: Run) -> dict[str, float]:
     }
 
 
-def _keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
+def keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
     """Give the last accepted state before a failure, where it lies after the last frame and its accelerations are numbers."""
     t, feedback = float(run.clock[ACCEPTED]), motion.system.record.control.stabilise[:2]
     if not t > run.clock[SHOWN] or not np.isfinite(run.previous).all():

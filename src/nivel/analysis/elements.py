@@ -1,4 +1,4 @@
-"""Couplings, drivers, forces, states, sensors and events in words: what `nivel check` says of them."""
+"""Couplings, drivers, forces, inputs, states, sensors and events in words: what `nivel check` says of them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from nivel.machine.coordinate_reference import resolve
 from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
-from nivel.machine.forces import Between, BetweenMarkers, Contact, End, ForceElement, PointForce
+from nivel.machine.forces import Between, BetweenMarkers, Contact, End, Ends, ForceElement, PointForce, Rope
+from nivel.machine.hydraulics import Component
+from nivel.machine.input import Input
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.sensor import Sensor
@@ -64,7 +66,7 @@ def _acts_on(machine: MachineRecord, force: ForceElement) -> str:
         return bodies[end] if isinstance(end, str) else end.body
 
     match force:
-        case Between() | BetweenMarkers():
+        case Between() | BetweenMarkers() | Rope():
             return " and ".join(body(end) for end in force.ends)
         case PointForce(marker=str() as marker):
             return bodies[marker]
@@ -90,6 +92,14 @@ def sensor_in_words(sensor: Sensor) -> str:
             return f"{sensor.name}: {str(sensor.quantity).replace('_', ' ')} of {getattr(sensor, form)}{seen}"
 
 
+def input_in_words(given: Input) -> str:
+    """Range and rest value of an input, and what it follows without an operator."""
+    units = f" {given.units}" if given.units else ""
+    course = "" if given.signal is None else f", follows {function_in_words(given.signal)}"
+    limit = "" if given.rate is None else f", at most {given.rate:.6g}{units} per second"
+    return f"{given.name}: {given.range[0]:.6g} to {given.range[1]:.6g}{units}, {given.rest_value:.6g} at rest{limit}{course}"
+
+
 def state_in_words(state: State) -> str:
     """How a state changes, and its start."""
     start = f"{state.start:.6g}{f' {state.units}' if state.units else ''} at the start"
@@ -99,6 +109,17 @@ def state_in_words(state: State) -> str:
     times = [f"every {state.every:.6g} s"] if state.every else []
     times += [f"at the event {state.event}"] if state.event else []
     return f"{state.name}: {function_in_words(state.update)}, sampled {' and '.join(times)}, {start}"
+
+
+def component_in_words(component: Component) -> str:
+    """Type of a component of a circuit, and where its ports are connected."""
+    ports = ", ".join(f"{port} to {node}" for port, node in component.ports.items())
+    on = (
+        f" on {' and '.join(end if isinstance(end, str) else end.body for end in component.ends)}"
+        if isinstance(component, Ends)
+        else ""
+    )
+    return f"{component.name}: {component.type}{on}{f', {ports}' if ports else ''}"
 
 
 def event_in_words(event: Event) -> str:

@@ -90,10 +90,10 @@ def _run(
     if second is not None and finished.outcome == "done" and not finished.asked_to_stop:
         verified = second.wait(listener)
     seconds = {"prepare_seconds": prepare_seconds, "compile_seconds": compile_seconds}
-    return _close(sink, plan, prepared, finished, verified, resting, seconds)
+    return close_run(sink, plan, prepared, finished, verified, resting, seconds)
 
 
-def _close(
+def close_run(
     sink: Memory | Store,
     plan: Plan,
     prepared: Prepared,
@@ -102,6 +102,11 @@ def _close(
     resting: tuple[tuple[Held, ...], tuple[Sticking, ...]],
     timing: dict[str, float],
 ) -> Result:
+    """Close the sink of a run with its trust report and all that is known of how it ended.
+
+    verified : the second run, or None. resting : of `resting_frictions`. timing : seconds besides the loop's.
+    Raises SolveError, with the result, where the run failed.
+    """
     redundancy, machine = prepared.redundancy, plan.machine
     message, advice, at = finished.failure or ("", "", 0.0)
     left = verified.refinement.left if verified is not None else 0.0
@@ -122,7 +127,7 @@ def _close(
         stopped_by=finished.stopped_by,
         neglected=cost(sink.result(), _neglected(machine)),
         further=tuple(finding_items(findings)),
-        small_states=_small_states(sink.result(), prepared),
+        small_states=_small_states(sink.result(), prepared, machine),
         saturated=saturated_blocks(machine, sink.result()),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
@@ -143,12 +148,14 @@ def _close(
     return result
 
 
-def _small_states(result: Result, prepared: Prepared) -> tuple[SmallState, ...]:
+def _small_states(result: Result, prepared: Prepared, machine: MachineRecord) -> tuple[SmallState, ...]:
     """The states that stayed far below the scale by which their errors are measured."""
     if not (prepared.integrator.chooses_steps or prepared.integrator.optional_control or prepared.integrator.residual):
         return ()
-    out = []
+    out, components = [], {component.name for component in machine.hydraulics}
     for fact in prepared.motion.system.states:
+        if fact.integral or fact.name.partition(".")[0] in components:
+            continue  # their scales are those of their components
         largest = peak(result, fact.result).value
         if not fact.sampled and 0.0 < largest < SMALL * fact.scale:
             out.append(SmallState(fact.name, largest, fact.scale))

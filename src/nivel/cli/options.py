@@ -35,6 +35,30 @@ override_option = click.option(
     help="Set any value of the machine file, e.g. bodies.crank.mass='22 kg'. May be repeated.",
 )
 
+
+def _tables(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> dict[str, str]:
+    out: dict[str, str] = {}
+    for text in values:
+        name, equals, value = text.partition("=")
+        if not equals or not name.strip() or not value.strip():
+            raise click.BadParameter(
+                f"'{text}' is not of the form NAME=TABLE.csv, e.g. lever=lever.csv, or NAME=NUMBER"
+            )
+        if name.strip() in out:
+            raise click.BadParameter(f"'{name.strip()}' is given twice")
+        out[name.strip()] = value.strip()
+    return out
+
+
+input_option = click.option(
+    "--input",
+    "inputs",
+    multiple=True,
+    metavar="NAME=TABLE.csv",
+    callback=_tables,
+    help="What an input of the machine follows: a file of columns time,value, or a number. May be repeated.",
+)
+
 allow_code_option = click.option(
     "--allow-code", is_flag=True, help="Laws of the machine may be Python functions; they run with all your rights."
 )

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.failures import say_faults
-from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option, simulation_options
+from nivel.cli.options import (
+    allow_code_option,
+    file_argument,
+    input_option,
+    override_option,
+    quiet_option,
+    simulation_options,
+)
 from nivel.cli.progress import progress_listener
 
 if TYPE_CHECKING:
@@ -24,6 +31,7 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 @file_argument("machine")
 @simulation_options
 @override_option
+@input_option
 @allow_code_option
 @click.option("--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here.")
 @click.option("--force", is_flag=True, help="Replace an existing result.")
@@ -39,6 +47,7 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 def command(
     machine: str,
     overrides: dict[str, str],
+    inputs: dict[str, str],
     allow_code: bool,
     out: str | None,
     force: bool,
@@ -70,6 +79,7 @@ def command(
         try:
             result = loaded.simulate(
                 **settings,
+                inputs=inputs,
                 out=target,
                 force=force,
                 verify=not no_verify,

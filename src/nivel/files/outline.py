@@ -56,7 +56,7 @@ def _check_section(tree: Tree, section: str) -> None:
     content = tree.data.get(section)
     if not isinstance(content, dict):
         if content is not None:
-            message = f"a mapping from names to what they are was expected, got {shown(content)}"
+            message = f"a mapping from names to what they are was expected, got {shown(content)}{_as_mapping(content)}"
             tree.faults.append(tree.fault((section,), message))
             tree.unread.add("")
         if section in tree.data:
@@ -65,6 +65,16 @@ def _check_section(tree: Tree, section: str) -> None:
     if section != "parameters":
         for name in content:
             _check_element(tree, content, section, name)
+
+
+def _as_mapping(content: Any) -> str:
+    """How the first entry of a list is written in a mapping."""
+    first = content[0] if isinstance(content, list) and content else None
+    if isinstance(first, str):
+        return f"; write `{first}: {{…}}` in place of `- {first}`"
+    if isinstance(first, dict) and isinstance(first.get("name"), str):
+        return f"; the name is the key: write `{first['name']}: {{…}}` in place of `- name: {first['name']}`"
+    return "; write `NAME: {…}` in place of `- …`" if isinstance(first, dict) else ""
 
 
 def _check_element(tree: Tree, content: dict[str, Any], section: str, name: str) -> None:

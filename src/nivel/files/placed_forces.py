@@ -21,13 +21,14 @@ from nivel.machine import (
     PointForce,
     PythonLaw,
     Record,
+    Rope,
     SpringDamper,
     Stop,
     TimeFunction,
     Torque,
     TorsionalSpringDamper,
 )
-from nivel.machine.forces import Between, ForceElement
+from nivel.machine.forces import Between, Ends, ForceElement
 
 Changes = dict[str, Any]
 _FUNCTIONS = (Expression, PythonLaw)
@@ -55,7 +56,7 @@ def _any_force(force: ForceElement, scene: Scene) -> Changes:
         raise NotRepresentableError(
             f"what a {force.type} with several functions would be in a placed part is not known"
         )
-    changes = _ends(force, scene, with_axes=True) if isinstance(force, Between) else {}
+    changes = placed_ends(force, scene, with_axes=True) if isinstance(force, Between) else {}
     return changes | {name: scene.varied(value) for name, value in force if isinstance(value, _FUNCTIONS)}
 
 
@@ -78,13 +79,13 @@ def _vector(vector: tuple[TimeFunction, ...], matrix: np.ndarray, scene: Scene) 
     return mixed(matrix, [scene.varied(each) for each in vector])
 
 
-def _ends(force: Between, scene: Scene, *, with_axes: bool) -> Changes:
+def placed_ends(force: Ends, scene: Scene, *, with_axes: bool) -> Changes:
     """Where a force between two bodies acts. With axes, points become markers, since theirs are global as placed."""
     if force.markers is not None:
         first, second = force.markers
         return {"markers": (scene.end(first), scene.end(second))}
     if force.bodies is None or force.points is None:
-        raise ValueError(f"force {force.name} acts nowhere")
+        raise ValueError("two ends are needed, and there are none")
     if not with_axes or not scene.placement.turns:
         return {"points": tuple(scene.placement.point(point) for point in force.points)}
     markers = tuple(
@@ -94,7 +95,7 @@ def _ends(force: Between, scene: Scene, *, with_axes: bool) -> Changes:
 
 
 def _spring_damper(force: SpringDamper, scene: Scene) -> Changes:
-    return {**_ends(force, scene, with_axes=False), **_varied(force, scene, "law")}
+    return {**placed_ends(force, scene, with_axes=False), **_varied(force, scene, "law")}
 
 
 def _torsional_spring_damper(force: TorsionalSpringDamper, scene: Scene) -> Changes:
@@ -103,7 +104,7 @@ def _torsional_spring_damper(force: TorsionalSpringDamper, scene: Scene) -> Chan
 
 
 def _pair_force(force: PairForce, scene: Scene) -> Changes:
-    changes = {**_ends(force, scene, with_axes=force.axes == "first"), **_varied(force, scene, "magnitude")}
+    changes = {**placed_ends(force, scene, with_axes=force.axes == "first"), **_varied(force, scene, "magnitude")}
     if force.vector is not None:
         in_marker = np.diag(AXIAL_Z if scene.placement.mirrored else np.ones(3))
         changes["vector"] = _vector(force.vector, scene.placement.polar if force.axes == "global" else in_marker, scene)
@@ -111,7 +112,7 @@ def _pair_force(force: PairForce, scene: Scene) -> Changes:
 
 
 def _bushing(force: Bushing, scene: Scene) -> Changes:
-    changes = _ends(force, scene, with_axes=True)
+    changes = placed_ends(force, scene, with_axes=True)
     if scene.placement.mirrored:
         signs = np.array([*AXIAL_Z, *(-each for each in AXIAL_Z)])  # of displacements, and of turns, which are axial
         for field in ("stiffness", "damping"):
@@ -123,6 +124,10 @@ def _bushing(force: Bushing, scene: Scene) -> Changes:
 
 def _contact(force: Contact, scene: Scene) -> Changes:
     return {} if force.plane is None else {"plane": scene.end(force.plane, POLAR_Z)}
+
+
+def _rope(force: Rope, scene: Scene) -> Changes:
+    return {"markers": tuple(scene.end(each) for each in force.markers), **_varied(force, scene, "speed")}
 
 
 def _on_coordinate(force: JointSpringDamper | Motor | Stop | Friction, scene: Scene) -> Changes:
@@ -176,4 +181,5 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     PairForce: _pair_force,
     Bushing: _bushing,
     Contact: _contact,
+    Rope: _rope,
 }

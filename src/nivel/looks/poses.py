@@ -34,7 +34,7 @@ def in_space(pose: Pose, points: Any) -> Array:
 
 
 def ends_in_space(element: dict[str, Any], poses: dict[str, Pose]) -> Array:
-    """(2, 3) [m] global points of a joint or force: on its first and on its second body."""
+    """(2, 3) [m] global points of a joint or force: on its first and on its second body; of a rope more."""
     pairs = zip(element["bodies"], element["points"], strict=True)
     return np.concatenate([in_space(poses[body], point) for body, point in pairs])
 

@@ -20,12 +20,14 @@ from nivel.machine.forces import (
     Motor,
     PairForce,
     PointForce,
+    Rope,
     SpringDamper,
     Stop,
     Torque,
     TorsionalSpringDamper,
 )
 from nivel.machine.inertia import Inertia, MassProperties, mass_properties
+from nivel.machine.input import Gamepad, Input, Keys
 from nivel.machine.joint import JOINT_COORDINATES, Joint, JointType
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
@@ -61,12 +63,15 @@ __all__ = [
     "Extrusion",
     "Force",
     "Friction",
+    "Gamepad",
     "Gear",
     "GlobalPoint",
     "Inertia",
+    "Input",
     "Joint",
     "JointSpringDamper",
     "JointType",
+    "Keys",
     "LinearCoupling",
     "MachineRecord",
     "Marker",
@@ -80,6 +85,7 @@ __all__ = [
     "PythonLaw",
     "Rack",
     "Record",
+    "Rope",
     "Sensor",
     "Shape",
     "SimulationSettings",

@@ -12,7 +12,12 @@ from nivel.machine.record import GROUND, Record, entry
 
 Faults = Iterator[tuple[Place, str]]
 
-WITH_COORDINATE: Final = ("drivers", "forces", "sensors")  # sections of elements that may have a `coordinate`
+WITH_COORDINATE: Final = (
+    "drivers",
+    "forces",
+    "hydraulics",
+    "sensors",
+)  # sections of elements that may have a `coordinate`
 
 # of each type of coupling the key of its references, and the kinds of coordinate that they need
 _COUPLED: Final[dict[str, tuple[str, tuple[Kind, ...]]]] = {

@@ -88,6 +88,10 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "volume": ("a volume", "m^3", dimension(m=3)),
     "second moment of area": ("a second moment of area", "m^4", dimension(m=4)),
     "pressure": ("a pressure", "Pa", dimension(kg=1, m=-1, s=-2)),
+    "volume flow": ("a volume flow", "m^3/s", dimension(m=3, s=-1)),
+    "displacement": ("a volume per angle", "m^3/rad", dimension(m=3, rad=-1)),
+    "leakage": ("a leakage", "m^3/(s*Pa)", dimension(m=4, s=1, kg=-1)),
+    "kinematic viscosity": ("a kinematic viscosity", "m^2/s", dimension(m=2, s=-1)),
     "power": ("a power", "W", dimension(kg=1, m=2, s=-3)),
     "stiffness": ("a stiffness", "N/m", dimension(kg=1, s=-2)),
     "damping": ("a damping coefficient", "N*s/m", dimension(kg=1, s=-1)),
@@ -100,6 +104,12 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "mass per length": ("a mass per length", "kg/m", dimension(kg=1, m=-1)),
     "inertia per length": ("a moment of inertia per length", "kg*m", dimension(kg=1, m=1)),
     "bending stiffness": ("a bending stiffness", "N*m^2", dimension(kg=1, m=3, s=-2)),
+    "voltage": ("a voltage", "V", dimension(kg=1, m=2, s=-3, A=-1)),
+    "current": ("a current", "A", dimension(A=1)),
+    "resistance": ("a resistance", "ohm", dimension(kg=1, m=2, s=-3, A=-2)),
+    "inductance": ("an inductance", "H", dimension(kg=1, m=2, s=-2, A=-2)),
+    "torque per current": ("a torque per current", "N*m/A", dimension(kg=1, m=2, s=-2, A=-1)),
+    "turning per length": ("a turning per length", "rad/m", dimension(rad=1, m=-1)),
     "damping per load": ("a damping per load", "s/m", dimension(m=-1, s=1)),
 }
 

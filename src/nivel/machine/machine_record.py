@@ -27,6 +27,8 @@ from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
 from nivel.machine.forces import Force
+from nivel.machine.hydraulics import Fluid, HydraulicComponent
+from nivel.machine.input import Input
 from nivel.machine.interface_uses import problems_of_interfaces
 from nivel.machine.joint import Joint
 from nivel.machine.marker import Marker
@@ -65,7 +67,7 @@ Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"
 class MachineRecord(Checked):
     """Everything nivel is told about a machine. SI, angles in radians."""
 
-    tagged = {"couplings": 2, "forces": 2, "control": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "forces": 2, "hydraulics": 2, "control": 2}  # noqa: RUF012
 
     name: Title
     description: str = ""
@@ -77,6 +79,9 @@ class MachineRecord(Checked):
     couplings: tuple[Coupling, ...] = ()
     drivers: tuple[Driver, ...] = ()
     forces: tuple[Force, ...] = ()
+    fluids: tuple[Fluid, ...] = ()
+    hydraulics: tuple[HydraulicComponent, ...] = ()
+    inputs: tuple[Input, ...] = ()
     states: tuple[State, ...] = ()
     control: tuple[ControlBlock, ...] = ()
     sensors: tuple[Sensor, ...] = ()

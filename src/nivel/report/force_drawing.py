@@ -21,12 +21,17 @@ HALF_PLANE = 34.0  # pixels of a plane to both sides of what touches it
 def force_points(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
     """(n, 3) [m] global points between which forces act."""
     found = [ends_in_space(force, poses) for force in scene.get("forces", []) if force["type"] != "contact"]
-    return np.reshape(np.array(found), (-1, 3))
+    return np.concatenate([np.zeros((0, 3)), *found])
 
 
 def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dict[str, Pose]) -> None:
     """Draw a force between two points with its name; contacts are drawn as planes."""
     if force["type"] == "contact":
+        return
+    if len(force["bodies"]) > 2:
+        for k in range(len(force["bodies"]) - 1):
+            part = {name: force[name][k : k + 2] for name in ("bodies", "points")}
+            draw_force(drawing, frame, {**force, **part, "name": "" if k else force["name"]}, poses)
         return
     ends = frame.pixels(ends_in_space(force, poses))
     (x1, y1), (x2, y2) = ((float(x), float(y)) for x, y in ends)

@@ -35,6 +35,7 @@ NAMES = {
     "outcome": "Outcome",
     "energy": "Energy",
     "violation": "Joints closed",
+    "velocities": "Velocities fit the joints",
     "rate_violation": "Joint rates",
     "degrees_of_freedom": "Freedom",
     "redundancy": "Redundancy",

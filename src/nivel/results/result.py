@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -286,6 +286,20 @@ class Result:
         from nivel.view.export import write_scene
 
         return write_scene([self, *others], path)
+
+    @checked_arguments
+    def coupler_curve(self, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
+        """The path of a point of a body, given in the body's frame [m]: its motion, curvature and cusps."""
+        from nivel.results.mechanism import coupler_curve
+
+        return coupler_curve(self, body, position)
+
+    @checked_arguments
+    def transmission_angle(self, first: str, at: str, last: str) -> xarray.DataArray:
+        """[rad] angle at the joint `at` between the lines to the joints `first` and `last`; π/2 transmits best."""
+        from nivel.results.mechanism import transmission_angle
+
+        return transmission_angle(self, first, at, last)
 
     @checked_arguments
     def export_csv(self, path: str | os.PathLike[str], select: tuple[str, ...] | list[str] = ()) -> Path:

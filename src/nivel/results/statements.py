@@ -23,9 +23,12 @@ def statements(
     stopped_by: str = "",
     shared: Sequence[Shared] = (),
     unresolved: Unresolved | None = None,
+    *,
+    passed: bool = False,
 ) -> Iterator[Item]:
     """The items of the report; `failure` says what stopped the run, `stopped_by` which event ended it, `shared` which frictions share
-    a load in no certain way, `unresolved` the force that the energy error comes from."""
+    a load in no certain way, `unresolved` the force that the energy error comes from, `passed` whether a position was passed where
+    freedoms split."""
     verdict, text = OUTCOMES.get(trust.outcome, ("red", f"Outcome: {trust.outcome}"))
     if stopped_by:
         text = f"Outcome: the event {stopped_by} ended the run, as it was to do"
@@ -36,7 +39,7 @@ def statements(
         yield _rate_item(trust)
     if trust.degrees_of_freedom is not None:
         yield freedom_item(trust)
-    yield redundancy_item(trust)
+    yield redundancy_item(trust, unique=not passed)
     if shared:
         yield _shared_item(shared)
     if trust.accuracy_estimate is not None:
@@ -141,8 +144,8 @@ def freedom_item(trust: Trust) -> Item:
     return Item("degrees_of_freedom", "green", f"Freedom: {degrees}{modes} (green from 1 on)")
 
 
-def redundancy_item(trust: Trust) -> Item:
-    """Constraints that repeat others."""
+def redundancy_item(trust: Trust, *, unique: bool = True) -> Item:
+    """Constraints that repeat others. unique : whether the motion is."""
     if not trust.redundant_rows:
         return Item(
             "redundancy",
@@ -157,7 +160,8 @@ def redundancy_item(trust: Trust) -> Item:
         if trust.non_unique_joints
         else "so are the reactions"
     )
-    text = f"Redundancy: {repeats} ({rows}). The motion is unique; {unsure} (green when none, amber otherwise)"
+    motion = "The motion is unique; " if unique else ""
+    text = f"Redundancy: {repeats} ({rows}). {motion}{unsure} (green when none, amber otherwise)"
     return Item("redundancy", "amber", text)
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from nivel.results.circuits import circuit_items
 from nivel.results.held import Shared
 from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
@@ -128,12 +129,18 @@ def assess(result: Readable, facts: Facts) -> Trust:
         unresolved_time=unresolved.time if unresolved else 0.0,
     )
     items = (
-        *statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved),
+        *statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved, passed=_passes(facts.further)),
         *facts.further,
         *(_small_state(each) for each in facts.small_states),
         *(_saturated(name) for name in facts.saturated),
+        *circuit_items(result),
     )
     return replace(trust, items=items, verdict=worst(items))
+
+
+def _passes(further: tuple[Item, ...]) -> bool:
+    """Whether a position was passed where freedoms split."""
+    return any(item.name == "singular" for item in further)
 
 
 def _small_state(state: SmallState) -> Item:

@@ -86,6 +86,18 @@ CHECKS = {
         "Errors of a body, or of a joint coordinate, as a share of its own motion: below a hundredth its curves lie on each other, above "
         "a tenth they are others.",
     ),
+    "stiffening": Threshold(
+        1e-2,
+        1e-1,
+        "Centrifugal forces make a slender body stiffer by about this share: a hundredth is what its stiffness is known to, a tenth is "
+        "seen.",
+    ),
+    "bending": Threshold(
+        5e-2,
+        2e-1,
+        "A body bent by the share x of its length becomes shorter by about x²/2 of it, which modes do not know: 1e-3 at 0.05, a "
+        "fiftieth at 0.2.",
+    ),
 }
 # of states of equilibrium
 RESIDUAL = Threshold(

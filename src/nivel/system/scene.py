@@ -20,7 +20,8 @@ a body (`ground` among them) is in that body's frame, which `position` and `orie
                    x), ``across`` (y of the section; y), ``smooth`` (curved between the frames; true)
 =================  ====================================================================================================
 
-Of the forces those are here that have two ends: spring-dampers, torsional ones, pair-forces, bushings, and contacts. A torsional
+Of the forces those are here that have two ends: spring-dampers, torsional ones, pair-forces, bushings, contacts, and ropes, which
+have a point for every marker. A torsional
 spring acts about ``axis``, in the first body. A contact is between the centres of two spheres, or between the centre of a
 shape and a point of a plane; then ``axis`` is the plane's normal, in the second body, outwards.
 """
@@ -37,7 +38,7 @@ import numpy as np
 from nivel.flexible.picture import moving_surface
 from nivel.machine.beam import Beam
 from nivel.machine.body import Body
-from nivel.machine.forces import Between, BetweenMarkers, Contact, Force, TorsionalSpringDamper
+from nivel.machine.forces import Between, BetweenMarkers, Contact, Force, Rope, TorsionalSpringDamper
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.shape import Box, Extrusion, Mesh, Sphere, Tube
@@ -150,7 +151,7 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
         ends = _ends(draft, force)
         if ends is None:
             continue
-        first, second = ends
+        first, second = ends[0], ends[1]
         markers = draft.markers
         out: dict[str, Any] = {
             "name": force.name,
@@ -166,11 +167,13 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
         yield out
 
 
-def _ends(draft: SystemBuilder, force: Force) -> tuple[int, int] | None:
+def _ends(draft: SystemBuilder, force: Force) -> tuple[int, ...] | None:
     """Markers between which a force acts; None where it acts elsewhere."""
     match force:
         case Between() | BetweenMarkers():
             return draft.ends(force.ends)
+        case Rope():
+            return tuple(draft.end(end) for end in force.ends)
         case Contact(body=str(body), plane=plane) if plane is not None:
             return _centre(draft, body), draft.end(plane)
         case Contact(bodies=(first, second)):

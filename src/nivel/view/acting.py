@@ -12,6 +12,8 @@ from nivel.view.triples import triple
 AT_JOINT: Final[dict[str, tuple[ForceLook, ForceLook]]] = {
     "joint-spring-damper": ("coil", "slide"),
     "motor": ("turn", "slide"),
+    "dc-motor": ("turn", "slide"),
+    "servo-motor": ("turn", "slide"),
     "driver": ("turn", "slide"),
 }
 HELD: Final[tuple[ForceLook, ForceLook]] = ("ring", "slide")  # of friction, stops and whatever else works there
@@ -98,6 +100,8 @@ def _look(force: dict[str, Any], record: dict[str, Any]) -> ForceLook:
             return "coil"
         case "pair-force":
             return "cylinder"
+        case "rope":
+            return "rope"
         case "bushing":
             return "bushing"
         case "contact":

@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import asdict, fields
-from typing import Any, Final, get_type_hints
+from typing import Any, Final, get_args, get_origin, get_type_hints
 
-from nivel.view.records import FROM_PAGE, FROM_SERVER, Move, Reset, Shown, Want
+from nivel.view.records import FROM_PAGE, FROM_SERVER, Command, Drive, Move, Reset, Shown, Take, Want
 
 LARGEST: Final = 2048  # bytes of a message
 LARGEST_NUMBER: Final = 2**32 - 1
 LONGEST_NAME: Final = 512
+MOST_NUMBERS: Final = 64  # of a list
 _RECORDS: Final = {get_type_hints(record)["type"].__args__[0]: record for record in FROM_PAGE}
 
 
@@ -19,7 +20,7 @@ class NotUnderstoodError(Exception):
     """The message is none that a page sends."""
 
 
-def read_message(content: str | bytes) -> Shown | Want | Move | Reset:
+def read_message(content: str | bytes) -> Shown | Want | Move | Reset | Drive | Take | Command:
     """The record in a message.
 
     Raises NotUnderstoodError.
@@ -46,6 +47,10 @@ def _value(hint: Any, value: Any) -> Any:
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise NotUnderstoodError("a number was expected")
         value = _float(value)
+    elif get_origin(hint) is list:
+        if not isinstance(value, list) or len(value) > MOST_NUMBERS:
+            raise NotUnderstoodError("a short list was expected")
+        value = [_value(get_args(hint)[0], each) for each in value]
     elif not isinstance(value, str) or len(value) > LONGEST_NAME:
         raise NotUnderstoodError("a name was expected")
     return value

@@ -26,6 +26,7 @@ ForceLook = Literal[
     "slide",
     "ring",
     "dot",
+    "rope",
 ]
 
 PROTOCOL: Final = 1  # version of all that stands here
@@ -156,7 +157,7 @@ class Force:
     in the second's.
 
     look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring`
-    holds it, a `dot` is where something acts on one body.
+    holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two.
     """
 
     name: str
@@ -402,15 +403,50 @@ class Stage:
 
 
 @dataclass(frozen=True)
+class Control:
+    """An input of a live machine, and what moves it. stick, raises, lowers : empty where there is none. axis, button : -1 likewise.
+
+    hold : it stays where it is left, and does not go back to rest. dead_zone, exponent, reverse : of the axis of a gamepad.
+    """
+
+    name: str
+    unit: str
+    description: str
+    low: float
+    high: float
+    rest: float
+    hold: bool
+    look: Literal["slider", "button"]
+    stick: str
+    raises: str
+    lowers: str
+    axis: int
+    button: int
+    reverse: bool
+    dead_zone: float
+    exponent: float
+
+
+@dataclass(frozen=True)
+class Gauge:
+    """A number that a live machine shows. In a frame the gauges stand behind what `Layout` says, then the values of the controls."""
+
+    name: str
+    unit: str
+
+
+@dataclass(frozen=True)
 class Package:
     """All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come.
 
-    stages : the first is the machine, others are drawn as ghosts over it.
+    stages : the first is the machine, others are drawn as ghosts over it. controls, gauges : of a live machine.
     """
 
     protocol: int
     mode: Literal["playback", "machine", "live"]
     stages: list[Stage]
+    controls: list[Control] = field(default_factory=list)
+    gauges: list[Gauge] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -437,6 +473,28 @@ class Refused:
     type: Literal["refused"]
     request: int
     problem: str
+
+
+@dataclass(frozen=True)
+class Status:
+    """From the server, some times a second: how a live machine is.
+
+    time : simulated [s]. speed : simulated over real time. driver : who operates it. operated : its inputs follow an operator.
+    computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns, dropped : ticks that took too long, messages refused.
+    """
+
+    type: Literal["status"]
+    mode: str
+    time: float
+    speed: float
+    driver: Literal["you", "other", "nobody"]
+    operated: bool
+    computing: float
+    late: float
+    tick: float
+    overruns: int
+    dropped: int
+    text: str
 
 
 @dataclass(frozen=True)
@@ -473,5 +531,30 @@ class Reset:
     type: Literal["reset"]
 
 
-FROM_SERVER: Final = (Note, Moved, Refused)
-FROM_PAGE: Final = (Shown, Want, Move, Reset)
+@dataclass(frozen=True)
+class Drive:
+    """From the page that operates a live machine, again and again: wanted values of all controls."""
+
+    type: Literal["drive"]
+    values: list[float]
+
+
+@dataclass(frozen=True)
+class Take:
+    """From the page: it wants to operate the machine (on 1), or lets go of it (0)."""
+
+    type: Literal["take"]
+    on: int
+
+
+@dataclass(frozen=True)
+class Command:
+    """From the page that operates: run, pause, step, reset, save, restore, or speed with its number."""
+
+    type: Literal["command"]
+    word: str
+    number: float
+
+
+FROM_SERVER: Final = (Note, Moved, Refused, Status)
+FROM_PAGE: Final = (Shown, Want, Move, Reset, Drive, Take, Command)

@@ -16,16 +16,20 @@ from nivel.view.couplings import couplings
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.playback import SERVED, Budget, playback, played_frames
-from nivel.view.records import PROTOCOL, Coordinate, Motion, Moved, Package, Stage
+from nivel.view.records import PROTOCOL, Command, Coordinate, Drive, Motion, Moved, Note, Package, Stage, Status, Take
 from nivel.view.stage import cast, flexible
 
 Array = NDArray[np.float64]
 
 
 class Source(Protocol):
-    """What is shown. `on_change` is called, from any thread, when there is a new frame."""
+    """What is shown. `on_change` is called, from any thread, when there is a new frame.
+
+    forgiving : messages that are not understood, or come too often, are dropped and counted; else their page is sent away.
+    """
 
     on_change: Callable[[], None]
+    forgiving: bool
 
     def package(self) -> bytes:
         """Everything that the page needs at first."""
@@ -47,12 +51,25 @@ class Source(Protocol):
         """Put the machine back."""
         ...
 
+    def hear(self, page: object, said: Drive | Take | Command) -> Note | None:
+        """What a page that operates a live machine says."""
+        ...
+
+    def status(self, page: object, dropped: int) -> Status | None:
+        """How a live machine is; None of others. dropped : messages of this page."""
+        ...
+
+    def leave(self, page: object) -> None:
+        """A page is gone."""
+        ...
+
 
 class Still:
     """A source without frames of its own."""
 
     def __init__(self) -> None:
         self.on_change: Callable[[], None] = lambda: None
+        self.forgiving = False
 
     def frame(self) -> tuple[float, Array] | None:
         return None
@@ -65,6 +82,15 @@ class Still:
 
     def reset(self) -> Moved | None:
         return None
+
+    def hear(self, page: object, said: Drive | Take | Command) -> Note | None:
+        return None
+
+    def status(self, page: object, dropped: int) -> Status | None:
+        return None
+
+    def leave(self, page: object) -> None:
+        pass
 
 
 class Playback(Still):

@@ -11,12 +11,13 @@ from typing import Any, Final
 from nivel.errors import ModelError
 from nivel.view.frames import message
 from nivel.view.messages import NotUnderstoodError, read_message, said
-from nivel.view.records import COLUMN, PACKAGE, Move, Refused, Reset, Shown, Want
+from nivel.view.records import COLUMN, PACKAGE, Command, Drive, Move, Refused, Reset, Shown, Take, Want
 from nivel.view.sources import Source
 
 RATE: Final = 200.0  # messages a second that a page may send for long
 BURST: Final = 400.0  # and at once
 PATIENCE: Final = 2.0  # seconds after which a frame that nobody acknowledged counts as lost
+TELLING: Final = 0.2  # seconds between two words on how a live machine is
 REFUSED: Final = 1008  # closing code: policy violation
 
 
@@ -51,6 +52,7 @@ class Stream:
         )
         self._wished = asyncio.Event()
         self.frame_count = 0
+        self.dropped_count = 0  # messages that were not understood, or too many
         self.send_seconds = 0.0
 
     def has_news(self) -> None:
@@ -63,10 +65,13 @@ class Stream:
         if self._source.frame() is not None:
             self._fresh.set()
         async with asyncio.TaskGroup() as group:
-            tasks = [group.create_task(self._send_frames()), group.create_task(self._fulfil())]
-            await self._listen()
-            for task in tasks:
-                task.cancel()
+            tasks = [group.create_task(each) for each in (self._send_frames(), self._fulfil(), self._tell())]
+            try:
+                await self._listen()
+            finally:
+                self._source.leave(self)
+                for task in tasks:
+                    task.cancel()
 
     async def _send_frames(self) -> None:
         while True:
@@ -88,12 +93,14 @@ class Stream:
     async def _listen(self) -> None:
         allowance = Allowance()
         async for content in self._connection:
-            if not allowance.spend():
-                await self._connection.close(REFUSED, "too many messages")
-                return
             try:
+                if not allowance.spend():
+                    raise NotUnderstoodError("too many messages")
                 wanted = read_message(content)
             except NotUnderstoodError as problem:
+                self.dropped_count += 1
+                if self._source.forgiving:
+                    continue
                 await self._connection.close(REFUSED, str(problem))
                 return
             match wanted:
@@ -105,6 +112,12 @@ class Stream:
                 case Move() | Reset():
                     self._wish = wanted
                     self._wished.set()
+                case Drive():
+                    self._source.hear(self, wanted)
+                case Take() | Command():
+                    note = await asyncio.to_thread(self._source.hear, self, wanted)
+                    if note is not None:
+                        await self._connection.send(said(note))
 
     async def _answer(self, wanted: Want) -> None:
         try:
@@ -113,6 +126,12 @@ class Stream:
             await self._connection.send(said(Refused("refused", wanted.request, str(error))))
             return
         await self._connection.send(struct.pack("<III", COLUMN, wanted.request, 0) + column.astype("<f4").tobytes())
+
+    async def _tell(self) -> None:
+        """Say how a live machine is, as long as the page is there."""
+        while (status := self._source.status(self, self.dropped_count)) is not None:
+            await self._connection.send(said(status))
+            await asyncio.sleep(TELLING)
 
     async def _fulfil(self) -> None:
         """Move the machine as the page wishes, one wish after the other, those in between left out."""

@@ -80,14 +80,14 @@ export interface Joint {
   facts: [string, string][];
 }
 
-/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body. */
+/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two. */
 export interface Force {
   name: string;
   kind: string;
   bodies: number[];
   points: [number, number, number][];
   axis: [number, number, number] | null;
-  look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane" | "turn" | "slide" | "ring" | "dot";
+  look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane" | "turn" | "slide" | "ring" | "dot" | "rope";
   facts: [string, string][];
 }
 
@@ -261,11 +261,39 @@ export interface Stage {
   motion: Motion | null;
 }
 
-/** All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come. stages : the first is the machine, others are drawn as ghosts over it. */
+/** An input of a live machine, and what moves it. stick, raises, lowers : empty where there is none. axis, button : -1 likewise. hold : it stays where it is left, and does not go back to rest. dead_zone, exponent, reverse : of the axis of a gamepad. */
+export interface Control {
+  name: string;
+  unit: string;
+  description: string;
+  low: number;
+  high: number;
+  rest: number;
+  hold: boolean;
+  look: "slider" | "button";
+  stick: string;
+  raises: string;
+  lowers: string;
+  axis: number;
+  button: number;
+  reverse: boolean;
+  dead_zone: number;
+  exponent: number;
+}
+
+/** A number that a live machine shows. In a frame the gauges stand behind what `Layout` says, then the values of the controls. */
+export interface Gauge {
+  name: string;
+  unit: string;
+}
+
+/** All that the page shows. mode : playback of whole motions, a machine moved by hand, or frames as they come. stages : the first is the machine, others are drawn as ghosts over it. controls, gauges : of a live machine. */
 export interface Package {
   protocol: number;
   mode: "playback" | "machine" | "live";
   stages: Stage[];
+  controls: Control[];
+  gauges: Gauge[];
 }
 
 /** From the server: a sentence for the user. */
@@ -286,6 +314,22 @@ export interface Refused {
   type: "refused";
   request: number;
   problem: string;
+}
+
+/** From the server, some times a second: how a live machine is. time : simulated [s]. speed : simulated over real time. driver : who operates it. operated : its inputs follow an operator. computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns, dropped : ticks that took too long, messages refused. */
+export interface Status {
+  type: "status";
+  mode: string;
+  time: number;
+  speed: number;
+  driver: "you" | "other" | "nobody";
+  operated: boolean;
+  computing: number;
+  late: number;
+  tick: number;
+  overruns: number;
+  dropped: number;
+  text: string;
 }
 
 /** From the page: the frame with this number is on the screen; the next may come. */
@@ -314,6 +358,25 @@ export interface Reset {
   type: "reset";
 }
 
-export type FromServer = Note | Moved | Refused;
+/** From the page that operates a live machine, again and again: wanted values of all controls. */
+export interface Drive {
+  type: "drive";
+  values: number[];
+}
 
-export type FromPage = Shown | Want | Move | Reset;
+/** From the page: it wants to operate the machine (on 1), or lets go of it (0). */
+export interface Take {
+  type: "take";
+  on: number;
+}
+
+/** From the page that operates: run, pause, step, reset, save, restore, or speed with its number. */
+export interface Command {
+  type: "command";
+  word: string;
+  number: number;
+}
+
+export type FromServer = Note | Moved | Refused | Status;
+
+export type FromPage = Shown | Want | Move | Reset | Drive | Take | Command;

@@ -10,6 +10,7 @@ const WIRE = 0.0042; // radii, of the size near the element
 const COIL = 0.021;
 const ROD = 0.0075;
 const BARREL = 0.0135;
+const ROPE = 0.0016; // of the machine's size
 const TURNS = 9;
 const BETWEEN = ["spring", "damper", "spring-damper", "cylinder"];
 const MANY = 20; // springs from which on each is drawn with fewer facets
@@ -33,6 +34,7 @@ export function stretching(actor: Actor): Stretched {
   for (const joint of actor.stage.joints) if (joint.rod) rod(actor, joint, out);
   for (const force of actor.stage.forces) {
     if (force.look === "plane") out.moving.push(plane(actor, force));
+    else if (force.look === "rope") rope(actor, force, out);
     else if (BETWEEN.includes(force.look)) between(actor, force, out);
     else standing(actor, force, "force", out.pieces);
   }
@@ -83,6 +85,18 @@ function rod(actor: Actor, joint: Joint, out: Stretched): void {
       ends[1]!.position.z = length;
     }),
   );
+}
+
+/** A rope: a thin round bar from each of its points to the next. */
+function rope(actor: Actor, force: Force, out: Stretched): void {
+  const said: Picked = { kind: "force", name: force.name };
+  for (let k = 1; k < force.points.length; k++) {
+    const bodies = force.bodies.slice(k - 1, k + 1);
+    const points = force.points.slice(k - 1, k + 1);
+    const group = new THREE.Group();
+    const line = part(group, "signDark", unit(ROPE * actor.stage.size), said, out);
+    out.moving.push(laid(actor, bodies, points, group, (length) => (line.scale.z = length)));
+  }
 }
 
 /** A helix about z from 0 to 1 with straight ends; its length scales, its wire keeps about its thickness. */

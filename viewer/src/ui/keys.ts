@@ -61,7 +61,8 @@ function handle(app: App, event: KeyboardEvent): boolean {
   if (/^d$/i.test(key)) return did(app.togglePanel("display"));
   if (/^p$/i.test(key)) return did(app.togglePanel("data"));
   if (/^r$/i.test(key)) return did(app.reset());
-  const { player } = app;
+  const { player, live } = app;
+  if (live && key === " ") return did(live.toggle());
   if (!player) return false;
   if (key === " ") return did(player.toggle());
   if (key === "ArrowLeft") return did(player.step(-step));

@@ -49,11 +49,11 @@ export class Panels {
     });
   }
 
-  /** Open what has room at first; `move` : the machine is moved by hand, by sliders in the data panel. */
-  settle(move: boolean): void {
+  /** Open what has room at first; `move` : the machine is moved by hand, by sliders in the data panel; `structure` : there is room for the list of parts. */
+  settle(move: boolean, structure = true): void {
     if (move) this.rename("data", "Joints and data");
     if (innerWidth >= WIDE && innerHeight > 480) {
-      this.set("structure", true);
+      this.set("structure", structure);
       this.set("data", true);
     } else if (move) {
       this.set("data", true);
@@ -103,7 +103,8 @@ export class Panels {
     return (Object.keys(this.panels) as PanelName[]).filter((name) => !this.panels[name].hidden);
   }
 
-  private rename(name: PanelName, title: string): void {
+  /** Give a panel another title. */
+  rename(name: PanelName, title: string): void {
     this.panels[name].setAttribute("aria-label", title);
     this.panels[name].querySelector("h2")!.textContent = title;
     this.buttons[name].setAttribute("aria-label", title);

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.loads.functions import Varying, is_local
 from nivel.errors import ModelError
-from nivel.integrate.run import PARTS, TAKEN
+from nivel.integrate.run import LEAST, PARTS
 from nivel.machine.arithmetic import TIME
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.symbols import Symbol, UnknownSymbolError, find_symbol
@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 AXES = {"x": 0, "y": 1, "z": 2}
 # Steps that are looked at; of more, blocks all along the run.
 MOST_STEPS = 200_000
+# and in one part of the duration, where steps are chosen
+MOST_IN_PART = 2_000
 
 
 @dataclass(frozen=True)
@@ -39,14 +41,14 @@ class Steps:
 
 def steps_of(pace: Array, duration: float, step: float | None, corners: tuple[float, ...] = ()) -> Steps:
     """The steps of a run up to `duration` [s]. step [s] : a fixed one. pace : of `Run`, for steps that were chosen; they end at `corners`
-    [s], and as long as the longest one at that time."""
+    [s], and are as long as the shortest one at that time: a method that goes so far down has seen what there is."""
     if step is not None:
         count = max(1, int(np.ceil(duration / step * (1.0 - 1e-12))))
         begin = step * np.arange(count, dtype=np.float64)
         return _thinned(begin, np.full(count, step))
     part = duration / PARTS
-    taken = np.where(pace[TAKEN] > 0.0, pace[TAKEN], part)
-    count = np.maximum(1, np.ceil(part / taken).astype(int))
+    taken = np.where(np.isfinite(pace[LEAST]), pace[LEAST], part)
+    count = np.clip(np.ceil(part / taken), 1, MOST_IN_PART).astype(int)
     # a step longer than a part begins where the one before it ends
     grid = [np.linspace(k * part, (k + 1) * part, count[k], endpoint=False) for k in range(PARTS)]
     times, last = [], 0.0
@@ -98,14 +100,21 @@ def _signal(name: str, function: Varying, machine: MachineRecord, result: Result
             coordinate = symbol.quantity.removesuffix("_rate")
             rate = ".rate" if coordinate != symbol.quantity else ""
             return result.array(f"{symbol.name}.{coordinate}{rate}")
-        case "states" | "forces":
+        case "inputs":
+            return result.array(f"{symbol.name}.value")
+        case "states":
             return result.array(f"state.{symbol.name}")
+        case "forces":
+            is_state = f"state.{name}" in result.variables
+            return result.array(f"state.{name}" if is_state else f"force.{name}")
         case "sensors":
             return result.array(f"sensor.{symbol.name}")
         case "markers":
             marker = next(each for each in machine.markers if each.name == symbol.name)
             return _of_point(symbol, marker.body, np.array(marker.position, dtype=float), result)
-    return _of_point(symbol, symbol.name, np.zeros(3), result)
+        case "bodies":
+            return _of_point(symbol, symbol.name, np.zeros(3), result)
+    raise UnknownSymbolError(name)
 
 
 def _of_point(symbol: Symbol, body: str, place: Array, result: Result) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
@@ -14,7 +14,7 @@ from nivel.machine.coefficient import NotNegative
 from nivel.machine.control.part import VALUE, Part, PartFunction
 from nivel.machine.linear_function import linear
 from nivel.machine.quantity import ANY, Duration, Quantity, listed
-from nivel.machine.record import Name
+from nivel.machine.record import Name, entry
 
 Number = Annotated[float, Quantity(ANY)]
 PositiveNumber = Annotated[float, Quantity(ANY, positive=True)]
@@ -25,6 +25,15 @@ NotNegativeTime = Annotated[float, Quantity("time"), NotNegative]
 COMPUTED: Final = "computed"  # a value before its latency
 MOST_DELAYED: Final = 200  # samples that wait
 WHOLE: Final = 1e-9  # of a ratio of times that is a whole number
+
+
+def names_in(given: Any) -> tuple[str, ...]:
+    """Names in a mapping from names, or in a list of what has names, of raw data or records."""
+    if isinstance(given, Mapping):
+        found = list(given)
+    else:
+        found = [entry(each, "name") for each in given] if isinstance(given, list | tuple) else []
+    return tuple(name for name in found if isinstance(name, str))
 
 
 class Block(Checked):

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem
-from nivel.machine.control.block import Block
+from nivel.machine.control.block import Block, names_in
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import entered
 from nivel.machine.control.part import Part, PartFunction, law
@@ -153,13 +153,9 @@ class StateMachine(Block):
             yield Problem((), "`sample_time` is missing: guards are looked at at samples")
 
 
-def _output_names(outputs: Any) -> tuple[str, ...]:
+def _output_names(outputs: Iterable[Any]) -> tuple[str, ...]:
     """Names of the outputs of all states, which may be raw data."""
-    names: dict[str, None] = {}
-    for each in outputs:
-        found = each if isinstance(each, Mapping) else [entry(one, "name") for one in each or ()]
-        names |= dict.fromkeys(name for name in found if isinstance(name, str))
-    return tuple(names)
+    return tuple(dict.fromkeys(name for each in outputs for name in names_in(each)))
 
 
 def _step_law(own: str, guards: list[str], arms: list[tuple[int, range, int]]) -> PythonLaw:

@@ -1,0 +1,1 @@
+"""Machines to be driven: `nivel demo NAME`."""

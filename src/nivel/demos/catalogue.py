@@ -1,0 +1,18 @@
+"""The machines that come with nivel to be driven."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+FOLDER: Final = Path(__file__).parent
+# the first is shown where none is named
+DEMOS: Final = {
+    "harbour-crane": "a container crane: gantry, trolley, four ropes on winches, a load that swings",
+    "four-bar": "a linkage with sliders for its dimensions, and the curve that its coupler draws",
+}
+
+
+def demo_file(name: str) -> Path:
+    """The machine file of a demo."""
+    return FOLDER / f"{name}.yaml"

@@ -1,0 +1,106 @@
+"""Tables of inputs in files of columns: `time`, and a column with the input's name, or one called `value`."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Mapping
+from os import PathLike, fspath
+from typing import Final
+
+from nivel.errors import Fault, ModelError
+from nivel.files.reader import read_text
+from nivel.machine import MachineRecord
+from nivel.machine.arithmetic import ExpressionError
+from nivel.machine.coordinate_reference import unknown_name
+from nivel.machine.quantity import ANY, Kind, read_quantity
+from nivel.machine.table import Table
+
+# `time`, `lever [deg]`, `lever (deg)`
+HEAD: Final = re.compile(r"\s*(?P<name>[^\[\(]*?)\s*(?:[\[\(](?P<unit>[^\]\)]*)[\]\)])?\s*")
+
+
+def read_input_table(path: str | PathLike[str], name: str) -> Table:
+    """The table of the input `name` in a CSV file: a line of names, each with a unit in brackets or without, SI then, and lines of numbers.
+
+    Raises ModelError with every fault, each with its line.
+    """
+    file = fspath(path)
+    rows = [(at, row) for at, row in enumerate(csv.reader(read_text(file).splitlines()), 1) if any(map(str.strip, row))]
+    if not rows:
+        raise ModelError(Fault(file, 1, 1, "", "the file is empty; its first line should be: time,value"))
+    line, head = rows[0]
+    heads = [HEAD.fullmatch(each) for each in head]
+    names = ["" if each is None else each["name"] for each in heads]
+    units = ["" if each is None else each["unit"] or "" for each in heads]
+    column = names.index(name) if name in names else 1 if len(names) == 2 and names[1] == "value" else 0
+    if not names or names[0] != "time" or column == 0:
+        wanted = f"a first line `time,{name}` or `time,value` was expected, got `{','.join(head)}`"
+        raise ModelError(Fault(file, line, 1, "", wanted))
+    faults: list[Fault] = []
+    times = [_number(row, 0, units[0], "time", Fault(file, at, 1, "", ""), faults) for at, row in rows[1:]]
+    values = [_number(row, column, units[column], ANY, Fault(file, at, 1, "", ""), faults) for at, row in rows[1:]]
+    if not faults and not times:
+        faults.append(Fault(file, line, 1, "", "no line of numbers follows the names"))
+    for k in range(1, len(times)):
+        if not faults and times[k] <= times[k - 1]:
+            message = f"times increase; {times[k]:g} s does not come after {times[k - 1]:g} s"
+            faults.append(Fault(file, rows[k + 1][0], 1, "", message))
+    if faults:
+        raise ModelError(faults)
+    return Table(tuple(times), tuple(values))
+
+
+def with_signals(machine: MachineRecord, signals: Mapping[str, float | str | PathLike[str] | Table]) -> MachineRecord:
+    """The machine whose inputs follow these numbers, tables or files.
+
+    Raises ModelError with all faults.
+    """
+    known, faults = [each.name for each in machine.inputs], []
+    changed = {each.name: each for each in machine.inputs}
+    for name, given in signals.items():
+        try:
+            if name not in changed:
+                raise ModelError(Fault("", 0, 0, f"inputs.{name}", unknown_name("input", name, known)))
+            changed[name] = changed[name].replace(signal=_signal(given, name))
+        except ModelError as error:
+            faults += [_of_input(each, name, given) for each in error.faults]
+    if faults:
+        raise ModelError(faults)
+    return machine.replace(inputs=tuple(changed.values()))
+
+
+def _signal(given: float | str | PathLike[str] | Table, name: str) -> float | Table:
+    if isinstance(given, float | int | Table):
+        return given
+    try:
+        return float(fspath(given))
+    except ValueError:
+        return read_input_table(given, name)
+
+
+def _of_input(fault: Fault, name: str, given: object) -> Fault:
+    """A fault of the record of an input, told with the file that the table came from."""
+    if fault.line or not isinstance(given, str | PathLike):
+        return fault
+    return Fault(
+        "",
+        0,
+        0,
+        f"inputs.{name}",
+        f"{fspath(given)}: {fault.message}" if fault.path.endswith("signal") else fault.message,
+    )
+
+
+def _number(row: list[str], column: int, unit: str, kind: Kind, place: Fault, faults: list[Fault]) -> float:
+    """A cell in SI; 0 with a fault where it is none."""
+    if column >= len(row):
+        faults.append(Fault(place.file, place.line, 1, "", f"there is no column {column + 1} in this line"))
+        return 0.0
+    text = row[column].strip()
+    try:
+        return read_quantity(f"{text} {unit}".strip(), kind, {})
+    except ExpressionError as problem:
+        message = f"a number was expected, got `{text}`: {problem}"
+        faults.append(Fault(place.file, place.line, 1, "", message))
+        return 0.0

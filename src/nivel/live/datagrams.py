@@ -1,0 +1,146 @@
+"""Inputs and outputs over UDP, for hardware and other programs.
+
+All numbers are little-endian. A datagram is a head of 24 bytes and float64 values:
+
+======  ======  ==============================================================
+bytes   type    content
+======  ======  ==============================================================
+0–3     text    ``NVLI`` inputs to nivel, ``NVLO`` outputs of nivel
+4–5     uint16  version, 1
+6–7     uint16  number of values
+8–11    uint32  sequence number; of outputs that of the last inputs taken
+12–15   uint32  unused
+16–23   int64   time stamp [ns] of the sender's clock; of outputs that of the last inputs taken
+24–     float64 inputs: wanted values, in the order of the machine file; outputs: simulated time [s], then the gauges of the page
+======  ======  ==============================================================
+"""
+
+from __future__ import annotations
+
+import socket
+import struct
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from nivel.errors import Fault, ModelError
+from nivel.live.session import Session
+from nivel.live.source import gauges
+from nivel.view.stream import Allowance
+
+HEAD: Final = struct.Struct("<4sHHIIq")
+INPUTS, OUTPUTS, VERSION = b"NVLI", b"NVLO", 1
+MOST: Final = 4096  # datagrams a second that are looked at
+WAIT: Final = 0.1  # s
+
+
+@dataclass
+class Counts:
+    """Datagrams that were taken, and those that were dropped: malformed, older than one before, too many."""
+
+    taken: int = 0
+    malformed: int = 0
+    stale: int = 0
+    excessive: int = 0
+
+
+def packed_inputs(values: Sequence[float], sequence: int, stamp: int) -> bytes:
+    """A datagram of inputs."""
+    return HEAD.pack(INPUTS, VERSION, len(values), sequence, 0, stamp) + np.asarray(values, "<f8").tobytes()
+
+
+def place_of(text: str, option: str) -> tuple[str, int]:
+    """HOST:PORT, or a port of this machine. Raises ModelError where it is neither."""
+    host, _, port = text.rpartition(":")
+    if not port.isdecimal() or not 0 <= int(port) <= 65535:
+        raise ModelError(Fault("", 0, 0, option, f"HOST:PORT was expected, for instance 127.0.0.1:9000, got `{text}`"))
+    return host or "127.0.0.1", int(port)
+
+
+class Datagrams:
+    """Takes inputs for a session, and sends its outputs with every frame.
+
+    listen : where inputs come in; None: an operator at the page has them. send : where outputs go, or None.
+    Raises ModelError where the address cannot be used.
+    """
+
+    def __init__(self, session: Session, listen: tuple[str, int] | None, send: tuple[str, int] | None) -> None:
+        self.counts = Counts()
+        self._session, self._to = session, send
+        self._sequence, self._stamp, self._begun = 0, 0, False
+        self._allowance = Allowance(MOST, MOST)
+        self._columns = [0, *(variable.columns.start for _, variable in gauges(session.facts["layout"]))]
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._closing = False
+        self._thread: threading.Thread | None = None
+        if listen is not None:
+            try:
+                self._socket.bind(listen)
+            except OSError as error:
+                where = f"{listen[0]}:{listen[1]}"
+                raise ModelError(
+                    Fault("", 0, 0, "udp", f"{where} cannot be listened at: {error.strerror or error}")
+                ) from None
+            self._socket.settimeout(WAIT)
+            self._thread = threading.Thread(target=self._listen, daemon=True)
+            self._thread.start()
+
+    @property
+    def address(self) -> tuple[str, int]:
+        """Where inputs come in."""
+        return self._socket.getsockname()[:2]
+
+    def _listen(self) -> None:
+        while not self._closing:
+            try:
+                content = self._socket.recv(2048)
+            except TimeoutError:
+                continue
+            except OSError:
+                return
+            self.take(content)
+
+    def take(self, content: bytes) -> None:
+        """Let the machine follow the inputs of a datagram, or drop and count it."""
+        counts = self.counts
+        if not self._allowance.spend():
+            counts.excessive += 1
+            return
+        size = len(self._session.live.target)
+        if len(content) != HEAD.size + 8 * size:
+            counts.malformed += 1
+            return
+        kind, version, number, sequence, _, stamp = HEAD.unpack_from(content)
+        values = np.frombuffer(content, "<f8", size, HEAD.size)
+        if (kind, version, number) != (INPUTS, VERSION, size) or not np.isfinite(values).all():
+            counts.malformed += 1
+            return
+        # a sequence may pass through zero: newer is what lies less than half of the numbers ahead
+        if self._begun and not 0 < (sequence - self._sequence) % 2**32 < 2**31:
+            counts.stale += 1
+            return
+        self._begun, self._sequence, self._stamp = True, sequence, stamp
+        self._session.operate(values.tolist())
+        counts.taken += 1
+
+    def send(self) -> None:
+        """Send the outputs of the newest frame."""
+        frame = self._session.newest
+        if self._to is None or frame is None or self._closing:
+            return
+        values = frame[self._columns]
+        head = HEAD.pack(OUTPUTS, VERSION, len(values), self._sequence, 0, self._stamp)
+        try:
+            self._socket.sendto(head + values.astype("<f8").tobytes(), self._to)
+        except OSError:
+            pass  # nobody listens there, now
+
+    def close(self) -> None:
+        """Neither take nor send any more."""
+        self._closing = True
+        if self._thread is not None:
+            self._thread.join(2 * WAIT + 1.0)
+        self._socket.close()

@@ -1,0 +1,37 @@
+"""From a machine to its session."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+from nivel.analysis.compilation import build, run_entries
+from nivel.analysis.listener import Listener
+from nivel.api import Machine
+from nivel.errors import ModelError
+from nivel.integrate.paced import drive
+from nivel.live.preparation import live_plan
+from nivel.live.session import Session
+
+
+@contextmanager
+def session_of(
+    machine: Machine,
+    settings: Mapping[str, Any],
+    *,
+    tick: float | None = None,
+    urgent: bool = True,
+    listener: Listener | None = None,
+) -> Iterator[Session]:
+    """The machine, prepared in the solver's process, paused at its start. Raises ModelError where it cannot be."""
+    try:
+        plan, pace = live_plan(machine.record, settings, tick)
+        build([*run_entries(plan), drive], listener)
+        session = Session(plan, pace, urgent=urgent)
+    except ModelError as error:
+        raise ModelError(machine.origin.placed(error.faults)) from None
+    try:
+        yield session
+    finally:
+        session.close()

@@ -1,0 +1,122 @@
+"""A machine made ready for live operation: fixed steps, ticks, inputs as tables of two points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import ceil
+from typing import Any, Final
+
+import numpy as np
+
+from nivel.analysis.dynamics import Loop, start_loop
+from nivel.analysis.plan import Plan, plan_run
+from nivel.analysis.preparation import Prepared, prepare
+from nivel.errors import Fault, ModelError
+from nivel.integrate.loop import advance
+from nivel.integrate.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
+from nivel.integrate.run import Run
+from nivel.kernels.handle import Handle
+from nivel.live.shared import Sizes
+from nivel.machine import MachineRecord, Table
+
+LONGEST: Final = 86400.0  # s of a live run
+SHORTEST_TICK: Final = 1e-3  # s: more ticks a second cost more than they tell
+FRAMES_PER_SECOND: Final = 60.0
+CAUGHT_UP: Final = 0.05  # s: a longer delay stretches time
+SILENCE: Final = 0.5  # s after which an operator counts as lost
+
+
+@dataclass(frozen=True)
+class Pace:
+    """tick : simulated time from input to input [s]; of `substeps` steps each. every : ticks between frames."""
+
+    step: float
+    substeps: int
+    every: int
+
+    @property
+    def tick(self) -> float:
+        """[s]"""
+        return self.step * self.substeps
+
+
+def pace_of(step: float, tick: float | None) -> Pace:
+    """Ticks of whole steps, of 1 ms or the step where nothing was asked for.
+
+    Raises ModelError where the tick is no multiple of the step.
+    """
+    wanted = max(step, SHORTEST_TICK) if tick is None else tick
+    substeps = max(1, ceil(wanted / step - 1e-9)) if tick is None else max(1, round(wanted / step))
+    if tick is not None and abs(substeps * step - tick) > 1e-9 * tick:
+        raise ModelError(Fault("", 0, 0, "tick", f"{tick:.6g} s is not a multiple of the step {step:.6g} s"))
+    return Pace(step, substeps, max(1, round(1.0 / (FRAMES_PER_SECOND * step * substeps))))
+
+
+def live_plan(machine: MachineRecord, settings: Mapping[str, Any], tick: float | None) -> tuple[Plan, Pace]:
+    """The run of a live machine: inputs that an operator sets, fixed steps, a frame every sixtieth of a second.
+
+    Raises ModelError where the machine has no inputs to drive it, or its integrator chooses its steps.
+    """
+    from nivel.analysis.changes import changed
+
+    driven = [each.replace(signal=Table((0.0, 1.0), (each.rest_value, each.rest_value))) for each in machine.inputs]
+    # limits hold for what an operator does; this table is at rest
+    simulation = changed(machine.simulation, {**settings, "duration": LONGEST})
+    pace = pace_of(simulation.step, tick)
+    simulation = simulation.replace(output_interval=pace.every * pace.tick)
+    plan = plan_run(machine.replace(inputs=tuple(driven), simulation=simulation), set(settings))
+    if plan.settings.steps == 0:
+        message = f"`{plan.settings.integrator}` chooses its steps; live operation needs fixed ones, for instance of rk4 or ros2"
+        raise ModelError(Fault("", 0, 0, "simulation.integrator", message))
+    return plan, pace
+
+
+@dataclass
+class LiveRun:
+    """A prepared machine, its history, and the compiled loop. drive : tick as `Live.control` says; returns a status."""
+
+    prepared: Prepared
+    plan: Plan
+    pace: Pace
+    loop: Loop
+
+    @property
+    def run(self) -> Run:
+        """The history."""
+        return self.loop.history.record
+
+    @property
+    def sizes(self) -> Sizes:
+        """What the shared memory has room for."""
+        return Sizes(len(self.plan.machine.inputs), self.prepared.motion.system.layout.width)
+
+    def begin(self, live: Live) -> Any:
+        """Fill what the loop is told, and return the loop: a function without arguments that returns a status."""
+        system = self.prepared.motion.system
+        live.clock[TICK], live.clock[SPEED] = self.pace.tick, 1.0
+        live.clock[BOUND], live.clock[WATCHDOG] = CAUGHT_UP, SILENCE
+        live.control[SUBSTEPS] = self.pace.substeps
+        live.function[:] = system.input_functions
+        for k, each in enumerate(self.plan.machine.inputs):
+            live.limit[k, [LOW, HIGH, RATE, REST]] = *each.range, each.rate or np.inf, each.rest_value
+            live.target[k] = live.value[k] = each.rest_value
+        loop, session = self.loop, Handle(live)
+        codes = [entry.address for entry in (advance, loop.evaluate, loop.correct, loop.step)]
+
+        def go_on() -> int:
+            return drive(*codes, loop.machine.address, loop.history.address, session.address)
+
+        return go_on
+
+    @property
+    def records(self) -> list[Any]:
+        """All that the kernels remember."""
+        twin = self.prepared.motion.twin
+        return [self.prepared.motion.system.record, self.run, *([twin.record] if twin is not None else [])]
+
+
+def prepared_run(plan: Plan, pace: Pace) -> LiveRun:
+    """Assemble the machine. Raises ModelError where it cannot be assembled."""
+    prepared = prepare(plan.methods)
+    return LiveRun(prepared, plan, pace, start_loop(prepared, plan.settings))

@@ -1,0 +1,149 @@
+"""A recorded run again: tick by tick as it was, to the last bit, or by other methods with the same inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from os import PathLike
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.attributes import run_attributes
+from nivel.analysis.compilation import build, run_entries
+from nivel.analysis.dynamics import RunOutcome
+from nivel.analysis.held_friction import resting_frictions
+from nivel.analysis.listener import Listener
+from nivel.analysis.outcome import failure
+from nivel.analysis.plan import plan_run
+from nivel.analysis.simulate import close_run
+from nivel.api import Machine
+from nivel.errors import ModelError
+from nivel.integrate.paced import DONE, FROM_TAPE, SHOWN, TICKS, drive
+from nivel.integrate.run import ACCEPTED, DONE_STEPS, EVALUATIONS, STEP
+from nivel.integrate.sink import Header
+from nivel.kernels.status import BUDGET_SPENT
+from nivel.kernels.status import DONE as ENDED
+from nivel.live.preparation import LiveRun, prepared_run
+from nivel.live.recorder import Recording, Take
+from nivel.live.shared import bytes_of, live_in
+from nivel.machine import MachineRecord
+from nivel.results.memory import Memory
+from nivel.results.result import Result
+from nivel.results.store import Store
+
+Array = NDArray[np.float64]
+FRAMES_AT_ONCE: Final = 32
+
+
+@dataclass(frozen=True)
+class Replay:
+    """A run done again. compared : frames that the recording has. different : how many of them are not equal bit by bit; first : time of the
+    first such frame [s]."""
+
+    result: Result
+    compared: int
+    different: int
+    first: float = 0.0
+
+    @property
+    def is_identical(self) -> bool:
+        """Whether every frame is what it was."""
+        return self.different == 0 and self.compared > 0
+
+
+def machine_of(recording: Recording, take: Take) -> MachineRecord:
+    """The machine whose inputs do off line what they did in the take."""
+    tables = recording.inputs(take)
+    machine = recording.machine
+    simulation = machine.simulation.replace(duration=max(take.ticks, 1) * recording.pace.tick)
+    inputs = tuple(each.replace(signal=tables[each.name]) for each in machine.inputs)
+    return machine.replace(inputs=inputs, simulation=simulation)
+
+
+def replay(
+    recording: Recording,
+    take: Take,
+    *,
+    out: str | PathLike[str] | None = None,
+    force: bool = False,
+    listener: Listener | None = None,
+) -> Replay:
+    """The take again, by the same compiled loop from the inputs on its tape.
+
+    Raises ModelError, and SolveError where the run fails as it did when it was recorded.
+    """
+    if not take.ticks:
+        raise ModelError("this take has no tick: there is nothing to replay")
+    plan = plan_run(recording.machine)
+    compile_seconds = build([*run_entries(plan), drive], listener)
+    again = prepared_run(plan, recording.pace)
+    prepared = again.prepared
+    machine = machine_of(recording, take)
+    sink = Memory() if out is None else Store(out, force)
+    sink.begin(
+        Header(prepared.motion.system.layout, run_attributes(machine, recording.source, prepared, plan.settings))
+    )
+    resting = resting_frictions(plan.machine, prepared.absolute, prepared.assembly.y)
+    outcome = RunOutcome("done")
+    recorded = np.concatenate(take.frames) if take.frames else np.zeros((0, 0))
+    compared = different = 0
+    first = 0.0
+    for frames in _frames_of(again, np.concatenate(take.tape), outcome):
+        sink.take(frames)
+        old = recorded[compared : compared + len(frames)]
+        wrong = np.any(old.view(np.uint64) != frames[: len(old)].view(np.uint64), axis=1)
+        if wrong.any() and not different:
+            first = float(old[np.argmax(wrong), 0])
+        compared, different = compared + len(old), different + int(wrong.sum())
+    seconds = {"prepare_seconds": 0.0, "compile_seconds": compile_seconds}
+    result = close_run(sink, replace(plan, machine=machine), prepared, outcome, None, resting, seconds)
+    return Replay(result, compared, different + len(recorded) - compared, first)
+
+
+def _frames_of(again: LiveRun, tape: Array, outcome: RunOutcome) -> Iterator[Array]:
+    """The frames of the run, in blocks; how it ended stands in `outcome` then."""
+    memory = bytearray(bytes_of(again.sizes))
+    live = live_in(memory, again.sizes)
+    loop = again.begin(live)
+    control = live.control
+    control[FROM_TAPE] = 1
+    status, shown, chunk = BUDGET_SPENT, 0, FRAMES_AT_ONCE * again.pace.every
+    while control[DONE] < len(tape) and status == BUDGET_SPENT:
+        begin = int(control[DONE])
+        stop = min(begin + chunk, len(tape))
+        live.tape[np.arange(begin, stop) % len(live.tape)] = tape[begin:stop]
+        control[TICKS] = stop - begin
+        status = loop()
+        if control[SHOWN] > shown:
+            yield live.frames[np.arange(shown, control[SHOWN]) % len(live.frames)]
+            shown = int(control[SHOWN])
+    run = again.run
+    outcome.timing = _timing(again)
+    if status not in (BUDGET_SPENT, ENDED):
+        at = float(run.clock[ACCEPTED])
+        outcome.outcome = "failed"
+        message, advice = failure(again.prepared.motion, status, at, float(run.clock[STEP]), run.previous)
+        outcome.failure = message, advice, at
+
+
+def _timing(again: LiveRun) -> dict[str, float]:
+    counter = again.run.counter
+    counts = dict.fromkeys(("iterations", "factorisations", "rejected", "unconserved", "partitions"), 0)
+    done = {"steps": int(counter[DONE_STEPS]), "evaluations": int(counter[EVALUATIONS])}
+    return {**counts, **done, "loop_seconds": 0.0, "wall_seconds": 0.0}
+
+
+def rerun(
+    recording: Recording,
+    take: Take,
+    settings: Mapping[str, Any],
+    *,
+    out: str | PathLike[str] | None = None,
+    force: bool = False,
+    listener: Listener | None = None,
+) -> Result:
+    """The inputs of the take again, by other methods. Raises ModelError, SolveError."""
+    machine = Machine.from_record(machine_of(recording, take))
+    return machine.simulate(**settings, out=out, force=force, listener=listener)

@@ -1,0 +1,201 @@
+"""A live machine as the server sees it: the solver's process, its memory, commands, the operator, the recording."""
+
+from __future__ import annotations
+
+import multiprocessing
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from multiprocessing.shared_memory import SharedMemory
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.plan import Plan
+from nivel.errors import Fault, ModelError
+from nivel.integrate.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
+from nivel.live import shared
+from nivel.live.preparation import Pace
+from nivel.live.recorder import Recorder
+from nivel.live.shared import Sizes, bytes_of, live_in
+from nivel.live.solver import Told, main
+from nivel.live.timing import Timing, timing_of
+
+Array = NDArray[np.float64]
+POLL: Final = 0.004  # s between two looks for a new frame
+OBEYED: Final = 5.0  # s that a command may take
+SPEEDS: Final = (0.01, 1.0)  # of simulated over real time
+COMMANDS: Final = {
+    "run": shared.RUN,
+    "pause": shared.PAUSE,
+    "step": shared.STEP,
+    "reset": shared.RESET,
+    "save": shared.SAVE,
+    "restore": shared.RESTORE,
+}
+MODES: Final = {
+    shared.STARTING: "starting",
+    shared.RUNNING: "running",
+    shared.PAUSED: "paused",
+    shared.ENDED: "ended",
+    shared.FAILED: "failed",
+    shared.GONE: "gone",
+}
+
+
+class Session:
+    """A solver that runs in its own process. `on_frame` is called, from a thread, when there is a new frame; `on_word` with sentences."""
+
+    def __init__(self, plan: Plan, pace: Pace, *, urgent: bool = True) -> None:
+        self.plan, self.pace = plan, pace
+        self.on_frame: Callable[[], None] = lambda: None
+        self.said: list[str] = []
+        self.problem = ""
+        context = multiprocessing.get_context("spawn")
+        self._pipe, theirs = context.Pipe()
+        self._process = context.Process(target=main, args=(theirs, plan, pace, urgent), daemon=True)
+        self._process.start()
+        theirs.close()
+        try:
+            self.facts = self._first_word().facts
+            sizes = Sizes(*self.facts["sizes"])
+            self._memory = SharedMemory(create=True, size=bytes_of(sizes))
+        except BaseException:
+            self._process.kill()
+            raise
+        self.live: Live = live_in(self._memory.buf, sizes)
+        for array in self.live:
+            array[...] = 0
+        self._pipe.send(self._memory.name)
+        self._lock = threading.Lock()
+        self._saved: int | None = None
+        self._newest: Array | None = None
+        self._closing = False
+        self.recorder = Recorder(self.live, pace)
+        self._await_start()
+        self._thread = threading.Thread(target=self._watch, daemon=True)
+        self._thread.start()
+
+    def _first_word(self) -> Told:
+        try:
+            told = self._pipe.recv()
+        except EOFError:
+            raise ModelError("the solver's process has ended before it was ready") from None
+        if told.kind == "refused":
+            raise ModelError([Fault(**each) for each in told.facts["faults"]] or told.text)
+        return told
+
+    def _await_start(self) -> None:
+        while int(self.live.control[MODE]) == shared.STARTING:
+            if not self._process.is_alive():
+                raise ModelError("the solver's process has ended before it was ready")
+            time.sleep(POLL)
+
+    # --- what is seen of it ---
+
+    @property
+    def mode(self) -> str:
+        """running, paused, ended, failed or gone."""
+        return MODES[int(self.live.control[MODE])] if self._process.is_alive() else "gone"
+
+    @property
+    def newest(self) -> Array | None:
+        """The newest frame (width,)."""
+        return self._newest
+
+    @property
+    def timing(self) -> Timing:
+        """Of all ticks so far."""
+        return timing_of(self.live)
+
+    @property
+    def is_operated(self) -> bool:
+        """Whether inputs follow an operator."""
+        return int(self.live.control[LOST]) == 0
+
+    @property
+    def speed(self) -> float:
+        """Simulated over real time."""
+        return float(self.live.clock[SPEED])
+
+    def _watch(self) -> None:
+        """Gather ticks and frames, hear what the solver says."""
+        while not self._closing:
+            with self._lock:
+                frames = self.recorder.gather()
+            if len(frames):
+                self._newest = frames[-1]
+                self.on_frame()
+            try:
+                while self._pipe.poll():
+                    told = self._pipe.recv()
+                    self.said.append(told.text)
+                    if told.kind == "failed" or self.mode == "ended":
+                        self.problem = told.text
+                    self.on_frame()
+            except (EOFError, OSError):
+                self.problem = self.problem or "the solver's process has ended"
+                self.on_frame()
+                return
+            time.sleep(POLL)
+
+    # --- what it is told ---
+
+    def operate(self, values: Sequence[float]) -> None:
+        """The operator wants these values, in the order of the machine's inputs."""
+        if len(values) == len(self.live.target):
+            self.live.target[:] = values
+            self.live.control[HEARD] = time.clock_gettime_ns(time.CLOCK_MONOTONIC)
+
+    def set_speed(self, speed: float) -> None:
+        """Simulated over real time, at most 1."""
+        self.live.clock[SPEED] = min(max(speed, SPEEDS[0]), SPEEDS[1])
+
+    def command(self, word: str) -> str:
+        """Do one of COMMANDS; returns why it was not done, or an empty text."""
+        if word == "restore" and self._saved is None:
+            return "no state has been saved"
+        with self._lock:
+            self.recorder.gather()
+            if not self._do(COMMANDS[word]):
+                return "the solver does not answer"
+            if word == "save":
+                self._saved = int(self.live.control[SAVED])
+                self.recorder.gather()
+            if word in ("reset", "restore"):
+                self.problem = ""
+                self.recorder.begin_again(0 if word == "reset" else self._saved or 0)
+        return ""
+
+    def _do(self, code: int) -> bool:
+        control = self.live.control
+        control[COMMAND] = code
+        end = time.monotonic() + OBEYED
+        while int(control[COMMAND]) != 0:
+            if time.monotonic() > end or not self._process.is_alive():
+                control[COMMAND] = 0
+                return False
+            time.sleep(0.0005)
+        return True
+
+    def close(self) -> None:
+        """End the process; the recording stays."""
+        if self._closing:
+            return
+        self.live.control[COMMAND] = shared.QUIT
+        self._process.join(OBEYED)
+        if self._process.is_alive():
+            self._process.kill()
+        self._closing = True
+        self._thread.join(OBEYED)
+        self.recorder.gather()
+        # what looks at the memory after it is gone reads a copy
+        self.live = type(self.live)(*(array.copy() for array in self.live))
+        self.recorder.detach(self.live)
+        self._memory.close()
+        self._memory.unlink()
+
+    def values(self) -> Mapping[str, float]:
+        """The inputs as they are now."""
+        return dict(zip((each.name for each in self.plan.machine.inputs), self.live.value.tolist(), strict=True))

@@ -1,0 +1,60 @@
+"""The memory that the solver's process shares with the server of the page: the arrays of `Live`, one after the other."""
+
+from __future__ import annotations
+
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from nivel.integrate.paced import BINS, CLOCKS, CONTROLS, Live
+
+TAPE_ROWS: Final = 1 << 16  # a minute of ticks of 1 ms: what the recorder may be late by
+FRAME_ROWS: Final = 64
+# commands in `Live.control[COMMAND]`; a command is done when the solver has put 0 there
+RUN, PAUSE, STEP, RESET, SAVE, RESTORE, QUIT = 1, 2, 3, 4, 5, 6, 7
+# values of `Live.control[MODE]`
+STARTING, RUNNING, PAUSED, ENDED, FAILED, GONE = 0, 1, 2, 3, 4, 5
+
+
+class Sizes(NamedTuple):
+    """Numbers of inputs of the machine and of columns of a frame."""
+
+    inputs: int
+    width: int
+
+
+def _shapes(sizes: Sizes) -> dict[str, tuple[Any, tuple[int, ...]]]:
+    n = sizes.inputs
+    return {
+        "clock": (np.float64, (CLOCKS,)),
+        "control": (np.int64, (CONTROLS,)),
+        "function": (np.uint32, (n,)),
+        "limit": (np.float64, (n, 4)),
+        "target": (np.float64, (n,)),
+        "value": (np.float64, (n,)),
+        "tape": (np.float64, (TAPE_ROWS, n)),
+        "frames": (np.float64, (FRAME_ROWS, sizes.width)),
+        "histogram": (np.int64, (2 * BINS,)),
+        "address": (np.uint64, (4,)),
+        "now": (np.int64, (2,)),
+        "deadline": (np.int64, (2,)),
+    }
+
+
+def bytes_of(sizes: Sizes) -> int:
+    """Room that the arrays need."""
+    return sum(_room(kind, shape) for kind, shape in _shapes(sizes).values())
+
+
+def _room(kind: Any, shape: tuple[int, ...]) -> int:
+    """Bytes of an array, up to the next multiple of 64: a line of the cache belongs to one array."""
+    return -(-int(np.prod(shape)) * np.dtype(kind).itemsize // 64) * 64 + 64
+
+
+def live_in(memory: Any, sizes: Sizes) -> Live:
+    """The arrays in a block of memory of this size."""
+    arrays, place = {}, 0
+    for name, (kind, shape) in _shapes(sizes).items():
+        arrays[name] = np.ndarray(shape, kind, buffer=memory, offset=place)
+        place += _room(kind, shape)
+    return Live(**arrays)

@@ -1,0 +1,180 @@
+"""The solver's process: it prepares the machine, ticks, and does what it is told between two ticks."""
+
+from __future__ import annotations
+
+import os
+import time
+from dataclasses import asdict, dataclass, field
+from multiprocessing.connection import Connection
+from multiprocessing.shared_memory import SharedMemory
+from typing import Any, Final
+
+from nivel.analysis.outcome import failure
+from nivel.analysis.plan import Plan
+from nivel.errors import ModelError, NivelError
+from nivel.integrate.paced import (
+    CLOCK,
+    COMMAND,
+    DEADLINE,
+    DONE,
+    MODE,
+    NEXT,
+    NOW,
+    PACED,
+    SAVED,
+    SHOWN,
+    SLEEP,
+    TICKS,
+    Live,
+)
+from nivel.integrate.run import ACCEPTED, STOPPED, TIME
+from nivel.integrate.run import STEP as STEP_CLOCK
+from nivel.kernels import status as codes
+from nivel.kernels.observe import observe
+from nivel.live import shared
+from nivel.live.preparation import LiveRun, Pace, prepared_run
+from nivel.live.shared import live_in
+from nivel.live.snapshot import Snapshot, arrays_of, put_back, taken
+from nivel.live.system_clock import become_urgent, clock_addresses
+
+ROUND: Final = 0.5  # s that the compiled loop goes on before it is looked whether the server is still there
+REST: Final = 0.004  # s between two looks at the commands while nothing moves
+
+
+@dataclass
+class Told:
+    """What the solver says over its pipe. kind : ready, said, failed, refused."""
+
+    kind: str
+    text: str = ""
+    facts: dict[str, Any] = field(default_factory=dict)
+
+
+def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
+    """The life of the process: prepare, say what is needed, get the memory, tick."""
+    try:
+        live_run = prepared_run(plan, pace)
+    except NivelError as error:
+        faults = [asdict(each) for each in error.faults] if isinstance(error, ModelError) else []
+        pipe.send(Told("refused", str(error), {"faults": faults}))
+        return
+    pipe.send(Told("ready", facts=_facts(live_run)))
+    try:
+        memory = SharedMemory(pipe.recv())
+    except (EOFError, FileNotFoundError):
+        return
+    try:
+        Solver(live_run, live_in(memory.buf, live_run.sizes), pipe).live(urgent)
+    except (KeyboardInterrupt, BrokenPipeError):
+        pass
+    # the arrays still look at the memory, which goes with the process
+    os._exit(0)
+
+
+def _facts(live_run: LiveRun) -> dict[str, Any]:
+    """What the server has to know of the machine as it was assembled."""
+    from nivel.analysis.attributes import run_attributes
+
+    system = live_run.prepared.motion.system
+    attributes = run_attributes(live_run.plan.machine, "", live_run.prepared, live_run.plan.settings)
+    return {"sizes": tuple(live_run.sizes), "layout": system.layout, "attributes": attributes}
+
+
+class Solver:
+    """A machine that lives in this process."""
+
+    def __init__(self, live_run: LiveRun, live: Live, pipe: Connection) -> None:
+        self._its, self._live, self._pipe = live_run, live, pipe
+        self._drive = live_run.begin(live)
+        live.address[[CLOCK, SLEEP]] = clock_addresses()
+        live.address[[NOW, DEADLINE]] = live.now.ctypes.data, live.deadline.ctypes.data
+        self._arrays = arrays_of([*live_run.records, (live.value,)])
+        self._start = taken(self._arrays, 0)
+        self._saved: Snapshot | None = None
+        self._parent = os.getppid()
+
+    def live(self, urgent: bool) -> None:
+        """Tick and obey until told to end, or until the server is gone."""
+        control = self._live.control
+        self._drive_once(0)
+        self._show()
+        for sentence in become_urgent() if urgent else ["no real-time priority was asked for"]:
+            self._pipe.send(Told("said", sentence))
+        control[MODE] = shared.PAUSED
+        control[PACED] = 1
+        while os.getppid() == self._parent:
+            command = int(control[COMMAND])
+            if command == shared.QUIT:
+                break
+            if command:
+                self._obey(command)
+                control[NEXT] = 0
+                control[COMMAND] = 0
+            elif control[MODE] == shared.RUNNING:
+                self._drive_once(max(1, int(ROUND / self._its.pace.tick)))
+            else:
+                time.sleep(REST)
+        control[MODE] = shared.GONE
+
+    def _drive_once(self, ticks: int) -> None:
+        control = self._live.control
+        control[TICKS] = ticks
+        status = self._drive()
+        if status == codes.BUDGET_SPENT:
+            return
+        self._show()
+        if status == codes.DONE:
+            stopped = int(self._its.run.counter[STOPPED])
+            events = self._its.prepared.motion.system.events
+            control[MODE] = shared.ENDED
+            self._pipe.send(
+                Told("said", f"the run has ended{f' at the event {events[stopped - 1]}' if stopped else ''}; reset it")
+            )
+        else:
+            control[MODE] = shared.FAILED
+            self._pipe.send(Told("failed", self._why(status)))
+
+    def _why(self, status: int) -> str:
+        run, prepared = self._its.run, self._its.prepared
+        at = float(run.clock[ACCEPTED])
+        message, advice = failure(
+            prepared.motion, status, at, float(run.clock[STEP_CLOCK]), run.previous, chosen_by="", beams=()
+        )
+        return f"{message} {advice}".strip()
+
+    def _obey(self, command: int) -> None:
+        control = self._live.control
+        alive = control[MODE] in (shared.RUNNING, shared.PAUSED)
+        if command == shared.RUN and alive:
+            control[MODE] = shared.RUNNING
+        elif command == shared.PAUSE and alive:
+            control[MODE] = shared.PAUSED
+        elif command == shared.STEP and alive:
+            control[MODE] = shared.PAUSED
+            self._drive_once(1)
+            self._show()
+        elif command == shared.SAVE and alive:
+            self._saved = taken(self._arrays, int(control[DONE]))
+            control[SAVED] = self._saved.ticks
+        elif command == shared.RESET or (command == shared.RESTORE and self._saved is not None):
+            self._go_to(self._start if command == shared.RESET or self._saved is None else self._saved)
+
+    def _go_to(self, snapshot: Snapshot) -> None:
+        control = self._live.control
+        put_back(self._arrays, snapshot)
+        control[DONE] = snapshot.ticks
+        if control[MODE] != shared.RUNNING:
+            control[MODE] = shared.PAUSED
+        self._show()
+
+    def _show(self) -> None:
+        """Put a frame of the present state into the ring, and leave no trace of it in the run."""
+        before = taken(self._arrays, 0)
+        run, motion, live = self._its.run, self._its.prepared.motion, self._live
+        at = float(run.clock[TIME])
+        motion.evaluate(at, run.y)
+        frame = live.frames[int(live.control[SHOWN]) % len(live.frames)]
+        frame[0] = at
+        observe(motion.handle.address, at, run.y, frame)
+        put_back(self._arrays, before)
+        live.control[SHOWN] += 1

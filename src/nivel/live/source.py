@@ -1,0 +1,201 @@
+"""A live machine for the page: frames with gauges, the operator among the pages, commands."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.live.session import COMMANDS, Session
+from nivel.machine import Input
+from nivel.system.layout import FrameLayout, Variable
+from nivel.view import frames
+from nivel.view.package import Block, to_bytes
+from nivel.view.records import PROTOCOL, Command, Control, Drive, Gauge, Note, Package, Status, Take
+from nivel.view.sources import Still, machine_stage
+
+Array = NDArray[np.float64]
+MOST_GAUGES: Final = 16
+PATIENCE: Final = 2.0  # s that an operator may be silent before another one may take over
+SHOWN_FIRST: Final = ("sensor.", "state.")
+
+
+class LiveSource(Still):
+    """A session that pages look at; one of them at a time operates it."""
+
+    def __init__(self, session: Session, operator: object | None = None) -> None:
+        """operator : something other than a page that operates the machine; pages only look then."""
+        super().__init__()
+        self.forgiving = True
+        self._session = session
+        self._lock = threading.Lock()
+        self._driver = self._other = operator
+        self._heard = 0.0
+        attributes, layout = session.facts["attributes"], session.facts["layout"]
+        self._places = _Places(layout)
+        self._gauges = gauges(layout)
+        self._columns = [variable.columns.start for _, variable in self._gauges]
+        self._package = self._packed(attributes)
+        session.on_frame = lambda: self.on_change()
+
+    def _packed(self, attributes: dict[str, Any]) -> bytes:
+        scene, record, block = json.loads(attributes["scene"]), json.loads(attributes["machine_record"]), Block()
+        while self._session.newest is None:
+            time.sleep(0.005)
+        stage = machine_stage(
+            str(attributes["machine"]), _Pose(scene, self._places, self._session.newest), record, block
+        )
+        self._origin = np.array(stage.origin)
+        controls = [control(each) for each in self._session.plan.machine.inputs]
+        shown = [Gauge(name, variable.units) for name, variable in self._gauges]
+        return to_bytes(Package(PROTOCOL, "live", [stage], controls, shown), block)
+
+    def package(self) -> bytes:
+        return self._package
+
+    def frame(self) -> tuple[float, Array] | None:
+        newest = self._session.newest
+        if newest is None:
+            return None
+        row = self._places.row(newest, self._origin)
+        return float(newest[0]), np.concatenate([row, newest[self._columns], self._session.live.value])
+
+    # --- operators ---
+
+    def hear(self, page: object, said: Drive | Take | Command) -> Note | None:
+        match said:
+            case Take(on=on):
+                return self._take(page, on != 0)
+            case Drive(values=values):
+                if page is self._driver:
+                    self._heard = time.monotonic()
+                    self._session.operate(values)
+                return None
+            case Command(word=word, number=number):
+                return self._command(page, word, number)
+
+    def _take(self, page: object, on: bool) -> Note | None:
+        with self._lock:
+            silent = time.monotonic() - self._heard > PATIENCE
+            if on and (self._other is not None or (self._driver not in (None, page) and not silent)):
+                return Note("note", "somebody else operates the machine")
+            if on:
+                self._driver, self._heard = page, time.monotonic()
+            elif page is self._driver:
+                self._driver = None
+        return None
+
+    def _command(self, page: object, word: str, number: float) -> Note | None:
+        if page is not self._driver and self._other is None:
+            return Note("note", "take the controls first")
+        if word == "speed":
+            self._session.set_speed(number)
+            return None
+        problem = self._session.command(word) if word in COMMANDS else "there is no such command"
+        return Note("note", problem) if problem else None
+
+    def leave(self, page: object) -> None:
+        with self._lock:
+            if page is self._driver:
+                self._driver = None
+
+    def status(self, page: object, dropped: int) -> Status | None:
+        session = self._session
+        timing, newest = session.timing, session.newest
+        driver = "nobody" if self._driver is None else "you" if page is self._driver else "other"
+        return Status(
+            type="status",
+            mode=session.mode,
+            time=0.0 if newest is None else float(newest[0]),
+            speed=session.speed,
+            driver=driver,
+            operated=session.is_operated,
+            computing=1e6 * timing.computing[2],
+            late=1e6 * timing.lateness[2],
+            tick=1e6 * timing.tick,
+            overruns=timing.overruns,
+            dropped=dropped,
+            text=session.problem,
+        )
+
+
+class _Places:
+    """Where poses and modal coordinates stand in the frames of a run."""
+
+    def __init__(self, layout: FrameLayout) -> None:
+        columns = {variable.name: variable.columns for variable in layout.variables}
+        self._position, self._orientation = columns["position"], columns["orientation"]
+        self._modal = columns.get("modal_coordinate", slice(0, 0))
+
+    def pose(self, frame: Array) -> tuple[Array, Array]:
+        """Position (B, 3) and Euler parameters (B, 4) of all bodies."""
+        return frame[self._position].reshape(-1, 3), frame[self._orientation].reshape(-1, 4)
+
+    def row(self, frame: Array, origin: Array) -> Array:
+        """What the page draws."""
+        position, orientation = self.pose(frame)
+        return frames.rows(position[None] - origin, orientation[None], frame[self._modal][None])[0]
+
+
+class _Pose:
+    """A machine that does not move, for the first picture."""
+
+    movements = ()
+
+    def __init__(self, scene: dict[str, Any], places: _Places, frame: Array) -> None:
+        self.scene = scene
+        self._pose = places.pose(frame)
+
+    def pose(self) -> tuple[Array, Array]:
+        return self._pose
+
+    def values(self) -> list[float]:
+        return []
+
+    def move(self, name: str, value: float) -> str:
+        return ""
+
+    def reset(self) -> None:
+        pass
+
+
+def gauges(layout: FrameLayout) -> list[tuple[str, Variable]]:
+    """Single numbers that are worth to be watched: sensors, else states, else joint coordinates."""
+    single = [each for each in layout.variables if each.columns.stop == each.columns.start + 1]
+    for kind in SHOWN_FIRST:
+        chosen = [(each.name.partition(".")[2], each) for each in single if each.name.startswith(kind)]
+        if chosen:
+            return chosen[:MOST_GAUGES]
+    whole = next(each for each in layout.variables if each.name == "joint_coordinate")
+    names = layout.coordinates["joint_coordinate"]
+    return [
+        (name, Variable(name, ("time",), "", name, slice(whole.columns.start + k, whole.columns.start + k + 1)))
+        for k, name in enumerate(names)
+    ][:MOST_GAUGES]
+
+
+def control(given: Input) -> Control:
+    """An input as the page shows it."""
+    keys, pad = given.keys, given.gamepad
+    return Control(
+        name=given.name,
+        unit=given.units,
+        description=given.description,
+        low=given.range[0],
+        high=given.range[1],
+        rest=given.rest_value,
+        hold=given.hold,
+        look=given.control,
+        stick=given.stick or "",
+        raises=keys.raise_ or "" if keys else "",
+        lowers=keys.lower or "" if keys else "",
+        axis=-1 if pad is None or pad.axis is None else pad.axis,
+        button=-1 if pad is None or pad.button is None else pad.button,
+        reverse=pad.reverse if pad else False,
+        dead_zone=pad.dead_zone if pad else 0.0,
+        exponent=pad.exponent if pad else 1.0,
+    )

@@ -1,0 +1,33 @@
+"""Ropes in numbers: distances from marker to marker, and the unstressed length, a state where there is a winch."""
+
+from __future__ import annotations
+
+from nivel.kernels.coordinate import DISTANCE
+from nivel.kernels.forces.rope import apply
+from nivel.kernels.record import NONE
+from nivel.machine.forces import Rope
+from nivel.system.builder import SystemBuilder
+from nivel.system.forces.kind import ForceKind
+from nivel.system.forces.outputs import force_outputs, magnitude_and_power
+from nivel.system.state_facts import StateFact
+
+
+def add(draft: SystemBuilder, rope: Rope) -> None:
+    """A rope."""
+    markers = [draft.end(end) for end in rope.markers]
+    distances = [
+        draft.coordinates.use(draft.coordinates.add(DISTANCE, i, j))
+        for i, j in zip(markers[:-1], markers[1:], strict=True)
+    ]
+    first = force_outputs(draft, rope.name, *magnitude_and_power("N", "tension"), ("stretch", "m", "stretch"))
+    length = speed = NONE
+    if rope.speed is not None:
+        fact = StateFact(
+            f"{rope.name}.length", "m", f"unstressed length of {rope.name}", rope.length, scale=rope.length
+        )
+        length, speed = draft.own_state(fact), draft.function(rope.speed)
+    columns = [first, length, speed, len(distances), *distances]
+    draft.elements.add(apply, columns, [rope.stiffness, rope.damping, rope.length])
+
+
+KINDS = (ForceKind(Rope, add, (apply,)),)

@@ -1,0 +1,164 @@
+"""A live machine in its process: it does what it is told, follows its operator within limits, and what it did is repeated exactly."""
+
+import time
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import cart
+from cart import DAMPING, FORCE, MASS, operate, running, until
+from nivel.errors import ModelError
+from nivel.integrate.paced import DONE, SAVED
+from nivel.live.preparation import live_plan, pace_of
+from nivel.live.recorder import read_recording, write_recording
+from nivel.live.replay import machine_of, replay, rerun
+
+
+@pytest.fixture(scope="module")
+def driven(tmp_path_factory):
+    """A session that was driven, saved, put back, driven otherwise and reset; and the file of its recording."""
+    notes = {}
+    with running() as session:
+        assert session.mode == "paused"
+        session.command("run")
+        operate(session, [1.0, 1.0], 0.8)
+        notes["speed"] = session.newest[-3:]
+        session.command("save")
+        notes["saved"] = int(session.live.control[SAVED])
+        operate(session, [np.nan, 7.0], 0.4)
+        notes["limits"] = session.values()
+        assert session.command("restore") == ""
+        operate(session, [-1.0, 0.5], 0.6)
+        time.sleep(1.0)
+        notes["silent"] = session.values(), session.is_operated
+        session.command("pause")
+        notes["paused"] = session.mode, int(session.live.control[DONE])
+        time.sleep(0.1)
+        session.command("step")
+        notes["stepped"] = int(session.live.control[DONE])
+        until(lambda: session.newest[0] > 0.0)
+        session.command("reset")
+        notes["reset"] = int(session.live.control[DONE])
+        until(lambda: session.newest[0] == 0.0, "a frame at the start")
+        notes["timing"] = session.timing
+    path = tmp_path_factory.mktemp("live") / "cart.live.npz"
+    write_recording(path, session.plan.machine, "", {}, session.pace, session.recorder.takes)
+    return notes, path
+
+
+def longest(path):
+    stored = read_recording(path)
+    return stored, max(stored.takes, key=lambda take: take.ticks)
+
+
+def test_commands_do_what_they_say(driven):
+    notes, _ = driven
+    assert notes["paused"][0] == "paused"
+    assert notes["stepped"] == notes["paused"][1] + 1
+    assert notes["reset"] == 0
+
+
+def test_inputs_stay_within_their_limits_and_rest_without_an_operator(driven):
+    notes, path = driven
+    assert notes["limits"] == {"lever": 0.0, "brake": 2.0}  # no number is rest; beyond the range is its end
+    assert notes["silent"] == ({"lever": 0.0, "brake": 1.0}, False)
+    stored, take = longest(path)
+    tape = np.concatenate(take.tape)
+    lever = np.concatenate([[0.0], tape[:, 0]])
+    assert np.abs(np.diff(lever)).max() <= 4.0 * stored.pace.tick * (1.0 + 1e-12)
+    assert lever.max() == 1.0
+    assert lever.min() == -1.0
+
+
+def test_a_live_run_is_the_motion_of_its_recorded_inputs(driven):
+    """By SciPy on the equation m v̇ = F u - d b v, u and b straight from tick to tick."""
+    stored, take = longest(driven[1])
+    tables = stored.inputs(take)
+    lever, brake = tables["lever"], tables["brake"]
+
+    def rate(t, y):
+        return y[1], (FORCE * lever(t) - DAMPING * brake(t) * y[1]) / MASS
+
+    frames = np.concatenate(take.frames)
+    want = solve_ivp(rate, (0.0, frames[-1, 0]), (0.0, 0.0), rtol=1e-9, atol=1e-10, max_step=2e-3, t_eval=frames[:, 0])
+    assert len(frames) > 60
+    np.testing.assert_allclose(frames[:, 1], want.y[0], atol=2e-7)  # column 1: x of the cart
+
+
+def test_a_restored_state_goes_on_exactly_where_it_was_saved(driven):
+    """The take after the restore begins with that before it, and is replayed to the last bit through the moment of the restore."""
+    notes, path = driven
+    stored, take = longest(path)
+    assert take.ticks > notes["saved"]
+    assert take.whole
+    again = replay(stored, take)
+    assert again.compared == len(np.concatenate(take.frames)) > 60
+    assert again.is_identical
+    assert again.result.trust.verdict == "green"
+
+
+def test_a_changed_recording_is_not_called_identical(driven):
+    stored, take = longest(driven[1])
+    tape = np.concatenate(take.tape)
+    tape[100, 0] += 1e-9
+    take.tape[:] = [tape]
+    again = replay(stored, take)
+    assert not again.is_identical
+    assert again.first > 0.09
+
+
+def test_other_methods_repeat_the_run_within_their_error(driven):
+    stored, take = longest(driven[1])
+    other = rerun(stored, take, {"integrator": "dopri5", "tolerance": 1e-9})
+    same = replay(stored, take).result
+    n = min(len(same.time), len(other.time))
+    np.testing.assert_allclose(other.array("rail.displacement")[:n], same.array("rail.displacement")[:n], atol=1e-6)
+
+
+def test_the_inputs_of_a_recording_stand_in_its_machine(driven):
+    stored, take = longest(driven[1])
+    lever = machine_of(stored, take).inputs[0].signal
+    tape = np.concatenate(take.tape)
+    np.testing.assert_allclose([lever(t) for t in (1 + np.arange(len(tape))) * 1e-3], tape[:, 0], atol=1e-9)
+
+
+def test_every_tick_is_timed(driven):
+    timing = driven[0]["timing"]
+    assert timing.ticks > 1500
+    assert 0.0 < timing.computing[0] <= timing.computing[1] <= timing.computing[2] <= timing.computing[3]
+    assert timing.tick == 1e-3
+    assert timing.own <= timing.overruns <= timing.ticks
+
+
+def test_a_file_that_is_no_recording_is_refused(tmp_path):
+    path = tmp_path / "x.npz"
+    path.write_text("nothing")
+    with pytest.raises(ModelError, match="is no recording of a live run"):
+        read_recording(path)
+    with pytest.raises(ModelError, match="there is no file"):
+        read_recording(tmp_path / "none.npz")
+
+
+def test_integrators_that_choose_their_steps_are_refused():
+    with pytest.raises(ModelError, match="`dopri5` chooses its steps; live operation needs fixed ones"):
+        live_plan(cart.machine().record, {"integrator": "dopri5"}, None)
+
+
+def test_ticks_are_whole_steps():
+    assert (pace_of(1e-4, None).substeps, pace_of(1e-4, None).every) == (10, 17)
+    assert pace_of(2e-3, None).substeps == 1
+    assert pace_of(1e-3, 5e-3).substeps == 5
+    with pytest.raises(ModelError, match="is not a multiple of the step"):
+        pace_of(1e-3, 2.5e-3)
+
+
+def test_slow_motion_goes_at_its_speed():
+    """Slow motion: simulated time goes with the speed."""
+    with running() as session:
+        session.set_speed(0.1)
+        session.command("run")
+        begin, ticks = time.monotonic(), int(session.live.control[DONE])
+        time.sleep(1.0)
+        share = (int(session.live.control[DONE]) - ticks) * 1e-3 / (time.monotonic() - begin)
+    assert share == pytest.approx(0.1, rel=0.2)

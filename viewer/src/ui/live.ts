@@ -1,0 +1,150 @@
+// A live machine: the bar that runs and pauses it, its controls, its gauges.
+import type { Control, FromPage, Gauge, Status } from "../generated/records";
+import { Operator } from "../operator";
+import { breakable, el, iconButton, renew, short } from "./dom";
+import { Stick } from "./stick";
+import { Strip } from "./strip";
+
+const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1] as const;
+const DRAWN = 100; // ms between two pictures of the strips
+
+interface Row {
+  control: Control;
+  slider: HTMLInputElement | null;
+  output: HTMLElement;
+}
+
+export class Live {
+  readonly bar: HTMLElement;
+  readonly panel: HTMLElement;
+  readonly operator: Operator;
+  status: Status | null = null;
+  private readonly strips: Strip[];
+  private readonly rows: Row[];
+  private readonly run: HTMLButtonElement;
+  private readonly seat: HTMLButtonElement;
+  private readonly clock = el("output", { class: "time", "aria-live": "off" });
+  private readonly load = el("span", { class: "of load" });
+  private readonly problem = el("p", { class: "problem", role: "status" });
+  private drawn = 0;
+
+  constructor(
+    controls: Control[],
+    private readonly gauges: Gauge[],
+    private readonly send: (message: FromPage) => void,
+  ) {
+    this.operator = new Operator(controls, (values) => send({ type: "drive", values }), () => this.take(true));
+    this.run = iconButton("play", "Run", () => this.toggle(), "space");
+    this.run.classList.add("main-button");
+    this.seat = el("button", { type: "button", class: "chip seat", onclick: () => this.take(this.status?.driver !== "you") }, "Take the controls");
+    const speed = el("select", { "aria-label": "Speed", title: "Simulated over real time" }, ...SPEEDS.map((each) => el("option", { value: each, selected: each === 1 }, `${each}×`)));
+    speed.addEventListener("change", () => this.say("speed", Number(speed.value)));
+    this.bar = el(
+      "footer",
+      { class: "timeline live-bar", role: "group", "aria-label": "Live" },
+      el("div", { class: "transport" }, this.run, iconButton("forward", "One tick", () => this.say("step")), iconButton("reset", "Back to the start", () => this.say("reset"))),
+      el("div", { class: "clock" }, this.clock),
+      this.load,
+      el("div", { class: "pace" }, el("button", { type: "button", class: "chip", onclick: () => this.say("save") }, "Save state"), el("button", { type: "button", class: "chip", onclick: () => this.say("restore") }, "Restore"), speed, this.seat),
+    );
+    this.rows = controls.map((control, k) => this.row(control, k));
+    this.strips = gauges.map((gauge) => new Strip(gauge.name, gauge.unit));
+    const sticks = (["left", "right"] as const).filter((side) => controls.some((each) => each.stick.startsWith(side)));
+    this.panel = el(
+      "div",
+      { class: "live" },
+      this.problem,
+      controls.length ? el("h3", {}, "Controls") : null,
+      sticks.length ? el("div", { class: "sticks" }, ...sticks.map((side) => new Stick(side, stickInWords(side, controls), (stick, value) => this.operator.deflect(stick, value)).element)) : null,
+      el("ul", { class: "controls" }, ...this.rows.map((row) => row.output.closest("li")!)),
+      gauges.length ? el("h3", {}, "Gauges") : null,
+      el("ul", { class: "strips" }, ...this.strips.map((each) => each.element)),
+    );
+  }
+
+  toggle(): void {
+    this.say(this.status?.mode === "running" ? "pause" : "run");
+  }
+
+  take(on: boolean): void {
+    this.send({ type: "take", on: on ? 1 : 0 });
+    if (!on) this.operator.rest();
+    this.operator.driving = on && this.status?.driver !== "other";
+  }
+
+  /** A command; whoever gives one where nobody operates the machine operates it. */
+  say(word: string, number = 0): void {
+    if (!this.operator.driving) this.take(true);
+    this.send({ type: "command", word, number });
+  }
+
+  /** The connection was lost: nobody operates from here until the server says so again. */
+  lose(): void {
+    this.operator.driving = false;
+  }
+
+  update(status: Status): void {
+    this.status = status;
+    this.operator.driving = status.driver === "you";
+    const running = status.mode === "running";
+    renew(this.run, running ? "pause" : "play", running ? "Pause" : "Run", "space");
+    this.seat.textContent = status.driver === "you" ? "You operate" : status.driver === "other" ? "Somebody operates" : "Take the controls";
+    this.seat.setAttribute("aria-pressed", String(status.driver === "you"));
+    this.clock.textContent = `${status.time.toFixed(2)} s`;
+    const share = (100 * status.computing) / status.tick;
+    this.load.textContent = `${running ? "" : `${status.mode} · `}${short(+status.computing.toPrecision(2))} µs a tick, ${share.toPrecision(2)} %${status.overruns ? `, ${status.overruns} late` : ""}`;
+    this.problem.textContent = status.text;
+  }
+
+  /** Numbers behind a frame: gauges, then the values of the controls. */
+  show(time: number, numbers: Float32Array): void {
+    this.clock.textContent = `${time.toFixed(2)} s`;
+    this.strips.forEach((strip, k) => strip.add(time, numbers[k] ?? NaN));
+    const now = performance.now();
+    if (now - this.drawn < DRAWN) return;
+    this.drawn = now;
+    for (const strip of this.strips) strip.draw();
+    this.rows.forEach((row, k) => {
+      const value = numbers[this.gauges.length + k] ?? NaN;
+      row.output.textContent = `${short(+value.toPrecision(3))} ${row.control.unit}`.trim();
+      if (row.slider && document.activeElement !== row.slider) row.slider.value = String(this.operator.driving ? this.operator.values[k] : value);
+    });
+  }
+
+  private row(control: Control, k: number): Row {
+    const output = el("output", {}, short(control.rest));
+    const keys = [control.lowers, control.raises].filter(Boolean).map((key) => el("kbd", {}, keyInWords(key)));
+    const name = el("span", { class: "name", title: control.description }, ...breakable(control.name), ...keys);
+    if (control.look === "button") {
+      const button = el("button", { type: "button", class: "chip" }, "Press");
+      button.addEventListener("pointerdown", () => this.operator.move(k, control.high));
+      for (const end of ["pointerup", "pointerleave", "pointercancel"]) button.addEventListener(end, () => this.operator.driving && this.operator.move(k, null));
+      el("li", {}, name, output, button);
+      return { control, slider: null, output };
+    }
+    const slider = el("input", { type: "range", min: control.low, max: control.high, step: "any", value: control.rest, "aria-label": control.name });
+    slider.addEventListener("input", () => this.operator.move(k, Number(slider.value)));
+    slider.addEventListener("change", () => {
+      this.operator.move(k, null);
+      if (!control.hold) {
+        slider.value = String(control.rest);
+        slider.blur();
+      }
+    });
+    el("li", {}, el("label", {}, name, output, slider));
+    return { control, slider, output };
+  }
+}
+
+const ARROWS: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", " ": "space" };
+
+function keyInWords(key: string): string {
+  return ARROWS[key] ?? key.toUpperCase();
+}
+
+function stickInWords(side: string, controls: Control[]): string {
+  return controls
+    .filter((each) => each.stick.startsWith(side))
+    .map((each) => `${each.stick.endsWith("x") ? "↔" : "↕"} ${each.name}`)
+    .join(", ");
+}

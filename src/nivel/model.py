@@ -91,6 +91,21 @@ class Elements:
         return self._named("force", self.record.forces)
 
     @property
+    def fluids(self) -> Named[Any]:
+        """Fluids by name."""
+        return self._named("fluid", self.record.fluids)
+
+    @property
+    def hydraulics(self) -> Named[Any]:
+        """Components of hydraulic circuits by name."""
+        return self._named("component", self.record.hydraulics)
+
+    @property
+    def inputs(self) -> Named[Input]:
+        """Inputs by name."""
+        return self._named("input", self.record.inputs)
+
+    @property
     def states(self) -> Named[State]:
         """States beside the motion, by name."""
         return self._named("state", self.record.states)

@@ -8,6 +8,7 @@ import pytest
 import nivel
 from nivel.errors import ModelError
 from nivel.machine.forces import FORCES
+from nivel.machine.references import SECTIONS
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 LEG = """
@@ -52,6 +53,11 @@ def test_elements_go_by_their_names(crank):
     assert crank["gravity.1"] == crank.gravity[1]
     assert "crank" in crank
     assert "crnk" not in crank
+
+
+def test_every_section_of_a_machine_is_a_mapping_by_name(crank):
+    for section in SECTIONS:
+        assert len(getattr(crank, section)) == len(getattr(crank.record, section))
 
 
 def test_parameters_and_subsystems_of_a_file_are_read(walker):

@@ -68,6 +68,25 @@ def test_inputs_act_from_the_step_that_they_are_given_for():
     assert sim["cart.acceleration.x"] == pytest.approx(0.0, abs=1e-12)
 
 
+def test_a_declared_input_is_set_step_by_step_and_keeps_its_value():
+    """x = ½ (F/m) t² with F of the input, which stays until it is set again; outside of its range it is refused."""
+    from nivel.files import parse_machine
+
+    text = CART.replace("states: {push: {rate: 0*time}}", "inputs: {push: {range: [-10, 10]}}")
+    sim = nivel.Machine.from_record(parse_machine(text)).start()
+    sim.step({"push": 4.0})
+    sim.advance(0.499)
+    assert sim["rail.displacement"] == pytest.approx(0.25, abs=1e-12)
+    kept = sim.state
+    sim.advance(0.1, {"push": -4.0})
+    assert sim["cart.velocity.x"] == pytest.approx(0.8, abs=1e-12)
+    sim.restore(kept)
+    sim.advance(0.1)
+    assert sim["cart.velocity.x"] == pytest.approx(1.2, abs=1e-12)
+    with pytest.raises(ModelError, match="inputs.push: 11 is outside the range from -10 to 10"):
+        sim.step({"push": 11})
+
+
 def test_an_event_that_ends_the_run_ends_the_simulation():
     """½ (F/m) t² = 1 for F = 8 N, m = 2 kg at t = 1/√2 s."""
     sim = cart().start()
@@ -93,7 +112,7 @@ def test_a_step_that_fails_says_when_and_why():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda sim: sim.step({"psh": 1}), "the state `psh` is not known; did you mean `push`?"),
+        (lambda sim: sim.step({"psh": 1}), "the input or state `psh` is not known; did you mean `push`?"),
         (lambda sim: sim.step({"push": float("nan")}), "inputs.push: a finite number was expected"),
         (lambda sim: sim.advance(0.0015), "is not a multiple of the step"),
         (lambda sim: sim.advance("1 s"), "a number of seconds was expected, got `1 s`"),

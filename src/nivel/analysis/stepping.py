@@ -37,6 +37,7 @@ from nivel.integrate.run import (
     Run,
 )
 from nivel.integrate.sink import Header
+from nivel.kernels.function import CONSTANT
 from nivel.kernels.observe import observe
 from nivel.kernels.status import BUDGET_SPENT, BUFFER_FULL, DONE, OK
 from nivel.results.memory import Memory, MemoryContents
@@ -87,9 +88,12 @@ class Simulation:
         self._plan, self._settings = plan, plan.settings
         self._prepared: Prepared = prepare(plan.methods)
         self._run, self._advance = _endless(self._prepared, plan)
-        self._counter, self._clock = memoryview(self._run.counter.data), memoryview(self._run.clock.data)
+        self._counter, self._clock = self._run.counter.data, self._run.clock.data  # quicker to read than arrays
         self._step = float(plan.settings.step)
         self._states = _places_of_states(self._prepared, self._run)
+        inputs, functions = plan.machine.inputs, self._prepared.motion.system.input_functions
+        self._inputs = {each.name: function for each, function in zip(inputs, functions, strict=True)}
+        self._ranges = {each.name: each.range for each in inputs}
         layout = self._prepared.motion.system.layout
         self._header = Header(layout, run_attributes(plan.machine, source, self._prepared, plan.settings))
         self._frame = np.zeros((1, layout.width))
@@ -116,9 +120,10 @@ class Simulation:
         return self._counter[DONE_STEPS]
 
     def step(self, inputs: Mapping[str, float] | None = None) -> None:
-        """One step of the integrator. inputs : values of states of the machine, set before the step and kept until set again.
+        """One step of the integrator. inputs : values of inputs and states of the machine, set before the step; inputs keep them until
+        they are set again.
 
-        Raises SolveError where the step fails, and ModelError where the simulation is over, or `inputs` has a name that is no state.
+        Raises SolveError where the step fails, and ModelError where the simulation is over, or `inputs` has a name that is neither.
         """
         if inputs:
             self._set(inputs)
@@ -163,15 +168,16 @@ class Simulation:
         raise SolveError(message, time=time, advice=advice, result=self.result() if self._recorded else None)
 
     def _set(self, inputs: Mapping[str, float]) -> None:
-        """Give states their values, and evaluate again what depends on them."""
+        """Give inputs and states their values, and evaluate again what depends on them."""
         changed = False
         for name, value in inputs.items():
-            if name not in self._states:
-                raise ModelError(Fault("", 0, 0, "inputs", unknown_word(str(name), list(self._states), "state")))
-            place, number = self._states[name], float(value)
-            if not np.isfinite(number):
-                raise ModelError(Fault("", 0, 0, f"inputs.{name}", f"a finite number was expected, got {shown(value)}"))
-            if self._run.y[place] != number:
+            number = self._checked(name, value)
+            if name in self._inputs:
+                functions, place = self._prepared.motion.system.record.functions, self._inputs[name]
+                changed |= functions.kind[place] != CONSTANT or functions.value[place] != number
+                functions.kind[place], functions.value[place] = CONSTANT, number
+            elif self._run.y[self._states[name]] != number:
+                place = self._states[name]
                 self._run.y[place] = self._run.previous[place] = number
                 changed = True
         if changed:
@@ -181,6 +187,20 @@ class Simulation:
             status = motion.kernels.evaluate(motion.handle.address, self.time, self._run.y, self._run.rate)
             if status != OK:
                 self._fail(status)
+
+    def _checked(self, name: str, value: float) -> float:
+        """The value of an input or a state as a number. Raises ModelError."""
+        if name not in self._inputs and name not in self._states:
+            known = [*self._inputs, *self._states]
+            raise ModelError(Fault("", 0, 0, "inputs", unknown_word(str(name), known, "input or state")))
+        number = plain(value)
+        if not isinstance(number, int | float) or not np.isfinite(number):
+            raise ModelError(Fault("", 0, 0, f"inputs.{name}", f"a finite number was expected, got {shown(value)}"))
+        if name in self._ranges and not self._ranges[name][0] <= number <= self._ranges[name][1]:
+            low, high = self._ranges[name]
+            message = f"{number:g} is outside the range from {low:g} to {high:g}"
+            raise ModelError(Fault("", 0, 0, f"inputs.{name}", message))
+        return float(number)
 
     # --- reading ---
 
@@ -208,6 +228,11 @@ class Simulation:
     def names(self) -> tuple[str, ...]:
         """Everything that can be asked for."""
         return self._now.names
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """Bodies and joints as the viewer and the report draw them."""
+        return self._now.scene
 
     def _observe(self) -> None:
         """Write the frame of the present state, with accelerations and reactions free of Baumgarte's feedback."""

@@ -68,12 +68,12 @@ def run_variant(base: Model, values: Mapping[str, Any], save: tuple[str, ...]) -
     if result.outcome == "interrupted":
         return VariantRun(NOT_RUN)
     outcome = FAILED if result.outcome == "failed" else STOPPED if result.stopped_by else DONE
-    return _kept(result, outcome, reason, save or _usual(result, machine))
+    return _kept(result, outcome, reason, save or _usual(result))
 
 
-def _usual(result: Result, machine: Model) -> tuple[str, ...]:
+def _usual(result: Result) -> tuple[str, ...]:
     """Joint coordinates and sensors, or the positions of the bodies."""
-    sensors = tuple(name for name in result.variables if name.partition(".")[0] in machine.sensors)
+    sensors = tuple(name for name in result.variables if name.startswith("sensor."))
     names = (*result.coordinates.get("joint_coordinate_name", ()), *sensors)
     return names or ("position",)
 

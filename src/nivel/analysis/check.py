@@ -14,8 +14,8 @@ from nivel.analysis.elements import (
     driver_in_words,
     event_in_words,
     force_in_words,
-    sensor_in_words,
     input_in_words,
+    sensor_in_words,
     state_in_words,
 )
 from nivel.analysis.plan import Methods, Plan

@@ -29,7 +29,7 @@ from nivel.system.forces import FORCES
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
-OUTPUT, LOOP = "nivel.kernels.observe", "nivel.integrate.loop"
+OUTPUT, LOOP, PACED = "nivel.kernels.observe", "nivel.integrate.loop", "nivel.integrate.paced"
 STATICS, RESIDUAL = "nivel.kernels.static_entries", "nivel.kernels.tangent_entries:evaluate_residual"
 FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
@@ -171,6 +171,7 @@ def all_entries() -> list[Entry]:
         OF_SLIDERS,
         PASSING,
         LOOP,
+        PACED,
         STATICS,
         RESIDUAL.partition(":")[0],
         OUTPUT,

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 @override_option
 @allow_code_option
 @click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'.")
-@click.option("--tick", type=float, metavar="SECONDS", help="Time from input to input: whole steps; default 1 ms, or the step.")
+@click.option(
+    "--tick", type=float, metavar="SECONDS", help="Time from input to input: whole steps; default 1 ms, or the step."
+)
 @method_option("integrator")
 @method_option("formulation")
 @method_option("coordinates")
@@ -87,7 +89,9 @@ def command(
     if listen:
         say(f"datagrams: {outside.counts}")
     if record is not None:
-        write_recording(record, session.plan.machine, loaded.origin.source, settings, session.pace, session.recorder.takes)
+        write_recording(
+            record, session.plan.machine, loaded.origin.source, settings, session.pace, session.recorder.takes
+        )
         say(f"recording: {record}")
 
 

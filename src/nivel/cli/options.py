@@ -36,13 +36,14 @@ override_option = click.option(
 )
 
 
-
 def _tables(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> dict[str, str]:
     out: dict[str, str] = {}
     for text in values:
         name, equals, value = text.partition("=")
         if not equals or not name.strip() or not value.strip():
-            raise click.BadParameter(f"'{text}' is not of the form NAME=TABLE.csv, e.g. lever=lever.csv, or NAME=NUMBER")
+            raise click.BadParameter(
+                f"'{text}' is not of the form NAME=TABLE.csv, e.g. lever=lever.csv, or NAME=NUMBER"
+            )
         if name.strip() in out:
             raise click.BadParameter(f"'{name.strip()}' is given twice")
         out[name.strip()] = value.strip()

@@ -16,7 +16,9 @@ from nivel.cli.progress import progress_listener
 @file_argument("recording")
 @simulation_options
 @click.option("--take", type=click.IntRange(1), help="Which motion of the recording, from 1; default: the longest.")
-@click.option("--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .replay.nc, here.")
+@click.option(
+    "--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .replay.nc, here."
+)
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 @quiet_option
 def command(
@@ -52,7 +54,9 @@ def command(
     if done.is_identical and chosen.whole:
         say(f"{stored.machine.name}: {length}; all {done.compared} frames equal the recorded ones to the last bit")
     elif done.is_identical:
-        say(f"{stored.machine.name}: {length}; {done.compared} frames equal the recorded ones, others were not recorded")
+        say(
+            f"{stored.machine.name}: {length}; {done.compared} frames equal the recorded ones, others were not recorded"
+        )
     else:
         say(
             f"{stored.machine.name}: {length}; {done.different} frames differ from the recorded ones, the first at t = {done.first:.6g} s: "

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.failures import say_faults
-from nivel.cli.options import allow_code_option, file_argument, input_option, override_option, quiet_option, simulation_options
+from nivel.cli.options import (
+    allow_code_option,
+    file_argument,
+    input_option,
+    override_option,
+    quiet_option,
+    simulation_options,
+)
 from nivel.cli.progress import progress_listener
 
 if TYPE_CHECKING:

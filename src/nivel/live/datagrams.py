@@ -21,6 +21,7 @@ import socket
 import struct
 import threading
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Final
 
@@ -81,7 +82,9 @@ class Datagrams:
                 self._socket.bind(listen)
             except OSError as error:
                 where = f"{listen[0]}:{listen[1]}"
-                raise ModelError(Fault("", 0, 0, "udp", f"{where} cannot be listened at: {error.strerror or error}")) from None
+                raise ModelError(
+                    Fault("", 0, 0, "udp", f"{where} cannot be listened at: {error.strerror or error}")
+                ) from None
             self._socket.settimeout(WAIT)
             self._thread = threading.Thread(target=self._listen, daemon=True)
             self._thread.start()
@@ -131,10 +134,8 @@ class Datagrams:
             return
         values = frame[self._columns]
         head = HEAD.pack(OUTPUTS, VERSION, len(values), self._sequence, 0, self._stamp)
-        try:
+        with suppress(OSError):  # nobody listens there, now
             self._socket.sendto(head + values.astype("<f8").tobytes(), self._to)
-        except OSError:
-            pass  # nobody listens there, now
 
     def close(self) -> None:
         """Neither take nor send any more."""

@@ -13,8 +13,8 @@ from nivel.analysis.dynamics import Loop, start_loop
 from nivel.analysis.plan import Plan, plan_run
 from nivel.analysis.preparation import Prepared, prepare
 from nivel.errors import Fault, ModelError
-from nivel.integrate.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
 from nivel.integrate.loop import advance
+from nivel.integrate.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
 from nivel.integrate.run import Run
 from nivel.kernels.handle import Handle
 from nivel.live.shared import Sizes

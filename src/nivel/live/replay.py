@@ -39,8 +39,8 @@ FRAMES_AT_ONCE: Final = 32
 
 @dataclass(frozen=True)
 class Replay:
-    """A run done again. compared : frames that the recording has. different : how many of them are not equal bit by bit; first : time of the
-    first such frame [s]."""
+    """A run done again. compared : frames that the recording has. different : how many of them are not equal bit by bit; first : time of
+    the first such frame [s]."""
 
     result: Result
     compared: int
@@ -82,7 +82,9 @@ def replay(
     prepared = again.prepared
     machine = machine_of(recording, take)
     sink = Memory() if out is None else Store(out, force)
-    sink.begin(Header(prepared.motion.system.layout, run_attributes(machine, recording.source, prepared, plan.settings)))
+    sink.begin(
+        Header(prepared.motion.system.layout, run_attributes(machine, recording.source, prepared, plan.settings))
+    )
     resting = resting_frictions(plan.machine, prepared.absolute, prepared.assembly.y)
     outcome = RunOutcome("done")
     recorded = np.concatenate(take.frames) if take.frames else np.zeros((0, 0))

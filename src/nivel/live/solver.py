@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import time
 from dataclasses import asdict, dataclass, field
 from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 from typing import Any, Final
-
 
 from nivel.analysis.outcome import failure
 from nivel.analysis.plan import Plan
@@ -28,7 +28,8 @@ from nivel.integrate.paced import (
     TICKS,
     Live,
 )
-from nivel.integrate.run import ACCEPTED, STEP as STEP_CLOCK, STOPPED, TIME
+from nivel.integrate.run import ACCEPTED, STOPPED, TIME
+from nivel.integrate.run import STEP as STEP_CLOCK
 from nivel.kernels import status as codes
 from nivel.kernels.observe import observe
 from nivel.live import shared
@@ -63,10 +64,8 @@ def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
         memory = SharedMemory(pipe.recv())
     except (EOFError, FileNotFoundError):
         return
-    try:
+    with contextlib.suppress(KeyboardInterrupt, BrokenPipeError):
         Solver(live_run, live_in(memory.buf, live_run.sizes), pipe).live(urgent)
-    except (KeyboardInterrupt, BrokenPipeError):
-        pass
     # the arrays still look at the memory, which goes with the process
     os._exit(0)
 
@@ -127,7 +126,9 @@ class Solver:
             stopped = int(self._its.run.counter[STOPPED])
             events = self._its.prepared.motion.system.events
             control[MODE] = shared.ENDED
-            self._pipe.send(Told("said", f"the run has ended{f' at the event {events[stopped - 1]}' if stopped else ''}; reset it"))
+            self._pipe.send(
+                Told("said", f"the run has ended{f' at the event {events[stopped - 1]}' if stopped else ''}; reset it")
+            )
         else:
             control[MODE] = shared.FAILED
             self._pipe.send(Told("failed", self._why(status)))

@@ -40,13 +40,15 @@ class LiveSource(Still):
         self._gauges = gauges(layout)
         self._columns = [variable.columns.start for _, variable in self._gauges]
         self._package = self._packed(attributes)
-        session.on_frame = lambda: self.on_change()
+        session.on_frame = self.on_change
 
     def _packed(self, attributes: dict[str, Any]) -> bytes:
         scene, record, block = json.loads(attributes["scene"]), json.loads(attributes["machine_record"]), Block()
         while self._session.newest is None:
             time.sleep(0.005)
-        stage = machine_stage(str(attributes["machine"]), _Pose(scene, self._places, self._session.newest), record, block)
+        stage = machine_stage(
+            str(attributes["machine"]), _Pose(scene, self._places, self._session.newest), record, block
+        )
         self._origin = np.array(stage.origin)
         controls = [control(each) for each in self._session.plan.machine.inputs]
         shown = [Gauge(name, variable.units) for name, variable in self._gauges]

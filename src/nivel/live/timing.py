@@ -90,5 +90,3 @@ def in_words(timing: Timing) -> list[str]:
         f"it would hold {timing.rate_held / 1e3:.3g} kHz"
     )
     return lines
-
-

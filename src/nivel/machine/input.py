@@ -102,7 +102,9 @@ class Input(Checked):
     def problems(self) -> Iterator[Problem]:
         low, high = self.range
         if not low < high:
-            yield Problem(("range",), f"the least value comes first and is below the greatest; got {low:g} and {high:g}")
+            yield Problem(
+                ("range",), f"the least value comes first and is below the greatest; got {low:g} and {high:g}"
+            )
             return
         if self.rest is not None and not low <= self.rest <= high:
             yield Problem(("rest",), f"{self.rest:g} is outside the range from {low:g} to {high:g}")
@@ -122,7 +124,9 @@ class Input(Checked):
             yield Problem(("signal",), "a number or a table of time was expected: {times: [0, 1], values: [0, 0.5]}")
             return
         if isinstance(signal, Table) and signal.interpolation != "linear":
-            yield Problem(("signal",), "a table of an input is `linear`: between the points of a curve it might leave the range")
+            yield Problem(
+                ("signal",), "a table of an input is `linear`: between the points of a curve it might leave the range"
+            )
             return
         times, values = (signal.times, signal.values) if isinstance(signal, Table) else ((0.0,), (float(signal),))
         slack = ROUND_OFF * (high - low)

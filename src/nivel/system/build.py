@@ -42,8 +42,8 @@ from nivel.system.control import add_control
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.forces import FORCES
 from nivel.system.gradient_beams import point_inertia
-from nivel.system.inputs import add_inputs
 from nivel.system.implicit import no_newton, no_residual
+from nivel.system.inputs import add_inputs
 from nivel.system.interfaces import refuse_unknown_interfaces
 from nivel.system.layout import first_columns, frame_layout
 from nivel.system.located import located

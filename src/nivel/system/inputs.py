@@ -19,5 +19,3 @@ def add_inputs(draft: SystemBuilder) -> None:
             draft.elements.add(apply, [output, function])
             draft.inputs[each.name] = (OUTPUT, output, 0)
             draft.input_functions.append(function)
-
-

@@ -51,7 +51,6 @@ class Source(Protocol):
         """Put the machine back."""
         ...
 
-
     def hear(self, page: object, said: Drive | Take | Command) -> Note | None:
         """What a page that operates a live machine says."""
         ...

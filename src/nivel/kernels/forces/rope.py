@@ -27,7 +27,10 @@ def apply(machine, number, t):
     elements, coordinates, control, out = record.elements, record.coordinates, record.control, record.outputs.value
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, numbers = elements.columns[k], elements.number[k]
-        length, speed = 0.0 * coordinates.value[index[FIRST]] + numbers[UNSTRESSED], 0.0 * coordinates.rate[index[FIRST]]
+        length, speed = (
+            0.0 * coordinates.value[index[FIRST]] + numbers[UNSTRESSED],
+            0.0 * coordinates.rate[index[FIRST]],
+        )
         if index[LENGTH] != NONE:
             length = elements.state[index[LENGTH]]
             speed = speed + evaluate_function(machine, index[SPEED], t)

@@ -47,4 +47,6 @@ class Rope(ForceElement):
             yield Problem(("markers",), f"a rope needs two markers at least, got {len(self.markers)}")
         for k in range(1, len(self.markers)):
             if isinstance(self.markers[k], str) and self.markers[k] == self.markers[k - 1]:
-                yield Problem(("markers", k), f"the marker `{self.markers[k]}` follows itself; the rope goes from one to another")
+                yield Problem(
+                    ("markers", k), f"the marker `{self.markers[k]}` follows itself; the rope goes from one to another"
+                )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 from nivel.kernels.coordinate import DISTANCE
 from nivel.kernels.forces.rope import apply
 from nivel.kernels.record import NONE
@@ -15,14 +17,13 @@ from nivel.system.state_facts import StateFact
 def add(draft: SystemBuilder, rope: Rope) -> None:
     """A rope."""
     markers = [draft.end(end) for end in rope.markers]
-    distances = [
-        draft.coordinates.use(draft.coordinates.add(DISTANCE, i, j))
-        for i, j in zip(markers[:-1], markers[1:], strict=True)
-    ]
+    distances = [draft.coordinates.use(draft.coordinates.add(DISTANCE, i, j)) for i, j in itertools.pairwise(markers)]
     first = force_outputs(draft, rope.name, *magnitude_and_power("N", "tension"), ("stretch", "m", "stretch"))
     length = speed = NONE
     if rope.speed is not None:
-        fact = StateFact(f"{rope.name}.length", "m", f"unstressed length of {rope.name}", rope.length, scale=rope.length)
+        fact = StateFact(
+            f"{rope.name}.length", "m", f"unstressed length of {rope.name}", rope.length, scale=rope.length
+        )
         length, speed = draft.own_state(fact), draft.function(rope.speed)
     columns = [first, length, speed, len(distances), *distances]
     draft.elements.add(apply, columns, [rope.stiffness, rope.damping, rope.length])

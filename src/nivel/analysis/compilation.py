@@ -29,7 +29,8 @@ from nivel.system.forces import FORCES
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
-OUTPUT, LOOP, PACED = "nivel.kernels.observe", "nivel.integrate.loop", "nivel.integrate.paced"
+OUTPUT, LOOP = "nivel.kernels.observe", "nivel.integrate.loop"
+PACED, REPEATED = "nivel.integrate.paced", "nivel.integrate.repeated"
 STATICS, RESIDUAL = "nivel.kernels.static_entries", "nivel.kernels.tangent_entries:evaluate_residual"
 FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
@@ -172,6 +173,7 @@ def all_entries() -> list[Entry]:
         PASSING,
         LOOP,
         PACED,
+        REPEATED,
         STATICS,
         RESIDUAL.partition(":")[0],
         OUTPUT,

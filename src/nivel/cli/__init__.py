@@ -26,6 +26,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "demo": CommandPlace("nivel.cli.demo", "Drive a machine that comes with nivel."),
     "live": CommandPlace("nivel.cli.live", "Operate a machine in real time in the browser."),
     "replay": CommandPlace("nivel.cli.replay", "Repeat a recorded live run exactly, or by other methods."),
+    "budget": CommandPlace("nivel.cli.budget", "Say what a machine costs in real time, by method and by part."),
     "statics": CommandPlace("nivel.cli.statics", "Find where a machine rests under its loads."),
     "compare": CommandPlace("nivel.cli.compare", "Run many methods and say how fast and how exact each is."),
     "reduce": CommandPlace("nivel.cli.reduce", "Make a flexible body of a finite-element model."),

@@ -191,7 +191,9 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
         else:
             data.pop(section, None)
     data.setdefault("bodies", [])
-    signals = {name: Signal(f"{name}.value") for name in names["control"] if name not in parameters}
+    signals = {
+        name: Signal(f"{name}.value") for name in (*names["control"], *names["inputs"]) if name not in parameters
+    }
     try:
         record = MachineRecord.model_validate(data, context={"parameters": {**parameters, **signals}})
     except ValidationError as error:

@@ -27,6 +27,7 @@ from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine import MachineRecord, Record
 from nivel.machine.arithmetic import Parameters, Signal
+from nivel.machine.control.problems import can_be_named
 from nivel.machine.parameters import resolve
 from nivel.machine.quantity import FAULT
 from nivel.machine.references import SECTIONS
@@ -156,7 +157,7 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
         else:
             data.pop(section, None)
     data.setdefault("bodies", [])
-    signals = {name: Signal(f"{name}.value") for name in names["control"] if name not in parameters}
+    signals = {name: Signal(f"{name}.value") for name in names["control"] if can_be_named(name, parameters)}
     try:
         record = MachineRecord.model_validate(data, context={"parameters": {**parameters, **signals}})
     except ValidationError as error:

@@ -27,6 +27,7 @@ from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine import MachineRecord, Record
 from nivel.machine.arithmetic import Number, Parameters, Signal
+from nivel.machine.control.problems import can_be_named
 from nivel.machine.named_function import resolve_functions
 from nivel.machine.parameters import resolve
 from nivel.machine.quantity import FAULT
@@ -192,7 +193,9 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
             data.pop(section, None)
     data.setdefault("bodies", [])
     signals = {
-        name: Signal(f"{name}.value") for name in (*names["control"], *names["inputs"]) if name not in parameters
+        name: Signal(f"{name}.value")
+        for name in (*names["control"], *names["inputs"])
+        if can_be_named(name, parameters)
     }
     try:
         record = MachineRecord.model_validate(data, context={"parameters": {**parameters, **signals}})

@@ -10,6 +10,7 @@ from os import PathLike
 from nivel.analysis.attributes import run_attributes
 from nivel.analysis.dynamics import RunOutcome, march
 from nivel.analysis.held_friction import resting_frictions
+from nivel.analysis.history import SECANT
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
@@ -19,6 +20,7 @@ from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.sink import Header
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.accuracy import error_from_finer
+from nivel.results.circuits import Guard
 from nivel.results.held import Held, shared_loads
 from nivel.results.held_together import Sticking, loads_held_together
 from nivel.results.memory import Memory
@@ -93,6 +95,7 @@ def _close(
         stopped_by=finished.stopped_by,
         neglected=cost(sink.result(), _neglected(machine)),
         small_states=_small_states(sink.result(), prepared, machine),
+        guard=_guard(finished, prepared),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
     attributes: dict[str, str | float | int] = {
@@ -108,6 +111,14 @@ def _close(
     if finished.failure is not None:
         raise SolveError(message, time=at, advice=advice, result=result)
     return result
+
+
+def _guard(finished: RunOutcome, prepared: Prepared) -> Guard | None:
+    """What the guard of steps over circuits did; None where there is none."""
+    if prepared.integrator is not INTEGRATORS[SECANT] or not prepared.motion.system.nodes:
+        return None
+    timing = finished.timing
+    return Guard(int(timing["steps"]), int(timing["guarded"]), timing["pressure_difference"])
 
 
 def _small_states(result: Result, prepared: Prepared, machine: MachineRecord) -> tuple[SmallState, ...]:

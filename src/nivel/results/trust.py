@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nivel.results.circuits import circuit_items
+from nivel.results.circuits import Guard, circuit_items, guard_items
 from nivel.results.held import Shared
 from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
@@ -48,8 +48,8 @@ class Facts:
     accuracy : estimated largest error of a position [m], from `nivel.results.accuracy`, and by what `refinement` of the run it was found.
     neglected : what it cost that flexible bodies moved without some of their inertia invariants. shared : frictions at rest on motions
     that are prescribed, or that others hold too.
-    small_states : those whose errors were hardly controlled. failure : what stopped the run, in a sentence. stopped_by : name of the
-    event that ended it as it was to do.
+    small_states : those whose errors were hardly controlled. guard : what was not extrapolated of steps over circuits. failure : what
+    stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
     """
 
     outcome: str
@@ -65,6 +65,7 @@ class Facts:
     neglected: Cost | None = None
     shared: tuple[Shared, ...] = ()
     small_states: tuple[SmallState, ...] = ()
+    guard: Guard | None = None
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -123,6 +124,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         *statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved),
         *(_small_state(each) for each in facts.small_states),
         *circuit_items(result),
+        *guard_items(facts.guard),
     )
     return replace(trust, items=items, verdict=worst(items))
 

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+
 from circuits import BAR, LITRE_PER_MINUTE, PA, between, circuit, density, enthalpy, history, steady
 
 RATED = {"flow": "40 L/min", "pressure_drop": "7 bar"}

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from circuits import BAR, history
 
 import nivel
+from circuits import BAR, history
 from simulating import machine
 
 FILE = Path(__file__).parents[2] / "examples" / "hydraulics" / "loader-crane.yaml"

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from circuits import history
 from hydraulic_zoo import machine_with_circuits
 

@@ -3,12 +3,12 @@
 import ast
 from pathlib import Path
 
-import hydraulic_zoo
 import pytest
 
 import beams
 import force_zoo
 import gradient_beams
+import hydraulic_zoo
 import linked
 import machines
 import mixed_machines

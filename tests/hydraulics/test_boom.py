@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 import nivel
 
-FILE = Path(__file__).parents[2] / "examples" / "cylinder-boom.yaml"
+FILE = Path(__file__).parents[2] / "examples" / "hydraulics" / "cylinder-boom.yaml"
 PA = 101325.0
 ALPHA, BETA, SLOPE, N = 0.005, 1.5e9, 10.0, 1.4
 RHO_0 = 0.995 * 870.0 + 0.005 * 1.2

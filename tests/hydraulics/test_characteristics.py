@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+
 from circuits import BAR, LITRE_PER_MINUTE, PA, between, circuit, density, enthalpy, history, steady
 
 RATED = {"flow": "40 L/min", "pressure_drop": "7 bar"}
@@ -105,14 +106,14 @@ def test_a_compensator_closes_as_the_drop_behind_it_grows(drop):
     assert flow == pytest.approx(K * opening * root((100 - drop) * BAR), rel=1e-9, abs=1e-18)
 
 
-@pytest.mark.parametrize("u", [-1.0, -0.4, 0.0, 0.1, 0.6, 1.0, 1.7])
+@pytest.mark.parametrize("u", [-1.0, -0.4, 0.0, 0.1, 0.6, 1.0])
 @pytest.mark.parametrize("centre", ["closed", "tandem", "open", "float"])
 def test_edges_of_a_4_3_valve_open_beyond_their_overlap(u, centre):
     valve = {"type": "directional-valve", "ways": "4/3", "overlap": 0.1, "centre": centre, "command": u, **RATED}
     hydraulics = between(valve, P=100 * BAR, T=2 * BAR, A=60 * BAR, B=30 * BAR)
     edges = ["flow_PA", "flow_BT", "flow_PB", "flow_AT"]
     pa, bt, pb, at = steady(hydraulics, *(f"valve.{edge}" for edge in edges))
-    read, full = min(u, 1.0), 0.9 - 0.01
+    read, full = u, 0.9 - 0.01
     forward, back = ramp(read - 0.1) / full, ramp(-read - 0.1) / full
     assert pa == pytest.approx(K * forward * root(40 * BAR), rel=1e-9, abs=1e-18)
     assert bt == pytest.approx(K * forward * root(28 * BAR), rel=1e-9, abs=1e-18)

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from circuits import BAR, PA, circuit, density, history
 from scipy.optimize import brentq
 
+from circuits import BAR, PA, circuit, density, history
 from nivel.kernels.hydraulics.fluid import specific_volume
 from nivel.machine.hydraulics.fluid import OIL
 from nivel.system.hydraulics.fluid_law import density_and_modulus

@@ -9,6 +9,7 @@ import beams
 import cart
 import force_zoo
 import gradient_beams
+import hydraulic_zoo
 import linked
 import machines
 import mixed_machines
@@ -389,3 +390,9 @@ def test_every_kernel_was_called(request):
         pytest.skip("not all tests ran")
     idle = {name for place, name in kernels().items() if place not in plain.CALLED}
     assert not idle - LEFT_OUT, " ".join(sorted(idle - LEFT_OUT))
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "extrapolated-euler", "radau"])
+def test_circuits(integrator):
+    """Every family of components, in a circuit with a cylinder, a telescope and a rotary actuator."""
+    short(hydraulic_zoo.machine_with_circuits().record, integrator, steps=2, step=1e-4)

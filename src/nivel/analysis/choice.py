@@ -28,6 +28,14 @@ BODY, BLOCK, ENTRY = 60.0, 15.0, 4.0
 MOST_DENSE = 60
 
 
+def with_integrator(machine: MachineRecord) -> MachineRecord:
+    """The machine with an integrator that suits it, where none was asked for: circuits are stiff, and have one of fixed cost."""
+    simulation = machine.simulation
+    if not machine.hydraulics or "integrator" in simulation.model_fields_set or simulation.step_control != "own":
+        return machine
+    return machine.replace(simulation=simulation.replace(integrator="extrapolated-euler"))
+
+
 def choose_coordinates(machine: MachineRecord) -> str:
     """The coordinates of a run of `machine`: its own; for `auto` relative where joints are named in `cut`, else the ones
     that cost least, of those that its formulation knows.

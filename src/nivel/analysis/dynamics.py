@@ -272,6 +272,8 @@ def counts_of(system: System, run: Run) -> dict[str, float]:
         "factorisations": int(run.counter[FACTORISATIONS]),
         "rejected": int(run.counter[REJECTED]),
         "unconserved": int(run.counter[UNCONSERVED]),
+        "guarded": int(system.record.circuit.guard[0]),
+        "pressure_difference": float(system.record.circuit.guard[1]),
         "partitions": max(0, int(system.record.partition.choices.sum()) - 1),
     }
 

@@ -10,6 +10,7 @@ from nivel.analysis.attributes import run_attributes
 from nivel.analysis.dynamics import RunOutcome, march
 from nivel.analysis.findings import find
 from nivel.analysis.held_friction import resting_frictions
+from nivel.analysis.history import SECANT
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
@@ -19,6 +20,7 @@ from nivel.errors import SolveError
 from nivel.integrate.sink import Header
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.accuracy import error_from_finer, factor
+from nivel.results.circuits import Guard
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.estimate import estimate_errors
 from nivel.results.findings import finding_items
@@ -129,6 +131,7 @@ def close_run(
         further=tuple(finding_items(findings)),
         small_states=_small_states(sink.result(), prepared, machine),
         saturated=saturated_blocks(machine, sink.result()),
+        guard=_guard(finished, prepared),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
     attributes: dict[str, str | float | int] = {
@@ -146,6 +149,14 @@ def close_run(
     if finished.failure is not None:
         raise SolveError(message, time=at, advice=advice, result=result)
     return result
+
+
+def _guard(finished: RunOutcome, prepared: Prepared) -> Guard | None:
+    """What the guard of steps over circuits did; None where there is none."""
+    if prepared.integrator is not INTEGRATORS[SECANT] or not prepared.motion.system.nodes:
+        return None
+    timing = finished.timing
+    return Guard(int(timing["steps"]), int(timing["guarded"]), timing["pressure_difference"])
 
 
 def _small_states(result: Result, prepared: Prepared, machine: MachineRecord) -> tuple[SmallState, ...]:

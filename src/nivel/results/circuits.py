@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +18,8 @@ INTEGRALS = ("supplied", "delivered", "lost")
 CAVITATES = 3e4
 # a spool this near to the end of its stroke is at its end; energies below [J] are none
 AT_END, NO_ENERGY = 0.999, 1e-9
-# share of the mass of the fluid: what tanks gave is an integral, which implicit methods find to their tolerance; the masses themselves
-# change by round-off alone
-MASS_GREEN, MASS_AMBER = 1e-8, 1e-6
+# share of the steps that may be of order one
+GUARDED_GREEN, GUARDED_AMBER = 0.01, 0.1
 
 
 def circuit_items(result: Readable) -> Iterator[Item]:
@@ -30,6 +30,29 @@ def circuit_items(result: Readable) -> Iterator[Item]:
     yield _mass_item(result)
     yield from _cavitation_items(result)
     yield from _saturation_items(result)
+
+
+@dataclass(frozen=True)
+class Guard:
+    """Steps of a run over circuits, those among them whose extrapolation was not taken, and the largest difference [Pa] of a pressure
+    between one step and two of half the length."""
+
+    steps: int
+    guarded: int
+    difference: float
+
+
+def guard_items(guard: Guard | None) -> Iterator[Item]:
+    """How many steps were of order one, and how large the error of pressures in one step was."""
+    if guard is None or not guard.steps:
+        return
+    share = guard.guarded / guard.steps
+    verdict = "green" if share < GUARDED_GREEN else "amber" if share < GUARDED_AMBER else "red"
+    counted = f"{guard.guarded} of {guard.steps} steps were not extrapolated"
+    largest = f"pressures of one step and of two half ones differed by at most {guard.difference / 1e5:.3g} bar"
+    advice = "" if verdict == "green" else "; take a shorter step, or larger small volumes"
+    text = f"Pressure steps: {counted} (green below {100 * GUARDED_GREEN:g} %), {largest}{advice}"
+    yield Item("pressure steps", verdict, text, share, GUARDED_GREEN, GUARDED_AMBER)
 
 
 def _history(result: Readable, name: str) -> NDArray[np.float64]:
@@ -62,7 +85,7 @@ def _energy_item(result: Readable) -> Item:
 
 
 def _mass_item(result: Readable) -> Item:
-    """The mass in all volumes against what tanks gave."""
+    """The mass in all volumes against what tanks gave. Volumes exchange fluid to round-off; the integral is as exact as the method."""
     names = [name for name in result.variables if name.startswith("state.") and ".mass" in name]
     names = [name for name in names if not name.endswith("mass_flow")]
     mass = sum((_history(result, name) for name in names), np.zeros(len(result.time)))
@@ -71,9 +94,10 @@ def _mass_item(result: Readable) -> Item:
     k = int(np.argmax(error))
     scale = float(np.max(np.abs(mass))) + float(np.max(np.abs(taken)))
     fraction = float(error[k]) / scale if scale > 0.0 else 0.0
-    verdict = "green" if fraction < MASS_GREEN else "amber" if fraction < MASS_AMBER else "red"
-    text = f"Fluid: its mass is kept to {number(fraction)} (green below {MASS_GREEN:g}, amber below {MASS_AMBER:g})"
-    return Item("fluid mass", verdict, text, fraction, MASS_GREEN, MASS_AMBER, time=float(result.time[k]))
+    threshold = THRESHOLDS["energy"]
+    text = f"Fluid: what tanks gave and what volumes hold agrees to {number(fraction)} of it ({threshold})"
+    verdict = threshold.verdict(fraction)
+    return Item("fluid mass", verdict, text, fraction, threshold.green, threshold.amber, time=float(result.time[k]))
 
 
 def _cavitation_items(result: Readable) -> Iterator[Item]:

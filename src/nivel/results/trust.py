@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nivel.results.circuits import circuit_items
+from nivel.results.circuits import Guard, circuit_items, guard_items
 from nivel.results.held import Shared
 from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
@@ -51,8 +51,8 @@ class Facts:
     that are prescribed, or that others hold too.
     further : lines of checks that only tell what is not green, see `nivel.results.findings`.
     small_states : those whose errors were hardly controlled. saturated : blocks of the control at a limit all the time.
-    failure : what stopped the run, in a sentence. stopped_by : name of the
-    event that ended it as it was to do.
+    guard : what was not extrapolated of steps over circuits.
+    failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
     """
 
     outcome: str
@@ -72,6 +72,7 @@ class Facts:
     small_states: tuple[SmallState, ...] = ()
     further: tuple[Item, ...] = ()
     saturated: tuple[str, ...] = ()
+    guard: Guard | None = None
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -142,6 +143,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         *(_small_state(each) for each in facts.small_states),
         *(_saturated(name) for name in facts.saturated),
         *circuit_items(result),
+        *guard_items(facts.guard),
     )
     return replace(trust, items=items, verdict=worst(items))
 

@@ -66,6 +66,12 @@ class Component(Checked):
             yield Problem((), f"{what} not connected; write `ports: {{{example}}}`")
 
 
+def problem_of_share(key: str, value: object, least: float) -> Iterator[Problem]:
+    """A constant that is not between `least` and one. What varies is cut off there."""
+    if isinstance(value, float | int) and not least <= value <= 1.0:
+        yield Problem((key,), f"a share from {least:g} to 1 was expected, got {value:g}")
+
+
 class Rated(Component):
     """A component with a flow from a catalogue: `flow` at `pressure_drop`, fully open."""
 

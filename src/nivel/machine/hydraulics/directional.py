@@ -9,7 +9,7 @@ from pydantic import AfterValidator, Field
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Frequency, Leakage, PositiveNumber, Share
-from nivel.machine.hydraulics.component import Rated
+from nivel.machine.hydraulics.component import Rated, problem_of_share
 from nivel.machine.quantity import Quantity, Rate, fault
 from nivel.machine.time_function import TimeFunction, varying
 
@@ -72,6 +72,7 @@ class DirectionalValve(Rated):
 
     def problems(self) -> Iterator[Problem]:
         yield from self.problems_of_ports(PORTS[self.ways])
+        yield from problem_of_share("command", self.command, -1.0 if self.ways == "4/3" else 0.0)
         if self.centre != "closed" and self.ways != "4/3":
             yield superfluous("centre", f"belongs to a 4/3 valve, not to {self.ways}")
         if self.overlap + self.rounding > 1.0:

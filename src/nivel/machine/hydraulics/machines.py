@@ -10,7 +10,7 @@ from pydantic import Field
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Displacement, Leakage, PositiveNumber, Pressure, Share
 from nivel.machine.coordinate_reference import CoordinateReference
-from nivel.machine.hydraulics.component import Component
+from nivel.machine.hydraulics.component import Component, problem_of_share
 from nivel.machine.quantity import Duration, Quantity, Whole
 from nivel.machine.time_function import TimeFunction, varying
 
@@ -108,6 +108,7 @@ class Pump(RotaryMachine):
         if ("LS" in self.ports) != (self.margin is not None):
             lacking = "`margin` is" if self.margin is None else "port LS is"
             yield Problem((), f"{lacking} missing: a load-sensing pump has a port LS and a `margin`")
+        yield from problem_of_share("setting", self.setting, -1.0)
         if self.margin is not None and self.setting != 1.0:
             yield superfluous("setting", "is found by the load sensing itself")
         if self.pistons is not None and self.coordinate is None and not isinstance(self.speed, float | int):
@@ -124,5 +125,6 @@ class HydraulicMotor(RotaryMachine):
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
+        yield from problem_of_share("setting", self.setting, -1.0)
         if self.coordinate is None:
             yield Problem((), "`coordinate` is missing: the angle of a joint that it turns")

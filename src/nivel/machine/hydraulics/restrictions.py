@@ -9,7 +9,7 @@ from pydantic import Field
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Leakage, Pressure, Share, Truth, VolumeFlow
-from nivel.machine.hydraulics.component import Component
+from nivel.machine.hydraulics.component import Component, problem_of_share
 from nivel.machine.quantity import PositiveLength
 from nivel.machine.time_function import TimeFunction, varying
 
@@ -34,6 +34,7 @@ class Orifice(Component):
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
+        yield from problem_of_share("opening", self.opening, 0.0)
         if (self.flow is None) != (self.pressure_drop is None):
             lacking = "flow" if self.flow is None else "pressure_drop"
             yield Problem((), f"`{lacking}` is missing: a flow is given at a difference of pressure")

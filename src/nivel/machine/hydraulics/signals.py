@@ -19,5 +19,7 @@ def signals_of(component: Any) -> tuple[str, ...]:
         pairs = [edge for edges in EDGES.get(ways, ()) for edge in edges]
         pairs += [edge for edge in CENTRES.get(centre, ()) if edge not in pairs]
         return ("position", *(f"flow_{pair}" for pair in pairs))
+    if entry(component, "type") == "reducing-valve" and "T" not in (entry(component, "ports") or {}):
+        return tuple(each for each in kind.late if each != "relief_flow")
     single = entry(component, "acting") == "single" or entry(component, "type") == "telescopic-cylinder"
     return tuple(each for each in (*kind.early, *kind.late) if not (single and each == "pressure_B"))

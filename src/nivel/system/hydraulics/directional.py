@@ -73,14 +73,15 @@ def frequency(component: DirectionalValve) -> float:
 def add_load_signal(draft: SystemBuilder, component: LoadSensing) -> None:
     """The signal, and the valves that it is made of."""
     node = draft.circuit.nodes[component.name]
-    draft.touch_state(node.state)
     columns, numbers = [node.state], [component.lag, component.opens_within]
     valves = {each.name: each for each in draft.machine.hydraulics if isinstance(each, DirectionalValve)}
     for name in component.valves:
         valve = valves[name]
         output, coupled = draft.circuit.signals[f"{name}.position"]
-        draft.note(coupled)
-        columns += [output, *(draft.node(valve.ports[port]) for port in "ABT")]
+        with draft.noting():  # the loads of valves do not depend on each other
+            draft.touch_state(node.state)
+            draft.note(coupled)
+            columns += [output, *(draft.node(valve.ports[port]) for port in "ABT")]
         numbers += [valve.overlap, valve.rounding]
     width = 1 + load_signal.WIDE * load_signal.MOST
     draft.elements.add(load_signal.apply, columns + [NONE] * (width - len(columns)), numbers)

@@ -25,8 +25,8 @@ class Driver(Checked):
     along: Literal["x", "y", "z"] | None = Field(
         default=None, description="axis of `relative_to` along which the marker's point is driven"
     )
-    about: Literal["z"] | None = Field(
-        default=None, description="axis of `relative_to` about which the marker is turned, x axis from x axis"
+    about: Literal["x", "y", "z"] | None = Field(
+        default=None, description="axis of `relative_to` about which the marker is turned: the angle from the next axis (x, y, z, x) of the one to that of the other"
     )
     relative_to: Name | None = Field(default=None, description="marker from which it is measured; default `ground`")
     value: CoordinateMotion = Field(description="length or angle, a function of time")

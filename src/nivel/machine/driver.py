@@ -26,7 +26,8 @@ class Driver(Checked):
         default=None, description="axis of `relative_to` along which the marker's point is driven"
     )
     about: Literal["x", "y", "z"] | None = Field(
-        default=None, description="axis of `relative_to` about which the marker is turned: the angle from the next axis (x, y, z, x) of the one to that of the other"
+        default=None,
+        description="axis of `relative_to` about which the marker is turned, measured between the axes that follow it",
     )
     relative_to: Name | None = Field(default=None, description="marker from which it is measured; default `ground`")
     value: CoordinateMotion = Field(description="length or angle, a function of time")

@@ -50,7 +50,9 @@ class Orientation(Record):
     euler: Annotated[tuple[Angle, Angle, Angle] | None, BeforeValidator(listed)] = Field(
         default=None, description="three angles, each about an axis of the frame as turned so far"
     )
-    sequence: AxisSequence | None = Field(default=None, description="axes of the three turns; zxz is the classical 3-1-3")
+    sequence: AxisSequence | None = Field(
+        default=None, description="axes of the three turns; zxz is the classical 3-1-3"
+    )
     axis: Direction | None = Field(default=None, description="axis of the turn, of any length")
     angle: Angle | None = Field(default=None, description="turn about `axis`, right-handed")
     matrix: Annotated[tuple[_Row, _Row, _Row] | None, BeforeValidator(listed)] = Field(

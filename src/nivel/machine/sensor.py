@@ -15,7 +15,14 @@ from nivel.machine.quantity import fault, shown
 from nivel.machine.record import Name, unknown_word
 from nivel.machine.time_function import Measured
 
-MARKER_QUANTITIES: Final = ("position", "velocity", "acceleration", "angular_velocity", "angular_acceleration", "euler_angles")
+MARKER_QUANTITIES: Final = (
+    "position",
+    "velocity",
+    "acceleration",
+    "angular_velocity",
+    "angular_acceleration",
+    "euler_angles",
+)
 COORDINATE_QUANTITIES: Final = ("value", "rate", "acceleration")
 
 _FORMS: Final = ("marker", "coordinate", "distance", "angle", "force", "value")

@@ -19,6 +19,9 @@ from nivel.analysis.elements import (
     sensor_in_words,
     state_in_words,
 )
+from nivel.analysis.equations import equations
+from nivel.analysis.exact_joints import exact_joints
+from nivel.analysis.named_freedoms import Freedom, named_freedoms
 from nivel.analysis.plan import Methods, Plan
 from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import RunSettings
@@ -83,6 +86,8 @@ class Check:
     sensors: tuple[str, ...]
     events: tuple[str, ...]
     degrees_of_freedom: int
+    freedoms: tuple[Freedom, ...]  # each in words; empty where they are not named
+    exact: tuple[str, ...]  # changes of joints after which no constraint repeats another and every freedom stays
     modes: int  # of flexible bodies, whose coordinates are freedoms too
     constraint_rows: int
     redundant_rows: tuple[str, ...]
@@ -140,6 +145,12 @@ def _lines(facts: Check) -> Iterator[str]:
         if elements:
             yield f"{title}: {facts.control_size}" if title == "control" else title
         yield from (f"  {words}" for words in elements)
+    if facts.freedoms:
+        yield "freedoms, in this position"
+    for freedom in facts.freedoms:
+        several = f" ({freedom.count} freedoms)" if freedom.count > 1 else ""
+        remedy = f"; to stop that, {freedom.remedy}" if freedom.remedy else ""
+        yield f"  {freedom.words}{several}{remedy}"
     yield from _assembly_lines(facts)
     yield from _redundancy_lines(facts)
     if facts.settings.coordinates == "relative":
@@ -193,6 +204,8 @@ def _redundancy_lines(facts: Check) -> Iterator[str]:
     if facts.redundant_rows:
         yield f"constraints: {facts.constraint_rows} rows, redundant: {', '.join(facts.redundant_rows)}"
         yield f"  the motion is unique; reactions are not in: {', '.join(facts.non_unique_joints)}"
+        if facts.exact:
+            yield f"  exactly constrained, with the same freedoms: {'; '.join(facts.exact)}"
     else:
         yield f"constraints: {facts.constraint_rows} rows, none redundant, every reaction is unique"
 
@@ -216,6 +229,8 @@ def check(plan: Plan) -> Check:
     observe(prepared.absolute.handle.address, 0.0, assembly.y, frame)
     columns = next(v.columns for v in system.layout.variables if v.name == "joint_coordinate")
     modes = _modes(machine)
+    measured = equations(machine, measured=True)
+    measured.evaluate(0.0, assembly.y)
     labels = system.layout.coordinates["joint_coordinate"]
     values = dict(zip(labels, zip(frame[columns].tolist(), system.coordinate_units, strict=True), strict=True))
     return Check(
@@ -246,6 +261,8 @@ def check(plan: Plan) -> Check:
         sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
         events=tuple(event_in_words(event) for event in machine.events),
         degrees_of_freedom=redundancy.degrees_of_freedom,
+        freedoms=named_freedoms(machine, measured),
+        exact=exact_joints(machine, measured, redundancy.non_unique_joints) if redundancy.redundant_rows else (),
         modes=len(prepared.motion.system.modes),
         constraint_rows=system.machine_rows,
         redundant_rows=redundancy.redundant_rows,
@@ -275,8 +292,9 @@ def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:
 
 
 def _cut(methods: Methods) -> tuple[str, ...]:
-    """Joints that stay constraints in relative coordinates."""
-    return tuple(methods.machine.joints[k].name for k in tree_of(methods.machine, methods.cut).cut)
+    """Joints that stay constraints in relative coordinates; those that constrain nothing are none."""
+    cut = [methods.machine.joints[k] for k in tree_of(methods.machine, methods.cut).cut]
+    return tuple(joint.name for joint in cut if composition_of(joint).rows)
 
 
 def _modes(machine: MachineRecord) -> list[str]:

@@ -37,7 +37,9 @@ def driver_in_words(driver: Driver) -> str:
     else:
         seen = driver.relative_to or "ground"
         driven = (
-            f"{driver.marker} along {driver.along} of {seen}" if driver.along else f"{driver.marker} about z of {seen}"
+            f"{driver.marker} along {driver.along} of {seen}"
+            if driver.along
+            else f"{driver.marker} about {driver.about} of {seen}"
         )
     placed = "as placed + change of " if driver.from_start else ""
     return f"{driver.name}: {driven} = {placed}{function_in_words(driver.value)}"

@@ -67,9 +67,9 @@ def _derivative(node: Node) -> Node:
             after = "step_rate" if function == "step" else "step_acceleration"
             return times(Call(after, (argument, *levels)), _derivative(argument))
         case Lookup(argument, kind, points, values, order):
-            if kind == "linear":
+            if kind != "quintic":
                 raise ExpressionError(
-                    "a curve of straight lines has corners; a driver must be smooth: take cubic or quintic"
+                    f"a {kind} curve has corners, at its ends at least; a driver must be smooth: take quintic"
                 )
             return times(Lookup(argument, kind, points, values, order + 1), _derivative(argument))
         case Call(function, (argument, *_)) if function not in _CORNERS:

@@ -25,8 +25,9 @@ class Driver(Checked):
     along: Literal["x", "y", "z"] | None = Field(
         default=None, description="axis of `relative_to` along which the marker's point is driven"
     )
-    about: Literal["z"] | None = Field(
-        default=None, description="axis of `relative_to` about which the marker is turned, x axis from x axis"
+    about: Literal["x", "y", "z"] | None = Field(
+        default=None,
+        description="axis of `relative_to` about which the marker is turned, measured between the axes that follow it",
     )
     relative_to: Name | None = Field(default=None, description="marker from which it is measured; default `ground`")
     value: CoordinateMotion = Field(description="length or angle, a function of time")

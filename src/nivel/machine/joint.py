@@ -292,6 +292,11 @@ class Joint(Checked):
         if kind.axes == "perpendicular" and abs(angle - math.pi / 2) > PERPENDICULAR:
             apart = f"{math.degrees(angle):.4g} deg apart"
             yield Problem(("axes",), f"`axes` of a {self.type} joint are perpendicular; these are {apart}")
+        if self.axis is not None and any(self.axis):
+            off = abs(angle_between(self.axis, self.axes[0]) - math.pi / 2)
+            if off > PERPENDICULAR:
+                message = f"the first of the `axes` is perpendicular to `axis`; it is {math.degrees(off):.4g} deg off"
+                yield Problem(("axes",), message)
         if kind.axes == "not parallel" and parallel(*self.axes):
             yield Problem(("axes",), f"`axes` of a {self.type} joint are not parallel; these are")
 

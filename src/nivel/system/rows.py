@@ -12,6 +12,7 @@ from nivel.machine.coordinate_reference import COORDINATE_KINDS
 from nivel.machine.driver import Driver
 from nivel.machine.joint import Joint
 from nivel.system.builder import SystemBuilder
+from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
 from nivel.system.joints import (
     AXES,
@@ -237,10 +238,22 @@ def _driven(draft: SystemBuilder, driver: Driver) -> int:
     if driver.coordinate is not None:
         return draft.coordinate(driver.coordinate)
     assert driver.marker is not None  # the record was checked
+    if driver.about in ("x", "y"):
+        ends = (_with_axis(draft, name, driver.about) for name in (driver.reference, driver.marker))
+        return draft.coordinates.add(ROTATION, *ends)
     marker, reference = draft.marker(driver.marker), draft.marker_or_ground(driver.relative_to)
     if driver.along is not None:
         return draft.coordinates.add(TRANSLATION, reference, marker, AXES[driver.along])
     return draft.coordinates.add(ROTATION, reference, marker)
+
+
+def _with_axis(draft: SystemBuilder, name: str | None, axis: str) -> int:
+    """A marker like that called `name`, or the global frame, with this axis in the place of z and the next one in that of x."""
+    body, point, axes = ("ground", np.zeros(3), np.eye(3))
+    if name is not None:
+        body, point, axes = marker_place(draft.machine, draft.machine.marker_named[name])
+    k = AXES[axis]
+    return draft.place((body, point, axes[:, [(k + 1) % 3, (k + 2) % 3, k]]))
 
 
 def _units(draft: SystemBuilder, coordinate: int) -> str:

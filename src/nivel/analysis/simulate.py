@@ -17,6 +17,7 @@ from nivel.analysis.preparation import Prepared, prepare
 from nivel.analysis.saturation import saturated_blocks
 from nivel.analysis.second_run import SecondRun, Verified
 from nivel.errors import SolveError
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.sink import Header
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.accuracy import error_from_finer, factor

@@ -46,9 +46,9 @@ def fastest_beyond(prepared: Prepared, integrator: str, step: float, time: float
     return None
 
 
-@np.errstate(over="ignore", invalid="ignore")  # of a state that may be beyond all bounds
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a state that may be beyond all bounds
 def fastest(motion: MotionEquations, t: float, y: Array) -> Fastest | None:
-    """In this state; None where it has no rates, or too many entries."""
+    """In this state; None where it has no rates, nothing changes, or it has too many entries."""
     count = len(y) - 2  # energies follow from the others
     if not 0 < count <= MOST_ENTRIES or not np.isfinite(y).all():
         return None
@@ -63,6 +63,8 @@ def fastest(motion: MotionEquations, t: float, y: Array) -> Fastest | None:
         return None
     rates, motions = np.linalg.eig(A)
     k = int(np.argmax(np.abs(rates)))
+    if not np.abs(rates[k]) > 0.0:
+        return None
     # a phase at which positions and speeds of a vibration are both there
     shape = np.real(motions[:, k] * np.exp(0.25j * np.pi))
     return Fastest(float(np.abs(rates[k])), _working(motion, t, y, shape))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -37,12 +38,13 @@ def sweep_html(sweep: LinearSweep, orders: Sequence[float] = ()) -> str:
 
 
 def _plots(sweep: LinearSweep, orders: Sequence[float]) -> list[tuple[str, str]]:
-    found, values = sweep.eigenvalues, sweep.values
+    found: Any = sweep.eigenvalues
+    values = sweep.values
     title = f"{sweep.parameter} [{sweep.unit}]" if sweep.unit else sweep.parameter
     found = np.where(np.abs(found.real) > ROUND_OFF * np.abs(found), found, 1j * found.imag)
     upper = [k for k in range(found.shape[1]) if np.nanmax(found[:, k].imag, initial=0.0) > 0.0]
     # of a pair one is enough
-    shown = np.where(np.nan_to_num(found.imag) >= 0.0, found, np.nan)
+    shown: Any = np.where(np.nan_to_num(found.imag) >= 0.0, found, np.nan)
     some = [k for k in range(shown.shape[1]) if np.any(np.isfinite(shown[:, k]))]
     frequencies = [Line(f"mode {k + 1}", values, found[:, k].imag / TURN) for k in upper]
     frequencies += [Line(f"{order:g} × speed", values, order * values / TURN) for order in orders]

@@ -156,7 +156,7 @@ class Efforts:
     def __str__(self) -> str:
         lines = [
             f"  {each['actuator']}: peak {each['peak']:.6g} {each['unit']} at {each['peak_time']:.6g} s, rms {each['rms']:.6g}, "
-            f"work {each['work_done']:.6g} J done, {-each['work_taken']:.6g} J taken back"
+            f"work {each['work_done']:.6g} J done, {0.0 - each['work_taken']:.6g} J taken back"
             for each in self.facts()
         ]
         return "\n".join([f"{self.name}: efforts at {len(self.time)} times", *lines, *self.statements()])

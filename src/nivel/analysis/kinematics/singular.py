@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import qr
 
 from nivel.analysis.inverse.states import moving_states
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.redundancy import scaled_jacobian
 from nivel.results.result import Result
-from nivel.system.system import Array
 
 # positions that are looked at, at most, evenly over the frames
 LOOKED_AT = 72
@@ -42,7 +42,7 @@ def singular_positions(prepared: Prepared, result: Result) -> Singularity | None
     if not rank or not len(result.time):
         return None
     every = max(1, -(-len(result.time) // LOOKED_AT))
-    kept: Array | None = None
+    kept: NDArray[np.intp] | None = None
     signs, sizes, times = [], [], []
     lost, least = np.zeros((0, 0)), np.inf
     for state in moving_states(system, result, every):

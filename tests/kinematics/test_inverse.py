@@ -83,6 +83,14 @@ def test_what_no_actuator_gives_is_told(crank, turn):
     assert weak.missing_at == "hinge.angle"
 
 
+def test_a_motion_of_another_machine_is_noticed(crank, turn):
+    """The same names, a longer rod: its joints are open in the motion of the shorter one."""
+    other = nivel.load(f"{EXAMPLES}/slider-crank.yaml", {"parameters.rod_length": 1.9})
+    found = other.inverse(actuators="hinge", motion=turn)
+    assert "joints open by" in found.statements()[0]
+    assert not crank.inverse(actuators="hinge", motion=turn).statements()
+
+
 def test_a_double_pendulum_with_one_motor_lacks_the_other():
     a, b = (
         nivel.Body(name=n, mass=1.0, inertia=(0.1, 0.1, 0.1), position=(x, 0, 0)) for n, x in (("a", 0.5), ("b", 1.5))

@@ -184,3 +184,46 @@ def test_bodies_that_bend_are_refused():
 def test_bad_options_are_explained(given, said):
     with pytest.raises(nivel.ModelError, match=said):
         nivel.load(f"{EXAMPLES}/slider-crank.yaml").kinematics(**given)
+
+
+# --- singular positions ---
+
+
+def parallelogram():
+    """Crank and rocker of 1 m, two metres apart, at 60 degrees: at 180 and 360 degrees all bars lie flat, and it may become crossed."""
+    x, y = np.cos(np.pi / 3), np.sin(np.pi / 3)
+    places = {"crank": (x / 2, y / 2, 0), "coupler": (x + 1, y, 0), "rocker": (2 + x / 2, y / 2, 0)}
+    bodies = [nivel.Body(name=n, mass=1.0, inertia=(0.1, 0.1, 0.1), position=p) for n, p in places.items()]
+    kinds = (
+        ("p", "revolute", ("ground", "crank"), (0, 0, 0)),
+        ("a", "spherical", ("crank", "coupler"), (x, y, 0)),
+        ("b", "cylindrical", ("coupler", "rocker"), (2 + x, y, 0)),
+        ("q", "revolute", ("rocker", "ground"), (2, 0, 0)),
+    )
+    joints = [
+        nivel.Joint(name=n, type=kind, bodies=ends, point=at, **({} if kind == "spherical" else {"axis": (0, 0, 1)}))
+        for n, kind, ends, at in kinds
+    ]
+    return nivel.Machine("parallelogram", bodies=bodies, joints=joints)
+
+
+def test_positions_behind_a_flat_parallelogram_are_said_to_be_one_of_several():
+    """It is flat at 1/3 and 5/6 of the turn; the coupler goes on without turning, which is the branch that it is on."""
+    result = parallelogram().kinematics(drive="p", positions=50)
+    (item,) = [each for each in result.trust.items if each.name == "branches"]
+    assert item.verdict == "amber"
+    assert "passed between 0.32" in item.text
+    assert "0.81" in item.text
+    np.testing.assert_allclose(result.array("coupler.orientation")[-1], [1.0, 0.0, 0.0, 0.0], atol=1e-12)
+
+
+def test_a_frame_on_a_singular_position_is_told():
+    with pytest.raises(nivel.SolveError) as caught:
+        parallelogram().kinematics(drive="p", positions=37)
+    assert "t = 0.333333 s is singular" in caught.value.message
+    assert "another number of positions" in caught.value.advice
+
+
+def test_ordinary_machines_stay_on_one_branch():
+    result = nivel.load(f"{EXAMPLES}/slider-crank.yaml").kinematics(drive="hinge", positions=19)
+    assert [each.verdict for each in result.trust.items if each.name == "branches"] == ["green"]

@@ -36,6 +36,7 @@ NAMES = {
     "energy": "Energy",
     "violation": "Joints closed",
     "velocities": "Velocities fit the joints",
+    "branches": "Branches of positions",
     "rate_violation": "Joint rates",
     "degrees_of_freedom": "Freedom",
     "redundancy": "Redundancy",

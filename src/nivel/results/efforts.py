@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 # generalised forces missing below this share are round-off
 NONE_MISSING = 1e-6
+# a motion whose joints are open by more than this share of their scales is not one of the machine
+OPEN = 1e-6
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,7 @@ class Efforts:
 
     missing (T,) : effort on the joint coordinate `missing_at` that would do most of what no actuator gives; missing_share (T,) of the
     generalised forces. limits (m,) : greatest magnitudes; limited : whether they hold efforts back. freedoms : of the machine without the
-    efforts. rank : independent ones of the actuators.
+    efforts. rank : independent ones of the actuators. violation : by how much the motion has joints open, as a share of their scales.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Efforts:
     limited: bool
     freedoms: int
     rank: int
+    violation: float = 0.0
 
     @property
     def power(self) -> Array:
@@ -85,6 +88,11 @@ class Efforts:
     def statements(self) -> list[str]:
         """What a reader has to know."""
         out = []
+        if self.violation > OPEN:
+            out.append(
+                f"the motion has joints open by {self.violation:.3g} of their scales, so it is not quite one of this machine: is it of "
+                "another one?"
+            )
         if not self.complete:
             k = int(np.argmax(self.missing_share))
             where = f", most of it as {self.missing[k]:.4g} on {self.missing_at}" if self.missing_at else ""
@@ -148,7 +156,7 @@ class Efforts:
     def __str__(self) -> str:
         lines = [
             f"  {each['actuator']}: peak {each['peak']:.6g} {each['unit']} at {each['peak_time']:.6g} s, rms {each['rms']:.6g}, "
-            f"work {each['work_done']:.6g} J done, {-each['work_taken']:.6g} J taken back"
+            f"work {each['work_done']:.6g} J done, {0.0 - each['work_taken']:.6g} J taken back"
             for each in self.facts()
         ]
         return "\n".join([f"{self.name}: efforts at {len(self.time)} times", *lines, *self.statements()])

@@ -19,11 +19,17 @@ OUTCOMES: dict[str, tuple[Verdict, str]] = {
 }
 # shares of the largest speed by which rates of constraints may be violated
 GREEN, AMBER = 1e-9, 1e-6
+# share of the least singular value at the start below which a position is near a singular one; names and times in a sentence
+NEAR, SHOWN = 1e-3, 4
 
 
 @dataclass(frozen=True)
 class KinematicsFacts:
-    """What only the analysis itself knows. halved : steps that were shortened on the way."""
+    """What only the analysis itself knows. halved : steps that were shortened on the way.
+
+    passed : pairs of times [s] between which a singular position was passed. nearest : least singular value of the constraints, as a share
+    of that at the start, and its time [s]; None where there are no constraints. split : joints that depend on each other most there.
+    """
 
     outcome: str
     failure: str = ""
@@ -31,6 +37,9 @@ class KinematicsFacts:
     redundant_rows: tuple[str, ...] = ()
     non_unique_joints: tuple[str, ...] = ()
     halved: int = 0
+    passed: tuple[tuple[float, float], ...] = ()
+    nearest: tuple[float, float] | None = None
+    split: tuple[str, ...] = ()
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -78,4 +87,22 @@ def _items(trust: Trust, facts: KinematicsFacts, rate: float) -> Iterator[Item]:
     if facts.halved:
         said = f"Steps: {facts.halved} were shortened, where the machine moves fast or nears a singular position"
         yield Item("steps", "green", f"{said} (said, always green)")
+    if facts.nearest is not None:
+        yield _singular(facts, facts.nearest)
     yield redundancy_item(trust)
+
+
+def _singular(facts: KinematicsFacts, nearest: tuple[float, float]) -> Item:
+    """Whether the positions are the only ones to which the drivers lead."""
+    share, time = nearest
+    among = f" (among {', '.join(facts.split[:SHOWN])})" if facts.split else ""
+    if facts.passed:
+        some = ", ".join(f"{a:.6g} and {b:.6g} s" for a, b in facts.passed[:SHOWN])
+        more = f" and {len(facts.passed) - SHOWN} times more" if len(facts.passed) > SHOWN else ""
+        said = f"Branches: a singular position is passed between {some}{more}{among}: the positions behind it are one of several that"
+        return Item("branches", "amber", f"{said} fit the drivers (amber where any is passed)", time=facts.passed[0][1])
+    if share < NEAR:
+        said = f"Branches: the machine comes near a singular position at t = {time:.6g} s{among}, where branches of positions meet"
+        return Item("branches", "amber", f"{said} (amber below {NEAR:g} of the distance at the start)", time=time)
+    said = f"Branches: the positions stay on one branch; the distance from singular ones is at least {number(share)} of that at the start"
+    return Item("branches", "green", f"{said} (green from {NEAR:g} on)", time=time)

@@ -62,10 +62,11 @@ def inverse(
     index = instant.record.joints.coordinate.astype(np.int64)
     places = [int(index[names.index(each.coordinate)]) for each in settings.actuators]
     times, efforts, rates, missing, shares, worst = [], [], [], [], [], Counter[str]()
-    limited, rank, freedoms = False, 0, 0
+    limited, rank, freedoms, open_by = False, 0, 0, 0.0
     for state in moving_states(instant.system, motion):
         found, b, speed, named = _at(instant, state, settings, places, index, names)
         limited |= found.limited
+        open_by = max(open_by, _violation(instant))
         rank, freedoms = max(rank, found.rank), max(freedoms, len(b))
         times.append(state.time)
         efforts.append(found.efforts)
@@ -90,6 +91,7 @@ def inverse(
         missing_at=of,
         limits=settings.limits,
         limited=limited,
+        violation=open_by,
         freedoms=freedoms,
         rank=rank,
     )
@@ -134,6 +136,12 @@ def _where(columns: Array, missing: Array, actuators: list[int], names: list[str
     acting = [k for k in best if k in actuators]
     chosen = acting[0] if acting else int(best[np.argmax(sizes[best])])
     return names[chosen], float(columns[:, chosen] @ missing / sizes[chosen] ** 2)
+
+
+def _violation(instant: Instant) -> float:
+    """How far the constraints are open at the state last evaluated, as a share of their scales."""
+    constraints, count = instant.record.constraints, instant.system.machine_rows
+    return float(np.max(np.abs(constraints.C / constraints.scale)[:count], initial=0.0))
 
 
 def _jacobians(instant: Instant, index: NDArray[np.int64]) -> tuple[Array, Array]:

@@ -22,21 +22,24 @@ class MovingState:
     vdot: Array
 
 
-def moving_states(system: System, result: Result) -> Iterator[MovingState]:
-    """The frames of a result of a machine with the same bodies. Raises ModelError where bodies differ."""
+def moving_states(system: System, result: Result, every: int = 1) -> Iterator[MovingState]:
+    """Every so many frames of a result of a machine with the same bodies. Raises ModelError where bodies differ."""
     names = list(result.coordinates.get("body", ()))
     if names != list(system.bodies):
         raise ModelError(f"the motion has the bodies {', '.join(names)}, the machine {', '.join(system.bodies)}")
     missing = [name for name in ("acceleration", "angular_acceleration", "velocity") if name not in result.variables]
     if missing:
         raise ModelError(f"the motion has no {', '.join(missing)}: give a result of a run or of kinematics")
-    position, orientation = result.array("position"), result.array("orientation")
-    rates = [result.array(name) for name in ("velocity", "angular_velocity", "acceleration", "angular_acceleration")]
+    some = slice(None, None, every)
+    position, orientation = result.array("position")[some], result.array("orientation")[some]
+    rates = [
+        result.array(name)[some] for name in ("velocity", "angular_velocity", "acceleration", "angular_acceleration")
+    ]
     states = [
-        result.array(f"state.{fact.name}") if f"state.{fact.name}" in result.variables else None
+        result.array(f"state.{fact.name}")[some] if f"state.{fact.name}" in result.variables else None
         for fact in system.states
     ]
-    for k, time in enumerate(result.time):
+    for k, time in enumerate(result.time[some]):
         A = rotation_matrices(orientation[k])
         velocity, omega, acceleration, alpha = (each[k] for each in rates)
         local = [np.einsum("bij,bi->bj", A, each) for each in (omega, alpha)]

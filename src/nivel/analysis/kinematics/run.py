@@ -16,6 +16,7 @@ from nivel.analysis.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chu
 from nivel.analysis.history import start_history
 from nivel.analysis.kinematics.refusals import refuse_free_motions, refuse_what_bends
 from nivel.analysis.kinematics.settings import KinematicsSettings
+from nivel.analysis.kinematics.singular import singular_positions
 from nivel.analysis.listener import Listener
 from nivel.analysis.lockup import find_jam
 from nivel.analysis.outcome import failure
@@ -38,6 +39,8 @@ from nivel.results.store import Store
 from nivel.system.layout import FrameLayout, laid_out
 from nivel.system.system import Array
 
+# share of the least singular value at the start, below which an analysis that cannot go on has come to a singular position
+STUCK = 1e-4
 # histories that only the integration of a motion has
 INTEGRATED = frozenset({"external_work", "dissipated_energy", "energy_error"})
 FACTS = IntegratorFacts("nivel.integrate.positions", "follow_positions", stages=0, order=1, numbers=1)
@@ -155,6 +158,10 @@ def _without_histories(layout: FrameLayout, sink: Memory | Store) -> tuple[_Chos
 def _close(sink: Memory | Store, prepared: Prepared, finished: RunOutcome, run: Run) -> Result:
     message, advice, at = finished.failure or ("", "", 0.0)
     redundancy = prepared.redundancy
+    near = singular_positions(prepared, sink.result())
+    if finished.failure is not None and "jams" not in message and near is not None and near.least < STUCK:
+        message = f"a position at t = {near.time:.6g} s is singular: the rows of {', '.join(near.joints)} depend on each other there"
+        advice = "Branches of positions meet in it. Take another number of positions, so that none falls on it: it is then stepped over."
     facts = KinematicsFacts(
         outcome=finished.outcome,
         failure=message,
@@ -162,6 +169,9 @@ def _close(sink: Memory | Store, prepared: Prepared, finished: RunOutcome, run: 
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
         halved=int(run.counter[REJECTED]),
+        passed=near.passed if near is not None else (),
+        nearest=(near.least, near.time) if near is not None else None,
+        split=near.joints if near is not None else (),
     )
     result = sink.close(
         {

@@ -24,6 +24,7 @@ from nivel.machine import (
     Body,
     Driver,
     Event,
+    Input,
     Joint,
     MachineRecord,
     Marker,

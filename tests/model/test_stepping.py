@@ -83,7 +83,7 @@ def test_a_declared_input_is_set_step_by_step_and_keeps_its_value():
     sim.restore(kept)
     sim.advance(0.1)
     assert sim["cart.velocity.x"] == pytest.approx(1.2, abs=1e-12)
-    with pytest.raises(ModelError, match="inputs.push: 11 is outside the range from -10 to 10"):
+    with pytest.raises(ModelError, match=r"inputs\.push: 11 is outside the range from -10 to 10"):
         sim.step({"push": 11})
 
 

@@ -37,6 +37,7 @@ from nivel.machine.beam_section import GeneralSection
 from nivel.machine.dimension import KINDS
 from nivel.machine.forces import FORCES
 from nivel.machine.inertia import Inertia
+from nivel.machine.input import Gamepad, Input, Keys
 from nivel.machine.orientation import SEQUENCES, Orientation
 from nivel.machine.python_law import KEYS as LAW_KEYS
 from nivel.machine.quantity import read_quantity
@@ -147,6 +148,7 @@ def test_every_snippet_of_the_reference_is_a_whole_machine():
         ("Joints", Joint),
         ("Drivers", Driver),
         ("Sensors", Sensor),
+        ("Inputs", Input),
         ("Events", Event),
         ("Assembly", AssemblySettings),
         ("Simulation", SimulationSettings),
@@ -186,6 +188,8 @@ def test_every_key_of_a_force_has_its_row_with_its_default(force):
         ("Contact", Material),
         *(("Sections of beams", record) for record in BEAM_SECTIONS),
         ("Beams", sections.Material),
+        ("Inputs", Keys),
+        ("Inputs", Gamepad),
         ("Simulation", Baumgarte),
     ],
     ids=lambda value: value if isinstance(value, str) else value.__name__,

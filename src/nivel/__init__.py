@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from nivel.machine import Rack as Rack
     from nivel.machine import Rope as Rope
     from nivel.machine import Sensor as Sensor
+    from nivel.machine import Servo as Servo
     from nivel.machine import SimulationSettings as SimulationSettings
     from nivel.machine import SpringDamper as SpringDamper
     from nivel.machine import State as State
@@ -95,6 +96,7 @@ _HOME = {
     "Rack": "nivel.machine",
     "Rope": "nivel.machine",
     "Sensor": "nivel.machine",
+    "Servo": "nivel.machine",
     "SimulationSettings": "nivel.machine",
     "SpringDamper": "nivel.machine",
     "State": "nivel.machine",
@@ -138,6 +140,7 @@ __all__ = [
     "Result",
     "Rope",
     "Sensor",
+    "Servo",
     "SimulationSettings",
     "SolveError",
     "SpringDamper",

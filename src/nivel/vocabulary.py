@@ -21,7 +21,9 @@ SAME: Final[dict[str, str]] = {
     "cylindrical": "cylindrical joint, telescoping",
     "point-on-line": "inline, point curve, point on a line, pin in slot",
     "point-on-plane": "inplane, point on a plane",
-    "distance": "rod, massless link, link, strut, rope, cable, length",
+    "distance": "rod, massless link, link, strut, length",
+    "variable-distance": "cylinder, hydraulic cylinder, linear actuator, actuator, telescopic, actuated distance, driven distance, ram",
+    "generic": "general, six dof, 6dof, dof, custom",
     # keys of a run, and its methods
     "duration": "t end, end time, stop time, final time, t final, t stop, t max, tf, max time, simulation time, time",
     "step": "dt, time step, timestep, step size, delta t, h, sample time, fixed step",
@@ -137,15 +139,16 @@ LINES: Final = (
         "`forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: …}}` its effort",
     ),
     Line(
-        "free, floating, six dof, 6dof, none, bushing 6",
+        "free, floating, none",
         "revolute",
         "a body without a joint is free; leave the joint out",
     ),
     Line("gear, belt, rack, coupler", "revolute", "a gear is a coupling: `couplings: {pair: {type: gear, …}}`"),
+    Line("bushing, mount", "revolute", "a joint that yields is a force: `forces: {mount: {type: bushing, …}}`"),
     Line(
-        "generic, 6 dof, bushing, general",
+        "rope, cable, wire",
         "revolute",
-        "a joint that yields is a force: `forces: {mount: {type: bushing, …}}`; one with chosen motions is `generic` with `locked`",
+        "a rope that may slacken is a force; a link that keeps its length is a `distance` joint",
     ),
     Line(
         "fixed, static, ground, is static, immovable, kinematic",

@@ -67,7 +67,7 @@ def noted(function):
     return called
 
 
-def _address_of(function):
+def address_of(function):
     """A number that stands for the address of this function."""
     address = next(_addresses)
     FUNCTIONS[address] = function
@@ -90,12 +90,12 @@ def install():
     function.caller = lambda *_: lambda address, *arguments: FUNCTIONS[int(address)](*arguments)
     Entry.plain = cached_property(lambda self: noted(self.py_func))
     Entry.plain.__set_name__(Entry, "plain")
-    Entry.address = cached_property(lambda self: _address_of(self.plain))
+    Entry.address = cached_property(lambda self: address_of(self.plain))
     Entry.address.__set_name__(Entry, "address")
     Entry.__call__ = lambda self, *arguments: self.plain(*arguments)
     Signature.function_at = lambda _, address: FUNCTIONS[int(address)]
     library.missing = lambda _: []
-    library.address_of_law = lambda text, _: _address_of(noted(law_of(text, "<law>")))
+    library.address_of_law = lambda text, _: address_of(noted(law_of(text, "<law>")))
     from nivel.kernels import handle
 
     handles = WeakValueDictionary()

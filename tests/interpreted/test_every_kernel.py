@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import beams
+import cart
 import force_zoo
 import gradient_beams
 import linked
@@ -23,7 +24,12 @@ import test_rails
 import test_statics_closed_forms
 import tree_machines
 from nivel.analysis.implicit import find_tangent
+from nivel.integrate import paced as paced_loop
 from nivel.integrate.catalogue import INTEGRATORS
+from nivel.integrate.repeated import repeat_evaluation, repeat_family
+from nivel.kernels.status import BUDGET_SPENT, OK
+from nivel.live.preparation import live_plan, prepared_run
+from nivel.live.shared import bytes_of, live_in
 from nivel.machine import PointForce, Table
 from nivel.motion.catalogue import FLEXIBLE, PATHS
 from running import run
@@ -317,6 +323,43 @@ def test_kinematics_and_linear_equations(coordinates):
     machine = nivel.load(ROOT / "examples" / "four-bar.yaml")
     machine.kinematics(drive="crank_pivot", positions=3, end="1 rad", coordinates=coordinates)
     machine.linearise(inputs=["crank_pivot"], coordinates=coordinates)
+# --- live operation ---
+
+
+class Clock:
+    """The clocks of the system in Python; none sleeps."""
+
+    def __init__(self, live):
+        self.live, self.now = live, 10**9
+
+    def read(self, _clock, _address):
+        self.now += 400_000
+        self.live.now[:] = divmod(self.now, 10**9)
+
+    def sleep(self, *_):
+        pass
+
+
+@pytest.mark.parametrize("paced", [0, 1])
+def test_live_ticks(paced):
+    """Ticks that are late, an operator within and beyond the range, and one who is lost."""
+    plan, pace = live_plan(cart.machine().record, {}, 2e-3)
+    live_run = prepared_run(plan, pace)
+    live = live_in(bytearray(bytes_of(live_run.sizes)), live_run.sizes)
+    loop, clock = live_run.begin(live), Clock(live)
+    live.address[[paced_loop.CLOCK, paced_loop.SLEEP]] = plain.address_of(clock.read), plain.address_of(clock.sleep)
+    live.control[paced_loop.PACED], live.control[paced_loop.TICKS] = paced, 3
+    for target in (0.5, 7.0, float("nan")):
+        live.target[:] = target
+        live.control[paced_loop.HEARD] = clock.now
+        assert loop() == BUDGET_SPENT
+    live.control[paced_loop.FROM_TAPE] = 1
+    assert loop() == BUDGET_SPENT
+    assert live.control[paced_loop.DONE] == 12
+    motion, run = live_run.prepared.motion, live_run.run
+    code, family = motion.kernels.evaluate.address, motion.system.record.elements.address[0]
+    assert repeat_evaluation(code, motion.handle.address, 0.0, run.y.copy(), run.rate.copy(), 2) == OK
+    assert repeat_family(family, motion.handle.address, 0, 0.0, 2) == OK
 
 
 # --- nothing is left out ---

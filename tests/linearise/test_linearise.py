@@ -337,3 +337,18 @@ def test_a_model_without_inputs_has_no_response():
     model = nivel.load(f"{EXAMPLES}/simple-pendulum.yaml").linearise(about="equilibrium")
     with pytest.raises(nivel.ModelError, match="no inputs: name some"):
         model.state_space()
+
+
+def test_an_opened_driver_leaves_zeros_and_nothing_that_looks_like_motion():
+    """A driven lift at rest: its driver's place and speed, and no ±1e-7 of round-off."""
+    model = nivel.load(f"{EXAMPLES}/scissor-lift.yaml").linearise()
+    assert model.inputs == ("push",)
+    np.testing.assert_array_equal(model.eigenvalues, [0.0, 0.0])
+    assert model.structural.all()
+
+
+def test_double_vibrations_without_damping_neither_grow_nor_decay():
+    """A round beam bends alike both ways: pairs of equal eigenvalues, which round-off would part into a growing and a decaying one."""
+    model = nivel.load(f"{EXAMPLES}/beams/spin-up.yaml").linearise()
+    assert model.stable
+    assert not np.any(model.eigenvalues.real)

@@ -90,6 +90,7 @@ ON = ("c", "", [-0.5, 0.9, 0.4])
 ON_FLOOR = {**CONTACT, "body": "c", "plane": "floor"}
 MOUNT = {"type": "bushing", **BETWEEN, "stiffness": [4, 6, 8, 0.5, 0.8, 0.6], "damping": [1, 2, 1, 0.1, 0.2, 0.1]}
 
+LEVER = {"range": [-1, 1], "signal": {"times": [0, 1], "values": [0.1, 0.5]}}
 CASES = {
     "spring": Case({"type": "spring-damper", **BETWEEN, "stiffness": 80, "free_length": 0.3, "damping": 2, "preload": 5}),
     "spring table": Case({"type": "spring-damper", **BETWEEN, "free_length": 0.4,
@@ -137,6 +138,10 @@ CASES = {
     "law of far bodies": Case({"type": "force", "body": "wheel", "position": [0.1, 0.2, 0.0], "axes": "body",
                                "vector": ["3*sin(j.angle) - far.vx", "-2*a.wz + eye.y", "0.5*c.x + 0.1*j.displacement_rate*far.z"]}),
     "pair force": Case({"type": "pair-force", **BETWEEN, "magnitude": "-3/length + 2*sin(4*time) - rate*far.x"}),
+    "rope": Case({"type": "rope", "markers": ["tip", "floor", "eye"], "stiffness": 60, "damping": 2, "length": 1.0}),
+    "rope, slack": Case({"type": "rope", "markers": ["tip", "eye"], "stiffness": 60, "damping": 2, "length": 9.0}),
+    "winch": Case({"type": "rope", "markers": ["tip", "eye"], "stiffness": 60, "damping": 1, "length": 0.3,
+                   "speed": "0.3*lever.value + 0.1*sin(time)"}, more={"inputs": {"lever": LEVER}}),
     "coulomb": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "viscous": 0.1}),
     "coulomb, given load": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "normal_load": 20}),
     "coulomb, turning": Case({**RUBBING, "coordinate": "axle.angle", "model": "coulomb", "transition_speed": 0.05, "radius": 0.04,

@@ -22,10 +22,10 @@ from nivel.analysis.elements import (
 from nivel.analysis.plan import Methods, Plan
 from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import RunSettings
-from nivel.machine.joint import JOINT_KINDS
+from nivel.machine.joint import JOINT_KINDS, Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import bending_bodies
-from nivel.system.joints import JOINTS
+from nivel.system.joints import composition_of
 from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System
 
@@ -234,7 +234,7 @@ def check(plan: Plan) -> Check:
             if name in own.body_named
         ),
         beams=tuple(beam_facts(beam) for beam in own.beams),
-        joints=tuple(_joint(system, k, joint.name, joint.type, values) for k, joint in enumerate(machine.joints)),
+        joints=tuple(_joint(system, k, joint, values) for k, joint in enumerate(machine.joints)),
         couplings=tuple(coupling_in_words(machine, coupling) for coupling in machine.couplings),
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
@@ -300,8 +300,8 @@ def _turn(theta: Array) -> tuple[tuple[float, ...], float]:
     return tuple(axis.tolist()), 2.0 * float(np.arctan2(sine, theta[0]))
 
 
-def _joint(system: System, k: int, name: str, kind: str, values: dict[str, tuple[float, str]]) -> JointFacts:
-    record = system.record
+def _joint(system: System, k: int, joint: Joint, values: dict[str, tuple[float, str]]) -> JointFacts:
+    record, name, kind, made = system.record, joint.name, joint.type, composition_of(joint)
     first = int(record.joints.first_marker[k])
     bodies = [*system.bodies, "ground"]
     second = bodies[int(record.markers.body[first + 1])]
@@ -314,8 +314,8 @@ def _joint(system: System, k: int, name: str, kind: str, values: dict[str, tuple
         second=second,
         point=tuple(record.markers.r[first].tolist()),
         axis=tuple(record.markers.A[first, :, 2].tolist()),
-        free=JOINTS[kind].free,
-        rows=tuple(f"{name}.{row}" for row in JOINTS[kind].rows),
+        free=made.free,
+        rows=tuple(f"{name}.{row}" for row in made.rows),
         coordinates=tuple((label, *values[label]) for label in values if label.startswith(f"{name}.")),
-        convention=JOINTS[kind].convention,
+        convention=made.convention,
     )

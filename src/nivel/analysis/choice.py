@@ -84,11 +84,11 @@ def slides(machine: MachineRecord, coordinates: str, formulation: str, cut: Simu
 
 def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:
     """Owner, number of rows and bodies of every joint, coupling and driver."""
-    from nivel.system.joints import JOINTS
+    from nivel.system.joints import composition_of
     from nivel.system.states.relative import bodies_of
 
     bodies = {joint.name: set(bodies_of(machine, joint)) for joint in machine.joints}
-    rows = [(joint.name, len(JOINTS[joint.type].rows), bodies[joint.name]) for joint in machine.joints]
+    rows = [(joint.name, len(composition_of(joint).rows), bodies[joint.name]) for joint in machine.joints]
     for coupling in machine.couplings:
         named = [resolve(reference, machine.joints)[0] for reference, _ in coupling.terms]
         rows.append((coupling.name, 1, set().union(*(bodies[name] for name in named))))

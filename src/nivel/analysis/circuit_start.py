@@ -162,7 +162,7 @@ class _Start:
         free = self._accelerations(base)
         effect = {k: self._effect(base, free, k) for pair in pairs for k in (pair.a, pair.b) if k is not None}
         open_pairs = [pair for pair in pairs if pair.a not in self.held and pair.b not in self.held]
-        columns = np.array([effect[pair.a] for pair in open_pairs]).reshape(len(open_pairs), -1).T
+        columns = np.array([effect[pair.a] for pair in open_pairs]).reshape(len(open_pairs), len(free)).T
         half_held = [pair for pair in pairs if pair not in open_pairs]
         loads = self._solved(columns, -free)
         for pair, load in zip(open_pairs, loads, strict=True):

@@ -33,6 +33,7 @@ from nivel.system.hydraulics.components import families_of
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
 OUTPUT, LOOP, FOLLOWING = "nivel.kernels.observe", "nivel.integrate.loop", "nivel.integrate.positions"
+PACED, REPEATED = "nivel.integrate.paced", "nivel.integrate.repeated"
 STATICS, RESIDUAL = "nivel.kernels.static_entries", "nivel.kernels.tangent_entries:evaluate_residual"
 TANGENT_ENTRIES = "nivel.kernels.tangent_entries"
 FOLLOWED = ("contact", "stop")
@@ -191,6 +192,8 @@ def all_entries() -> list[Entry]:
         PASSING,
         LOOP,
         FOLLOWING,
+        PACED,
+        REPEATED,
         STATICS,
         TANGENT_ENTRIES,
         OUTPUT,

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nivel.analysis.equations import MotionEquations
+from nivel.analysis.fastest import fastest_beyond, held_step
 from nivel.analysis.history import start_history
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
@@ -246,7 +247,20 @@ def failure_of(
         chosen_by=settings.integrator if settings.steps == 0 else "",
         beams=prepared.beams if explicit else (),
     )
-    return message, advice, time
+    return message, _with_fastest(prepared, settings, run, advice) if explicit else advice, time
+
+
+def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, advice: str) -> str:
+    """The advice, led by the force that is too fast for the step where there is one."""
+    found = fastest_beyond(prepared, settings.integrator, settings.step, float(run.clock[ACCEPTED]), run.previous)
+    if found is None:
+        return advice
+    of = f", of {found.force}" if found.force else ""
+    step = held_step(settings.integrator, found.rate)
+    return (
+        f"The fastest rate here is {found.rate:.2g}/s{of}: {settings.integrator} holds it with steps below {step:.2g} s, "
+        f"`integrator: radau` with any. {advice}"
+    )
 
 
 def counts_of(system: System, run: Run) -> dict[str, float]:

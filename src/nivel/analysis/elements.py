@@ -39,7 +39,8 @@ def driver_in_words(driver: Driver) -> str:
         driven = (
             f"{driver.marker} along {driver.along} of {seen}" if driver.along else f"{driver.marker} about z of {seen}"
         )
-    return f"{driver.name}: {driven} = {function_in_words(driver.value)}"
+    placed = "as placed + change of " if driver.from_start else ""
+    return f"{driver.name}: {driven} = {placed}{function_in_words(driver.value)}"
 
 
 def function_in_words(function: TimeFunction) -> str:

@@ -25,6 +25,8 @@ from nivel.kernels.status import OK
 from nivel.system.system import Array, parameter_rates
 
 EPSILON = 1e-30
+# share of accelerations below which they are round-off
+ROUND_OFF = 1e-12
 Complex = NDArray[np.complex128]
 Reader = Callable[["Instant"], Complex]
 
@@ -102,7 +104,11 @@ class Instant:
         found: Any = lstsq(scale[:, None] * saddle * scale, scale * right, cond=1e-14)
         x = scale * found[0]
         vdot = np.zeros(self.n)
-        vdot[self.free] = x[:f]
+        # accelerations that are round-off of those that the forces would make alone are none
+        length = self.length[self.free]
+        alone: Any = lstsq(length[:, None] * by_rate.r[self.free] * length, length * value[: self.n][self.free])
+        least = ROUND_OFF * float(np.max(np.abs(alone[0]), initial=0.0))
+        vdot[self.free] = np.where(np.abs(x[:f]) > least * length, x[:f], 0.0)
         return vdot, x[f:]
 
     @property

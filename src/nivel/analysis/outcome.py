@@ -365,8 +365,23 @@ def _not_converged(motion: MotionEquations, time: float, step: float, y: Array) 
     return message, advice
 
 
+def _broken_signals(motion: MotionEquations) -> list[str]:
+    """Signals of the control that are no numbers in the state last evaluated."""
+    values = motion.system.record.outputs.value
+    names = [variable.name for variable in reported(motion.system.layout, len(values))]
+    return [
+        name
+        for name, value in zip(names, values, strict=True)
+        if name.startswith("control.") and not np.isfinite(value)
+    ][:3]
+
+
 def _not_a_number(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str]:
     motion.evaluate(time, y)
+    broken = _broken_signals(motion)
+    if broken:
+        message = f"{', '.join(broken)} {'is' if len(broken) == 1 else 'are'} no longer a number"
+        return message, "Look at what the block is given: a root or logarithm of a negative number, a division by zero."
     message = f"the state after a step of {step:.3g} s is no longer a number; {_worst(motion)}"
     advice = f"Try a smaller step, for instance --step {step / 10:.3g}; if it stops at the same time, look at the forces near it."
     return message, advice

@@ -329,8 +329,7 @@ def _endless(prepared: Prepared, plan: Plan) -> tuple[Run, BoundEntry]:
     loop = start_loop(prepared, plan.settings)
     run: Run = loop.history.record
     run.counter[ALL_STEPS], run.clock[END] = ENDLESS, np.inf
-    codes = loop.evaluate.address, loop.correct.address, loop.step.address
-    return run, BoundEntry(advance, [*codes, int(loop.machine.address), int(loop.history.address)], keep=loop)
+    return run, BoundEntry(advance, loop.addresses, keep=loop)
 
 
 def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:

@@ -26,6 +26,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "demo": CommandPlace("nivel.cli.demo", "Drive a machine that comes with nivel."),
     "live": CommandPlace("nivel.cli.live", "Operate a machine in real time in the browser."),
     "replay": CommandPlace("nivel.cli.replay", "Repeat a recorded live run exactly, or by other methods."),
+    "budget": CommandPlace("nivel.cli.budget", "Say what a machine costs in real time, by method and by part."),
     "statics": CommandPlace("nivel.cli.statics", "Find where a machine rests under its loads."),
     "kinematics": CommandPlace("nivel.cli.kinematics", "Positions, velocities and reactions of a driven machine."),
     "inverse": CommandPlace("nivel.cli.inverse", "Efforts of actuators that make a machine follow a motion."),

@@ -10,7 +10,7 @@ from typing import Final
 
 from nivel.errors import Fault, ModelError
 from nivel.files.reader import read_text
-from nivel.machine import MachineRecord
+from nivel.machine import Input, MachineRecord
 from nivel.machine.arithmetic import ExpressionError
 from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.quantity import ANY, Kind, read_quantity
@@ -60,14 +60,18 @@ def with_signals(machine: MachineRecord, signals: Mapping[str, float | str | Pat
     changed = {each.name: each for each in machine.inputs}
     for name, given in signals.items():
         try:
-            if name not in changed:
-                raise ModelError(Fault("", 0, 0, f"inputs.{name}", unknown_name("input", name, known)))
-            changed[name] = changed[name].replace(signal=_signal(given, name))
+            changed[name] = _followed(changed.get(name), given, name, known)
         except ModelError as error:
             faults += [_of_input(each, name, given) for each in error.faults]
     if faults:
         raise ModelError(faults)
     return machine.replace(inputs=tuple(changed.values()))
+
+
+def _followed(each: Input | None, given: float | str | PathLike[str] | Table, name: str, known: list[str]) -> Input:
+    if each is None:
+        raise ModelError(Fault("", 0, 0, f"inputs.{name}", unknown_name("input", name, known)))
+    return each.replace(signal=_signal(given, name))
 
 
 def _signal(given: float | str | PathLike[str] | Table, name: str) -> float | Table:
@@ -83,13 +87,7 @@ def _of_input(fault: Fault, name: str, given: object) -> Fault:
     """A fault of the record of an input, told with the file that the table came from."""
     if fault.line or not isinstance(given, str | PathLike):
         return fault
-    return Fault(
-        "",
-        0,
-        0,
-        f"inputs.{name}",
-        f"{fspath(given)}: {fault.message}" if fault.path.endswith("signal") else fault.message,
-    )
+    return Fault("", 0, 0, f"inputs.{name}", f"{fspath(given)}: {fault.message}")
 
 
 def _number(row: list[str], column: int, unit: str, kind: Kind, place: Fault, faults: list[Fault]) -> float:

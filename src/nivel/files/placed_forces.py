@@ -22,6 +22,7 @@ from nivel.machine import (
     PythonLaw,
     Record,
     Rope,
+    Servo,
     SpringDamper,
     Stop,
     TimeFunction,
@@ -130,9 +131,11 @@ def _rope(force: Rope, scene: Scene) -> Changes:
     return {"markers": tuple(scene.end(each) for each in force.markers), **_varied(force, scene, "speed")}
 
 
-def _on_coordinate(force: JointSpringDamper | Motor | Stop | Friction, scene: Scene) -> Changes:
+def _on_coordinate(force: JointSpringDamper | Motor | Servo | Stop | Friction, scene: Scene) -> Changes:
     """What acts on a joint coordinate keeps its numbers, unless the coordinate counts the other way."""
-    fields = {"JointSpringDamper": ("law",), "Motor": ("effort", "speed")}.get(type(force).__name__, ())
+    fields = {"JointSpringDamper": ("law",), "Motor": ("effort", "speed"), "Servo": ("target",)}.get(
+        type(force).__name__, ()
+    )
     changes = _varied(force, scene, *fields)
     if not scene.is_opposite(force.coordinate):
         return changes
@@ -149,7 +152,7 @@ def _on_coordinate(force: JointSpringDamper | Motor | Stop | Friction, scene: Sc
                 "lower": None if force.upper is None else -force.upper + 0.0,
                 "upper": None if force.lower is None else -force.lower + 0.0,
             }
-        case Motor():
+        case Motor() | Servo():
             changes |= {field: negative(changes[field]) for field in fields if field in changes}
     return changes
 
@@ -176,6 +179,7 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     TorsionalSpringDamper: _torsional_spring_damper,
     JointSpringDamper: _on_coordinate,
     Motor: _on_coordinate,
+    Servo: _on_coordinate,
     Stop: _on_coordinate,
     Friction: _on_coordinate,
     PairForce: _pair_force,

@@ -50,10 +50,11 @@ def is_state(machine, y):
     for i in range(y.shape[0]):
         if not np.abs(y[i]) < np.inf:
             return False
+    smallest = 1.0
     for k in range(circuit.node.shape[0]):
-        if circuit.node[k, 1] != NONE and not y[first + np.int64(circuit.node[k, 1])] > 0.0:
-            return False
-    return True
+        if circuit.node[k, 1] != NONE:
+            smallest = min(smallest, y[first + np.int64(circuit.node[k, 1])])
+    return smallest > 0.0
 
 
 @leaf

@@ -52,7 +52,8 @@ class Live(NamedTuple):
     clock: F1
     # COMMAND, not zero: return after the next tick; TICKS to do; PACED, 0: as fast as possible; FROM_TAPE: inputs come from the tape;
     # SUBSTEPS of a tick; HEARD, when the operator was last heard. DONE ticks; SHOWN frames; LOST, whether the operator is; OVERRUNS, those
-    # of them of OWN computing; STRETCHED, by which deadlines were moved; LONGEST computing; LATEST start; NEXT deadline, 0: now; MODE and ticks SAVED, of the program
+    # of them of OWN computing; STRETCHED, by which deadlines were moved; LONGEST computing; LATEST start; NEXT deadline, 0: now; MODE
+    # and ticks SAVED, of the program
     control: I1
     function: U1  # (inputs,) of the machine
     limit: F2  # (inputs, 4)

@@ -190,6 +190,8 @@ class Circuit(NamedTuple):
     # steps of `nivel.integrate.extrapolated_euler` whose extrapolation was not taken, largest difference of pressures in one [Pa]
     guard: F1  # (2,)
     kept: F1  # (N,) [Pa] pressures of another state
+    # (N, 8) of each volume the last mass and room, real numbers, with all that follows from them: see `nivel.kernels.hydraulics.volume`
+    known: F2
     # work
     volume: W1  # (N,) [m³] that pistons leave open, without what is constant
     volume_rate: W1  # (N,) [m³/s]

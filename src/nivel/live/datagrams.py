@@ -21,6 +21,7 @@ import socket
 import struct
 import threading
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Final
 
@@ -133,10 +134,8 @@ class Datagrams:
             return
         values = frame[self._columns]
         head = HEAD.pack(OUTPUTS, VERSION, len(values), self._sequence, 0, self._stamp)
-        try:
+        with suppress(OSError):  # nobody listens there, now
             self._socket.sendto(head + values.astype("<f8").tobytes(), self._to)
-        except OSError:
-            pass  # nobody listens there, now
 
     def close(self) -> None:
         """Neither take nor send any more."""

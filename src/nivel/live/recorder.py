@@ -169,19 +169,17 @@ def read_recording(path: str | PathLike[str]) -> Recording:
     try:
         with np.load(path, allow_pickle=False) as stored:
             about = json.loads(str(stored["about"]))
-            if about["format"] != FORMAT:
-                raise ModelError(f"{fspath(path)} was written by another version of nivel (format {about['format']})")
             takes = [
                 Take([stored[f"tape_{k}"]], [stored[f"frames_{k}"]], whole) for k, whole in enumerate(about["whole"])
             ]
     except FileNotFoundError:
         raise ModelError(f"there is no file {fspath(path)}") from None
-    except ModelError:
-        raise
     except Exception as error:
         raise ModelError(
             f"{fspath(path)} is no recording of a live run: {str(error) or type(error).__name__}"
         ) from None
+    if about["format"] != FORMAT:
+        raise ModelError(f"{fspath(path)} was written by another version of nivel (format {about['format']})")
     step, substeps, every = about["pace"]
     machine = MachineRecord.model_validate_json(json.dumps(about["machine"]))
     return Recording(machine, about["source"], about["settings"], Pace(step, int(substeps), int(every)), tuple(takes))

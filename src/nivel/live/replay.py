@@ -39,8 +39,8 @@ FRAMES_AT_ONCE: Final = 32
 
 @dataclass(frozen=True)
 class Replay:
-    """A run done again. compared : frames that the recording has. different : how many of them are not equal bit by bit; first : time of the
-    first such frame [s]."""
+    """A run done again. compared : frames that the recording has. different : how many of them are not equal bit by bit; first : time of
+    the first such frame [s]."""
 
     result: Result
     compared: int

@@ -18,7 +18,7 @@ from nivel.integrate.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
 from nivel.live import shared
 from nivel.live.preparation import Pace
 from nivel.live.recorder import Recorder
-from nivel.live.shared import Sizes, bytes_of, live_in
+from nivel.live.shared import Sizes, bytes_of, copy_of, live_in
 from nivel.live.solver import Told, main
 from nivel.live.timing import Timing, timing_of
 
@@ -191,7 +191,7 @@ class Session:
         self._thread.join(OBEYED)
         self.recorder.gather()
         # what looks at the memory after it is gone reads a copy
-        self.live = type(self.live)(*(array.copy() for array in self.live))
+        self.live = copy_of(self.live)
         self.recorder.detach(self.live)
         self._memory.close()
         self._memory.unlink()

@@ -58,3 +58,9 @@ def live_in(memory: Any, sizes: Sizes) -> Live:
         arrays[name] = np.ndarray(shape, kind, buffer=memory, offset=place)
         place += _room(kind, shape)
     return Live(**arrays)
+
+
+def copy_of(live: Live) -> Live:
+    """The same numbers in memory of this process."""
+    arrays: dict[str, Any] = {name: array.copy() for name, array in live._asdict().items()}
+    return Live(**arrays)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import time
 from dataclasses import asdict, dataclass, field
@@ -63,10 +64,8 @@ def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
         memory = SharedMemory(pipe.recv())
     except (EOFError, FileNotFoundError):
         return
-    try:
+    with contextlib.suppress(KeyboardInterrupt, BrokenPipeError):
         Solver(live_run, live_in(memory.buf, live_run.sizes), pipe).live(urgent)
-    except (KeyboardInterrupt, BrokenPipeError):
-        pass
     # the arrays still look at the memory, which goes with the process
     os._exit(0)
 

@@ -40,7 +40,7 @@ class LiveSource(Still):
         self._gauges = gauges(layout)
         self._columns = [variable.columns.start for _, variable in self._gauges]
         self._package = self._packed(attributes)
-        session.on_frame = lambda: self.on_change()
+        session.on_frame = self.on_change
 
     def _packed(self, attributes: dict[str, Any]) -> bytes:
         scene, record, block = json.loads(attributes["scene"]), json.loads(attributes["machine_record"]), Block()

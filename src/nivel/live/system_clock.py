@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import gc
 import os
-import sys
 from typing import Final
 
 LOCK_ALL: Final = 3  # MCL_CURRENT | MCL_FUTURE
@@ -13,9 +12,7 @@ PRIORITY: Final = 10  # of SCHED_FIFO, 1 … 99
 
 
 def clock_addresses() -> tuple[int, int]:
-    """Addresses of clock_gettime and clock_nanosleep; zeros where there is no absolute sleep."""
-    if not sys.platform.startswith("linux"):
-        return 0, 0
+    """Addresses of clock_gettime and clock_nanosleep."""
     library = ctypes.CDLL(None)
     functions = (library.clock_gettime, library.clock_nanosleep)
     first, second = (ctypes.cast(each, ctypes.c_void_p).value or 0 for each in functions)

@@ -42,6 +42,7 @@ COORDINATE: Final = ("length", "angle")
 COORDINATE_RATE: Final = ("velocity", "angular velocity")
 COORDINATE_EFFORT: Final = ("force", "torque")
 COORDINATE_STIFFNESS: Final = ("stiffness", "torsional stiffness")
+COORDINATE_INTEGRAL: Final = ("stiffness per time", "torsional stiffness per time")
 COORDINATE_DAMPING: Final = ("damping", "torsional damping")
 
 
@@ -183,4 +184,5 @@ CoordinateEffort = Annotated[float, OfCoordinate(COORDINATE_EFFORT)]
 PositiveEffort = Annotated[float, OfCoordinate(COORDINATE_EFFORT, "positive")]
 CoordinateStiffness = Annotated[float, OfCoordinate(COORDINATE_STIFFNESS, "not negative")]
 CoordinateDamping = Annotated[float, OfCoordinate(COORDINATE_DAMPING, "not negative")]
+CoordinateIntegral = Annotated[float, OfCoordinate(COORDINATE_INTEGRAL, "not negative")]
 PositiveGain = Annotated[float, OfCoordinate(COORDINATE_DAMPING, "positive")]

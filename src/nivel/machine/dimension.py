@@ -110,6 +110,12 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "inductance": ("an inductance", "H", dimension(kg=1, m=2, s=-2, A=-2)),
     "torque per current": ("a torque per current", "N*m/A", dimension(kg=1, m=2, s=-2, A=-1)),
     "turning per length": ("a turning per length", "rad/m", dimension(rad=1, m=-1)),
+    "stiffness per time": ("a stiffness per time", "N/(m*s)", dimension(kg=1, s=-3)),
+    "torsional stiffness per time": (
+        "a torsional stiffness per time",
+        "N*m/(rad*s)",
+        dimension(kg=1, m=2, s=-3, rad=-1),
+    ),
     "damping per load": ("a damping per load", "s/m", dimension(m=-1, s=1)),
 }
 

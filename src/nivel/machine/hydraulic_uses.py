@@ -79,8 +79,11 @@ def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: P
             yield where, f"`{node}` is a signal, into which nothing flows; a port {' or '.join(SENSING)} may read it"
         elif type_ in CHAMBERED and nodes[node] != "volume":
             yield where, f"a chamber is part of a volume, and `{node}` is a {nodes[node]}"
-        elif port not in SENSING and seen.setdefault(node, port) != port:
-            yield where, f"ports {seen[node]} and {port} are both connected to `{node}`: nothing would flow"
+        elif port not in SENSING:
+            seen[port] = node
+    if len(seen) > 1 and len(set(seen.values())) == 1 and type_ not in CHAMBERED:
+        node = next(iter(seen.values()))
+        yield (*place, "ports"), f"ports {' and '.join(seen)} are all connected to `{node}`: nothing would flow"
 
 
 def _of_fluid(component: Any, index: Index, place: Place) -> Faults:
@@ -176,5 +179,5 @@ def _unrelieved(components: Any, nodes: Mapping[str, str]) -> Faults:
             reached.update(front)
         node = ports["B"]
         if node in nodes and not reached & (safe | tanks):
-            line = f"{{type: relief-valve, ports: {{P: {node}, T: …}}, opens_at: 250 bar, opening_range: 25 bar, flow: …, pressure_drop: …}}"
+            line = f"{{type: relief-valve, ports: {{P: {node}, T: …}}, opens_at: 250 bar, opening_range: 25 bar, …}}"
             yield ("hydraulics", at), f"no relief valve bounds the pressure at `{node}`; add one such as `{line}`"

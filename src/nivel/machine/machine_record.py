@@ -19,7 +19,7 @@ from pydantic_core import InitErrorDetails
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beam import Beam
 from nivel.machine.body import Body
-from nivel.machine.checked import Checked, Problem
+from nivel.machine.checked import Checked, Problem, lines_of
 from nivel.machine.control import ControlBlock
 from nivel.machine.control.problems import problems_of_control
 from nivel.machine.coordinate_uses import with_whole_coordinates
@@ -115,6 +115,7 @@ class MachineRecord(Checked):
         except ValidationError as error:
             raise restated(error, cls, [*lines, *cls.lines_beside(error, data, info)]) from None
         if lines:
+            lines += lines_of(problems_of_control(record))
             raise ValidationError.from_exception_data(cls.__name__, lines)
         return record
 

@@ -42,6 +42,7 @@ VARYING_KEYS: Final = (
     "magnitude",
     "effort",
     "speed",
+    "target",
     "value",
     "when",
     "rate",
@@ -230,12 +231,11 @@ def _in_text(text: str, index: Index, parameters: Parameters) -> tuple[str, ...]
     except ExpressionError:
         return ()
     try:
-        bind(tree, parameters, LOCAL_SYMBOLS)
+        return tuple(path for path in signals(bind(tree, parameters, LOCAL_SYMBOLS)) if "." in path)
     except ExpressionError:
         return tuple(path for path in signals(tree) if not _has_hyphen(path, index))
     except FaultyParameterError:
-        pass
-    return signals(tree)
+        return signals(tree)
 
 
 def _has_hyphen(path: str, index: Index) -> bool:

@@ -77,7 +77,7 @@ UNITS: dict[str, Unit] = {
     "bar": Unit(1e5, _PRESSURE),
 }
 # known without pint, but free as names of parameters
-_VOLUMES = dict.fromkeys(("L", "l"), Unit(1e-3, dimension(m=3)))
+_VOLUMES: dict[str, Unit] = dict.fromkeys(("L", "l"), Unit(1e-3, dimension(m=3)))
 
 
 @cache

@@ -11,6 +11,7 @@ from nivel.report.plots import Line, curves, path_drawing
 from nivel.results.mechanism import Studies
 
 HERE = Path(__file__).parent
+NOTE = "Transmission angles are between the lines from one joint to two others; 90° transmits best."
 
 
 def mechanism_html(studies: Studies) -> str:
@@ -18,10 +19,11 @@ def mechanism_html(studies: Studies) -> str:
     from jinja2 import Environment, FileSystemLoader
 
     environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    return environment.get_template("mechanism.html.j2").render(
+    return environment.get_template("plots.html.j2").render(
         name=studies.name,
         said=studies.lines(),
         plots=_plots(studies),
+        note=NOTE,
         version=__version__,
         page_style=(HERE / "page.css").read_text(encoding="utf-8"),
         style=(HERE / "reduction.css").read_text(encoding="utf-8") + (HERE / "plots.css").read_text(encoding="utf-8"),

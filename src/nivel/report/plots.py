@@ -66,8 +66,9 @@ def curves(
     lines: Sequence[Line], x_title: str, y_title: str, *, log_x: bool = False, log_y: bool = False, title: str = ""
 ) -> str:
     """SVG of curves with a legend."""
-    x = np.concatenate([line.x[np.isfinite(line.y)] for line in lines] or [np.zeros(0)])
-    y = np.concatenate([line.y[np.isfinite(line.y)] for line in lines] or [np.zeros(0)])
+    known = [np.isfinite(line.x) & np.isfinite(line.y) for line in lines]
+    x = np.concatenate([line.x[each] for line, each in zip(lines, known, strict=True)] or [np.zeros(0)])
+    y = np.concatenate([line.y[each] for line, each in zip(lines, known, strict=True)] or [np.zeros(0)])
     across = _axis(x, LEFT, WIDTH - RIGHT, log_x)
     up = _axis(y, HEIGHT - BOTTOM, TOP, log_y)
     paths = []
@@ -116,7 +117,7 @@ def _path(line: Line, across: Axis | LogAxis, up: Axis | LogAxis, log_y: bool) -
     every = max(1, len(line.x) // MOST)
     out, pen = [], "M"
     for a, b in zip(line.x[::every], line.y[::every], strict=True):
-        if not np.isfinite(b) or (log_y and b <= 0.0):
+        if not (np.isfinite(a) and np.isfinite(b)) or (log_y and b <= 0.0):
             pen = "M"
             continue
         out.append(f"{pen}{across.at(float(a)):.1f} {up.at(float(b)):.1f}")

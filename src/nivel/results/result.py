@@ -287,6 +287,25 @@ class Result:
 
         return write_scene([self, *others], path)
 
+    def reactions(self) -> xarray.Dataset:
+        """Peak and RMS force and torque of every joint, and when."""
+        from nivel.results.loads import reactions
+
+        return reactions(self)
+
+    def powers(self) -> xarray.Dataset:
+        """Peak power, work done and work taken back of every driver, coupling and force that reports its power."""
+        from nivel.results.loads import powers
+
+        return powers(self)
+
+    @checked_arguments
+    def cycles(self, name: str, *, repeating: bool = False) -> xarray.Dataset:
+        """Rainflow cycles of a signal, e.g. `hinge.force.x`: range, mean and count. repeating : the history goes on as it began."""
+        from nivel.results.loads import cycles
+
+        return cycles(self, name, repeating=repeating)
+
     @checked_arguments
     def coupler_curve(self, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
         """The path of a point of a body, given in the body's frame [m]: its motion, curvature and cusps."""

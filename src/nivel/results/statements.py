@@ -25,10 +25,11 @@ def statements(
     unresolved: Unresolved | None = None,
     *,
     passed: bool = False,
+    blind: str = "",
 ) -> Iterator[Item]:
     """The items of the report; `failure` says what stopped the run, `stopped_by` which event ended it, `shared` which frictions share
     a load in no certain way, `unresolved` the force that the energy error comes from, `passed` whether a position was passed where
-    freedoms split."""
+    freedoms split, `blind` why a second run may be wrong as the first."""
     verdict, text = OUTCOMES.get(trust.outcome, ("red", f"Outcome: {trust.outcome}"))
     if stopped_by:
         text = f"Outcome: the event {stopped_by} ended the run, as it was to do"
@@ -43,7 +44,7 @@ def statements(
     if shared:
         yield _shared_item(shared)
     if trust.accuracy_estimate is not None:
-        yield _accuracy_item(trust, trust.accuracy_estimate)
+        yield _accuracy_item(trust, trust.accuracy_estimate, blind)
         if trust.verified_until is not None:
             yield _partly_verified_item(trust, trust.verified_until)
     if trust.neglected_share is not None:
@@ -108,8 +109,11 @@ def _rate_item(trust: Trust) -> Item:
     return numeric("rate_violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
 
 
-def _accuracy_item(trust: Trust, estimate: float) -> Item:
+def _accuracy_item(trust: Trust, estimate: float, blind: str) -> Item:
     fraction = estimate / trust.size
+    if blind:
+        said = f"Accuracy: a second run with {trust.accuracy_refinement} agrees within {number(estimate)} m, which says little: {blind}"
+        return numeric("accuracy", said, fraction, trust.accuracy_time, trust.accuracy_body)
     until = f" up to t = {trust.verified_until:.6g} s" if trust.verified_until is not None else ""
     within = f"within {number(estimate)} m of the exact motion of this model{until}, {number(fraction)} of the {_size(trust)}"
     where = f"; largest at {trust.accuracy_body}" if trust.accuracy_body else ""

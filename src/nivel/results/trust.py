@@ -15,7 +15,7 @@ from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
 from nivel.results.statements import number, statements
 from nivel.results.unresolved import unresolved_force
-from nivel.results.verdicts import THRESHOLDS, Item, Trust, worst
+from nivel.results.verdicts import THRESHOLDS, Item, Trust, blindness, worst
 
 __all__ = ["Facts", "Peak", "Trust", "assess", "peak", "worst_row"]
 
@@ -129,7 +129,15 @@ def assess(result: Readable, facts: Facts) -> Trust:
         unresolved_time=unresolved.time if unresolved else 0.0,
     )
     items = (
-        *statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved, passed=_passes(facts.further)),
+        *statements(
+            trust,
+            facts.failure,
+            facts.stopped_by,
+            facts.shared,
+            unresolved,
+            passed=_passes(facts.further),
+            blind=blindness(facts.further),
+        ),
         *facts.further,
         *(_small_state(each) for each in facts.small_states),
         *(_saturated(name) for name in facts.saturated),

@@ -68,6 +68,7 @@ class CircuitTable:
             secant=np.zeros(1, dtype=np.uint32),
             guard=np.zeros(2),
             kept=work(),
+            known=np.zeros((count, 8)),
             volume=work(),
             volume_rate=work(),
             pressure=work(),

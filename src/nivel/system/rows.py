@@ -15,7 +15,6 @@ from nivel.system.builder import SystemBuilder
 from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
 from nivel.system.joints import (
     AXES,
-    JOINTS,
     Basic,
     Coincident,
     Combination,
@@ -23,6 +22,7 @@ from nivel.system.joints import (
     Measured,
     PerpendicularAxes,
     PerpendicularDistance,
+    composition_of,
 )
 from nivel.system.located import located
 from nivel.system.rails import OnBeam
@@ -154,7 +154,7 @@ def add_joint(draft: SystemBuilder, rows: RowTable, joint: Joint) -> None:
 
 def composition(joint: Joint, cosine: float) -> Composition:
     """What the joint is made of; `cosine` is that of the angle between the z axes as placed."""
-    kind = JOINTS[joint.type]
+    kind = composition_of(joint)
     return kind.when_parallel if kind.when_parallel is not None and 1.0 - abs(cosine) < PARALLEL else kind
 
 
@@ -229,7 +229,8 @@ def add_drivers(draft: SystemBuilder, rows: RowTable) -> None:
         )
         with located(f"drivers.{driver.name}.value"):
             function = draft.function(driver.value, motion=True)
-        rows.combine(draft, row, [(coordinate, 1.0)], offset=0.0, function=function, report=(output, 1))
+        offset = None if driver.from_start else 0.0
+        rows.combine(draft, row, [(coordinate, 1.0)], offset=offset, function=function, report=(output, 1))
 
 
 def _driven(draft: SystemBuilder, driver: Driver) -> int:

@@ -14,6 +14,7 @@ AT_JOINT: Final[dict[str, tuple[ForceLook, ForceLook]]] = {
     "motor": ("turn", "slide"),
     "dc-motor": ("turn", "slide"),
     "servo-motor": ("turn", "slide"),
+    "servo": ("turn", "slide"),
     "driver": ("turn", "slide"),
 }
 HELD: Final[tuple[ForceLook, ForceLook]] = ("ring", "slide")  # of friction, stops and whatever else works there

@@ -37,6 +37,16 @@ class Allowance:
         return self._left >= 0.0
 
 
+def within(allowance: Allowance, content: str | bytes) -> Shown | Want | Move | Reset | Drive | Take | Command:
+    """The record in a message, as long as there are not too many.
+
+    Raises NotUnderstoodError.
+    """
+    if not allowance.spend():
+        raise NotUnderstoodError("too many messages")
+    return read_message(content)
+
+
 class Stream:
     """The conversation with one page over its connection (a websocket)."""
 
@@ -94,9 +104,7 @@ class Stream:
         allowance = Allowance()
         async for content in self._connection:
             try:
-                if not allowance.spend():
-                    raise NotUnderstoodError("too many messages")
-                wanted = read_message(content)
+                wanted = within(allowance, content)
             except NotUnderstoodError as problem:
                 self.dropped_count += 1
                 if self._source.forgiving:

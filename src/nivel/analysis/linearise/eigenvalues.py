@@ -7,7 +7,7 @@ A_kk; in larger ones the multiplicity of zero follows from the null spaces of th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,8 @@ ROUND_OFF = 4e-15
 CHAINED = 1e-6
 # eigenvalues that the ranks say are zero have to be this small, as a share of the largest
 SMALL = 1e-3
+# eigenvalues by symmetric matrices are this near to those by A, as a share
+NEAR = 1e-3
 Complex = NDArray[np.complex128]
 
 
@@ -41,13 +43,13 @@ class Eigen:
     zeros: tuple[tuple[int, ...], ...]
 
 
-def eigenvalues(A: Array, scale: Array) -> Eigen:
-    """Of A (n, n); scale : (n,) sizes of the states, which entries are compared by."""
+def eigenvalues(A: Array, scale: Array, noise: Array | None = None) -> Eigen:
+    """Of A (n, n); scale : (n,) sizes of the states, which entries are compared by. noise : (n, n) below which entries are round-off."""
     n = len(A)
     if not n:
         empty = np.zeros((0, 0), dtype=np.complex128)
         return Eigen(np.zeros(0, dtype=np.complex128), np.zeros(0, dtype=bool), empty, empty, ())
-    scaled = A * scale / scale[:, None]
+    scaled = (A if noise is None else np.where(np.abs(A) > noise, A, 0.0)) * scale / scale[:, None]
     largest = np.abs(scaled).max(axis=1, keepdims=True)
     scaled = np.where(np.abs(scaled) > NOTHING * largest, scaled, 0.0)
     _, block = connected_components(csr_matrix(scaled != 0.0), directed=True, connection="strong")
@@ -104,3 +106,21 @@ def _matched(known: Complex, values: Complex) -> NDArray[np.intp]:
         out[k] = best
         left.remove(best)
     return out
+
+
+def with_squares(found: Eigen, squares: Array) -> Eigen:
+    """The eigenvalues ± iω of an undamped machine at rest, whose ω² are known better from symmetric matrices, in place of the others."""
+    upper = np.flatnonzero(found.values.imag > 0.0)
+    upper = upper[np.argsort(found.values[upper].imag, kind="stable")]
+    known = np.sort(squares)[len(squares) - len(upper) :]
+    if 2 * len(upper) != int(np.sum(~found.zero)) or np.any(known <= 0.0):
+        return found
+    values = found.values.copy()
+    for k, square in zip(upper, known, strict=True):
+        if abs(values[k] - 1j * np.sqrt(square)) > NEAR * abs(values[k]):
+            return found
+        values[k] = 1j * np.sqrt(square)
+    lower = np.flatnonzero(found.values.imag < 0.0)
+    lower = lower[np.argsort(-found.values[lower].imag, kind="stable")]
+    values[lower] = np.conj(values[upper])
+    return replace(found, values=values)

@@ -25,6 +25,8 @@ from nivel.system.system import Array
 
 # singular values of the constraints below this share of the largest are zero
 RANK = 1e-9
+# of the sum of the magnitudes of its terms, what is known of a number
+ROUND_OFF = 1e-14
 
 
 @dataclass(frozen=True)
@@ -93,11 +95,12 @@ class Reduction:
     @cached_property
     def selected(self) -> NDArray[np.intp]:
         """Places among the free unknowns of the independent coordinates: those that move most in the motions that are left."""
-        if self._selected is not None:
-            return self._selected
+        return self._chosen_for(self.kept) if self._selected is None else self._selected
+
+    def _chosen_for(self, kept: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Independent coordinates of the motions that these rows leave."""
         length = self.instant.length[self.instant.free]
-        rows = self.J[self.kept] * length / self.instant.row_scale[self.kept, None]
-        N = _null_space(rows)
+        N = _null_space(self.J[kept] * length / self.instant.row_scale[kept, None])
         if not N.shape[1]:
             return np.zeros(0, dtype=np.intp)
         pivoted: Any = qr(N.T, mode="economic", pivoting=True)
@@ -106,14 +109,19 @@ class Reduction:
     @cached_property
     def inverse(self) -> Array:
         """[C_q; S]⁻¹ (f, K + m), least norm where rows repeat each other."""
-        f, m = len(self.instant.free), len(self.selected)
+        return self._inverse_with(self.kept, self.selected)
+
+    def _inverse_with(self, kept: NDArray[np.intp], selected: NDArray[np.intp]) -> Array:
+        f, m = len(self.instant.free), len(selected)
         length = self.instant.length[self.instant.free]
         S = np.zeros((m, f))
-        S[np.arange(m), self.selected] = 1.0
-        weight = np.concatenate([1.0 / self.instant.row_scale[self.kept], 1.0 / length[self.selected]])
-        whole = weight[:, None] * np.vstack([self.J[self.kept], S]) * length
+        S[np.arange(m), selected] = 1.0
+        weight = np.concatenate([1.0 / self.instant.row_scale[kept], 1.0 / length[selected]])
+        whole = weight[:, None] * np.vstack([self.J[kept], S]) * length
+        if not f:
+            return np.zeros((0, len(weight)))
         found: Any = lstsq(whole, np.diag(weight))
-        return length[:, None] * found[0] if f else np.zeros((0, len(weight)))
+        return length[:, None] * found[0]
 
     @cached_property
     def Z(self) -> Array:
@@ -150,22 +158,55 @@ class Reduction:
         count = 2 * m + S
         return StateSpace(whole[:, :count], whole[:, count:], seen[:, :count], seen[:, count:])
 
-    def _accelerations(self, q: Array, v: Array, x: Array, u: Array) -> tuple[Array, Array]:
-        """(δv̇, δλ) for changes of positions, velocities, states and inputs."""
-        own, free = self.instant, self.instant.free
-        f, K = len(free), own.rows
+    @cached_property
+    def _saddle(self) -> Array:
+        """(f + K, f + K) [M C_qᵀ; C_q 0]."""
+        free = self.instant.free
+        f, K = len(free), self.instant.rows
         saddle = np.zeros((f + K, f + K))
         saddle[:f, :f], saddle[:f, f:], saddle[f:, :f] = self.by_rate.r[free], self.by_force.r[free], self.J
-        still = np.zeros((0, q.shape[1]))
+        return saddle
+
+    @cached_property
+    def _saddle_inverse(self) -> Array:
+        """(f + K, f + K) its inverse, in the null space of all rows: where these leave no motion, forces make none, exactly."""
+        free, K = self.instant.free, self.instant.rows
+        M, every = self.by_rate.r[free], np.arange(K)
+        inner = self._inverse_with(every, self._chosen_for(every) if len(self.ports.opened) else self.selected)
+        P, Z = inner[:, :K], inner[:, K:]
+        reduced = Z.T @ M @ Z
+        by_force = Z @ np.linalg.solve(reduced, Z.T) if Z.shape[1] else np.zeros((len(free), len(free)))
+        by_row = P - by_force @ M @ P
+        return np.block([[by_force, by_row], [P.T - P.T @ M @ by_force, -P.T @ M @ by_row]])
+
+    def _accelerations(self, q: Array, v: Array, x: Array, u: Array) -> tuple[Array, Array]:
+        """(δv̇, δλ) for changes of positions, velocities, states and inputs."""
+        free = self.instant.free
         forces = self.ports.force[free] @ u - self._moved("r", q, v, x)[free]
         rows = self.ports.held @ u - self._moved("Cddot", q, v, x)
-        scale = np.concatenate([own.length[free], 1.0 / own.row_scale])
-        right = scale[:, None] * np.vstack([forces, rows])
-        if not len(right):
-            return still, still
-        found: Any = lstsq(scale[:, None] * saddle * scale, right, cond=1e-14)
-        out = scale[:, None] * found[0]
-        return out[:f], out[f:]
+        out = self._saddle_inverse @ np.vstack([forces, rows])
+        return out[: len(free)], out[len(free) :]
+
+    def noise(self) -> Array:
+        """(n, n) what round-off may leave of entries of A in which larger terms cancel."""
+        own, free = self.instant, self.instant.free
+        Z, Y, m, S = np.abs(self.Z), np.abs(self.Y), len(self.selected), own.state_count
+        q = np.hstack([Z, np.zeros((len(free), m + S))])
+        v = np.hstack([Y, Z, np.zeros((len(free), S))])
+        x = np.hstack([np.zeros((S, 2 * m)), np.eye(S)])
+
+        def moved(part: str) -> Array:
+            terms = ((self.by_q, q), (self.by_v, v), (self.by_x, x))
+            return sum((np.abs(getattr(each, part)) @ size for each, size in terms), start=np.zeros((1, q.shape[1])))
+
+        inverse = np.abs(self._saddle_inverse)
+        # an inverse is as uncertain as what it is the inverse of
+        inverse = inverse + inverse @ np.abs(self._saddle) @ inverse
+        unknown = inverse @ np.vstack([moved("r")[free], moved("Cddot")])
+        rate, lam = unknown[: len(free)], unknown[len(free) :]
+        xdot = moved("g") + np.abs(self.by_rate.g) @ rate + np.abs(self.by_force.g) @ lam
+        qdot = v + np.abs(self.E) @ q
+        return ROUND_OFF * np.vstack([qdot[self.selected], rate[self.selected], xdot])
 
     def _moved(self, part: str, q: Array, v: Array, x: Array) -> Array:
         return getattr(self.by_q, part) @ q + getattr(self.by_v, part) @ v + getattr(self.by_x, part) @ x

@@ -6,20 +6,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from nivel.analysis.attributes import run_attributes
 from nivel.analysis.instant import Instant
-from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues
+from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues, with_squares
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input
-from nivel.analysis.linearise.reduction import Reduction, StateSpace
+from nivel.analysis.linearise.reduction import Ports, Reduction, StateSpace
 from nivel.analysis.linearise.refusals import MOST, refuse_jumps
 from nivel.analysis.linearise.settings import LineariseSettings
 from nivel.analysis.linearise.steady import BALANCE, acceleration_of, is_at_rest, keeps_its_equations
 from nivel.analysis.listener import Listener
 from nivel.analysis.moment import Moment, Posture, at_posture, at_start
 from nivel.analysis.plan import Methods
+from nivel.analysis.statics.linear import symmetric, symmetric_modes
 from nivel.analysis.unknowns import unknown_name
 from nivel.analysis.user_frames import frame_axes, frame_place
 from nivel.errors import Fault, ModelError
@@ -30,6 +32,7 @@ from nivel.results.linear_motion import Posed
 from nivel.system.system import Array
 
 NAMED = 6  # states in a sentence
+SYMMETRIC = 1e-9  # share by which a symmetric stiffness may be unsymmetric
 
 
 @dataclass(frozen=True)
@@ -65,8 +68,11 @@ def linearise(
     signs = _signs(catalogue, instant)[reduction.selected]
     whole = _signed(reduction.state_space(), signs)
     states = _states(instant, reduction)
-    space, states, inputs = _opened(whole, states, inputs, instant, len(signs))
-    found = eigenvalues(space.A, _timed(states.scale, space.A, len(signs)))
+    space, states, inputs, kept = _opened(whole, states, inputs, instant, len(signs))
+    noise = reduction.noise()[np.ix_(kept, kept)]
+    found = eigenvalues(space.A, _timed(states.scale, space.A, len(signs)), noise)
+    if len(space.A) == 2 * len(signs) == len(whole.A) and is_at_rest(instant):
+        found = _undamped(found, *_held(instant, reduction).second_order())
     shift, turn = _shapes(instant, reduction, found, signs, states, whole.A)
     steady, notes = _judged(catalogue, moment, instant, reduction, inputs, whole.A, signs)
     second = [signs[:, None] * each * signs for each in reduction.second_order()]
@@ -146,8 +152,8 @@ def _states(instant: Instant, reduction: Reduction) -> _States:
 
 def _opened(
     space: StateSpace, states: _States, inputs: Sequence[Input], instant: Instant, m: int
-) -> tuple[StateSpace, _States, list[Input]]:
-    """States of elements that are inputs become columns of B."""
+) -> tuple[StateSpace, _States, list[Input], NDArray[np.intp]]:
+    """States of elements that are inputs become columns of B; also which states are left."""
     taken = {2 * m + each.place[0]: k for k, each in enumerate(inputs) if each.kind == "state"}
     kept = np.array([k for k in range(len(space.A)) if k not in taken], dtype=np.intp)
     B, D = space.B.copy(), space.D.copy()
@@ -155,7 +161,23 @@ def _opened(
         B[:, k], D[:, k] = space.A[:, column], space.C[:, column]
     out = StateSpace(space.A[np.ix_(kept, kept)], B[kept], space.C[:, kept], D)
     left = _States([states.names[k] for k in kept], [states.units[k] for k in kept], states.scale[kept])
-    return out, left, list(inputs)
+    return out, left, list(inputs), kept
+
+
+def _held(instant: Instant, reduction: Reduction) -> Reduction:
+    """The equations of the machine while drivers hold all that they prescribe, as inputs or not: the others add zeros alone."""
+    if not len(reduction.ports.opened):
+        return reduction
+    ports = Ports(np.zeros((instant.n, 0)), np.zeros((instant.rows, 0)), np.zeros(0, dtype=np.intp))
+    return Reduction(instant, ports, _nothing)
+
+
+def _undamped(found: Eigen, M: Array, D: Array, K: Array) -> Eigen:
+    """With the eigenvalues of symmetric matrices, where there is no damping and forces have a potential."""
+    size = float(np.max(np.abs(K), initial=0.0))
+    if not len(M) or np.any(D) or size == 0.0 or np.max(np.abs(K - K.T)) > SYMMETRIC * size:
+        return found
+    return with_squares(found, symmetric_modes(symmetric(K), symmetric(M))[0])
 
 
 def _timed(scale: Array, A: Array, m: int) -> Array:

@@ -62,6 +62,7 @@ def keeps_its_equations(
     return True
 
 
+@np.errstate(over="ignore", invalid="ignore")  # of stiff machines, whose motion these steps do not follow
 def _advanced(motion: MotionEquations, t: float, y: Array, end: float, step: float) -> tuple[float, Array] | None:
     """(t, y) at `end` by the classical Runge–Kutta method; None where the motion cannot be evaluated."""
     count = max(1, int(np.ceil((end - t) / step)))
@@ -76,4 +77,4 @@ def _advanced(motion: MotionEquations, t: float, y: Array, end: float, step: flo
             slopes.append(rate)
         y = y + h / 6.0 * (slopes[0] + 2.0 * slopes[1] + 2.0 * slopes[2] + slopes[3])
         t += h
-    return t, y
+    return (t, y) if np.isfinite(y).all() else None

@@ -17,8 +17,8 @@ ATMOSPHERE = 101325.0  # [Pa]
 # columns of `Circuit.fluid`: fraction of air, bulk modulus [Pa] of the liquid at pa, its slope, polytropic exponent, ρ₀ [kg/m³],
 # kinematic viscosity [m²/s]
 AIR, MODULUS, SLOPE, EXPONENT, DENSITY, VISCOSITY = 0, 1, 2, 3, 4, 5
-# Newton's iteration of the pressure ends at a change of this share: the error is then its square.
-EXACT, MOST = 1e-9, 100
+# Newton's iteration of the pressure ends at a change of this share: the error is then its square, and one more step follows.
+EXACT, MOST = 1e-5, 100
 
 
 @leaf
@@ -34,10 +34,9 @@ def specific_volume(f, p):
         liquid = np.exp(-over / modulus)
         energy = modulus * (1.0 - liquid)
     air = (ATMOSPHERE / p) ** (1.0 / n)
+    air_energy = ATMOSPHERE * np.log(p / ATMOSPHERE)
     if n != 1.0:
         air_energy = ATMOSPHERE * n / (n - 1.0) * (p / ATMOSPHERE * air - 1.0)
-    else:
-        air_energy = ATMOSPHERE * np.log(p / ATMOSPHERE)
     value = (1.0 - alpha) * liquid + alpha * air
     derivative = -(1.0 - alpha) * liquid / (modulus * L) - alpha * air / (n * p)
     return value, derivative, (1.0 - alpha) * energy + alpha * air_energy

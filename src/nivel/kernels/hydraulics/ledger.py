@@ -1,4 +1,5 @@
-"""Energies of a circuit since the start, supplied to its fluid, given to bodies and lost, and the mass that tanks gave it; as states that nothing depends on."""
+"""Integrals over a circuit since the start, states that nothing depends on: energies supplied to its fluid, given to bodies and lost, and
+the mass that tanks gave it."""
 
 from __future__ import annotations
 

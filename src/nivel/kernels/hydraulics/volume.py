@@ -25,6 +25,8 @@ VOLUME, GIVEN, SIGNAL = 0, 1, 2
 # columns of `Circuit.room`: constant volume [m³], room that elastic walls make [m³/Pa]; gas of an accumulator: volume [m³], precharge [Pa],
 # exponent
 FIXED, COMPLIANCE, GAS, PRECHARGE, EXPONENT = 0, 1, 2, 3, 4
+# columns of `Circuit.known`: mass [kg] and volume [m³] without V_e, pressure, v and its derivative, ρ₀ h, V_e and its derivative
+MASS, OPEN, PRESSURE, VALUE, RATE, ENERGY, EXTRA, GIVE = 0, 1, 2, 3, 4, 5, 6, 7
 # Gas gives way over this share of its volume, smoothly.
 GAS_WIDTH = 0.02
 # points and weights of Gauss's rule on [0, 1], for the energy within that width
@@ -86,26 +88,41 @@ def pressure_in(f, n, mass, volume, guess):
     return p
 
 
+@leaf
+def solve_volume(f, n, known, mass, volume):
+    """Fill `known` for the real mass and volume, unless it is that of these already. The search starts where the tangent of the last
+    solution leads."""
+    if known[MASS] == mass and known[OPEN] == volume:
+        return
+    guess = known[PRESSURE]
+    if guess > 0.0:
+        v, rate = known[VALUE], known[RATE]
+        change = (mass - known[MASS]) * v / f[DENSITY] - (volume - known[OPEN])
+        guess = max(guess + change / (known[GIVE] - known[MASS] * rate / f[DENSITY]), 0.1 * guess)
+    p = pressure_in(f, n, mass, volume, guess)
+    known[MASS], known[OPEN], known[PRESSURE] = mass, volume, p
+    known[VALUE], known[RATE], known[ENERGY] = specific_volume(f, p)
+    known[EXTRA], known[GIVE] = room(n, p)
+
+
 @stage
 def find_pressure(machine, node, mass):
     """Fill pressure, density and enthalpy of a volume, and add its energy. Returns a status."""
     record = record_at(machine)
     circuit = record.circuit
-    f, n = circuit.fluid[circuit.node[node, 0]], circuit.room[node]
+    f, n, known = circuit.fluid[circuit.node[node, 0]], circuit.room[node], circuit.known[node]
     volume = n[FIXED] + circuit.volume[node]
     if not (real(mass) > 0.0 and real(volume) > 0.0):
         record.control.failure[0] = node
         return NO_VOLUME
-    m = real(mass)
-    p = pressure_in(f, n, m, real(volume), real(circuit.pressure[node]))
-    v, slope, energy = specific_volume(f, p)
-    extra, give = room(n, p)
+    solve_volume(f, n, known, real(mass), real(volume))
+    p, v, slope, energy = known[PRESSURE], known[VALUE], known[RATE], known[ENERGY]
     # one step of Newton's method, which on complex numbers gives the exact derivative
-    change = (mass * v / f[DENSITY] - volume - extra) / (give - m * slope / f[DENSITY])
+    change = (mass * v / f[DENSITY] - volume - known[EXTRA]) / (known[GIVE] - known[MASS] * slope / f[DENSITY])
     circuit.pressure[node] = p + change
     circuit.density[node] = f[DENSITY] / (v + slope * change)
     circuit.enthalpy[node] = (energy + v * change) / f[DENSITY]
-    stored = m * energy / f[DENSITY] - (p - ATMOSPHERE) * (m * v / f[DENSITY]) + energy_of_room(n, p)
+    stored = known[MASS] * (energy - (p - ATMOSPHERE) * v) / f[DENSITY] + energy_of_room(n, p)
     circuit.stored[0] += stored
     record.control.stored[0] += stored
     return OK

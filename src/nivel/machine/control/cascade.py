@@ -9,12 +9,11 @@ from pydantic import Field
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.control.algebra import both, refuse_order
-from nivel.machine.control.block import Block, Number, Pair, PositiveNumber
+from nivel.machine.control.block import Block, Input, Number, Pair, PositiveNumber
 from nivel.machine.control.laws import limited
 from nivel.machine.control.part import Part, law
 from nivel.machine.linear_function import linear
 from nivel.machine.quantity import Duration
-from nivel.machine.time_function import Measured
 
 
 class Cascade(Block):
@@ -26,17 +25,15 @@ class Cascade(Block):
     quantities = ("value", "error", "wished_speed", "speed_error", "integral")
 
     type: Literal["cascade"] = "cascade"
-    reference: Measured | None = Field(default=None, description="wished position r")
-    measured: Measured | None = Field(default=None, description="position y")
-    measured_speed: Measured = Field(description="its rate ẏ")
-    speed_reference: Measured = Field(
-        default=0.0, description="wished speed, or with a `reference` its rate, fed forward"
-    )
+    reference: Input | None = Field(default=None, description="wished position r")
+    measured: Input | None = Field(default=None, description="position y")
+    measured_speed: Input = Field(description="its rate ẏ")
+    speed_reference: Input = Field(default=0.0, description="wished speed, or with a `reference` its rate, fed forward")
     position_gain: PositiveNumber | None = Field(default=None, description="speed per position error, 1/s")
     speed_gain: PositiveNumber = Field(description="value per speed error")
     integral_time: Duration | None = Field(default=None, description="T; without it there is no integral")
     speed_limit: PositiveNumber | None = Field(default=None, description="greatest magnitude of the wished speed")
-    feedforward: Measured | None = Field(default=None, description="what is added before the limits, such as a weight")
+    feedforward: Input | None = Field(default=None, description="what is added before the limits, such as a weight")
     limits: Pair | None = Field(default=None, description="lower and upper limit of the value")
     start: Number = Field(default=0.0, description="value of the integral at the start")
 

@@ -8,14 +8,13 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem
-from nivel.machine.control.block import Block, names_in
+from nivel.machine.control.block import Block, Input, names_in
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import entered
 from nivel.machine.control.part import Part, PartFunction, law
 from nivel.machine.linear_function import linear
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.record import Name, Record, entry, unknown_word
-from nivel.machine.time_function import Measured
 
 
 def _conditions(value: Any) -> Any:
@@ -47,14 +46,14 @@ class StateOutput(Record):
     """A value that a state gives to an output of its machine."""
 
     name: Name
-    value: Measured
+    value: Input
 
 
 class MachineState(Record):
     """One state: its value, what else it puts out, and where it leads."""
 
     name: Name
-    value: Measured | None = Field(default=None, description="default its number, from 0")
+    value: Input | None = Field(default=None, description="default its number, from 0")
     outputs: Annotated[tuple[StateOutput, ...], _named("name", "value")] = Field(
         default=(), description="further values by name, which are zero in states that do not give them"
     )

@@ -19,6 +19,7 @@ from nivel.machine.forces.load import PointForce, Torque
 from nivel.machine.forces.motor import Motor
 from nivel.machine.forces.pair_force import PairForce
 from nivel.machine.forces.rope import Rope
+from nivel.machine.forces.servo import Servo
 from nivel.machine.forces.spring_damper import SpringDamper
 from nivel.machine.forces.stop import Stop
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
@@ -34,6 +35,7 @@ FORCES: list[type[ForceElement]] = [
     Motor,
     DcMotor,
     ServoMotor,
+    Servo,
     PairForce,
     Bushing,
     Contact,
@@ -82,6 +84,7 @@ __all__ = [
     "PairForce",
     "PointForce",
     "Rope",
+    "Servo",
     "ServoMotor",
     "SpringDamper",
     "Stop",

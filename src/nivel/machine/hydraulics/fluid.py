@@ -38,8 +38,8 @@ class Fluid(Checked):
 
     def problems(self) -> Iterator[Problem]:
         if not LEAST_AIR <= self.air <= MOST_AIR:
-            message = f"air from {LEAST_AIR:g} to {MOST_AIR:g} of the volume was expected, got {self.air:g}; without any, a liquid would bear tension"
-            yield Problem(("air",), message)
+            asked = f"air from {LEAST_AIR:g} to {MOST_AIR:g} of the volume was expected, got {self.air:g}"
+            yield Problem(("air",), f"{asked}; without any, a liquid would bear tension")
         if self.bulk_modulus < 1e7:
             yield Problem(
                 ("bulk_modulus",), f"a liquid has a bulk modulus of about 1.5 GPa, got {self.bulk_modulus:g} Pa"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 from nivel.kernels.coordinate import DISTANCE
 from nivel.kernels.forces.rope import apply
 from nivel.kernels.record import NONE
@@ -15,10 +17,7 @@ from nivel.system.state_facts import StateFact
 def add(draft: SystemBuilder, rope: Rope) -> None:
     """A rope."""
     markers = [draft.end(end) for end in rope.markers]
-    distances = [
-        draft.coordinates.use(draft.coordinates.add(DISTANCE, i, j))
-        for i, j in zip(markers[:-1], markers[1:], strict=True)
-    ]
+    distances = [draft.coordinates.use(draft.coordinates.add(DISTANCE, i, j)) for i, j in itertools.pairwise(markers)]
     first = force_outputs(draft, rope.name, *magnitude_and_power("N", "tension"), ("stretch", "m", "stretch"))
     length = speed = NONE
     if rope.speed is not None:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE, DENSITY, specific_volume
 from nivel.kernels.hydraulics.volume import COMPLIANCE, EXPONENT, FIXED, GAS, GAS_WIDTH, PRECHARGE
 
+_LAW: Any = specific_volume  # compiled when kernels call it; here it runs as it is written
+
 
 def density_and_modulus(fluid: Sequence[float], p: float) -> tuple[float, float]:
     """(ρ [kg/m³], β = ρ dp/dρ [Pa]) at the absolute pressure p; `fluid` is a row of `Circuit.fluid`."""
-    v, slope, _ = specific_volume.py_func(fluid, p)
+    v, slope, _ = _LAW.py_func(fluid, p)
     return float(fluid[DENSITY] / v), float(-v / slope)
 
 

@@ -1,0 +1,70 @@
+"""`nivel budget MACHINE`: what a step costs in real time, without running live."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from nivel.cli.options import allow_code_option, file_argument, method_option, override_option, quiet_option, separated
+
+if TYPE_CHECKING:
+    from nivel.live.budget import Cost
+
+
+@click.command(short_help="Say what a machine costs in real time, by method and by part.")
+@file_argument("machine")
+@override_option
+@allow_code_option
+@click.option("--step", metavar="TIME", help="Time step, e.g. '1 ms'.")
+@click.option(
+    "--tick", type=float, metavar="SECONDS", help="Time from input to input: whole steps; default 1 ms, or the step."
+)
+@click.option(
+    "--integrators", metavar="NAMES", multiple=True, callback=separated, help="Default: all that are compiled already."
+)
+@method_option("formulation")
+@method_option("coordinates")
+@method_option("stabilisation")
+@quiet_option
+def command(
+    machine: str,
+    overrides: dict[str, str],
+    allow_code: bool,
+    tick: float | None,
+    integrators: tuple[str, ...] | None,
+    quiet: bool,
+    **methods: Any,
+) -> None:
+    """Run MACHINE for some seconds as fast as it goes, with its inputs at rest, and say what a tick of live operation costs.
+
+    Without `--integrators` methods with fixed steps are tried: that of the machine file, and all that need no compiler.
+    """
+    from nivel.api import load
+    from nivel.cli.progress import progress_listener
+    from nivel.live.budget import costs, fixed_methods
+
+    settings = {name: value for name, value in methods.items() if value is not None}
+    record = load(machine, overrides, allow_code=allow_code).record
+    own = record.simulation.integrator
+    with progress_listener(quiet) as listener:
+        if integrators:
+            found = list(costs(record, settings, tick, integrators, compiled_only=False, listener=listener))
+        else:
+            others = [name for name in fixed_methods() if name != own]
+            found = list(costs(record, settings, tick, [own], compiled_only=False, listener=listener))
+            found += costs(record, settings, tick, others, compiled_only=True)
+    click.echo(f"{record.name}: computing time of a tick in µs\n{'':22}     50 %   99.9 %  longest  would hold")
+    for cost in found:
+        click.echo(_line(cost))
+    for name, share in found[0].parts.items():
+        click.echo(f"  {100.0 * share:5.1f} %  {name}  ({found[0].integrator})")
+
+
+def _line(cost: Cost) -> str:
+    timing = cost.timing
+    if timing is None:
+        return f"{cost.integrator:22} {cost.problem}"
+    middle, high, longest = (1e6 * timing.computing[k] for k in (0, 3, 4))
+    holds = f"{timing.rate_held / 1e3:.3g} kHz"
+    return f"{cost.integrator:22}{middle:9.1f}{high:9.1f}{longest:9.1f}  {holds}"

@@ -1,0 +1,29 @@
+"""Parts of an evaluation again and again, so that their time can be measured."""
+
+from __future__ import annotations
+
+from nivel.kernels.hook import call_evaluate, call_family
+from nivel.kernels.status import OK
+from nivel.native.entry import entry
+from nivel.native.signature import Signature
+
+FAMILY_AGAIN = Signature("status", ("entry", "machine", "count", "number", "count"))
+EVALUATE_AGAIN = Signature("status", ("entry", "machine", "number", "vector", "vector", "count"))
+
+
+@entry(FAMILY_AGAIN)
+def repeat_family(family, machine, number, t, times):
+    """Call a family of elements so many times. What it adds to is not set back in between."""
+    status = OK
+    for _ in range(times):
+        status = call_family(family, machine, number, t)
+    return status
+
+
+@entry(EVALUATE_AGAIN)
+def repeat_evaluation(evaluate, machine, t, y, rate, times):
+    """Evaluate the equations of motion at y so many times."""
+    status = OK
+    for _ in range(times):
+        status = call_evaluate(evaluate, machine, t, y, rate)
+    return status

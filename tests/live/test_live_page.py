@@ -1,0 +1,112 @@
+"""A live machine in the browser: keys and a gamepad move it, gauges follow, a stopped browser holds nothing up."""
+
+import os
+import signal
+import time
+
+import numpy as np
+import pytest
+
+import cart
+from browsing import chromium, served, until, watched
+from nivel.integrate.paced import DONE
+from nivel.live.source import LiveSource
+from nivel.live.timing import timing_of
+
+pytest.importorskip("websockets")
+
+
+@pytest.fixture(scope="module")
+def live():
+    """A running session and the viewing of its page."""
+    with cart.running() as session, served(LiveSource(session)) as viewing:
+        session.command("run")
+        yield session, viewing
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with chromium() as running:
+        yield running
+
+
+def test_keys_and_a_gamepad_move_the_machine_and_gauges_follow(live, browser):
+    session, viewing = live
+    with watched(browser) as seen:
+        page = seen.open(viewing.address.url)
+        until(page, "!!nivel.app.live.status")
+        page.keyboard.down("d")
+        until(page, lambda: session.values()["lever"] == 1.0)
+        until(page, "nivel.app.live.status.driver === 'you'")
+        page.keyboard.up("d")
+        until(page, lambda: session.values()["lever"] == 0.0)
+        speed = session.newest[session.facts["layout"].width - 1]
+        until(page, "document.querySelector('.strip output').textContent.endsWith('m/s')")
+        page.keyboard.down("a")
+        until(page, lambda: session.values()["lever"] == -1.0)
+        page.keyboard.up("a")
+        # a stubbed gamepad: half of the way beyond the dead zone of 0.1
+        pad = "{connected: true, axes: [0.55], buttons: []}"
+        page.evaluate(f"navigator.getGamepads = () => [{pad}]")
+        until(page, lambda: session.values()["lever"] == pytest.approx(0.5))
+        page.evaluate("navigator.getGamepads = () => []")
+        until(page, lambda: session.values()["lever"] == 0.0)
+        page.get_by_role("button", name="Pause").click()
+        until(page, lambda: session.mode == "paused")
+        ticks = int(session.live.control[DONE])
+        page.get_by_role("button", name="One tick").click()
+        until(page, lambda: int(session.live.control[DONE]) == ticks + 1)
+        page.get_by_role("button", name="Back to the start").click()
+        until(page, lambda: int(session.live.control[DONE]) == 0)
+        page.get_by_role("button", name="Run").click()
+        until(page, lambda: session.mode == "running")
+    assert np.isfinite(speed)
+    # the page is gone: nobody operates, all is at rest
+    cart.until(lambda: not session.is_operated)
+
+
+def test_a_stopped_browser_does_not_touch_the_loop(live, browser):
+    session, viewing = live
+    with watched(browser) as seen:
+        page = seen.open(viewing.address.url)
+        until(page, "!!nivel.app.live.status")
+        processes = [each for each in descendants(os.getpid()) if "chrom" in name_of(each)]
+        assert processes
+        before, ticks, begin = timing_of(session.live), int(session.live.control[DONE]), time.monotonic()
+        for each in processes:
+            os.kill(each, signal.SIGSTOP)
+        try:
+            time.sleep(2.0)
+        finally:
+            for each in processes:
+                os.kill(each, signal.SIGCONT)
+        after, passed = timing_of(session.live), time.monotonic() - begin
+        done = (int(session.live.control[DONE]) - ticks) * session.pace.tick
+        stretched = after.stretched - before.stretched
+        assert done == pytest.approx(passed - stretched, abs=0.2)
+        assert after.own - before.own == 0
+        until(page, "nivel.app.live.status.mode === 'running'")
+
+
+def descendants(process):
+    """Processes that were started by this one, and by these."""
+    parents = {}
+    for each in filter(str.isdecimal, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{each}/stat") as file:
+                parents[int(each)] = int(file.read().rpartition(")")[2].split()[1])
+        except OSError:
+            continue
+    found, fresh = [], [process]
+    while fresh:
+        fresh = [each for each, parent in parents.items() if parent in fresh]
+        found += fresh
+    return found
+
+
+def name_of(process):
+    try:
+        with open(f"/proc/{process}/comm") as file:
+            return file.read()
+    except OSError:
+        return ""

@@ -1,0 +1,120 @@
+"""The server of a live machine: one page operates it, nonsense is dropped and counted, datagrams have their format."""
+
+import asyncio
+import json
+import random
+import socket
+import time
+
+import numpy as np
+import pytest
+
+import cart
+from browsing import served
+from nivel.integrate.paced import DONE
+from nivel.live.datagrams import Counts, Datagrams, packed_inputs
+from nivel.live.source import LiveSource
+
+websockets = pytest.importorskip("websockets")
+
+
+@pytest.fixture(scope="module")
+def live():
+    """A running session and the viewing of its page."""
+    with cart.running() as session, served(LiveSource(session)) as viewing:
+        session.command("run")
+        yield session, viewing
+
+
+def connected(viewing):
+    port = viewing.address.port
+    return websockets.connect(
+        f"ws://127.0.0.1:{port}/stream", origin=f"http://127.0.0.1:{port}", max_size=None, proxy=None
+    )
+
+
+async def statuses(page, wanted):
+    """Messages of the server until one of them fulfils a condition."""
+    while True:
+        content = await asyncio.wait_for(page.recv(), 30.0)
+        if isinstance(content, str):
+            message = json.loads(content)
+            if wanted(message):
+                return message
+
+
+def test_one_page_operates_and_another_may_not(live):
+    session, viewing = live
+
+    async def talk():
+        async with connected(viewing) as first, connected(viewing) as second:
+            await first.send('{"type": "take", "on": 1}')
+            await statuses(first, lambda m: m["type"] == "status" and m["driver"] == "you")
+            await second.send('{"type": "take", "on": 1}')
+            note = await statuses(second, lambda m: m["type"] == "note")
+            await second.send('{"type": "command", "word": "pause", "number": 0}')
+            refused = await statuses(second, lambda m: m["type"] == "note")
+            await second.send('{"type": "drive", "values": [1, 1]}')
+            await first.send('{"type": "drive", "values": [0, 2]}')
+            await statuses(first, lambda m: m["type"] == "status" and m["operated"])
+            targets = session.live.target.tolist()
+            await first.send('{"type": "take", "on": 0}')
+            await second.send('{"type": "take", "on": 1}')
+            await statuses(second, lambda m: m["type"] == "status" and m["driver"] == "you")
+            return note["text"], refused["text"], targets
+
+    note, refused, targets = asyncio.run(talk())
+    assert note == "somebody else operates the machine"
+    assert refused == "take the controls first"
+    assert targets == [0.0, 2.0]
+    assert session.mode == "running"
+
+
+def nonsense(random_numbers):
+    """A message: bytes, broken JSON, records with wrong parts, names that look like paths."""
+    pick = random_numbers.randrange(6)
+    if pick == 0:
+        return random_numbers.randbytes(random_numbers.randrange(60))
+    if pick == 1:
+        return "".join(chr(random_numbers.randrange(32, 1000)) for _ in range(random_numbers.randrange(60)))
+    kind = random_numbers.choice(["drive", "take", "command", "want", "move", "reset", "shown", "x", None, 7])
+    values = [None, True, -1, 1e999, "../../etc/passwd", "__import__('os')", [1] * 70, ["a"], {"a": []}, [[[]]]]
+    keys = random_numbers.sample(["values", "on", "word", "number", "coordinate", "value", "request"], 2)
+    return json.dumps({"type": kind, **{key: random_numbers.choice(values) for key in keys}})
+
+
+@pytest.mark.parametrize("count", [5_000, pytest.param(100_000, marks=pytest.mark.full)])
+def test_random_messages_are_dropped_and_counted(live, count):
+    session, viewing = live
+    numbers = random.Random(count)
+
+    async def talk():
+        async with connected(viewing) as page:
+            for _ in range(count):
+                await page.send(nonsense(numbers))
+            return (await statuses(page, lambda m: m["type"] == "status" and m["dropped"] >= count))["dropped"]
+
+    ticks = int(session.live.control[DONE])
+    assert asyncio.run(talk()) == count
+    cart.until(lambda: int(session.live.control[DONE]) > ticks)
+    assert session.mode == "running"
+    cart.until(lambda: session.values() == {"lever": 0.0, "brake": 1.0}, "inputs at rest")
+
+
+def test_datagrams_operate_the_machine_and_bad_ones_are_counted(live):
+    session, _ = live
+    outside = Datagrams(session, ("127.0.0.1", 0), None)
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            for k in range(40):
+                sender.sendto(packed_inputs([-0.5, 0.5], k + 1, time.monotonic_ns()), outside.address)
+                time.sleep(0.01)
+            cart.until(lambda: session.live.target.tolist() == [-0.5, 0.5])
+            for bad in (b"", b"NVLI", packed_inputs([1.0], 99, 0), packed_inputs([np.nan, 0.0], 99, 0), b"X" * 40):
+                sender.sendto(bad, outside.address)
+            sender.sendto(packed_inputs([1.0, 1.0], 3, 0), outside.address)
+            cart.until(lambda: outside.counts.stale == 1)
+    finally:
+        outside.close()
+    assert outside.counts == Counts(taken=40, malformed=5, stale=1)
+    assert session.live.target.tolist() == [-0.5, 0.5]

@@ -323,6 +323,8 @@ def test_kinematics_and_linear_equations(coordinates):
     machine = nivel.load(ROOT / "examples" / "four-bar.yaml")
     machine.kinematics(drive="crank_pivot", positions=3, end="1 rad", coordinates=coordinates)
     machine.linearise(inputs=["crank_pivot"], coordinates=coordinates)
+
+
 # --- live operation ---
 
 

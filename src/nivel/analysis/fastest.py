@@ -34,7 +34,7 @@ class Fastest:
 
 def held_step(integrator: str, rate: float) -> float:
     """The longest step [s] with which an explicit method holds this rate [1/s]."""
-    return HOLDS.get(integrator, 1.0) / rate
+    return HOLDS.get(integrator, 1.0) / rate if rate > 0.0 else np.inf
 
 
 def fastest_beyond(prepared: Prepared, integrator: str, step: float, time: float, last: Array) -> Fastest | None:

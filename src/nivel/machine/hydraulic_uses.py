@@ -105,7 +105,7 @@ def _of_signal(component: Any, index: Index, used: set[str], place: Place) -> Fa
             known = [each for each, its in index.hydraulics.items() if entry(its, "type") == "directional-valve"]
             yield (*place, "valves", at), unknown_name("valve", str(name), tuple(known))
         elif entry(valve, "type") != "directional-valve" or entry(valve, "ways") != "4/3":
-            yield (*place, "valves", at), f"`{name}` is no 4/3 directional valve, whose load could be felt"
+            yield (*place, "valves", at), f"`{name}` is no 4/3 directional valve, whose load could be sensed"
         else:
             used.update(ports_of(valve).values())
 

@@ -72,7 +72,7 @@ CHECKS = {
     "turn": Threshold(
         0.5,
         3.0,
-        "In radians a step: methods of order four lose 2e-4 rad a turn at 0.5. Beyond half a turn, with a margin, nobody can tell "
+        "In radians a step: methods of order four lose 2e-4 rad a turn at 0.5. Beyond half a turn, with a margin, no method can tell "
         "which way a body turned.",
     ),
     "rounding": Threshold(

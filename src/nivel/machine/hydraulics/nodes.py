@@ -76,7 +76,7 @@ class LoadSensing(Component):
     type: Literal["load-sensing"] = "load-sensing"
     valves: Annotated[tuple[Name, ...], BeforeValidator(listed)] = Field(description="directional valves of 4/3 ways")
     lag: Duration = Field(default=0.01, description="time constant")
-    opens_within: Share = Field(default=0.05, description="opening of a valve at which its load is wholly felt")
+    opens_within: Share = Field(default=0.05, description="opening of a valve at which its load is wholly sensed")
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

@@ -42,8 +42,13 @@ def command(
     """
     from nivel.api import load
     from nivel.cli.progress import progress_listener
+    from nivel.errors import Fault, ModelError
     from nivel.live.budget import costs, fixed_methods
+    from nivel.machine.record import unknown_word
 
+    for name in integrators or ():
+        if name not in fixed_methods():
+            raise ModelError(Fault("", 0, 0, "integrators", unknown_word(name, fixed_methods(), "integrator")))
     settings = {name: value for name, value in methods.items() if value is not None}
     record = load(machine, overrides, allow_code=allow_code).record
     own = record.simulation.integrator

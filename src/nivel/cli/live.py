@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 @method_option("coordinates")
 @method_option("stabilisation")
 @click.option("--record", type=click.Path(dir_okay=False), help="Write the recording to this file, for `nivel replay`.")
+@click.option("--force", is_flag=True, help="Replace an existing recording.")
 @click.option("--udp", metavar="HOST:PORT", help="Take inputs from datagrams that come in here; pages only look then.")
 @click.option("--udp-to", metavar="HOST:PORT", help="Send sensors there with every frame.")
 @click.option("--host", default="127.0.0.1", help="Address to listen at; others than this machine need the token then.")
@@ -40,6 +42,7 @@ def command(
     allow_code: bool,
     tick: float | None,
     record: str | None,
+    force: bool,
     udp: str | None,
     udp_to: str | None,
     host: str,
@@ -61,12 +64,16 @@ def command(
     from nivel.live.recorder import write_recording
     from nivel.live.source import LiveSource
     from nivel.live.timing import in_words
+    from nivel.results.target import check_folder, check_target
     from nivel.view.opening import serve
 
     def say(text: str) -> None:
         if not quiet:
             click.echo(text, err=True)
 
+    if record is not None:
+        check_folder(Path(record), "recording")
+        check_target(Path(record), "recording", force=force, sources=[Path(machine)])
     settings = {name: value for name, value in methods.items() if value is not None}
     listen, send = udp and place_of(udp, "udp"), udp_to and place_of(udp_to, "udp_to")
     loaded = load(machine, overrides, allow_code=allow_code)

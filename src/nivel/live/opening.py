@@ -11,7 +11,7 @@ from nivel.analysis.listener import Listener
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.integrate.paced import drive
-from nivel.live.preparation import live_plan
+from nivel.live.preparation import live_plan, pace_of
 from nivel.live.session import Session
 
 
@@ -25,6 +25,8 @@ def session_of(
     listener: Listener | None = None,
 ) -> Iterator[Session]:
     """The machine, prepared in the solver's process, paused at its start. Raises ModelError where it cannot be."""
+    machine = machine.with_settings(settings)
+    pace_of(machine.record.simulation.step, tick)  # a tick that is not right is no fault of the file
     try:
         plan, pace = live_plan(machine.record, settings, tick)
         build([*run_entries(plan), drive], listener)

@@ -49,6 +49,8 @@ def pace_of(step: float, tick: float | None) -> Pace:
     Raises ModelError where the tick is no multiple of the step.
     """
     wanted = max(step, SHORTEST_TICK) if tick is None else tick
+    if not wanted > 0.0:
+        raise ModelError(Fault("", 0, 0, "tick", f"a time greater than zero was expected, got {wanted:.6g} s"))
     substeps = max(1, ceil(wanted / step - 1e-9)) if tick is None else max(1, round(wanted / step))
     if tick is not None and abs(substeps * step - tick) > 1e-9 * tick:
         raise ModelError(Fault("", 0, 0, "tick", f"{tick:.6g} s is not a multiple of the step {step:.6g} s"))

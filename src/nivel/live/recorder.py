@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, Final
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -174,9 +175,9 @@ def read_recording(path: str | PathLike[str]) -> Recording:
             ]
     except FileNotFoundError:
         raise ModelError(f"there is no file {fspath(path)}") from None
-    except Exception as error:
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
         raise ModelError(
-            f"{fspath(path)} is no recording of a live run: {str(error) or type(error).__name__}"
+            f"{fspath(path)} is no recording of a live run, which `nivel live --record FILE` writes"
         ) from None
     if about["format"] != FORMAT:
         raise ModelError(f"{fspath(path)} was written by another version of nivel (format {about['format']})")

@@ -73,7 +73,10 @@ class Session:
         self._newest: Array | None = None
         self._closing = False
         self.recorder = Recorder(self.live, pace)
-        self._await_start()
+        try:
+            self._await_start()
+        finally:
+            self._memory.unlink()  # both have it now, and it goes with them, however they end
         self._thread = threading.Thread(target=self._watch, daemon=True)
         self._thread.start()
 
@@ -194,7 +197,6 @@ class Session:
         self.live = copy_of(self.live)
         self.recorder.detach(self.live)
         self._memory.close()
-        self._memory.unlink()
 
     def values(self) -> Mapping[str, float]:
         """The inputs as they are now."""

@@ -127,13 +127,19 @@ def _place(boxes: Mapping[str, Box]) -> tuple[float, float]:
         for k, key in enumerate(sorted(here, key=lambda each: wished[each])):
             row[key] = float(k)
             boxes[key].x, boxes[key].y = MARGIN + (column - 1) * (WIDE + ACROSS), MARGIN + k * (HIGH + DOWN)
-    tallest = max(len(each) for each in columns.values())
-    for here in columns.values():
-        shift = 0.5 * (tallest - len(here)) * (HIGH + DOWN)
-        for box in here:
-            box.y += shift
-    width = 2 * MARGIN + max(columns) * (WIDE + ACROSS) - ACROSS
-    return width, 2 * MARGIN + tallest * (HIGH + DOWN) - DOWN
+    for column in sorted(columns):
+        _set_heights(sorted(columns[column], key=lambda box: box.y), boxes)
+    lowest = max(box.y for box in boxes.values())
+    return 2 * MARGIN + max(columns) * (WIDE + ACROSS) - ACROSS, lowest + HIGH + MARGIN
+
+
+def _set_heights(here: Sequence[Box], boxes: Mapping[str, Box]) -> None:
+    """Move the boxes of a column, in their order, down to the height of what they read, without overlap."""
+    least = MARGIN
+    for box in here:
+        before = [boxes[each].y for each in box.reads if boxes[each].column < box.column]
+        box.y = max(least, _mean(before, least))
+        least = box.y + HIGH + DOWN
 
 
 def _readers(key: str, boxes: Mapping[str, Box]) -> list[str]:

@@ -400,3 +400,13 @@ simulation: {duration: 1, step: 1 ms, output_interval: 10 ms}
     s = np.clip((t - 0.1) / 0.3, 0, 1)
     force = 2 * 0.2 / 0.3**2 * 60 * s * (1 - s) * (1 - 2 * s)
     np.testing.assert_allclose(result["driver.move.effort"][t < 0.49], force[t < 0.49], rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("sampled", "verdict"), [("", "green"), (", sample_time: 4 ms", "amber")])
+def test_statics_say_of_stability_what_they_know(sampled, verdict):
+    """Under the continuous controller small motions die out; of a sampled one nothing is claimed."""
+    result = Machine.from_record(parse_machine(ARM % sampled)).statics()
+    (stability,) = [item for item in result.trust.items if item.name == "stability"]
+    assert stability.verdict == verdict
+    assert ("not judged" in stability.text) == bool(sampled)
+    np.testing.assert_allclose(result["hinge.angle"], 0.4, rtol=0, atol=1e-9)

@@ -206,6 +206,39 @@ def test_states_and_samples(integrator):
     short(machine(sections).record, integrator, steps=5)
 
 
+@pytest.mark.parametrize("integrator", [EXPLICIT, "dopri5", "generalised-alpha", "radau"])
+def test_control_and_drives(integrator):
+    """Signals, samples with latency, smooth steps, linear and other functions; both drives with their limits and an elastic gear."""
+    elastic = {"rotor_inertia": 1e-3, "gear_stiffness": 100, "gear_damping": 0.1}
+    motor = {"coordinate": "axle", "torque_constant": 0.1, "resistance": 1, "friction_torque": 0.1}
+    curve = {"speeds": [0, 1, 10], "torques": [1, 1, 0]}
+    sections = {
+        "bodies": {"wheel": solid(angular_velocity=[0, 0, 3]), "driven": solid(position=[0, 1, 0])},
+        "joints": {"axle": hinge("ground", "wheel"), "turn": hinge("ground", "driven", point=(0, 1, 0))},
+        "drivers": {"smooth": {"coordinate": "turn", "value": "step(time, 0, 0, 0.01, 0.1)"}},
+        "control": {
+            "wish": {"type": "signal", "value": "step(time, 0, 0, 0.003, 1)"},
+            "speed": {"type": "signal", "value": "dc.speed", "sample_time": STEP},
+            "drive": {"type": "pid", "input": "wish.value - axle.angle", "kp": 9, "ki": 3, "kd": 1, "limits": [-2, 2]},
+            "held": {"type": "gain", "input": "drive.value", "gain": 2, "sample_time": 2 * STEP, "latency": 3 * STEP},
+            "turned": {"type": "lookup", "input": "held.value", "points": [-1, 1], "values": [0, 1]},
+        },
+        "forces": {
+            "dc": {
+                "type": "dc-motor",
+                "voltage": "turned.value*1e3",
+                "inductance": 1e-3,
+                "current_limit": 1,
+                **motor,
+                **elastic,
+            },
+            "plain": {"type": "dc-motor", "voltage": 3, "voltage_limit": 2, **motor},
+            "servo": {"type": "servo-motor", "effort": "-50*drive.value", "torque_speed": curve, **motor},
+        },
+    }
+    short(machine(sections).record, integrator, steps=5)
+
+
 @pytest.mark.parametrize("integrator", ["dopri5", "dop853", "adams", "gear", "radau", "bdf", "generalised-alpha"])
 def test_contacts_and_events(integrator):
     """A ball that falls on a floor, where steps end."""

@@ -6,6 +6,7 @@ from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.files.writer import write_machine
+from nivel.machine import Expression
 
 START = """format: 1
 gravity: [0, -9.81, 0]
@@ -177,3 +178,27 @@ def test_blocks_of_placed_parts_take_signals_of_their_part(tmp_path):
     assert machine.forces[0].effort.text == "left_hold.value"
     assert steps.states[0].next[0].when[0].signals == ("left_hold.value",)
     assert "left_arm.y" in steps.states[1].value.text
+
+
+def test_a_smooth_step_is_the_quintic_with_its_exact_derivatives():
+    """10 s³ - 15 s⁴ + 6 s⁵ between 1 s and 3 s, from 2 to 5; derivatives by differences."""
+    step = Expression("step(time, 1, 2, 3, 5)")
+    for t in (0.0, 1.0, 1.3, 2.0, 2.9, 3.0, 4.0):
+        s = min(max((t - 1) / 2, 0), 1)
+        assert step(t) == pytest.approx(2 + 3 * (10 * s**3 - 15 * s**4 + 6 * s**5), rel=1e-14)
+        assert step.derivative(t) == pytest.approx((step(t + 1e-6) - step(t - 1e-6)) / 2e-6, abs=1e-8)
+        rate = step.derivative
+        assert rate.derivative(t) == pytest.approx((rate(t + 1e-6) - rate(t - 1e-6)) / 2e-6, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("step(time, 0, 0, 1)", "`step` takes 5 arguments, got 4"),
+        ("step(time, 0, 1 m, 1 s, 2 kg)", "a length (m) and a mass (kg) cannot be compared"),
+        ("step(boom.angle, 0 rad, 1, 1 m, 2)", "cannot be compared"),
+    ],
+)
+def test_faulty_steps(text, fault):
+    (found,) = faults(f'a: {{type: signal, value: "{text}"}}')
+    assert fault in found

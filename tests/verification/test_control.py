@@ -385,3 +385,28 @@ simulation: {duration: 0.5, step: 1 ms}
     result = simulated(START + text)
     assert any("stuck stood at its limits" in str(item) for item in result.trust.items)
     assert not any("free stood" in str(item) for item in result.trust.items)
+
+
+def test_a_driver_follows_a_smooth_step():
+    text = """
+drivers:
+  move: {coordinate: rail, value: "step(time, 0.1, 0, 0.4, 0.2) + step(time, 0.5, 0, 0.7, -0.1)"}
+simulation: {duration: 1, step: 1 ms, output_interval: 10 ms}
+"""
+    result = simulated(START.replace("velocity: [1, 0, 0]", "velocity: [0, 0, 0]") + text)
+    t = result.time
+    way = 0.2 * quintic((t - 0.1) / 0.3) - 0.1 * quintic((t - 0.5) / 0.2)
+    np.testing.assert_allclose(result["rail.displacement"], way, rtol=0, atol=1e-12)
+    s = np.clip((t - 0.1) / 0.3, 0, 1)
+    force = 2 * 0.2 / 0.3**2 * 60 * s * (1 - s) * (1 - 2 * s)
+    np.testing.assert_allclose(result["driver.move.effort"][t < 0.49], force[t < 0.49], rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("sampled", "verdict"), [("", "green"), (", sample_time: 4 ms", "amber")])
+def test_statics_say_of_stability_what_they_know(sampled, verdict):
+    """Under the continuous controller small motions die out; of a sampled one nothing is claimed."""
+    result = Machine.from_record(parse_machine(ARM % sampled)).statics()
+    (stability,) = [item for item in result.trust.items if item.name == "stability"]
+    assert stability.verdict == verdict
+    assert ("not judged" in stability.text) == bool(sampled)
+    np.testing.assert_allclose(result["hinge.angle"], 0.4, rtol=0, atol=1e-9)

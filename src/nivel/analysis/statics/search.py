@@ -19,7 +19,7 @@ from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEqu
 from nivel.analysis.statics.linear import PivotError, factors, negative_directions, solve
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.analysis.statics.stability import is_mechanism, softest
-from nivel.analysis.statics.states import equilibrate_states, find_moving_states, growing_motions
+from nivel.analysis.statics.states import depends_on_samples, equilibrate_states, find_moving_states, growing_motions
 from nivel.system.system import Array
 
 MOST_STEPS = 600
@@ -50,8 +50,7 @@ def settle(equations: StaticEquations, start: Rest, iteration: Iteration) -> Fou
         return _settle(equations, start, iteration)
     held = _held_by_states(equations, start, iteration)
     # whether motions grow under what is sampled is no question of rates
-    sampled = any(fact.sampled for fact in equations.system.states)
-    if held is not None and (sampled or growing_motions(equations, held.state) == 0):
+    if held is not None and (depends_on_samples(equations, held.state) or growing_motions(equations, held.state) == 0):
         return held
     try:
         return _settled_with_states(equations, start, iteration)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nivel.report.circuit_panel import circuits
 from nivel.report.element_panels import couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.report.peaks import NEGLIGIBLE, negligible
@@ -27,6 +28,7 @@ def panels(result: Result) -> list[Panel]:
         _joint_coordinates(result),
         _positions(result),
         sensors(result, floors),
+        circuits(result),
         _energies(result),
         _energy_error(result),
         drivers(result, floors),

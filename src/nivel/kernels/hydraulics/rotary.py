@@ -4,7 +4,8 @@ Fluid goes from A to B as the shaft turns forward; losses are leakage and fricti
 
     ṁ = ρ_in D ε ω - ρ̄ C (p_B - p_A)        T = ρ_in D ε (h_B - h_A) + T_v ω + c D |p_B - p_A| sgn ω
 
-ρ_in is the density on the side from which fluid is taken in; within SLOW of no speed, it passes from one to the other. T is the torque that drives the shaft forward.
+ρ_in is the density on the side from which fluid is taken in; within SLOW of no speed, it passes from one to the other. T is the torque
+that drives the shaft forward.
 """
 
 from __future__ import annotations

@@ -160,3 +160,15 @@ def test_the_error_of_the_ledger_falls_with_the_order_of_the_method():
 def test_a_loaded_boom_stands_still_at_the_start():
     result = nivel.load(FILE).simulate(duration=0.19)
     assert np.max(np.abs(result.array("velocity"))) < 1e-9
+
+
+def test_a_run_from_equilibrium_stays_where_statics_finds_it():
+    """Mechanics and circuit together, the fluid in the closed chambers as it is."""
+    machine = nivel.load(FILE)
+    rest = machine.statics()
+    assert rest.outcome == "done"
+    settings = machine.record.simulation.replace(start="equilibrium")
+    started = nivel.Machine.from_record(machine.record.replace(simulation=settings)).simulate(duration=0.19)
+    angle = np.ravel(started.array("joint_coordinate"))
+    assert np.ptp(angle) < 1e-9
+    assert angle[0] == pytest.approx(float(np.ravel(rest.array("joint_coordinate"))[-1]), abs=1e-9)

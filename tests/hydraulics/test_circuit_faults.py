@@ -36,7 +36,11 @@ CASES = {
         "  lost: {type: volume, volume: 1 L}\n  tank: {",
         "nothing is connected to the volume `lost`",
     ),
-    "a pump without relief": ("  relief: {", "  # relief: {", "no relief valve bounds the pressure at `supply`"),
+    "a pump without relief": (
+        "relief-valve, ports: {P: supply",
+        "relief-valve, ports: {P: lift.A",
+        "no relief valve bounds the pressure at `supply`",
+    ),
     "an algebraic loop": (
         "command: 0",
         "command: valve.flow_PA",

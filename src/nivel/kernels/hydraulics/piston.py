@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import tanh
+from nivel.kernels.analytic import real, tanh
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.hook import family
@@ -41,9 +41,11 @@ def swept(n, s):
     volume, area = n[ROOM] + n[AREA] * s, n[AREA] + 0.0 * s
     for k in range(STAGES):
         change = n[FIRST_STAGE + 2 * k]
+        if real(change) == 0.0:
+            continue
         beyond = s - n[FIRST_STAGE + 2 * k + 1]
         volume += change * ramp(beyond, n[WIDTH])
-        area += change * step(beyond / n[WIDTH])
+        area += change * step(beyond * (1.0 / real(n[WIDTH])))
     return volume, area
 
 

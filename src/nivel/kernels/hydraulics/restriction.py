@@ -8,6 +8,7 @@ their overlap.
 
 from __future__ import annotations
 
+from nivel.kernels.analytic import real
 from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
 from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, root_flow, step
@@ -58,7 +59,7 @@ def apply(machine, number, t):
         a, b = index[FROM], index[TO]
         difference = circuit.pressure[a] - circuit.pressure[b]
         opening = opening_of(machine, index, n, t)
-        flow = n[FLOW] * opening * root_flow(difference, n[CORNER], secant) + n[LEAK] * difference
+        flow = real(n[FLOW]) * opening * root_flow(difference, n[CORNER], secant) + real(n[LEAK]) * difference
         lose(machine, transfer(machine, a, b, 0.5 * (circuit.density[a] + circuit.density[b]) * flow))
         record.outputs.value[index[OUTPUT]] = flow
     return OK

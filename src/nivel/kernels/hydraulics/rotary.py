@@ -4,7 +4,8 @@ Fluid goes from A to B as the shaft turns forward; losses are leakage and fricti
 
     ṁ = ρ_in D ε ω - ρ̄ C (p_B - p_A)        T = ρ_in D ε (h_B - h_A) + T_v ω + c D |p_B - p_A| sgn ω
 
-ρ_in is the density on the side from which fluid is taken in. T is the torque that drives the shaft forward.
+ρ_in is the density on the side from which fluid is taken in; within SLOW of no speed, it passes from one to the other. T is the torque
+that drives the shaft forward.
 """
 
 from __future__ import annotations
@@ -81,9 +82,10 @@ def turn(machine, number, t):
             angle = omega * t
         swept = n[DISPLACEMENT] * value[out + SETTING] * (1.0 + n[RIPPLE] * np.cos(n[PERIODS] * angle))
         displaced = swept * omega
-        density = circuit.density[a] if real(displaced) > 0.0 else circuit.density[b]
-        difference = circuit.pressure[b] - circuit.pressure[a]
         mean = 0.5 * (circuit.density[a] + circuit.density[b])
+        taken = sign_within(omega * value[out + SETTING], SLOW)
+        density = mean + 0.5 * (circuit.density[a] - circuit.density[b]) * taken
+        difference = circuit.pressure[b] - circuit.pressure[a]
         leak = n[LEAK] * difference
         flow = density * displaced - mean * leak
         torque = density * swept * (circuit.enthalpy[b] - circuit.enthalpy[a]) + n[VISCOUS] * omega

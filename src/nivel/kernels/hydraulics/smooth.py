@@ -15,7 +15,7 @@ def ramp(z, width):
         return 0.0 * z
     if real(z) >= real(width):
         return z - 0.5 * width
-    t = z / width
+    t = z * (1.0 / real(width))
     return width * t * t * t * (1.0 - 0.5 * t)
 
 
@@ -54,7 +54,10 @@ def root_flow(difference, corner, secant):
     secant : on complex numbers, the derivative is that of a line through the origin. A linearly implicit step with the tangent in place of
     the secant rings for ever, because it is one step of Newton's method on a root.
     """
-    inner = difference
+    size = real(difference) * real(difference) + real(corner) * real(corner)
+    slope = 1.0 / np.sqrt(np.sqrt(size))
     if secant == 1:
-        inner = 0.0 * difference + real(difference)
-    return difference / np.sqrt(np.sqrt(inner * inner + corner * corner))
+        return slope * difference
+    # of complex numbers the first derivative: that of (Δp² + c²)^(-1/4) is -½ Δp (Δp² + c²)^(-5/4)
+    change = difference - real(difference)
+    return slope * (difference - 0.5 * real(difference) * real(difference) / size * change)

@@ -66,10 +66,10 @@ def lift(machine, number, t):
         for i in range(NODES):
             if index[FIRST_NODE + i] != NONE:
                 pressure = pressure + n[FIRST_FACTOR + i] * circuit.pressure[index[FIRST_NODE + i]]
-        opening = step(pressure / n[RANGE])
+        opening = step(pressure * (1.0 / real(n[RANGE])))
         if index[STATE] != NONE:
             own = index[STATE]
-            elements.state_rate[own] += (opening - elements.state[own]) / n[LAG]
+            elements.state_rate[own] += (opening - elements.state[own]) * (1.0 / real(n[LAG]))
             opening = elements.state[own]
         record.outputs.value[index[OUTPUT]] = opening
     return OK

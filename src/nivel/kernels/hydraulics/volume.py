@@ -118,9 +118,10 @@ def find_pressure(machine, node, mass):
     solve_volume(f, n, known, real(mass), real(volume))
     p, v, slope, energy = known[PRESSURE], known[VALUE], known[RATE], known[ENERGY]
     # one step of Newton's method, which on complex numbers gives the exact derivative
-    change = (mass * v / f[DENSITY] - volume - known[EXTRA]) / (known[GIVE] - known[MASS] * slope / f[DENSITY])
+    softness = 1.0 / (known[GIVE] - known[MASS] * slope / f[DENSITY])
+    change = (mass * (v / f[DENSITY]) - volume - known[EXTRA]) * softness
     circuit.pressure[node] = p + change
-    circuit.density[node] = f[DENSITY] / (v + slope * change)
+    circuit.density[node] = f[DENSITY] / v * (1.0 - slope / v * change)
     circuit.enthalpy[node] = (energy + v * change) / f[DENSITY]
     stored = known[MASS] * (energy - (p - ATMOSPHERE) * v) / f[DENSITY] + energy_of_room(n, p)
     circuit.stored[0] += stored
@@ -136,7 +137,7 @@ def give_pressure(machine, node, p):
     v, slope, energy = specific_volume(f, real(p))
     change = p - real(p)
     circuit.pressure[node] = p
-    circuit.density[node] = f[DENSITY] / (v + slope * change)
+    circuit.density[node] = f[DENSITY] / v * (1.0 - slope / v * change)
     circuit.enthalpy[node] = (energy + v * change) / f[DENSITY]
 
 

@@ -85,7 +85,13 @@ def test_bodies_are_images(body, placing):
     assert np.allclose(its_axes @ of_w, placing.turning(axes @ turning), atol=1e-14)
 
 
-NO_AXES = ("spherical", "fixed", "distance", "spherical-spherical", "variable-distance")  # where they are placed by points
+NO_AXES = (
+    "spherical",
+    "fixed",
+    "distance",
+    "spherical-spherical",
+    "variable-distance",
+)  # where they are placed by points
 WITH_AXES = [
     (kind, by)
     for kind in JOINT_KINDS

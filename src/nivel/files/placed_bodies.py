@@ -29,7 +29,11 @@ from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.machine.solids import axes_of, box_size, length, mesh_surface
 from nivel.machine.surface import surface_text
 
-_SLIDING = ("translational", "point-on-line", "translational-universal")  # joints whose axis is a direction of motion, not an axis of turning
+_SLIDING = (
+    "translational",
+    "point-on-line",
+    "translational-universal",
+)  # joints whose axis is a direction of motion, not an axis of turning
 KEPT = {"universal": AXIAL, "skew-universal": AXIAL, **dict.fromkeys(_SLIDING, POLAR_Z)}  # others keep AXIAL_Z
 
 

@@ -85,7 +85,13 @@ def test_bodies_are_images(body, placing):
     assert np.allclose(its_axes @ of_w, placing.turning(axes @ turning), atol=1e-14)
 
 
-NO_AXES = ("spherical", "fixed", "distance", "spherical-spherical")  # where they are placed by points
+NO_AXES = (
+    "spherical",
+    "fixed",
+    "distance",
+    "spherical-spherical",
+    "variable-distance",
+)  # where they are placed by points
 WITH_AXES = [
     (kind, by)
     for kind in JOINT_KINDS
@@ -96,12 +102,14 @@ WITH_AXES = [
 
 def joint_of(kind, by):
     """A joint of a kind between a and b, by points or by markers."""
-    size = {"pitch": 0.01} if kind == "screw" else {}
+    size = {"screw": {"pitch": 0.01}, "generic": {"locked": ("rx", "ry")}}.get(kind, {})
     if by == "markers":
         first = Marker(body="a", position=(0.1, 0.2, 0.3), axis=(1, 2, 0.5), x_axis=(0.3, 0, 1))
         second = Marker(body="b", position=(-0.1, 0.2, 0), orientation=Orientation(euler=(1, 2, 3), sequence="xyz"))
         return Joint(name="j", type=kind, markers=(first, second), **size)
     axes = ((0, 1, 0.2), (1, 0, 0)) if JOINT_KINDS[kind].axes == "perpendicular" else ((0, 1, 0.2), (1, 0.3, 0))
+    if kind == "translational-universal":
+        axes = ((0.3, 0, -0.2), (0.2, 1, 0.3))  # the first across the way
     given = {"point": (0.4, 0, 0.1), "points": ((0.4, 0, 0.1), (1, 2, 0)), "axis": (0.2, 1, 0.3), "axes": axes}
     return Joint(name="j", type=kind, bodies=("a", "b"), **{key: given[key] for key in JOINT_KINDS[kind].place}, **size)
 
@@ -114,6 +122,8 @@ def ends(joint):
     if joint.axes is not None:
         first, second = joint.axes
         frames = [frame_from_axes(first, second)] * 2
+        if joint.axis is not None:
+            frames[0] = frame_from_axes(joint.axis, first)
         if joint.type != "revolute-translational":
             frames[1] = frame_from_axes(second, first)
     else:
@@ -158,7 +168,7 @@ def test_joints_keep_the_meaning_of_their_coordinates(kind, by, placing, rng):
     values, rows = coordinates(joint, bodies, poses)
     of_image, its_rows = coordinates(made["joints"][0], made["bodies"], images)
     for name in JOINT_KINDS[kind].coordinates:
-        opposite = placing.mirrored and kind in ("cylindrical", "screw") and name == "displacement"
+        opposite = placing.mirrored and kind in ("cylindrical", "screw", "generic") and name == "displacement"
         assert of_image[name] == pytest.approx(-values[name] if opposite else values[name], abs=1e-12), name
     if joint.axes is None:
         assert its_rows == pytest.approx(rows, abs=1e-12)

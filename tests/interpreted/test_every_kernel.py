@@ -133,6 +133,15 @@ def test_functions_of_laws():
         short(record, integrator, steps=1)
 
 
+def test_euler_angles():
+    sensors = {
+        name: {"marker": "tip", "quantity": "euler_angles", "sequence": name, **more}
+        for name, more in (("zxz", {}), ("xyz", {"relative_to": "eye"}))
+    }
+    case = force_zoo.Case({"type": "motor", "coordinate": "axle", "effort": 1}, more={"sensors": sensors})
+    short(force_zoo.bed(case), steps=1)
+
+
 # --- methods ---
 
 

@@ -29,8 +29,12 @@ from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.machine.solids import axes_of, box_size, length, mesh_surface
 from nivel.machine.surface import surface_text
 
-KEPT = {"universal": AXIAL, "translational": POLAR_Z, "point-on-line": POLAR_Z}  # others keep AXIAL_Z
-_SLIDING = ("translational", "point-on-line")  # joints whose axis is a direction of motion, not an axis of turning
+_SLIDING = (
+    "translational",
+    "point-on-line",
+    "translational-universal",
+)  # joints whose axis is a direction of motion, not an axis of turning
+KEPT = {"universal": AXIAL, "skew-universal": AXIAL, **dict.fromkeys(_SLIDING, POLAR_Z)}  # others keep AXIAL_Z
 
 
 def placed_body(body: Body, placing: Placement) -> Body:
@@ -172,6 +176,7 @@ def _placed_axes(joint: Joint, placing: Placement) -> dict[str, Any]:
     if joint.axis is not None:
         turned = placing.direction if joint.type in _SLIDING else placing.turning
         changes["axis"] = turned(joint.axis)
+    if joint.axis is not None and joint.axes is None:
         changes["x_axis"] = placing.direction(triple(frame_from_axes(joint.axis, joint.x_direction)[:, 0]))
     if joint.axes is not None:
         first, second = joint.axes

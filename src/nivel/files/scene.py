@@ -27,7 +27,11 @@ from nivel.machine import (
 from nivel.machine.orientation import matrix_from_euler_parameters
 
 _QUANTITIES = {f"{kind}{axis}": (kind, at) for kind in ("", "v", "w") for at, axis in enumerate("xyz")}
-_OPPOSITE = ("cylindrical", "screw")  # joints that turn and slide along one axis: their mirror image slides backwards
+_OPPOSITE = (
+    "cylindrical",
+    "screw",
+    "generic",
+)  # joints that turn and slide along one axis: their mirror image slides backwards
 
 
 @dataclass

@@ -41,6 +41,13 @@ def coordinate_faults(machine: Any, index: Index) -> Faults:
                 yield from _held(found, index, place)
             if section == "drivers":
                 yield from _driven_twice(element, found, driven, (section, at))
+    for at, reference in enumerate(as_list(entry(entry(machine, "simulation"), "free"))):
+        place = ("simulation", "free", at)
+        found = yield from _find(reference, index, None, place)
+        if found is not None:
+            yield from _held(found, index, place)
+            if found in driven:
+                yield place, f"`{'.'.join(found)}` is driven by `{driven[found]}`: it is not free"
     for at, joint in enumerate(elements(machine, "joints")):
         yield from _started(joint, driven, ("joints", at))
 

@@ -92,7 +92,7 @@ JOINT_KINDS: Final[dict[str, JointKind]] = {
     "variable-distance": JointKind(("points",), ("distance",)),
     "skew-universal": JointKind(("point", "axes"), ("angle_1", "angle_2"), axes="not parallel"),
     "translational-universal": JointKind(("point", "axis", "axes"), ("displacement",), axes="perpendicular"),
-    "generic": JointKind(("point",), ("x", "y", "displacement", "angle"), may=("axis", "x_axis"), size=("locked",)),
+    "generic": JointKind(("point", "axis"), ("x", "y", "displacement", "angle"), may=("x_axis",), size=("locked",)),
     "revolute-spherical": JointKind(("points", "axis"), ("angle",), may=("x_axis",)),
     "revolute-cylindrical": JointKind(("points", "axes")),
     "revolute-translational": JointKind(("point", "axes"), ("angle", "displacement"), axes="not parallel"),

@@ -9,6 +9,7 @@ from typing import Annotated, Literal, get_args
 from pydantic import Field, field_validator
 
 from nivel.machine.checked import Checked, Problem
+from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.quantity import Duration, Rate, Real, Whole, fault
 from nivel.machine.record import Record
 
@@ -111,6 +112,9 @@ class SimulationSettings(Checked):
     stabilisation: Stabilisation = "direct"
     start: Start = Field(
         default="as-given", description="the assembled machine, or the equilibrium where it settles, at rest"
+    )
+    free: tuple[CoordinateReference, ...] = Field(
+        default=(), description="joint coordinates without stiffness that an equilibrium leaves where they are placed"
     )
     rotations: Rotations = Field(default="euler-parameters", description="of lagrange in absolute coordinates")
     cut: tuple[str, ...] = Field(default=(), description="joints that stay constraints in relative coordinates")

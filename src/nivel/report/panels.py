@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nivel.report.control_panel import control
 from nivel.report.circuit_panel import circuits
+from nivel.report.control_panel import control
 from nivel.report.element_panels import couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.report.peaks import NEGLIGIBLE, negligible

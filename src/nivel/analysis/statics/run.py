@@ -22,6 +22,7 @@ from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.frames import Facts, FrameWriter
+from nivel.analysis.statics.free import loaded_free
 from nivel.analysis.statics.labels import direction_in_words
 from nivel.analysis.statics.linear import PivotError, has_potential, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
@@ -257,6 +258,9 @@ def _close(
     settings: StaticsSettings,
     seconds: dict[str, float],
 ) -> Result:
+    result = sink.result()
+    if walk.ended is None and (loaded := loaded_free(machine, result, prepared.motion.system.size)):
+        walk.outcome, walk.ended = "failed", loaded
     message, advice = walk.ended or ("", "")
     redundancy = prepared.redundancy
     facts = StaticsFacts(
@@ -271,7 +275,6 @@ def _close(
         rigid=walk.rigid,
         without_potential=walk.without_potential,
     )
-    result = sink.result()
     critical = [
         {
             "kind": each.kind,

@@ -11,6 +11,7 @@ from nivel.analysis.equations import MotionEquations
 from nivel.analysis.plan import Methods, methods_of
 from nivel.analysis.statics.ends import no_start, without_stiffness
 from nivel.analysis.statics.equations import StateError
+from nivel.analysis.statics.free import refuse_moving
 from nivel.analysis.statics.newton import EquilibriumError, Iteration
 from nivel.analysis.statics.refusals import for_statics
 from nivel.analysis.statics.run import prepare_statics
@@ -28,8 +29,9 @@ AT_REST = 1e-9
 @dataclass(frozen=True)
 class Settled:
     """The positions q of all bodies (and modes) in equilibrium at t = 0, absolute coordinates, the angles of joints there, and the states
-    of elements."""
+    of elements. machine : whose equilibrium it is."""
 
+    machine: MachineRecord
     q: Array
     reference: Array
     states: Array
@@ -40,7 +42,7 @@ class Settled:
         y = np.zeros_like(assembly.y)
         y[: system.positions] = self.q[: system.positions]
         system.record.coordinates.reference[:] = self.reference
-        motion.evaluate(0.0, y)
+        _, rate = motion.evaluate(0.0, y)
         constraints = system.record.constraints
         moving = np.abs(constraints.Cdot / constraints.scale)[: system.machine_rows] > AT_REST
         if np.any(moving):
@@ -52,6 +54,8 @@ class Settled:
                 for name in dict.fromkeys(np.array(system.row_owner)[moving].tolist())
             ]
             raise ModelError(faults)
+        count = system.body_count
+        refuse_moving(self.machine, rate[system.positions :][: 6 * count].reshape(count, 6), system.size)
         return replace(assembly, y=y, reference=self.reference.copy(), velocity_change=())
 
 
@@ -85,7 +89,7 @@ def settled(machine: MachineRecord) -> Settled:
     reference = equations.record.coordinates.reference.copy()
     y = found.state.y
     states = y[equations.first_state :][: equations.state_count]
-    return Settled(y[: equations.positions].copy(), reference, states.copy())
+    return Settled(machine, y[: equations.positions].copy(), reference, states.copy())
 
 
 def _refuse_velocities(machine: MachineRecord) -> None:

@@ -21,11 +21,13 @@ if TYPE_CHECKING:
     from nivel.api import Machine as Machine
     from nivel.api import load as load
     from nivel.api import open_result as open_result
+    from nivel.api import sweep as sweep
     from nivel.errors import ModelError as ModelError
     from nivel.errors import NivelError as NivelError
     from nivel.errors import SolveError as SolveError
     from nivel.machine import AssemblySettings as AssemblySettings
     from nivel.machine import Baumgarte as Baumgarte
+    from nivel.machine import Beam as Beam
     from nivel.machine import Belt as Belt
     from nivel.machine import Block as Block
     from nivel.machine import Body as Body
@@ -49,6 +51,7 @@ if TYPE_CHECKING:
     from nivel.machine import Rack as Rack
     from nivel.machine import Rope as Rope
     from nivel.machine import Sensor as Sensor
+    from nivel.machine import Servo as Servo
     from nivel.machine import SimulationSettings as SimulationSettings
     from nivel.machine import SpringDamper as SpringDamper
     from nivel.machine import State as State
@@ -63,11 +66,13 @@ _HOME = {
     "Machine": "nivel.api",
     "load": "nivel.api",
     "open_result": "nivel.api",
+    "sweep": "nivel.api",
     "ModelError": "nivel.errors",
     "NivelError": "nivel.errors",
     "SolveError": "nivel.errors",
     "AssemblySettings": "nivel.machine",
     "Baumgarte": "nivel.machine",
+    "Beam": "nivel.machine",
     "Belt": "nivel.machine",
     "Block": "nivel.machine",
     "Body": "nivel.machine",
@@ -91,6 +96,7 @@ _HOME = {
     "Rack": "nivel.machine",
     "Rope": "nivel.machine",
     "Sensor": "nivel.machine",
+    "Servo": "nivel.machine",
     "SimulationSettings": "nivel.machine",
     "SpringDamper": "nivel.machine",
     "State": "nivel.machine",
@@ -105,6 +111,7 @@ _HOME = {
 __all__ = [
     "AssemblySettings",
     "Baumgarte",
+    "Beam",
     "Belt",
     "Block",
     "Body",
@@ -133,6 +140,7 @@ __all__ = [
     "Result",
     "Rope",
     "Sensor",
+    "Servo",
     "SimulationSettings",
     "SolveError",
     "SpringDamper",
@@ -143,6 +151,7 @@ __all__ = [
     "TorsionalSpringDamper",
     "load",
     "open_result",
+    "sweep",
 ]
 
 

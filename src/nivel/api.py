@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from html import escape
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
+from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
-from nivel.analysis.changes import changed
 from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
-from nivel.analysis.compilation import assembly_entries, build, preparation_entries, run_entries, statics_entries
+from nivel.analysis.compilation import (
+    assembly_entries,
+    build,
+    kinematics_entries,
+    linear_entries,
+    preparation_entries,
+    run_entries,
+    statics_entries,
+)
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan, methods_of, plan_run
 from nivel.analysis.settings import waiting_time
@@ -19,9 +26,10 @@ from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
 from nivel.files.reader import parse_machine, read_text
-from nivel.files.writer import write_machine
+from nivel.files.values import outside_paths
 from nivel.machine import (
     AssemblySettings,
+    Beam,
     Block,
     Body,
     Coupling,
@@ -37,24 +45,38 @@ from nivel.machine import (
     State,
     Table,
 )
+from nivel.machine.hydraulics import Fluid, HydraulicComponent
+from nivel.model import Model
+from nivel.wording import shown
 
 if TYPE_CHECKING:
+    import xarray
+
     from nivel.analysis.check import Check
+    from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.posing import Posing
+    from nivel.analysis.stepping import Simulation
     from nivel.c_library.writer import Files
+    from nivel.native.entry import Entry
     from nivel.results.comparison import Comparison
+    from nivel.results.efforts import Efforts
+    from nivel.results.joint_path import JointPath
+    from nivel.results.linear_model import LinearModel
+    from nivel.results.mechanism import Range
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
 
 
-class Machine:
-    """A machine and what can be asked of it.
+class Machine(Model):
+    """A machine: its elements by name, copies of it with other values, and what can be asked of it.
 
     Made from records (everything in SI units, or texts with units), or with `nivel.load` from a file::
 
         arm = nivel.Body(name="arm", mass=2.0, inertia=(0.01, 0.2, 0.2), position=(0.5, 0, 0))
         pin = nivel.Joint(name="pin", type="revolute", bodies=("ground", "arm"), point=(0, 0, 0), axis=(0, 0, 1))
         machine = nivel.Machine("pendulum", bodies=[arm], joints=[pin], gravity=(0, -9.81, 0))
+        machine.bodies["arm"].mass  # 2.0
+        heavier = machine.with_values({"bodies.arm.mass": "4 kg"})
 
     Raises ModelError with everything that is wrong.
     """
@@ -65,11 +87,14 @@ class Machine:
         name: str = "machine",
         *,
         bodies: Sequence[Body] = (),
+        beams: Sequence[Beam] = (),
         markers: Sequence[Marker] = (),
         joints: Sequence[Joint] = (),
         couplings: Sequence[Coupling] = (),
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
+        fluids: Sequence[Fluid] = (),
+        hydraulics: Sequence[HydraulicComponent] = (),
         inputs: Sequence[Input] = (),
         states: Sequence[State] = (),
         control: Sequence[Block] = (),
@@ -82,11 +107,14 @@ class Machine:
     ) -> None:
         sections = {
             "bodies": bodies,
+            "beams": beams,
             "markers": markers,
             "joints": joints,
             "couplings": couplings,
             "drivers": drivers,
             "forces": forces,
+            "fluids": fluids,
+            "hydraulics": hydraulics,
             "inputs": inputs,
             "states": states,
             "control": control,
@@ -98,20 +126,6 @@ class Machine:
         given |= {} if simulation is None else {"simulation": simulation}
         self.record = MachineRecord(name=name, description=description, gravity=gravity, **given)  # type: ignore[arg-type]
         self.origin = Origin()
-
-    @classmethod
-    @checked_arguments
-    def from_record(cls, record: MachineRecord, origin: Origin | None = None) -> Machine:
-        """Wrap a record; `origin` says where its values were set."""
-        machine = cls.__new__(cls)
-        machine.record = record
-        machine.origin = origin or Origin()
-        return machine
-
-    @property
-    def name(self) -> str:
-        """Name of the machine."""
-        return self.record.name
 
     @checked_arguments
     def check(self, *, listener: Listener | None = None) -> Check:
@@ -216,12 +230,7 @@ class Machine:
         limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
         chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
-        entries = run_entries(plan)
-        if plan.settings.start == "equilibrium":
-            from nivel.analysis.statics.start import methods_at_rest
-
-            entries += statics_entries(methods_at_rest(chosen.record))
-        compile_seconds = build(entries, listener)
+        compile_seconds = build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
         from nivel.analysis.simulate import simulate
         from nivel.results.target import keep_sources
@@ -252,6 +261,71 @@ class Machine:
 
         with self._faults_in_file():
             return write_c_library(plan, Path(folder))
+
+    @checked_arguments
+    def start(
+        self,
+        *,
+        step: float | str | None = None,
+        output_interval: float | str | None = None,
+        integrator: str | None = None,
+        formulation: str | None = None,
+        coordinates: str | None = None,
+        stabilisation: str | None = None,
+        start: str | None = None,
+        record: bool = False,
+        listener: Listener | None = None,
+    ) -> Simulation:
+        """The machine ready to move step by step: ``sim.step()``, ``sim["hinge.angle"]``, ``sim.state``.
+
+        Options override those of the machine's `simulation`, as in `simulate`. The time has no end; steps are fixed.
+        record : keep a frame every `output_interval`, for ``sim.result()``. Raises ModelError.
+        """
+        given = {
+            "step": step,
+            "output_interval": output_interval,
+            "integrator": integrator,
+            "formulation": formulation,
+            "coordinates": coordinates,
+            "stabilisation": stabilisation,
+            "start": start,
+        }
+        given = {key: value for key, value in given.items() if value is not None}
+        chosen = self.with_settings(given)
+        plan = chosen._plan({*given, *self.origin.settings_outside})
+        build(_entries_of(plan, chosen.record), listener)
+        from nivel.analysis.stepping import Simulation
+
+        with chosen._faults_in_file():
+            return Simulation(plan, source=self.origin.source, record=record)
+
+    @checked_arguments
+    def sweep(
+        self,
+        values: Mapping[str, Any],
+        *,
+        combine: Literal["grid", "rows"] = "grid",
+        samples: int | None = None,
+        seed: int = 0,
+        save: Sequence[str] | str = (),
+        processes: int | None = None,
+        listener: Listener | None = None,
+        **settings: Any,
+    ) -> xarray.Dataset:
+        """Run the machine with other values, on all processors, into one xarray dataset.
+
+        values : lists by path, ``{"bodies.rod.mass": [1, 2, 3], "parameters.length": ["20 cm", "30 cm"]}``. combine : `grid`, every value
+        with every other, one dimension each; or `rows`, the first of all lists, the second of all, along the dimension `variant`.
+        samples : so many variants of a Latin hypercube between two bounds, ``{"bodies.rod.mass": (1, 3)}``, or over distributions of
+        `scipy.stats`; seed : of its random numbers. save : names of results; default all joint coordinates and sensors.
+        processes : as many as there are processors by default. settings : as of `simulate`, for all variants.
+
+        A variant that fails or is refused has its `reason` in the dataset, and NaN where nothing was computed. `outcome`, `end_time` and
+        `verdict` stand there for every variant. Ctrl-C ends the sweep; what was computed is returned.
+        Raises ModelError where values or names are not known, or no variant can be run.
+        """
+        machine = self.with_settings(settings)
+        return _sweep([machine], values, (combine, samples, seed), (save, processes), listener)
 
     @checked_arguments
     def statics(
@@ -320,6 +394,273 @@ class Machine:
             )
 
     @checked_arguments
+    def kinematics(
+        self,
+        *,
+        drive: str | None = None,
+        start: float | str | None = None,
+        end: float | str | None = None,
+        duration: float | str | None = None,
+        positions: int | str | None = None,
+        coordinates: str | None = None,
+        out: str | PathLike[str] | None = None,
+        force: bool = False,
+        listener: Listener | None = None,
+    ) -> Result:
+        """Positions, velocities, accelerations and reactions of a machine whose motions are all driven, without integration.
+
+        drive : a joint coordinate to be driven evenly besides what the machine's own drivers prescribe, from `start` (default: where it is)
+        to `end` (default: one turn further) [rad or m, or texts with units]. duration : of the motion [s], default that of the machine, 1 s
+        with `drive`. positions : so many, both ends included, default 361. coordinates : auto, absolute or relative. out : result file
+        (NetCDF); in memory if None. force : replace it.
+        Raises ModelError where motions are not driven (nothing was computed), SolveError where the machine cannot go on: its `result` holds
+        the positions until then, its message says what holds which driver.
+        """
+        from nivel.analysis.kinematics.refusals import refuse_what_bends
+        from nivel.analysis.kinematics.settings import kinematics_settings
+        from nivel.analysis.neutral import neutral
+
+        given = {"drive": drive, "start": start, "end": end, "duration": duration, "positions": positions}
+        settings = kinematics_settings(self.record, {**given, "coordinates": coordinates})
+        with self._faults_in_file():
+            refuse_what_bends(self.record)
+            build(assembly_entries(self.record), listener or Listener())
+            from nivel.analysis.kinematics.drive import driven
+
+            machine, settings = driven(self.record, settings)
+            plain, chosen = neutral(machine, settings.coordinates)
+            methods = methods_of(plain, "newton-euler", chosen)
+        compile_seconds = build(kinematics_entries(methods), listener or Listener())
+        # what follows takes longer to import
+        from nivel.analysis.kinematics.run import kinematics
+        from nivel.results.target import keep_sources
+
+        if out is not None and self.origin.file:
+            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
+        with self._faults_in_file():
+            return kinematics(
+                machine,
+                methods,
+                settings,
+                source=self.origin.source,
+                out=out,
+                force=force,
+                listener=listener,
+                compile_seconds=compile_seconds,
+            )
+
+    @checked_arguments
+    def range_of_motion(
+        self,
+        coordinate: str,
+        *,
+        positions: int | str | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> Range:
+        """How far a joint coordinate can be driven from where it is, both ways: a whole turn, or, of a length, twice the machine's size.
+
+        positions : so many each way, default 361. Raises ModelError where other motions are not driven.
+        """
+        from math import pi
+
+        from nivel.analysis.kinematics.ranges import range_of_motion
+        from nivel.analysis.kinematics.settings import kinematics_settings
+
+        settings = kinematics_settings(
+            self.record, {"drive": coordinate, "end": 0.0, "positions": positions, "coordinates": coordinates}
+        )
+        build(assembly_entries(self.record), listener or Listener())
+        with self._faults_in_file():
+            from nivel.analysis.kinematics.drive import present_value
+
+            name = settings.drive
+            start, unit, size = present_value(self.record, name)
+        return range_of_motion(
+            name,
+            unit,
+            start,
+            2.0 * pi if unit == "rad" else 2.0 * size,
+            lambda begin, end: self.kinematics(
+                drive=name, start=begin, end=end, positions=positions, coordinates=coordinates, listener=listener
+            ),
+        )
+
+    @checked_arguments
+    def inverse(
+        self,
+        *,
+        actuators: Sequence[str] | str | None = None,
+        motion: Any = None,
+        trajectory: str | PathLike[str] | None = None,
+        limits: Mapping[str, Any] | None = None,
+        weights: Mapping[str, Any] | None = None,
+        hold: Sequence[str] | str | None = None,
+        positions: int | str | None = None,
+        listener: Listener | None = None,
+    ) -> Efforts:
+        """Inverse dynamics: the efforts of actuators that make the machine follow a motion.
+
+        actuators : joint coordinates, or motors, which then do not act themselves; default: the motors, or without any what the drivers
+        prescribe. motion : a result, or its file; default: that of the machine's drivers. trajectory : CSV file of `time` and joint
+        coordinates, in place of it. limits, weights : by actuator; of more actuators than needed the least Σ (weight · effort)² is taken
+        within the limits, weights being one over the limit where there is one. hold : drivers that keep holding what they prescribe.
+        positions : of the motion of the drivers or the trajectory, default 361.
+        Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be had.
+        """
+        from nivel.analysis.inverse.refusals import refuse_for_inverse
+        from nivel.analysis.inverse.settings import inverse_settings
+        from nivel.analysis.inverse.trajectory import along_trajectory
+        from nivel.analysis.neutral import neutral
+
+        given = {"actuators": actuators, "limits": limits, "weights": weights, "hold": hold}
+        if motion is not None and trajectory is not None:
+            raise ModelError(Fault("", 0, 0, "inverse.trajectory", "stands in place of `motion`; give one of them"))
+        with self._faults_in_file():
+            refuse_for_inverse(self.record)
+            record = self.record if trajectory is None else along_trajectory(self.record, trajectory)
+            settings = inverse_settings(record, given)
+            from nivel.analysis.inverse.run import inverse, without_actuators
+
+            plain, _ = neutral(without_actuators(record, settings), "absolute")
+            methods = methods_of(plain, "newton-euler", "absolute")
+        build(linear_entries(methods), listener or Listener())
+        if motion is None:
+            followed = Machine.from_record(record, self.origin).kinematics(positions=positions, listener=listener)
+        else:
+            from nivel.results.result import Result
+
+            followed = open_result(motion) if isinstance(motion, str | PathLike) else motion
+            if not isinstance(followed, Result):
+                message = f"a result or the name of its file was expected, got {type(motion).__name__}"
+                raise ModelError(Fault("", 0, 0, "inverse.motion", message))
+        with self._faults_in_file():
+            return inverse(methods, settings, followed, listener=listener)
+
+    @checked_arguments
+    def mechanics(self, *, coordinates: str | None = None, listener: Listener | None = None) -> Mechanics:
+        """The machine as robotics knows it, to be asked for many states: `names`, `start`, `mass_matrix(q)`, `bias(q, v)`,
+        `inverse_dynamics(q, v, a)`, `forward_dynamics(q, v, tau)`, `jacobian(point, q)`, `jacobian_bias(point, q, v)`.
+
+        coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
+        """
+        from nivel.analysis.linearise.refusals import refuse_jumps
+        from nivel.analysis.neutral import neutral
+
+        with self._faults_in_file():
+            refuse_jumps(self.record)
+            plain, chosen = neutral(self.record, coordinates or "auto")
+            methods = methods_of(plain, "newton-euler", chosen)
+        build(linear_entries(methods), listener or Listener())
+        from nivel.analysis.inverse.mechanics import Mechanics
+        from nivel.analysis.moment import at_start
+
+        with self._faults_in_file():
+            return Mechanics(plain, at_start(methods))
+
+    @checked_arguments
+    def inverse_kinematics(
+        self,
+        point: str,
+        places: Any,
+        *,
+        times: Any = None,
+        orientations: Any = None,
+        limits: Mapping[str, Any] | None = None,
+        posture: Mapping[str, Any] | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> JointPath:
+        """Joint coordinates that lead a marker, or the frame of a body, along a path.
+
+        places : (T, 3) [m] global. times : (T,) [s], default 0, 1, 2 …. orientations : (T, 4) Euler parameters of its axes, scalar first;
+        default: they do not matter. limits : (low, high) by joint coordinate. posture : preferred values of joint coordinates, for freedoms
+        that the path leaves. Places that cannot be reached are told, with the nearest posture found.
+        Raises ModelError where the machine cannot be assembled, or arguments do not fit.
+        """
+        from nivel.analysis.inverse.paths import PathFollower, path_times, task_for
+
+        mechanics = self.mechanics(coordinates=coordinates, listener=listener)
+        task = task_for(mechanics, point, places, orientations, limits, posture)
+        return PathFollower(mechanics, task).follow(path_times(times, len(task.places)))
+
+    @cached_property
+    def _mechanics(self) -> Mechanics:
+        return self.mechanics()
+
+    def mass_matrix(self, q: Any = None) -> Any:
+        """(f, f) mass matrix in the independent coordinates `mechanics().names`, at positions q; default: the start."""
+        return self._mechanics.mass_matrix(q)
+
+    def bias(self, q: Any = None, v: Any = None) -> Any:
+        """(f,) efforts that no acceleration asks for at positions q and velocities v: weight, centrifugal and all other forces."""
+        return self._mechanics.bias(q, v)
+
+    def inverse_dynamics(self, q: Any, v: Any, a: Any) -> Any:
+        """(f,) efforts that make the accelerations a at positions q and velocities v."""
+        return self._mechanics.inverse_dynamics(q, v, a)
+
+    def jacobian(self, point: str, q: Any = None) -> Any:
+        """(6, f) velocity and angular velocity of a marker or body per velocity, global axes, at positions q."""
+        return self._mechanics.jacobian(point, q)
+
+    @checked_arguments
+    def linearise(
+        self,
+        *,
+        about: float | str | None = None,
+        inputs: Sequence[str] | str | None = None,
+        outputs: Sequence[str] | str | None = None,
+        coordinates: str | None = None,
+        listener: Listener | None = None,
+    ) -> LinearModel:
+        """The equations of motion made linear about a state: eigenvalues, modes, and A, B, C, D between inputs and outputs.
+
+        about : `start` (the machine as it starts), `equilibrium` (at t = 0), or a time [s] to which it is run first.
+        inputs : joint coordinates (efforts on them), motors, drivers (accelerations of what they prescribe), `BODY.force.x`,
+        `BODY.torque.x`, `state.NAME`; default: motors and drivers. outputs : joint coordinates, their `.rate`, sensors, `BODY.position.x`,
+        `BODY.velocity.x`, `BODY.angular_velocity.x`, `driver.NAME.effort`, `force.NAME.…`, `state.NAME`; default: sensors, or without any
+        all joint coordinates. coordinates : auto, absolute or relative.
+        Raises ModelError (nothing was computed) or SolveError.
+        """
+        from nivel.analysis.linearise.refusals import refuse_jumps
+        from nivel.analysis.linearise.settings import linearise_settings
+        from nivel.analysis.neutral import neutral
+
+        simulation = self.record.simulation
+        wanted = simulation.coordinates if coordinates is None else coordinates
+        settings = linearise_settings(
+            about,
+            inputs,
+            outputs,
+            "auto" if coordinates is None and wanted == "independent" else wanted,
+            simulation.start,
+        )
+        with self._faults_in_file():
+            refuse_jumps(self.record)
+            plain, chosen = neutral(
+                self.record, settings.coordinates, "equilibrium" if settings.about == "equilibrium" else "as-given"
+            )
+            methods = methods_of(plain, "newton-euler", chosen)
+        entries = linear_entries(methods)
+        if settings.about == "equilibrium":
+            from nivel.analysis.statics.start import methods_at_rest
+
+            entries += statics_entries(methods_at_rest(plain))
+        run = None
+        if settings.time > 0.0:
+            run = self.with_settings({"duration": settings.time})._plan(())
+            entries += run_entries(run)
+        build(entries, listener or Listener())
+        # what follows takes longer to import
+        from nivel.analysis.linearise.run import linearise
+        from nivel.analysis.moment import run_until
+
+        with self._faults_in_file():
+            posture = None if run is None else run_until(run, listener or Listener())
+            return linearise(plain, methods, settings, posture=posture, source=self.origin.source, listener=listener)
+
+    @checked_arguments
     def compare(
         self,
         *,
@@ -382,23 +723,6 @@ class Machine:
             raise ModelError(self.origin.placed(error.faults)) from error
 
     @checked_arguments
-    def with_settings(self, settings: Mapping[str, Any]) -> Machine:
-        """The same machine with some simulation settings replaced."""
-        if not settings:
-            return self
-        # what was set from outside of the file is asked for as well, and never left behind
-        outside, origin = self.origin.settings_outside, self.origin.with_settings(settings)
-        asked = {name: getattr(self.record.simulation, name) for name in outside if name in ("rotations", "baumgarte")}
-        try:
-            simulation = changed(self.record.simulation, {**asked, **settings})
-        except ModelError as error:
-            raise ModelError(origin.placed(origin.of_settings(fault, settings) for fault in error.faults)) from None
-        try:
-            return Machine.from_record(self.record.replace(simulation=simulation), origin)
-        except ModelError as error:
-            raise ModelError(origin.placed(error.faults)) from None
-
-    @checked_arguments
     def with_inputs(self, inputs: Mapping[str, float | str | PathLike[str] | Table]) -> Machine:
         """The same machine whose inputs follow numbers, tables of time, or files of columns `time`, `value` (CSV).
 
@@ -410,41 +734,59 @@ class Machine:
 
         return Machine.from_record(with_signals(self.record, inputs), self.origin)
 
-    @checked_arguments
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write the machine as a YAML file; an existing file is replaced. Raises ModelError where it cannot be written."""
-        text = write_machine(self.record)
-        try:
-            Path(path).write_text(text, encoding="utf-8")
-        except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            raise ModelError(f"the machine file {fspath(path)} cannot be written: {reason.lower()}") from error
 
-    def _repr_html_(self) -> str:
-        """A card for notebooks: what the machine consists of."""
-        record = self.record
-        rows = [
-            ("body", body.name, f"{body.mass:g} kg" if body.mass is not None else "from its shape")
-            for body in record.bodies
-        ]
-        rows += [("joint", joint.name, joint.type) for joint in record.joints]
-        rows += [("force", force.name, force.type) for force in record.forces]
-        lines = "".join(
-            f"<tr><td>{kind}</td><th>{escape(name)}</th><td>{escape(fact)}</td></tr>" for kind, name, fact in rows
-        )
-        return f"<table><caption>{escape(record.name)}</caption>{lines}</table>"
+@checked_arguments
+def sweep(
+    make: Callable[..., Any],
+    values: Mapping[str, Any],
+    *,
+    combine: Literal["grid", "rows"] = "grid",
+    samples: int | None = None,
+    seed: int = 0,
+    save: Sequence[str] | str = (),
+    processes: int | None = None,
+    listener: Listener | None = None,
+) -> xarray.Dataset:
+    """As `Machine.sweep`, of machines that a function makes: ``nivel.sweep(make_crane, {"length": [4, 5, 6]})`` calls
+    ``make_crane(length=4)`` and so on. Every machine runs by its own settings.
+    """
+    return _sweep(make, values, (combine, samples, seed), (save, processes), listener)
 
-    def __repr__(self) -> str:
-        record = self.record
-        parts = [
-            f"{len(items)} {word if len(items) != 1 else singular}"
-            for items, word, singular in (
-                (record.bodies, "bodies", "body"),
-                (record.joints, "joints", "joint"),
-                (record.forces, "forces", "force"),
+
+def _sweep(
+    machines: Sequence[Machine] | Callable[..., Any],
+    values: Mapping[str, Any],
+    layout: tuple[str, int | None, int],
+    run: tuple[Sequence[str] | str, int | None],
+    listener: Listener | None,
+) -> xarray.Dataset:
+    from nivel.analysis.sweep.sweep import progress_bar, sweep
+    from nivel.analysis.sweep.variants import lay_out
+    from nivel.native.workers import processors
+
+    variants = lay_out(values, *layout)
+    made = [machines(**each) for each in variants.values] if callable(machines) else machines
+    for machine in made:
+        if not isinstance(machine, Machine):
+            raise ModelError(
+                Fault("", 0, 0, "make", f"a function that returns a Machine was expected; it returned {shown(machine)}")
             )
-        ]
-        return f"<Machine {record.name}: {', '.join(parts)}>"
+    plan = made[0]._plan(made[0].origin.settings_outside)
+    build(_entries_of(plan, made[0].record), listener)
+    save, processes = run
+    names = (save,) if isinstance(save, str) else tuple(save)
+    with nullcontext(listener) if listener else progress_bar(len(variants.values)) as hearer:
+        return sweep(made, variants, names, processes=processes or processors(), listener=hearer)
+
+
+def _entries_of(plan: Plan, record: MachineRecord) -> list[Entry]:
+    """The machine code that a run needs, from the start that it has."""
+    entries = [*run_entries(plan)]
+    if plan.settings.start == "equilibrium":
+        from nivel.analysis.statics.start import methods_at_rest
+
+        entries += statics_entries(methods_at_rest(record))
+    return entries
 
 
 @checked_arguments
@@ -456,8 +798,8 @@ def load(path: str | PathLike[str], overrides: Mapping[str, Any] | None = None, 
     """
     text, file = read_text(fspath(path)), fspath(path)
     record = parse_machine(text, file, overrides=dict(overrides or {}), allow_code=allow_code)
-    outside = frozenset(".".join(step.strip() for step in path.split(".")) for path in overrides or ())
-    return Machine.from_record(record, Origin(text, file, outside))
+    values = dict(overrides or {})
+    return Machine.from_record(record, Origin(text, file, outside_paths(values), values=values, allow_code=allow_code))
 
 
 @checked_arguments

@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from typing import Final
 
+from nivel.vocabulary import translated
+
 LONGEST: Final = 40  # characters of a value in a message
 
 
@@ -29,7 +31,9 @@ def shown(value: object) -> str:
 
 
 def unknown_word(word: str, valid: Sequence[str], what: str) -> str:
-    """A sentence that refuses `word` and offers the nearest of `valid`, or all of them."""
+    """A sentence that refuses `word` and offers what it is called here, the nearest of `valid`, or all of them."""
+    if answer := translated(word, valid):
+        return f"the {what} `{word}` is not known; {answer}"
     near = get_close_matches(word, valid, n=1, cutoff=0.6)
     if near:
         return f"the {what} `{word}` is not known; did you mean `{near[0]}`?"

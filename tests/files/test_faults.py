@@ -125,7 +125,7 @@ FAULTS = {
         "did you mean `radius`",
     ),
     "missing in a nested mapping": ("      radius: 10 cm\n", "", -2, "bodies.wheel.shape", "`radius` is missing"),
-    "word of a nested mapping": ("along: z", "along: Z", 0, "bodies.wheel.shape.along", "there are x, y, z"),
+    "word of a nested mapping": ("along: z", "along: Z", 0, "bodies.wheel.shape.along", "did you mean `z`"),
     "marker on no body": (
         "body: crank\n    position",
         "body: krank\n    position",

@@ -21,7 +21,7 @@ def definition(record):
 
 
 def test_sections_are_mappings_by_name():
-    assert set(SCHEMA["properties"]) == {"format", "parameters", *FILE_WORDS, *MachineRecord.model_fields}
+    assert set(SCHEMA["properties"]) == {"format", "parameters", "functions", *FILE_WORDS, *MachineRecord.model_fields}
     assert SCHEMA["required"] == ["format"]
     for section in SECTIONS:
         assert SCHEMA["properties"][section]["type"] == ["object", "null"]

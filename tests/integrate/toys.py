@@ -68,6 +68,7 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
         scratch=np.zeros(n),
         trial=np.zeros(n),
         scale=np.ones(n),
+        raised=np.ones(n, dtype=np.uint32),
         stages=np.zeros((facts.stages, n)),
         numbers=np.zeros(facts.numbers),
         matrix=np.zeros((n, n)),
@@ -79,7 +80,7 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
         event_values=np.zeros((2, 0)),
         samples=np.zeros(0, dtype=np.int64),
         corners=np.zeros(0),
-        pace=np.full((3, names.PARTS), np.inf),
+        pace=np.full((4, names.PARTS), np.inf),
         events=np.zeros((0, 3)),
     )
     machine, history = resting(), Handle(run)

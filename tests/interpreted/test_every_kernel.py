@@ -9,6 +9,7 @@ import beams
 import cart
 import force_zoo
 import gradient_beams
+import hydraulic_zoo
 import linked
 import machines
 import mixed_machines
@@ -36,6 +37,7 @@ from running import run
 from simulating import hinge, machine, solid
 from unknowns import SHARES
 
+ROOT = Path(__file__).parents[2]
 STEP = 1e-3
 EXPLICIT = "rk4"
 # formulations and stabilisations that share the equations of a path
@@ -204,6 +206,39 @@ def test_states_and_samples(integrator):
     short(machine(sections).record, integrator, steps=5)
 
 
+@pytest.mark.parametrize("integrator", [EXPLICIT, "dopri5", "generalised-alpha", "radau"])
+def test_control_and_drives(integrator):
+    """Signals, samples with latency, smooth steps, linear and other functions; both drives with their limits and an elastic gear."""
+    elastic = {"rotor_inertia": 1e-3, "gear_stiffness": 100, "gear_damping": 0.1}
+    motor = {"coordinate": "axle", "torque_constant": 0.1, "resistance": 1, "friction_torque": 0.1}
+    curve = {"speeds": [0, 1, 10], "torques": [1, 1, 0]}
+    sections = {
+        "bodies": {"wheel": solid(angular_velocity=[0, 0, 3]), "driven": solid(position=[0, 1, 0])},
+        "joints": {"axle": hinge("ground", "wheel"), "turn": hinge("ground", "driven", point=(0, 1, 0))},
+        "drivers": {"smooth": {"coordinate": "turn", "value": "step(time, 0, 0, 0.01, 0.1)"}},
+        "control": {
+            "wish": {"type": "signal", "value": "step(time, 0, 0, 0.003, 1)"},
+            "speed": {"type": "signal", "value": "dc.speed", "sample_time": STEP},
+            "drive": {"type": "pid", "input": "wish.value - axle.angle", "kp": 9, "ki": 3, "kd": 1, "limits": [-2, 2]},
+            "held": {"type": "gain", "input": "drive.value", "gain": 2, "sample_time": 2 * STEP, "latency": 3 * STEP},
+            "turned": {"type": "lookup", "input": "held.value", "points": [-1, 1], "values": [0, 1]},
+        },
+        "forces": {
+            "dc": {
+                "type": "dc-motor",
+                "voltage": "turned.value*1e3",
+                "inductance": 1e-3,
+                "current_limit": 1,
+                **motor,
+                **elastic,
+            },
+            "plain": {"type": "dc-motor", "voltage": 3, "voltage_limit": 2, **motor},
+            "servo": {"type": "servo-motor", "effort": "-50*drive.value", "torque_speed": curve, **motor},
+        },
+    }
+    short(machine(sections).record, integrator, steps=5)
+
+
 @pytest.mark.parametrize("integrator", ["dopri5", "dop853", "adams", "gear", "radau", "bdf", "generalised-alpha"])
 def test_contacts_and_events(integrator):
     """A ball that falls on a floor, where steps end."""
@@ -317,6 +352,13 @@ def test_statics(coordinates):
     machine(test_statics_closed_forms.four_bar()).statics(coordinates=coordinates)
 
 
+@pytest.mark.parametrize("coordinates", ["absolute", "relative"])
+def test_kinematics_and_linear_equations(coordinates):
+    machine = nivel.load(ROOT / "examples" / "four-bar.yaml")
+    machine.kinematics(drive="crank_pivot", positions=3, end="1 rad", coordinates=coordinates)
+    machine.linearise(inputs=["crank_pivot"], coordinates=coordinates)
+
+
 # --- live operation ---
 
 
@@ -383,3 +425,9 @@ def test_every_kernel_was_called(request):
         pytest.skip("not all tests ran")
     idle = {name for place, name in kernels().items() if place not in plain.CALLED}
     assert not idle - LEFT_OUT, " ".join(sorted(idle - LEFT_OUT))
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "extrapolated-euler", "radau"])
+def test_circuits(integrator):
+    """Every family of components, in a circuit with a cylinder, a telescope and a rotary actuator."""
+    short(hydraulic_zoo.machine_with_circuits().record, integrator, steps=2, step=1e-4)

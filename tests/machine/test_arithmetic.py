@@ -136,7 +136,7 @@ def test_reads_as_people_mean_it(text, expected):
         ("2 m / 4 s", "unclear"),
         ("2 sin(1)", "`*` is missing before `sin`"),
         ("sine(1)", "did you mean `sin`"),
-        ("foo(1)", "there are sin, cos"),
+        ("xyzzy(1)", "there are sin, cos"),
         ("sin(1, 2)", "takes 1 argument, got 2"),
         ("min(1)", "at least 2 arguments"),
         ("sin()", "`)` was not expected"),

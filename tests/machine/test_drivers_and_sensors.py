@@ -82,7 +82,7 @@ def test_sensors_have_one_of_six_forms(given, form):
         ({"marker": "tip", "quantity": "angular_velocty"}, "did you mean `angular_velocity`?"),
         ({"marker": "tip", "quantity": 5}, "a quantity such as `velocity` was expected, got `5`"),
         ({"marker": "tip", "quantity": "position", "relative_to": "tip"}, "does not move relative to itself"),
-        ({"coordinate": "h", "quantity": "position"}, "there are value, rate, acceleration"),
+        ({"coordinate": "h", "quantity": "position"}, "did you mean `value`"),
         ({"coordinate": "h", "quantity": "rate", "relative_to": "tip"}, "sensors.s.relative_to: `relative_to` belongs"),
         ({"distance": ("a", "b"), "quantity": "rate"}, "sensors.s.quantity: `quantity` belongs"),
         ({"distance": ("a", "a")}, "sensors.s.distance: distance is measured between two different markers"),

@@ -10,7 +10,9 @@ from lanes import thirds
 from nivel.errors import ModelError
 from nivel.files import parse_machine, write_machine
 from nivel.machine import JOINT_COORDINATES, MachineRecord
+from nivel.machine.control import BLOCKS
 from nivel.machine.forces import FORCES
+from nivel.machine.hydraulics import COMPONENTS
 from nivel.machine.index import SECTIONS
 
 MACHINE = MachineRecord(**EVERYTHING)
@@ -36,6 +38,8 @@ GARBAGE = (
 
 def test_every_kind_is_in_it():
     assert {type(force) for force in MACHINE.forces} == set(FORCES)
+    assert {type(block) for block in MACHINE.control} == set(BLOCKS)
+    assert {type(component) for component in MACHINE.hydraulics} == set(COMPONENTS)
     assert {coupling.type for coupling in MACHINE.couplings} == {"gear", "belt", "rack", "linear"}
     assert all(getattr(MACHINE, section) for section in SECTIONS)
     assert {joint.type for joint in MACHINE.joints} <= set(JOINT_COORDINATES)

@@ -16,6 +16,7 @@ KEYS = {
     "points": ((0, 0, 0), (1, 0, 0)),
     "axis": (0, 0, 1),
     "axes": ((0, 1, 0), (0, 0, 1)),
+    "locked": ("x", "ry"),
     "pitch": "5 mm",
     "distance": 2,
     "x_axis": (1, 0, 0),
@@ -32,8 +33,8 @@ def by_points(type_):
 def test_facts_are_those_of_all_types():
     assert set(JOINT_KINDS) == set(JOINT_COORDINATES) == set(TYPES)
     assert {name for names in JOINT_COORDINATES.values() for name in names} == set(COORDINATE_KINDS)
-    held = {name for kind in JOINT_KINDS.values() for name in kind.held}
-    assert set(CoordinateValues.model_fields) == set(CoordinateRates.model_fields) == set(COORDINATE_KINDS) - held
+    free = {name for kind in JOINT_KINDS.values() for name in kind.coordinates if name not in kind.held}
+    assert set(CoordinateValues.model_fields) == set(CoordinateRates.model_fields) == free
 
 
 @pytest.mark.parametrize("type_", BETWEEN_BODIES)

@@ -132,7 +132,7 @@ def test_ground_is_no_body():
         (Cylinder, {"length": 1}, "`radius` is missing"),
         (Cylinder, {"radius": 1, "from_": (0, 0, 0), "to": (1, 0, 0), "along": "y"}, "`along` must not"),
         (Cylinder, {"radius": 1, "from_": (0, 0, 0), "to": (1, 0, 0), "centre": (0, 0, 0)}, "`centre` follows"),
-        (Cylinder, {"radius": 1, "length": 1, "along": "X"}, "there are x, y, z"),
+        (Cylinder, {"radius": 1, "length": 1, "along": "X"}, "did you mean `x`"),
         (Tube, {"outer_radius": 1, "inner_radius": 1, "length": 1}, "must be smaller"),
         (Sphere, {}, "`radius` is missing"),
         (Sphere, {"radius": "1 kg"}, "a length (m) was expected"),

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import textwrap
+from contextlib import suppress
 from pathlib import Path
 
 import h5py
@@ -330,3 +331,35 @@ def read_all(path):
     """Everything in a file."""
     result = Result.open(path)
     return [result.array(name) for name in result.variables]
+
+
+def written(folder):
+    """A result file of the synthetic pendulum."""
+    store = Store(folder / "whole.nc")
+    store.begin(pendulum.header())
+    store.take(pendulum.frames(TIME))
+    return store.close({"outcome": "done"}).path
+
+
+def test_a_damaged_result_is_refused_in_words(tmp_path):
+    """Any byte of it: never a traceback."""
+    original = written(tmp_path)
+    content = original.read_bytes()
+    rng = np.random.default_rng(3)
+    for _ in range(60):
+        broken = bytearray(content)
+        for at in rng.integers(0, len(broken), 20):
+            broken[at] = rng.integers(0, 256)
+        path = tmp_path / "broken.nc"
+        path.write_bytes(broken)
+        with suppress(ModelError):
+            Result.open(path).array("position")
+
+
+def test_a_result_that_claims_more_frames_than_it_holds_is_refused(tmp_path):
+    original = written(tmp_path)
+    with h5py.File(original, "r+") as file:
+        for name in ("time", "position"):
+            file[name].resize(100_000_000, axis=0)
+    with pytest.raises(ModelError, match="claims"):
+        Result.open(original)

@@ -10,7 +10,7 @@ from nivel.results import Memory
 from nivel.results.accuracy import MARGIN, error_from_finer
 from nivel.results.neglected import Cost
 from nivel.results.trust import Facts, Peak, Trust, assess
-from nivel.results.verdicts import THRESHOLDS
+from nivel.results.verdicts import THRESHOLDS, Item
 
 TIME = np.linspace(0.0, 2.0, 201)
 
@@ -208,6 +208,15 @@ def test_what_was_not_verified_says_so_and_what_was_says_how_exact():
     assert (
         assess(run(), found).headline == "within 3.1e-6 m of the exact motion of this model; largest at rod, t = 7.2 s"
     )
+
+
+def test_what_two_runs_miss_alike_is_no_exactness():
+    """A load between the steps of both: the headline claims nothing, and neither does the item."""
+    missed = Item("loads", "red", "Loads: …", 1.0, row="push.vector.x")
+    trust = assess(run(), Facts("done", 1, accuracy=Peak(1e-9, "rod", 0.5), further=(missed,)))
+    assert trust.headline == "of unknown error: two runs agree within 1e-9 m, but their steps miss push.vector.x"
+    assert "within 1e-9 m, which says little" in item(trust, "accuracy").text
+    assert "exact motion" not in str(trust)
 
 
 def test_verification_that_ends_early_is_amber_and_says_up_to_when():

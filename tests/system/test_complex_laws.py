@@ -40,6 +40,7 @@ SMOOTH = (
     *("time^2", "time^3", "(time - 5)^3", "(time - 5)^-3", "time^1", "time^0", "2^time", "(time + 3)^time", "(time + 3)^1.5"),
     *("sqrt(time + 4)", "exp(-time)*sin(3*time)", "log(time + 4)", "tan(time/2)", "asin(time/3)", "acos(time/3)", "atan(time)"),
     *("atan2(time, 2)", "atan2(2, time)", "atan2(time, -2 - time^2)", "atan2(-1, time)", "1/(time^2 + 1)", "-cos(time)^5"),
+    *("tanh(time)", "step(time, -1.3, 2, 2.6, 5)", "lookup(time, quintic, -2.6, 0, 0.3, 2, 2.6, -1)"),
 )  # fmt: skip
 
 
@@ -60,6 +61,10 @@ CORNERS = {
     "min(time, 0.5, -time)": lambda t: 1.0 if t < 0 else -1.0,
     "max(time^2, 0.5, time)": lambda t: 2 * t if t * t > 0.5 and t * t >= t else 0.0 if t < 0.5 else 1.0,
     "abs(time)^1.5": lambda t: 1.5 * np.sign(t) * abs(t) ** 0.5,
+    "if(time < 0, time^2, 3*time)": lambda t: 2 * t if t < 0 else 3.0,
+    "ramp(time, 0, 0, 1, 4)": lambda t: 4.0 if 0 <= t < 1 else 0.0,
+    "mod(time, 0.7)": lambda t: 1.0,
+    "time*(time > 0 and time < 2)": lambda t: 1.0 if 0 < t < 2 else 0.0,
     "max(time, 0)^2": lambda t: 2 * max(t, 0.0),
 }
 

@@ -63,7 +63,8 @@ def test_each_operation_alone():
                 text = f"{name}({', '.join(SIGNALS[1:][:count])})"
             else:
                 text = f"a.angle {name} b.rate"
-            assert value(Expression(text), 0.0, 0.4, 0.7) == Expression(text)(0.0, {"a.angle": 0.4, "b.rate": 0.7})
+            expected = Expression(text)(0.0, {"a.angle": 0.4, "b.rate": 0.7})
+            assert value(Expression(text), 0.0, 0.4, 0.7) == pytest.approx(expected, rel=1e-14)
 
 
 def test_outside_of_a_domain_there_is_no_number():

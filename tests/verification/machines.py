@@ -5,7 +5,7 @@ from scipy.spatial.transform import Rotation
 
 from nivel.machine import Body, Joint, MachineRecord, Marker, PointForce, SimulationSettings, Torque
 from nivel.machine.joint import JOINT_KINDS
-from nivel.system.joints import JOINTS
+from nivel.system.joints import JOINTS, generic
 
 GRAVITY = (0.0, -9.81, 0.0)
 
@@ -29,11 +29,14 @@ def random_body(name, rng, *, centre=True):
 
 PARALLEL_LINK = "revolute-cylindrical, parallel"
 BETWEEN_BODIES = tuple(kind for kind in JOINTS if not JOINT_KINDS[kind].rail)
+LOCKED = ("rx", "ry")  # of the generic joint
 KINDS = (*BETWEEN_BODIES, PARALLEL_LINK)
 
 
 def composition(kind):
     """What a joint of `kind` is made of."""
+    if kind == "generic":
+        return generic(LOCKED)
     return JOINTS["revolute-cylindrical"].when_parallel if kind == PARALLEL_LINK else JOINTS[kind]
 
 
@@ -51,7 +54,9 @@ def joint_at(name, kind, first, second, rng, point=None):
         skew = z if kind == PARALLEL_LINK else rng.standard_normal(3)
         options["axes"] = (tuple(z), tuple(skew if joint_type == "revolute-cylindrical" else x))
     if "axis" in facts.place:
-        options["axis"] = tuple(z)
+        options["axis"] = tuple(np.cross(z, x) if "axes" in facts.place else z)
+    if "locked" in facts.size:
+        options["locked"] = LOCKED
     if "x_axis" in facts.may:
         options["x_axis"] = tuple(x)
     if "pitch" in facts.size:

@@ -1,12 +1,16 @@
 """A parallelogram linkage passes its flat position, where all its bars are in line and the loop may fold either way."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+import nivel
 from nivel.errors import SolveError
-from simulating import simulate
+from simulating import machine, simulate
 
 START = 0.5
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def parallelogram(speed, axis_offset=0.0):
@@ -37,6 +41,23 @@ def test_flat_position_between_two_steps_is_passed(speed, step, methods):
     np.testing.assert_allclose(r.array("left.angle"), speed * r.time, atol=1e-8)
     np.testing.assert_allclose(r.array("right.angle"), speed * r.time, atol=1e-8)
     assert r.trust.verdict == "green"
+
+
+@pytest.mark.parametrize("speed", [2.0, -2.0])
+def test_flat_position_that_is_passed_is_told_with_its_time(speed):
+    """The angle of the bars is START + speed t."""
+    r = machine({**parallelogram(speed), "simulation": {"duration": 3.0, "step": 7e-4}}).simulate(verify=True)
+    (told,) = [item for item in r.trust.items if item.verdict != "green"]
+    assert (told.name, told.verdict) == ("singular", "amber")
+    assert told.time == pytest.approx((np.pi - START) / 2.0 if speed > 0.0 else START / 2.0, abs=1e-3)
+    assert "left, near, far, right" in told.text
+    assert "The motion is unique" not in str(r.trust)
+
+
+def test_positions_in_line_that_are_not_singular_are_not_told():
+    """The four-bar of report 44 has crank and coupler in line at 2.610 s, where its constraints stay independent."""
+    result = nivel.load(EXAMPLES / "four-bar.yaml").simulate(duration=3.0, verify=True)
+    assert "singular" not in {item.name for item in result.trust.items}
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "independent"])

@@ -10,7 +10,7 @@ from nivel.analysis.closing import OPEN, Wishes, close_positions, least_change
 from nivel.analysis.equations import MotionEquations, change_between
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.system.joints import JOINTS
+from nivel.system.joints import composition_of
 from nivel.system.system import Array, System
 
 TURN_A_MARKER = (
@@ -96,7 +96,7 @@ def _refuse_contradictions(machine: MachineRecord, motion: MotionEquations) -> N
     limit = GAP * system.size if asked is None else asked
     rows = _rows_by_owner(system)
     for joint in machine.joints:
-        for row in rows[joint.name]:
+        for row in rows.get(joint.name, ()):
             length = system.row_units[row] == "m"
             gap = abs(float(system.record.constraints.C[row]))
             if gap > (limit if length else GAP_OF_DIRECTIONS) and joint.start is None:
@@ -196,7 +196,7 @@ def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations, wishes:
     system, record = motion.system, motion.system.record
     share = np.abs(record.constraints.C / record.constraints.scale)[: system.machine_rows]
     faults = []
-    parallel = {joint.name: k for k, joint in enumerate(machine.joints) if JOINTS[joint.type].parallel}
+    parallel = {joint.name: k for k, joint in enumerate(machine.joints) if composition_of(joint).parallel}
     for owner, rows in _rows_by_owner(system).items():
         worst = rows[int(np.argmax(share[rows]))]
         if not share[worst] <= OPEN:

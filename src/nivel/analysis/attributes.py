@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Protocol
 
 import nivel
 from nivel.analysis.preparation import Prepared
-from nivel.analysis.settings import RunSettings
 from nivel.flexible.identity import fingerprint
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.body_sources import ATTRIBUTE, BodySource, as_attribute
@@ -16,8 +16,16 @@ from nivel.system.flexible import bending_bodies
 from nivel.system.scene import scene
 
 
+class Settings(Protocol):
+    """Settings of an analysis."""
+
+    def as_dict(self) -> dict[str, object]:
+        """For the result's `settings`."""
+        ...
+
+
 def run_attributes(
-    machine: MachineRecord, source: str, prepared: Prepared, settings: RunSettings
+    machine: MachineRecord, source: str, prepared: Prepared, settings: Settings
 ) -> dict[str, str | float | int]:
     """The attributes of a result, see `nivel.integrate.sink.Header`; `source` is the text of the machine's file."""
     system, assembly = prepared.motion.system, prepared.assembly

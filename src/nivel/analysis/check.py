@@ -10,6 +10,7 @@ import numpy as np
 from nivel.analysis.beam_facts import BeamFacts, beam_facts
 from nivel.analysis.control_words import block_in_words, control_in_words
 from nivel.analysis.elements import (
+    component_in_words,
     coupling_in_words,
     driver_in_words,
     event_in_words,
@@ -18,13 +19,16 @@ from nivel.analysis.elements import (
     sensor_in_words,
     state_in_words,
 )
+from nivel.analysis.equations import equations
+from nivel.analysis.exact_joints import exact_joints
+from nivel.analysis.named_freedoms import Freedom, named_freedoms
 from nivel.analysis.plan import Methods, Plan
 from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import RunSettings
-from nivel.machine.joint import JOINT_KINDS
+from nivel.machine.joint import JOINT_KINDS, Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import bending_bodies
-from nivel.system.joints import JOINTS
+from nivel.system.joints import composition_of
 from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System
 
@@ -74,6 +78,7 @@ class Check:
     couplings: tuple[str, ...]  # each in words, as drivers, forces, inputs, states, sensors and events
     drivers: tuple[str, ...]
     forces: tuple[str, ...]
+    hydraulics: tuple[str, ...]
     inputs: tuple[str, ...]
     states: tuple[str, ...]
     control: tuple[str, ...]
@@ -81,6 +86,8 @@ class Check:
     sensors: tuple[str, ...]
     events: tuple[str, ...]
     degrees_of_freedom: int
+    freedoms: tuple[Freedom, ...]  # each in words; empty where they are not named
+    exact: tuple[str, ...]  # changes of joints after which no constraint repeats another and every freedom stays
     modes: int  # of flexible bodies, whose coordinates are freedoms too
     constraint_rows: int
     redundant_rows: tuple[str, ...]
@@ -133,11 +140,17 @@ def _lines(facts: Check) -> Iterator[str]:
             yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}"
     for kind, convention in {joint.type: joint.convention for joint in facts.joints if joint.coordinates}.items():
         yield f"  {kind}: {convention}"
-    for title in ("couplings", "drivers", "forces", "inputs", "states", "control", "sensors", "events"):
+    for title in ("couplings", "drivers", "forces", "hydraulics", "inputs", "states", "control", "sensors", "events"):
         elements: tuple[str, ...] = getattr(facts, title)
         if elements:
             yield f"{title}: {facts.control_size}" if title == "control" else title
         yield from (f"  {words}" for words in elements)
+    if facts.freedoms:
+        yield "freedoms, in this position"
+    for freedom in facts.freedoms:
+        several = f" ({freedom.count} freedoms)" if freedom.count > 1 else ""
+        remedy = f"; to stop that, {freedom.remedy}" if freedom.remedy else ""
+        yield f"  {freedom.words}{several}{remedy}"
     yield from _assembly_lines(facts)
     yield from _redundancy_lines(facts)
     if facts.settings.coordinates == "relative":
@@ -191,6 +204,8 @@ def _redundancy_lines(facts: Check) -> Iterator[str]:
     if facts.redundant_rows:
         yield f"constraints: {facts.constraint_rows} rows, redundant: {', '.join(facts.redundant_rows)}"
         yield f"  the motion is unique; reactions are not in: {', '.join(facts.non_unique_joints)}"
+        if facts.exact:
+            yield f"  exactly constrained, with the same freedoms: {'; '.join(facts.exact)}"
     else:
         yield f"constraints: {facts.constraint_rows} rows, none redundant, every reaction is unique"
 
@@ -214,6 +229,8 @@ def check(plan: Plan) -> Check:
     observe(prepared.absolute.handle.address, 0.0, assembly.y, frame)
     columns = next(v.columns for v in system.layout.variables if v.name == "joint_coordinate")
     modes = _modes(machine)
+    measured = equations(machine, measured=True)
+    measured.evaluate(0.0, assembly.y)
     labels = system.layout.coordinates["joint_coordinate"]
     values = dict(zip(labels, zip(frame[columns].tolist(), system.coordinate_units, strict=True), strict=True))
     return Check(
@@ -232,10 +249,11 @@ def check(plan: Plan) -> Check:
             if name in own.body_named
         ),
         beams=tuple(beam_facts(beam) for beam in own.beams),
-        joints=tuple(_joint(system, k, joint.name, joint.type, values) for k, joint in enumerate(machine.joints)),
+        joints=tuple(_joint(system, k, joint, values) for k, joint in enumerate(machine.joints)),
         couplings=tuple(coupling_in_words(machine, coupling) for coupling in machine.couplings),
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
+        hydraulics=_hydraulics(machine, system),
         inputs=tuple(input_in_words(each) for each in machine.inputs),
         states=tuple(state_in_words(state) for state in machine.states),
         control=tuple(block_in_words(block) for block in machine.control),
@@ -243,6 +261,8 @@ def check(plan: Plan) -> Check:
         sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
         events=tuple(event_in_words(event) for event in machine.events),
         degrees_of_freedom=redundancy.degrees_of_freedom,
+        freedoms=named_freedoms(machine, measured),
+        exact=exact_joints(machine, measured, redundancy.non_unique_joints) if redundancy.redundant_rows else (),
         modes=len(prepared.motion.system.modes),
         constraint_rows=system.machine_rows,
         redundant_rows=redundancy.redundant_rows,
@@ -256,9 +276,25 @@ def check(plan: Plan) -> Check:
     )
 
 
+def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:
+    """Components in words, pressures at the start, and how many states there are."""
+    if not machine.hydraulics:
+        return ()
+    record = system.record
+    pressures = [f"{node.name} {record.circuit.pressure[k] / 1e5:.4g} bar" for k, node in enumerate(system.nodes)]
+    names = {component.name for component in machine.hydraulics}
+    count = sum(not fact.integral and fact.name.partition(".")[0] in names for fact in system.states)
+    return (
+        *(component_in_words(component) for component in machine.hydraulics),
+        f"start: {', '.join(pressures)}",
+        f"{count} states of components",
+    )
+
+
 def _cut(methods: Methods) -> tuple[str, ...]:
-    """Joints that stay constraints in relative coordinates."""
-    return tuple(methods.machine.joints[k].name for k in tree_of(methods.machine, methods.cut).cut)
+    """Joints that stay constraints in relative coordinates; those that constrain nothing are none."""
+    cut = [methods.machine.joints[k] for k in tree_of(methods.machine, methods.cut).cut]
+    return tuple(joint.name for joint in cut if composition_of(joint).rows)
 
 
 def _modes(machine: MachineRecord) -> list[str]:
@@ -282,8 +318,8 @@ def _turn(theta: Array) -> tuple[tuple[float, ...], float]:
     return tuple(axis.tolist()), 2.0 * float(np.arctan2(sine, theta[0]))
 
 
-def _joint(system: System, k: int, name: str, kind: str, values: dict[str, tuple[float, str]]) -> JointFacts:
-    record = system.record
+def _joint(system: System, k: int, joint: Joint, values: dict[str, tuple[float, str]]) -> JointFacts:
+    record, name, kind, made = system.record, joint.name, joint.type, composition_of(joint)
     first = int(record.joints.first_marker[k])
     bodies = [*system.bodies, "ground"]
     second = bodies[int(record.markers.body[first + 1])]
@@ -296,8 +332,8 @@ def _joint(system: System, k: int, name: str, kind: str, values: dict[str, tuple
         second=second,
         point=tuple(record.markers.r[first].tolist()),
         axis=tuple(record.markers.A[first, :, 2].tolist()),
-        free=JOINTS[kind].free,
-        rows=tuple(f"{name}.{row}" for row in JOINTS[kind].rows),
+        free=made.free,
+        rows=tuple(f"{name}.{row}" for row in made.rows),
         coordinates=tuple((label, *values[label]) for label in values if label.startswith(f"{name}.")),
-        convention=JOINTS[kind].convention,
+        convention=made.convention,
     )

@@ -28,6 +28,14 @@ BODY, BLOCK, ENTRY = 60.0, 15.0, 4.0
 MOST_DENSE = 60
 
 
+def with_integrator(machine: MachineRecord) -> MachineRecord:
+    """The machine with an integrator that suits it, where none was asked for: circuits are stiff, and have one of fixed cost."""
+    simulation = machine.simulation
+    if not machine.hydraulics or "integrator" in simulation.model_fields_set or simulation.step_control != "own":
+        return machine
+    return machine.replace(simulation=simulation.replace(integrator="extrapolated-euler"))
+
+
 def choose_coordinates(machine: MachineRecord) -> str:
     """The coordinates of a run of `machine`: its own; for `auto` relative where joints are named in `cut`, else the ones
     that cost least, of those that its formulation knows.
@@ -84,11 +92,11 @@ def slides(machine: MachineRecord, coordinates: str, formulation: str, cut: Simu
 
 def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:
     """Owner, number of rows and bodies of every joint, coupling and driver."""
-    from nivel.system.joints import JOINTS
+    from nivel.system.joints import composition_of
     from nivel.system.states.relative import bodies_of
 
     bodies = {joint.name: set(bodies_of(machine, joint)) for joint in machine.joints}
-    rows = [(joint.name, len(JOINTS[joint.type].rows), bodies[joint.name]) for joint in machine.joints]
+    rows = [(joint.name, len(composition_of(joint).rows), bodies[joint.name]) for joint in machine.joints]
     for coupling in machine.couplings:
         named = [resolve(reference, machine.joints)[0] for reference, _ in coupling.terms]
         rows.append((coupling.name, 1, set().union(*(bodies[name] for name in named))))

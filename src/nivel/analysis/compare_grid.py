@@ -12,7 +12,6 @@ from typing import Annotated, Any, Final, TypeVar
 
 from pydantic import BeforeValidator
 
-from nivel.analysis.changes import changed
 from nivel.analysis.compilation import build, run_entries
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan, plan_run
@@ -20,6 +19,7 @@ from nivel.analysis.settings import FRAMES
 from nivel.arguments import plain
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS, chooses
+from nivel.machine.changes import changed
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.quantity import Duration, fault, listed
 from nivel.machine.record import Record

@@ -17,6 +17,7 @@ from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.hook import Family
 from nivel.kernels.input import apply as read_inputs
 from nivel.kernels.program import run as run_expression
+from nivel.machine.hydraulics import Actuator
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
@@ -26,14 +27,18 @@ from nivel.native.workers import NO_COMPILER, CompilationError
 from nivel.system.beams import ELASTIC, family_of
 from nivel.system.beams import FAMILIES as BEAMS
 from nivel.system.forces import FORCES
+from nivel.system.hydraulics.components import FAMILIES as CIRCUITS
+from nivel.system.hydraulics.components import families_of
 
 # in these equations every machine is assembled
 ASSEMBLY = "nivel.motion.newton_euler"
-OUTPUT, LOOP = "nivel.kernels.observe", "nivel.integrate.loop"
+OUTPUT, LOOP, FOLLOWING = "nivel.kernels.observe", "nivel.integrate.loop", "nivel.integrate.positions"
 PACED, REPEATED = "nivel.integrate.paced", "nivel.integrate.repeated"
 STATICS, RESIDUAL = "nivel.kernels.static_entries", "nivel.kernels.tangent_entries:evaluate_residual"
+TANGENT_ENTRIES = "nivel.kernels.tangent_entries"
 FOLLOWED = ("contact", "stop")
 LOADS = ("force", "torque")
+DRIVES = ("dc-motor", "servo-motor")
 MEASURE, FRICTION = "nivel.kernels.measure", "nivel.kernels.friction"
 SENSOR, WATCH, SAMPLING = "nivel.kernels.sensor", "nivel.kernels.watch", "nivel.kernels.sampling"
 GIVEN_FRICTION, RAIL = "nivel.kernels.friction_residual", "nivel.kernels.rail"
@@ -145,6 +150,20 @@ def statics_entries(methods: Methods) -> list[Entry]:
     return [*preparation_entries(methods), *_entries([STATICS]), *twins]
 
 
+def kinematics_entries(methods: Methods) -> list[Entry]:
+    """What a kinematic analysis takes."""
+    correct = entry_of(f"{methods.path.correction}:correct")
+    return [*preparation_entries(methods), *_entries([FOLLOWING]), correct]
+
+
+def linear_entries(methods: Methods) -> list[Entry]:
+    """What exact derivatives at an instant take."""
+    modules = [*_rare_modules(methods.machine), *_node_modules(methods)]
+    twins = _with_twins(methods.path.residual, modules, _families(methods.machine), held=False)
+    sensors = _twins(SENSOR) if methods.machine.sensors else []
+    return [*preparation_entries(methods), *twins, *sensors, *_entries([TANGENT_ENTRIES])]
+
+
 def all_entries() -> list[Entry]:
     """Every entry that any run may need, those that take longest to compile first."""
     paths, integrators = (*PATHS.values(), *FLEXIBLE.values()), INTEGRATORS.values()
@@ -172,15 +191,17 @@ def all_entries() -> list[Entry]:
         OF_SLIDERS,
         PASSING,
         LOOP,
+        FOLLOWING,
         PACED,
         REPEATED,
         STATICS,
-        RESIDUAL.partition(":")[0],
+        TANGENT_ENTRIES,
         OUTPUT,
     ]
     families = dict.fromkeys(
         [
             *(each for kind in FORCES.values() for each in kind.families),
+            *CIRCUITS,
             *BEAMS,
             read_inputs,
             compute,
@@ -189,7 +210,7 @@ def all_entries() -> list[Entry]:
         ]
     )
     twins = [twin for module in _with_derivatives() for twin in _twins(module)]
-    twins += [family.twin for family in (*families, hold)]
+    twins += [family.twin for family in (*families, hold)] + _twins(SENSOR)
     entries = [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
     return [*dict.fromkeys(entries)]
 
@@ -236,6 +257,7 @@ def _with_derivatives() -> list[str]:
 def _families(machine: MachineRecord) -> list[Family]:
     """The families of forces that a machine has, and what runs its expressions."""
     families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
+    families |= dict.fromkeys(families_of(machine))
     families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
     families |= dict.fromkeys([read_inputs] if machine.inputs else [])
     families |= dict.fromkeys([compute, state_rate] if machine.control else [state_rate] if machine.states else [])
@@ -250,20 +272,30 @@ def _node_modules(methods: Methods) -> list[str]:
 
 def _watches(machine: MachineRecord, chooses_steps: bool) -> bool:
     """Whether events are looked for: of the machine, or where steps are chosen contacts and stops."""
-    return bool(machine.events) or (chooses_steps and any(force.type in FOLLOWED for force in machine.forces))
+    return bool(machine.events) or (chooses_steps and _has_surfaces(machine))
+
+
+def _has_surfaces(machine: MachineRecord) -> bool:
+    """Whether something may touch: contacts, stops, ends of cylinders."""
+    return any(force.type in FOLLOWED for force in machine.forces) or any(
+        isinstance(component, Actuator) for component in machine.hydraulics
+    )
 
 
 def _rare_modules(machine: MachineRecord) -> list[str]:
     """Modules of what only some machines have, besides forces: measured coordinates, friction, sensors, samples."""
     types = {force.type for force in machine.forces}
-    measured = machine.joints or machine.drivers or machine.sensors or machine.events or types - {*LOADS}
+    measured = (
+        machine.joints or machine.drivers or machine.sensors or machine.events or machine.hydraulics or types - {*LOADS}
+    )
     needed = {
         MEASURE: bool(measured),
         FRICTION: "friction" in types,
         RAIL: any(JOINT_KINDS[joint.type].rail for joint in machine.joints),
         POINTS: any(beam.has_gradients for beam in machine.beams),
         SENSOR: bool(machine.sensors),
-        SAMPLING: any(state.update is not None for state in machine.states) or bool(machine.control),
+        SAMPLING: any(state.update is not None for state in machine.states)
+        or bool(machine.control or types & {*DRIVES}),
         OF_BEAMS: ELASTIC in map(family_of, machine.beams),
     }
     return [module for module, asked in needed.items() if asked]

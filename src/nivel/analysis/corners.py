@@ -4,12 +4,25 @@ minimum or a maximum of expressions of time alone changes sides."""
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 from scipy.optimize import root_scalar
 
 from nivel.kernels.function import NEAR
-from nivel.machine.arithmetic import TIME, Call, ExpressionError, Negative, Node, Operation, evaluate, signals
+from nivel.machine.arithmetic import (
+    COMPARISONS,
+    TIME,
+    Call,
+    ExpressionError,
+    Lookup,
+    Negative,
+    Node,
+    Number,
+    Operation,
+    evaluate,
+    signals,
+)
 from nivel.machine.expression import Expression
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.record import Record
@@ -49,7 +62,8 @@ def _functions(part: Record) -> Iterator[Table | Expression]:
 def _of_table(table: Table) -> Iterator[float]:
     if table.interpolation != "linear":
         # a natural spline ends straight: where it does not hold its end value before and after, its slope jumps there
-        yield from (table.times[0], table.times[-1])
+        # the curvature of monotone curves jumps at every point
+        yield from table.times if table.interpolation == "monotone" else (table.times[0], table.times[-1])
         return
     slope = np.concatenate([[0.0], np.diff(table.values) / np.diff(table.times), [0.0]])
     for time, jump in zip(table.times, np.abs(np.diff(slope)), strict=True):
@@ -57,7 +71,13 @@ def _of_table(table: Table) -> Iterator[float]:
             yield float(time)
 
 
-def _of_expression(expression: Expression, end: float) -> Iterator[float]:
+@lru_cache(maxsize=256)
+def _of_expression(expression: Expression, end: float) -> tuple[float, ...]:
+    """Remembered, as many runs of one machine ask for the same."""
+    return tuple(_found(expression, end))
+
+
+def _found(expression: Expression, end: float) -> Iterator[float]:
     times = np.linspace(0.0, end, SAMPLES + 1)
     for first, second in _sides(expression.tree):
 
@@ -91,14 +111,24 @@ def _sides(node: Node) -> Iterator[tuple[Node, Node | None]]:
     match node:
         case Negative(operand):
             yield from _sides(operand)
-        case Operation(_, left, right):
+        case Operation(symbol, left, right):
             yield from _sides(left)
             yield from _sides(right)
+            if symbol in COMPARISONS and not signals(node):
+                yield left, right
+        case Lookup(argument, kind, points, _, _):
+            yield from _sides(argument)
+            if not signals(argument) and kind != "quintic":
+                yield from ((argument, Number(point)) for point in points)
         case Call(function, arguments):
             for argument in arguments:
                 yield from _sides(argument)
             alone = [argument for argument in arguments if not signals(argument)]
             if function == "abs":
                 yield from ((argument, None) for argument in alone)
+            elif function in ("if", "not", "sign") and not signals(arguments[0]):
+                yield arguments[0], None
+            elif function in ("step", "ramp", "step_rate", "step_acceleration") and not signals(node):
+                yield from ((arguments[0], arguments[k]) for k in (1, 3))
             elif function in ("min", "max"):
                 yield from ((first, second) for k, first in enumerate(alone) for second in alone[:k])

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nivel.analysis.equations import MotionEquations
+from nivel.analysis.fastest import fastest_beyond, held_step
 from nivel.analysis.history import start_history
 from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Progress
@@ -96,10 +97,15 @@ class Loop(NamedTuple):
     machine: Handle
     history: Handle
 
+    @property
+    def addresses(self) -> tuple[int, ...]:
+        """What `nivel.integrate.loop.advance` is called with."""
+        codes = self.evaluate.address, self.correct.address, self.step.address
+        return *codes, int(self.machine.address), int(self.history.address)
+
     def advance(self) -> int:
         """Go on for the budget of steps in the history's counter. Returns a status."""
-        codes = self.evaluate.address, self.correct.address, self.step.address
-        return advance(*codes, self.machine.address, self.history.address)
+        return advance(*self.addresses)
 
 
 def march(
@@ -122,23 +128,23 @@ def march(
     wall = clock_of_python.perf_counter()
     status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
     while status in GOES_ON and finished.outcome == "done":
-        status, spent = _march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing)
+        status, spent = march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing)
         loop_seconds += spent
         if status in BEFORE_A_JAM:
-            jam = _jam(prepared, settings, run)
+            jam = jam_of(prepared, settings, run)
         if status == OPEN and jam is None and can_be_asked(prepared):
-            _accept_open(prepared.motion, run)
+            accept_open(prepared.motion, run)
             status = BUDGET_SPENT
     if run.counter[STOPPED]:
         finished.stopped_by = system.events[run.counter[STOPPED] - 1]
     if status not in (*GOES_ON, DONE):
         finished.outcome = "failed"
-        finished.failure = _failure(prepared, settings, run, status, jam)
+        finished.failure = failure_of(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
-            _keep_last(prepared.motion, run, sinks)
+            keep_last(prepared.motion, run, sinks)
     finished.pace = run.pace
     finished.timing = {
-        **_counts(system, run),
+        **counts_of(system, run),
         "loop_seconds": loop_seconds,
         "wall_seconds": clock_of_python.perf_counter() - wall,
     }
@@ -165,7 +171,7 @@ def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType)
         stabilise[:2] = feedback(settings.penalty, settings.step, stabilisation.CORRECTS)
 
 
-def _march_in_chunks(
+def march_in_chunks(
     advance: Callable[[], int],
     system: System,
     run: Run,
@@ -173,7 +179,7 @@ def _march_in_chunks(
     finished: RunOutcome,
     progress: Progress | None,
     chunk_steps: int | None,
-    pacing: Pacing | None,
+    pacing: Pacing | None = None,
 ) -> tuple[int, float]:
     """The last status, and the time [s] spent in the compiled loop. Events, and an interruption, are noted in `finished`."""
     budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
@@ -187,8 +193,8 @@ def _march_in_chunks(
             status = advance()
             spent = clock_of_python.thread_time() - begin
             loop_seconds += spent
-            _give(run, sinks)
-            finished.events += _taken_events(run, system.events)
+            give_frames(run, sinks)
+            finished.events += taken_events(run, system.events)
             if progress is not None:
                 progress(float(run.clock[TIME]))
             if pacing is not None:
@@ -209,14 +215,14 @@ def _next_budget(budget: int, spent: float) -> int:
     return max(1, budget // 2)
 
 
-def _jam(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
+def jam_of(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
     """The jam in or beside the step after the last accepted state."""
     time = float(run.clock[ACCEPTED])
     step = max(float(run.clock[STEP]), float(run.clock[TIME]) - time)
     return find_jam(prepared, time, step, settings.step, settings.duration, run.previous)
 
 
-def _accept_open(motion: MotionEquations, run: Run) -> None:
+def accept_open(motion: MotionEquations, run: Run) -> None:
     """Let the run go on with joints that are open, as they can be closed: they have drifted. Looked at again when that has doubled."""
     motion.evaluate(float(run.clock[TIME]), run.y)
     constraints = motion.system.record.constraints
@@ -224,7 +230,7 @@ def _accept_open(motion: MotionEquations, run: Run) -> None:
     run.clock[OPEN_LIMIT] = 2.0 * max(share, run.clock[OPEN_LIMIT]) if np.isfinite(share) else np.inf
 
 
-def _failure(
+def failure_of(
     prepared: Prepared, settings: RunSettings, run: Run, status: int, jam: Jam | None
 ) -> tuple[str, str, float]:
     """(message, advice, time [s]) of a run that failed."""
@@ -241,10 +247,23 @@ def _failure(
         chosen_by=settings.integrator if settings.steps == 0 else "",
         beams=prepared.beams if explicit else (),
     )
-    return message, advice, time
+    return message, _with_fastest(prepared, settings, run, advice) if explicit else advice, time
 
 
-def _counts(system: System, run: Run) -> dict[str, float]:
+def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, advice: str) -> str:
+    """The advice, led by the force that is too fast for the step where there is one."""
+    found = fastest_beyond(prepared, settings.integrator, settings.step, float(run.clock[ACCEPTED]), run.previous)
+    if found is None:
+        return advice
+    of = f", of {found.force}" if found.force else ""
+    step = held_step(settings.integrator, found.rate)
+    return (
+        f"The fastest rate here is {found.rate:.2g}/s{of}: {settings.integrator} holds it with steps below {step:.2g} s, "
+        f"`integrator: radau` with any. {advice}"
+    )
+
+
+def counts_of(system: System, run: Run) -> dict[str, float]:
     """What the run did how often; of partitions, how often independent coordinates were chosen anew."""
     return {
         "steps": int(run.counter[DONE_STEPS]),
@@ -253,11 +272,13 @@ def _counts(system: System, run: Run) -> dict[str, float]:
         "factorisations": int(run.counter[FACTORISATIONS]),
         "rejected": int(run.counter[REJECTED]),
         "unconserved": int(run.counter[UNCONSERVED]),
+        "guarded": int(system.record.circuit.guard[0]),
+        "pressure_difference": float(system.record.circuit.guard[1]),
         "partitions": max(0, int(system.record.partition.choices.sum()) - 1),
     }
 
 
-def _keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
+def keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
     """Give the last accepted state before a failure, where it lies after the last frame and its accelerations are numbers."""
     t, feedback = float(run.clock[ACCEPTED]), motion.system.record.control.stabilise[:2]
     if not t > run.clock[SHOWN] or not np.isfinite(run.previous).all():
@@ -275,7 +296,7 @@ def _keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None
     feedback[:] = kept
 
 
-def _give(run: Run, sinks: Sequence[Sink]) -> None:
+def give_frames(run: Run, sinks: Sequence[Sink]) -> None:
     filled = int(run.counter[FRAMES])
     if filled:
         for sink in sinks:
@@ -283,7 +304,7 @@ def _give(run: Run, sinks: Sequence[Sink]) -> None:
         run.counter[FRAMES] = 0
 
 
-def _taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
+def taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
     """Events of the buffer, which is empty then."""
     filled = int(run.counter[EVENTS])
     run.counter[EVENTS] = 0

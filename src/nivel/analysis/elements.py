@@ -6,7 +6,8 @@ from nivel.machine.coordinate_reference import resolve
 from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
-from nivel.machine.forces import Between, BetweenMarkers, Contact, End, ForceElement, PointForce, Rope
+from nivel.machine.forces import Between, BetweenMarkers, Contact, End, Ends, ForceElement, PointForce, Rope
+from nivel.machine.hydraulics import Component
 from nivel.machine.input import Input
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
@@ -36,9 +37,12 @@ def driver_in_words(driver: Driver) -> str:
     else:
         seen = driver.relative_to or "ground"
         driven = (
-            f"{driver.marker} along {driver.along} of {seen}" if driver.along else f"{driver.marker} about z of {seen}"
+            f"{driver.marker} along {driver.along} of {seen}"
+            if driver.along
+            else f"{driver.marker} about {driver.about} of {seen}"
         )
-    return f"{driver.name}: {driven} = {function_in_words(driver.value)}"
+    placed = "as placed + change of " if driver.from_start else ""
+    return f"{driver.name}: {driven} = {placed}{function_in_words(driver.value)}"
 
 
 def function_in_words(function: TimeFunction) -> str:
@@ -108,6 +112,17 @@ def state_in_words(state: State) -> str:
     times = [f"every {state.every:.6g} s"] if state.every else []
     times += [f"at the event {state.event}"] if state.event else []
     return f"{state.name}: {function_in_words(state.update)}, sampled {' and '.join(times)}, {start}"
+
+
+def component_in_words(component: Component) -> str:
+    """Type of a component of a circuit, and where its ports are connected."""
+    ports = ", ".join(f"{port} to {node}" for port, node in component.ports.items())
+    on = (
+        f" on {' and '.join(end if isinstance(end, str) else end.body for end in component.ends)}"
+        if isinstance(component, Ends)
+        else ""
+    )
+    return f"{component.name}: {component.type}{on}{f', {ports}' if ports else ''}"
 
 
 def event_in_words(event: Event) -> str:

@@ -8,16 +8,19 @@ from nivel.analysis.corners import corners
 from nivel.analysis.dynamics import RunOutcome
 from nivel.analysis.loads.path import steps_of
 from nivel.analysis.loads.seen import unseen_loads
+from nivel.analysis.passages import passages
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.second_run import Verified
 from nivel.integrate.run import TURNED
+from nivel.results.bending import ModalBody, fastest_unstiffened, most_bent
 from nivel.results.estimate import Estimate
 from nivel.results.findings import Findings
 from nivel.results.result import Result
 from nivel.results.second_look import damped, growth, own_error
 from nivel.results.steps_seen import largest_turn, rounding
 from nivel.results.unseen import Unseen
+from nivel.system.flexible import bending_bodies
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -33,7 +36,7 @@ def find(
     if finished.pace is None or not len(result.time):
         return Findings()
     settings, fixed = plan.settings, plan.settings.steps > 0
-    turned = finished.pace[TURNED]
+    turned, bending = finished.pace[TURNED], _bending(plan)
     return Findings(
         unseen=_unseen(plan, prepared, finished, result),
         # where steps are chosen no body turns too far
@@ -44,8 +47,24 @@ def find(
         own=own_error(result, estimate) if estimate is not None else None,
         damped=damped(result, verified.result) if verified is not None and prepared.integrator.residual else None,
         growth=growth(result, verified.result, verified.refinement.left) if verified is not None else None,
+        passages=tuple(passages(prepared, result)) if verified is not None else (),
+        unstiffened=fastest_unstiffened(result, bending),
+        bent=most_bent(result, bending),
         method=settings.integrator,
     )
+
+
+def _bending(plan: Plan) -> list[ModalBody]:
+    """The flexible bodies of the machine; those that stand for beams bend by any amount."""
+    out, first = [], 0
+    for each in bending_bodies(plan.machine) if plan.machine.is_flexible else ():
+        its, last = each.reduced, first + len(each.reduced.eigenvalues)
+        if not each.beam:
+            name = plan.machine.bodies[each.body].name
+            modes = np.nan_to_num(its.modes[:, :3])
+            out.append(ModalBody(name, first, last, its.eigenvalues, its.position, modes, bool(its.stiffening)))
+        first = last
+    return out
 
 
 def _unseen(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result) -> list[Unseen]:

@@ -23,6 +23,7 @@ from nivel.integrate.run import (
     INTERVAL,
     LARGEST,
     LAST_FRAME,
+    LEAST,
     MOST_ITERATIONS,
     NEWTON,
     OPEN_LIMIT,
@@ -39,9 +40,11 @@ from nivel.kernels import friction as columns
 from nivel.kernels.observe import observe
 from nivel.kernels.record import WATCH
 from nivel.kernels.saddle import CONTRADICTORY, MOST_UNSETTLED
+from nivel.kernels.sampling import sample
 from nivel.kernels.watch import watch
 from nivel.motion.direct import VISIBLE
 from nivel.results.held import STILL
+from nivel.system.control import ONCE
 from nivel.system.partition import forget
 from nivel.system.system import Array, System
 
@@ -53,6 +56,10 @@ STICK_STEPS = 2.0
 LONG = 1e4
 # Positions open by more than this share of the scales of their rows are beyond all drift, where nobody can tell whether the machine jams.
 TORN = 0.1
+# Scale of what nothing depends on.
+UNSEEN = 1e30
+# The integrator whose matrix has the secants of restrictions in place of their tangents.
+SECANT = "extrapolated-euler"
 
 
 def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
@@ -65,6 +72,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
     numbers[: len(settings.constants)] = settings.constants
     _forget_runs(prepared, settings, facts)
     system.hold_sliders(y)
+    _begin_states(prepared, y)
     _refer_energies(prepared, y)
     values = _watch(system, chosen=settings.steps == 0)
     count[SWITCHED] = system.record.watched.followed[0]
@@ -78,6 +86,7 @@ def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFa
         trial=np.zeros_like(y),
         # a run of fixed steps takes no notice of how many more follow
         scale=_scales(system, y, min(settings.duration, LONG * settings.step) if settings.steps else settings.duration),
+        raised=_raised(system, y).astype(np.uint32),
         stages=np.zeros((facts.stages, len(y))),
         numbers=numbers,
         matrix=np.zeros((newton, newton)),
@@ -107,7 +116,8 @@ def _clock(settings: RunSettings, open_limit: float) -> Array:
 
 def _pace(prepared: Prepared, settings: RunSettings) -> Array:
     """Nothing done yet, and steps as long as the settings and the functions of time allow."""
-    pace = np.zeros((3, PARTS))
+    pace = np.zeros((4, PARTS))
+    pace[LEAST] = np.inf
     pace[ALLOWED] = settings.largest_step
     if prepared.allowed is not None:
         pace[ALLOWED] = np.minimum(pace[ALLOWED], prepared.allowed)
@@ -148,6 +158,8 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
     record.coordinates.reference[:] = prepared.assembly.reference
     record.watched.followed[:] = 0
     record.sampled.came[:] = 0
+    record.circuit.guard[:] = 0.0
+    record.circuit.secant[:] = settings.integrator == SECANT
     record.elements.memory[:] = 0.0
     record.elements.proposal[:] = 0.0
     record.friction.force[:] = 0.0
@@ -160,6 +172,19 @@ def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFac
         record.friction.number[:, columns.REST] = (
             STILL * np.where(turns, 1.0, prepared.motion.system.size) / settings.duration
         )
+
+
+def _begin_states(prepared: Prepared, y: Array) -> None:
+    """States that begin with what a function gives at t = 0, from there on: energies are referred to them."""
+    motion, sampled = prepared.motion, prepared.motion.system.record.sampled
+    begins = (sampled.period >= ONCE) & (sampled.offset == 0.0)
+    if not begins.any():
+        return
+    motion.evaluate(0.0, y)
+    sampled.due[:] = begins
+    sample.code(motion.handle.address, 0, 0.0)
+    first = len(y) - len(motion.system.start_of_states)
+    y[first + sampled.state[begins]] = sampled.value[begins]
 
 
 def _refer_energies(prepared: Prepared, y: Array) -> None:
@@ -201,8 +226,23 @@ def _scales(system: System, y: Array, duration: float) -> Array:
     scale = np.array([floors.get(unit, 0.0) for unit in units])
     scale[units == "kg^0.5 m"] = system.modal_sizes()
     scale[units == "kg^0.5 m/s"] = system.modal_sizes() / duration
-    scale[len(scale) - len(system.start_of_states) :] = [*(fact.scale for fact in system.states), energy, energy]
-    return np.maximum(scale, np.abs(y))
+    scale[len(scale) - len(system.start_of_states) :] = [
+        *(UNSEEN if fact.integral else fact.scale for fact in system.states),
+        energy,
+        energy,
+    ]
+    return np.where(_raised(system, y), np.maximum(scale, np.abs(y)), scale)
+
+
+def _raised(system: System, y: Array) -> NDArray[np.bool_]:
+    """Whether the scale of each entry of y follows its largest value."""
+    out = np.ones(len(y), dtype=bool)
+    out[len(y) - len(system.start_of_states) :] = [
+        *(fact.relative and not fact.integral for fact in system.states),
+        True,
+        True,
+    ]
+    return out
 
 
 def _weight_energy(system: System) -> float:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 
 from nivel.analysis.equations import MotionEquations
-from nivel.analysis.unknown_groups import frictions_with_stiction, unknown_groups
+from nivel.analysis.unknown_groups import frictions_with_stiction, integrals, unknown_groups
 from nivel.kernels import friction_residual
 from nivel.kernels import tangent_entries as entries
 from nivel.kernels.arrays import complex_twin
@@ -156,7 +156,13 @@ def _with_rows(
     # over a whole step the forces of joints act at the mean place, C is that of the end
     mirrored = wanted.free is None and not len(system.frictions)
     groups = unknown_groups(system, velocities, row, part, coordinates)
-    plan = plan_tangent(*groups, mirrored=mirrored, found=plain.values(), stages=3 if wanted.shifted else 0)
+    plan = plan_tangent(
+        *groups,
+        mirrored=mirrored,
+        found=plain.values(),
+        alone=integrals(system, groups[1]),
+        stages=3 if wanted.shifted else 0,
+    )
     record = record._replace(
         residual=_residual(system, y, velocities, row, part, wanted),
         newton=_newton(system, y, velocities, len(row), plan, wanted),

@@ -20,6 +20,7 @@ from nivel.kernels.status import (
     FRICTION_DIVERGES,
     MULTIPLIERS_NOT_FOUND,
     NO_MASS_LEFT,
+    NO_VOLUME,
     NOT_CLOSED,
     NOT_CONVERGED,
     NOT_FINITE,
@@ -73,6 +74,8 @@ def failure(
         told = broken_function(motion, time, step, y) or _no_mass_left(motion.system.bodies[number])
     elif status == ROTATION_SINGULAR:
         told = _singular_rotation(motion.system.bodies[number])
+    elif status == NO_VOLUME and number < len(motion.system.nodes):
+        told = broken_function(motion, time, step, y) or _no_volume(motion.system.nodes[number].name)
     elif status == NOT_ON_RAIL:
         told = _off_rail(motion, number)
     else:
@@ -95,6 +98,16 @@ def failure(
         # what failed in the end failed because of that
         told = too_fast(beams, step) or grown
     return f"stopped at t = {time:.6g} s: {told[0]}", told[1]
+
+
+def _no_volume(node: str) -> tuple[str, str]:
+    """A node of a circuit without fluid or room."""
+    message = f"the volume {node} has no fluid left in it, or no room for it"
+    advice = (
+        "A step too long for the flows there empties it: try a shorter one, or `integrator: radau`. If it stops here again, look at the "
+        "size of the volume, and whether a cylinder is pushed beyond its stroke."
+    )
+    return message, advice
 
 
 def _no_step(
@@ -352,8 +365,23 @@ def _not_converged(motion: MotionEquations, time: float, step: float, y: Array) 
     return message, advice
 
 
+def _broken_signals(motion: MotionEquations) -> list[str]:
+    """Signals of the control that are no numbers in the state last evaluated."""
+    values = motion.system.record.outputs.value
+    names = [variable.name for variable in reported(motion.system.layout, len(values))]
+    return [
+        name
+        for name, value in zip(names, values, strict=True)
+        if name.startswith("control.") and not np.isfinite(value)
+    ][:3]
+
+
 def _not_a_number(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str]:
     motion.evaluate(time, y)
+    broken = _broken_signals(motion)
+    if broken:
+        message = f"{', '.join(broken)} {'is' if len(broken) == 1 else 'are'} no longer a number"
+        return message, "Look at what the block is given: a root or logarithm of a negative number, a division by zero."
     message = f"the state after a step of {step:.3g} s is no longer a number; {_worst(motion)}"
     advice = f"Try a smaller step, for instance --step {step / 10:.3g}; if it stops at the same time, look at the forces near it."
     return message, advice

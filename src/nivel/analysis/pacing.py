@@ -87,7 +87,8 @@ class Follower:
         while not self.stop():
             with leader.changed:
                 parts = PARTS if leader.over else int(leader.time / self.duration * PARTS)
-                horizon = np.inf if leader.over else parts / PARTS * self.duration
+                # what a step may be long depends on the next part, too
+                horizon = np.inf if leader.over else (parts - 1) / PARTS * self.duration
                 if horizon > run.clock[TIME]:
                     known = leader.taken[:parts]
                     bound = np.where(known > 0.0, _shares(parts) * known, np.inf)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from types import ModuleType
 
-from nivel.analysis.choice import choose_coordinates, choose_cut, slides
+from nivel.analysis.choice import choose_coordinates, choose_cut, slides, with_integrator
 from nivel.analysis.combinations import refuse_combinations
 from nivel.analysis.modal_stiffness import integrator_of
 from nivel.analysis.refusals import (
@@ -80,6 +80,7 @@ def plan_run(machine: MachineRecord, given: Collection[str] = ()) -> Plan:
 
     Raises ModelError with everything that does not go together.
     """
+    machine = with_integrator(machine)
     coordinates, formulation = choose_coordinates(machine), machine.simulation.formulation
     settings: list[RunSettings] = []
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from nivel.analysis.assemble import Assembly, assemble
+from nivel.analysis.circuit_start import circuit_start
 from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.ground import touches_ground
@@ -68,8 +69,12 @@ def prepare(methods: Methods) -> Prepared:
     refuse_uncertain_loads(machine, redundancy)
     refuse_deep_starts(machine, absolute, assembly.y)
     motion.system.record.coordinates.reference[:] = assembly.reference
+    system, y = circuit_start(machine, absolute, assembly.y)
+    assembly = replace(assembly, y=y)
+    motion = replace(motion, system=replace(motion.system, states=system.states))
+    absolute = replace(absolute, system=system)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
-    system, y = _arranged(motion.system, assembly.y, rest, rank, methods)
+    system, y = arranged(motion.system, assembly.y, rest, rank, methods)
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
     if integrator.residual:
         prepared = with_residual(prepared, y, methods.coordinates, _wanted(prepared, methods), path)
@@ -83,7 +88,7 @@ def prepare(methods: Methods) -> Prepared:
         len(machine.drivers),
         integrator,
         machine.beams,
-        corners(machine) if methods.chooses_steps and not integrator.residual else (),
+        corners(machine) if methods.chooses_steps and not integrator.knows_corners else (),
         allowed_steps(machine, machine.simulation.duration) if methods.chooses_steps else None,
     )
 
@@ -123,7 +128,7 @@ def _independent_rows(machine: MachineRecord, motion: MotionEquations, y: Array)
     return redundancy, MotionEquations(known, motion.kernels)
 
 
-def _arranged(absolute: System, y: Array, rest: Settled | None, rank: int, methods: Methods) -> tuple[System, Array]:
+def arranged(absolute: System, y: Array, rest: Settled | None, rank: int, methods: Methods) -> tuple[System, Array]:
     """The system and its state y, given in absolute coordinates, in those of the path; with the modes bent by the loads of the equilibrium
     `rest` from which the run starts."""
     arrangement: Any = import_module(methods.path.arrangement)

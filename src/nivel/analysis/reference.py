@@ -12,12 +12,12 @@ from typing import Final
 
 import numpy as np
 
-from nivel.analysis.changes import changed
 from nivel.analysis.compare_grid import REFERENCES, Grid
 from nivel.analysis.dynamics import RunOutcome
 from nivel.analysis.in_memory import run_in_memory
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import plan_run
+from nivel.machine.changes import changed
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.comparison import Reference
 from nivel.results.comparison_table import seconds

@@ -60,7 +60,8 @@ def refine(settings: RunSettings, *, sampled: bool = False) -> Refinement:
     can be compared, and what repeats itself within a step of the first run does not within one of these.
     """
     if settings.tolerance is not None:
-        finer = replace(settings, tolerance=TENTH * settings.tolerance)
+        # the step still says how fast stiction stops a joint
+        finer = replace(settings, tolerance=TENTH * settings.tolerance, step=0.5 * settings.step)
         return Refinement(finer, f"a tolerance of {finer.tolerance:.3g} and other, irregular steps", TENTH)
     frames = ceil(LEAST_STEPS / settings.every)
     coarse = frames * settings.every

@@ -10,15 +10,18 @@ from nivel.analysis.attributes import run_attributes
 from nivel.analysis.dynamics import RunOutcome, march
 from nivel.analysis.findings import find
 from nivel.analysis.held_friction import resting_frictions
+from nivel.analysis.history import SECANT
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
 from nivel.analysis.saturation import saturated_blocks
 from nivel.analysis.second_run import SecondRun, Verified
 from nivel.errors import SolveError
+from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.sink import Header
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.accuracy import error_from_finer, factor
+from nivel.results.circuits import Guard
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.estimate import estimate_errors
 from nivel.results.findings import finding_items
@@ -127,8 +130,9 @@ def close_run(
         stopped_by=finished.stopped_by,
         neglected=cost(sink.result(), _neglected(machine)),
         further=tuple(finding_items(findings)),
-        small_states=_small_states(sink.result(), prepared),
+        small_states=_small_states(sink.result(), prepared, machine),
         saturated=saturated_blocks(machine, sink.result()),
+        guard=_guard(finished, prepared),
         shared=(*shared_loads(sink.result(), resting[0]), *loads_held_together(sink.result(), resting[1])),
     )
     attributes: dict[str, str | float | int] = {
@@ -148,12 +152,22 @@ def close_run(
     return result
 
 
-def _small_states(result: Result, prepared: Prepared) -> tuple[SmallState, ...]:
+def _guard(finished: RunOutcome, prepared: Prepared) -> Guard | None:
+    """What the guard of steps over circuits did; None where there is none."""
+    if prepared.integrator is not INTEGRATORS[SECANT] or not prepared.motion.system.nodes:
+        return None
+    timing = finished.timing
+    return Guard(int(timing["steps"]), int(timing["guarded"]), timing["pressure_difference"])
+
+
+def _small_states(result: Result, prepared: Prepared, machine: MachineRecord) -> tuple[SmallState, ...]:
     """The states that stayed far below the scale by which their errors are measured."""
     if not (prepared.integrator.chooses_steps or prepared.integrator.optional_control or prepared.integrator.residual):
         return ()
-    out = []
+    out, components = [], {component.name for component in machine.hydraulics}
     for fact in prepared.motion.system.states:
+        if fact.integral or fact.name.partition(".")[0] in components:
+            continue  # their scales are those of their components
         largest = peak(result, fact.result).value
         if not fact.sampled and 0.0 < largest < SMALL * fact.scale:
             out.append(SmallState(fact.name, largest, fact.scale))

@@ -65,6 +65,12 @@ def unknown_groups(
     return sizes, constraint, couples
 
 
+def integrals(system: System, constraint: list[bool]) -> list[int]:
+    """Numbers of the groups that are states on which nothing depends; states stand before the groups of a `constraint`."""
+    end = constraint.index(True) if True in constraint else len(constraint)
+    return [end - len(system.states) + k for k, fact in enumerate(system.states) if fact.integral]
+
+
 def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
     """The same of joint coordinates: velocities of the joint that carries each body, states of elements, joints that are cut.
 

@@ -37,7 +37,7 @@ def _print(result: Result) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    from nivel.results.verdicts import RULES, THRESHOLDS
+    from nivel.results.verdicts import CHECKS, RULES, THRESHOLDS
 
     console, trust = Console(highlight=False), result.trust
     time = result.time
@@ -54,7 +54,7 @@ def _print(result: Result) -> None:
     if result.advice:
         console.print(Text(f"\n{result.advice}"))
     reasons = Table.grid(padding=(0, 2))
-    for name, threshold in THRESHOLDS.items():
+    for name, threshold in {**THRESHOLDS, **CHECKS}.items():
         reasons.add_row(Text(f"{name.replace('_', ' ')}\n{threshold}", "dim"), Text(threshold.reason, "dim"))
     for name, rule in RULES.items():
         reasons.add_row(Text(name.replace("_", " "), "dim"), Text(f"{rule[:1].upper()}{rule[1:]}.", "dim"))

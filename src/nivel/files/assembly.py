@@ -105,11 +105,16 @@ def made_by(tree: Tree, name: str, assembly: Assembly, part: MachineRecord) -> d
     """The elements of `part` as `assembly` makes them, by section and name; None where they cannot be, which is
     reported.
     """
-    elements = {section: getattr(part, section) for section in SECTIONS}
-    placement = Placement.of(assembly.position, assembly.orientation, assembly.mirror)
     try:
-        elements = renamed(placed(elements, placement), assembly.prefix)
+        elements = elements_of(part, assembly)
     except NotRepresentableError as error:
         tree.report(("assemblies", name), str(error))
         return None
     return {section: {str(entry(each, "name")): each for each in records} for section, records in elements.items()}
+
+
+def elements_of(part: MachineRecord, assembly: Assembly) -> dict[str, tuple[Record, ...]]:
+    """The elements of `part` by section, placed and with the prefix of `assembly`. Raises NotRepresentableError."""
+    elements = {section: getattr(part, section) for section in SECTIONS}
+    placement = Placement.of(assembly.position, assembly.orientation, assembly.mirror)
+    return renamed(placed(elements, placement), assembly.prefix)

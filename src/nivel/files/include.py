@@ -7,13 +7,13 @@ from typing import Annotated, Any, Final
 from pydantic import BeforeValidator, ValidationError
 
 from nivel.errors import ModelError
-from nivel.files.outline import NAMED, as_part, check_sections, check_start, section_of
+from nivel.files.outline import NAMED, VALUES, as_part, check_sections, check_start, section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine.quantity import FAULT, fault, shown
 from nivel.machine.record import Record, unknown_word
 
-TAKEN: Final = tuple(section for section in NAMED if section != "parameters")
+TAKEN: Final = tuple(section for section in NAMED if section not in VALUES)
 
 
 def _file_name(value: Any) -> Any:

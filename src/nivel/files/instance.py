@@ -24,6 +24,9 @@ MENTIONS: Final = (
     "distance",
     "angle",
     "event",
+    "ports",
+    "valves",
+    "fluid",
 )
 
 Elements = Mapping[str, Sequence[Record]]
@@ -62,6 +65,8 @@ def _mention(value: Any, prefix: str) -> Any:
         return value if value == GROUND else f"{prefix}{value}"
     if isinstance(value, tuple):
         return tuple(_mention(each, prefix) for each in value)
+    if isinstance(value, dict):
+        return {key: _mention(each, prefix) for key, each in value.items()}
     return _value(value, prefix)
 
 

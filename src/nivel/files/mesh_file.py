@@ -29,6 +29,13 @@ TRIANGLES: Final = 4  # mode of a glTF primitive
 DEEPEST: Final = 64  # nodes of glTF inside each other
 
 
+# what reading a file raises whose parts are not what they should be
+DAMAGE: Final = (
+    *(AttributeError, ValueError, KeyError, IndexError, TypeError, OverflowError, RecursionError, MemoryError),
+    struct.error,
+)
+
+
 class NotReadError(Exception):
     """Why a file is no mesh, in words."""
 
@@ -75,7 +82,7 @@ def parse(content: bytes, file: str) -> tuple[Array, Triangles]:
         vertices, triangles = readers[kind]()
         vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
         triangles = np.asarray(triangles, dtype=np.int64).reshape(-1, 3)
-    except (ValueError, KeyError, IndexError, TypeError, struct.error, OverflowError, RecursionError):
+    except DAMAGE:
         raise NotReadError("the file is damaged, or not what its name says") from None
     if not len(triangles):
         raise NotReadError("there are no triangles in it")
@@ -158,8 +165,9 @@ def _gltf(data: dict[str, Any], buffers: dict[int, bytes], file: str) -> tuple[A
     vertices: list[Array] = []
     triangles: list[Any] = []
     scenes = data.get("scenes") or [{"nodes": list(range(len(data.get("nodes", []))))}]
+    placed: set[int] = set()
     for node in scenes[data.get("scene", 0)].get("nodes", []):
-        _collect(data, buffers, (node, np.eye(4), 0), vertices, triangles)
+        _collect(data, buffers, (node, np.eye(4), 0), vertices, triangles, placed)
     if not triangles:
         return np.zeros((0, 3)), np.zeros((0, 3))
     starts = np.cumsum([0, *(len(each) for each in vertices)])
@@ -172,10 +180,14 @@ def _collect(
     at: tuple[int, Array, int],
     vertices: list[Array],
     triangles: list[Any],
+    seen: set[int],
 ) -> None:
+    """Add the triangles of a node and of all below it. seen : nodes that were placed: none has two parents (glTF 2.0, §3.5.2), or there
+    may be two to the power of their number."""
     number, around, depth = at
-    if depth > DEEPEST:
-        raise NotReadError("its nodes lead back to themselves")
+    if depth > DEEPEST or number in seen:
+        raise NotReadError("its nodes lead back to themselves, or one has two parents")
+    seen.add(number)
     node = data["nodes"][number]
     placed = around @ _transform(node)
     if "mesh" in node:
@@ -190,7 +202,7 @@ def _collect(
             vertices.append(points @ placed[:3, :3].T + placed[:3, 3])
             triangles.append(corners if np.linalg.det(placed[:3, :3]) > 0.0 else corners[:, ::-1])
     for child in node.get("children", []):
-        _collect(data, buffers, (child, placed, depth + 1), vertices, triangles)
+        _collect(data, buffers, (child, placed, depth + 1), vertices, triangles, seen)
 
 
 def _transform(node: dict[str, Any]) -> Array:

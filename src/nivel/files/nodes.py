@@ -5,6 +5,7 @@ PyYAML's own composer recurses in C without a limit, and deep nesting ends the p
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, Final, NamedTuple
@@ -43,15 +44,21 @@ class Scalar:
 
 @dataclass
 class Sequence:
+    """`flow`: between brackets, where a comma ends a value."""
+
     place: Place
     tag: str | None
+    flow: bool = False
     entries: list[Node] = field(default_factory=list)
 
 
 @dataclass
 class Mapping:
+    """`flow`: between braces, where a comma ends a value."""
+
     place: Place
     tag: str | None
+    flow: bool = False
     pairs: list[tuple[Node, Node]] = field(default_factory=list)
 
 
@@ -103,12 +110,12 @@ class _Composer:
         if isinstance(event, events.ScalarEvent):
             return self.anchored(event, Scalar(place, event.tag, event.value, not event.style))
         if isinstance(event, events.SequenceStartEvent):
-            sequence = Sequence(place, event.tag)
+            sequence = Sequence(place, event.tag, bool(event.flow_style))
             self.anchored(event, sequence)
             while not isinstance(entry := next(self.stream), events.SequenceEndEvent):
                 sequence.entries.append(self.node(entry, depth + 1))
             return sequence
-        mapping = Mapping(place, event.tag)
+        mapping = Mapping(place, event.tag, bool(event.flow_style))
         self.anchored(event, mapping)
         while not isinstance(key := next(self.stream), events.MappingEndEvent):
             mapping.pairs.append((self.node(key, depth + 1), self.node(next(self.stream), depth + 1)))
@@ -131,8 +138,20 @@ def _restated(error: yaml.YAMLError, text: str) -> NotYamlError:
     context = getattr(error, "context", None)
     lines = text.splitlines()
     line = lines[place.line - 1] if place.line <= len(lines) else ""
-    hint = "; indent with spaces, not tabs" if line[place.column - 1 : place.column] == "\t" else ""
+    hint = (
+        "; indent with spaces, not tabs" if line[place.column - 1 : place.column] == "\t" else _unit_behind_list(line)
+    )
     return NotYamlError(f"this is not YAML: {problem}{f' {context}' if context else ''}{hint}", place)
+
+
+def _unit_behind_list(line: str) -> str:
+    """A hint for `[500, 0, 0] mm`."""
+    found = re.search(r"\[([^\[\]]*)\]\s+([^\W\d_]+)\s*$", line)
+    if found is None:
+        return ""
+    entries = [each.strip() for each in found[1].split(",")]
+    each_with_unit = ", ".join(entry if entry == "0" else f"{entry} {found[2]}" for entry in entries)
+    return f"; a unit stands behind each number: `[{each_with_unit}]`"
 
 
 def _place_of_error(error: yaml.YAMLError, text: str) -> Place:

@@ -23,17 +23,24 @@ class Origin:
     """Where the values of a machine were set: in a file, from outside of it, or as arguments of a run.
 
     source : text of the `file`, empty for machines from records. outside : paths of values set from outside of the file, such as
-    ``bodies.crank.mass``. given : simulation settings that are arguments of a run, and what was given.
+    ``bodies.crank.mass``. given : simulation settings that are arguments of a run, and what was given. values : what was set from
+    outside of the file, by path. allow_code : whether laws may be Python functions.
     """
 
     source: str = ""
     file: str = ""
     outside: frozenset[str] = frozenset()
     given: Mapping[str, Any] = field(default_factory=dict)
+    values: Mapping[str, Any] = field(default_factory=dict)
+    allow_code: bool = False
 
     def with_settings(self, settings: Mapping[str, Any]) -> Origin:
         """The same with these simulation settings given for a run."""
         return replace(self, given={**self.given, **settings})
+
+    def edited(self) -> Origin:
+        """Of a machine whose elements were replaced: no file says any more what it is."""
+        return replace(self, source="", outside=frozenset(), values={})
 
     @property
     def settings_outside(self) -> frozenset[str]:

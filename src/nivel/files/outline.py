@@ -12,9 +12,10 @@ from nivel.machine.record import field_words, unknown_word
 from nivel.machine.references import SECTIONS
 
 FORMAT: Final = 1
-TOP_WORDS: Final = ("format", "parameters", *field_words(MachineRecord))
+VALUES: Final = ("parameters", "functions")  # sections of what has no keys of its own
+TOP_WORDS: Final = ("format", *VALUES, *field_words(MachineRecord))
 FILE_WORDS: Final = ("include", "assemblies")  # words of files that a record does not have
-NAMED: Final = (*SECTIONS, "parameters", "assemblies")  # what maps names to something
+NAMED: Final = (*SECTIONS, *VALUES, "assemblies")  # what maps names to something
 ABOUT: Final = ("name", "description")  # what a file says about itself
 WHOLE: Final = tuple(word for word in field_words(MachineRecord) if word not in (*SECTIONS, *ABOUT))
 
@@ -56,15 +57,25 @@ def _check_section(tree: Tree, section: str) -> None:
     content = tree.data.get(section)
     if not isinstance(content, dict):
         if content is not None:
-            message = f"a mapping from names to what they are was expected, got {shown(content)}"
+            message = f"a mapping from names to what they are was expected, got {shown(content)}{_as_mapping(content)}"
             tree.faults.append(tree.fault((section,), message))
             tree.unread.add("")
         if section in tree.data:
             tree.data[section] = {}
         return
-    if section != "parameters":
+    if section not in VALUES:
         for name in content:
             _check_element(tree, content, section, name)
+
+
+def _as_mapping(content: Any) -> str:
+    """How the first entry of a list is written in a mapping."""
+    first = content[0] if isinstance(content, list) and content else None
+    if isinstance(first, str):
+        return f"; write `{first}: {{…}}` in place of `- {first}`"
+    if isinstance(first, dict) and isinstance(first.get("name"), str):
+        return f"; the name is the key: write `{first['name']}: {{…}}` in place of `- name: {first['name']}`"
+    return "; write `NAME: {…}` in place of `- …`" if isinstance(first, dict) else ""
 
 
 def _check_element(tree: Tree, content: dict[str, Any], section: str, name: str) -> None:
@@ -101,5 +112,5 @@ def as_part(tree: Tree, only: tuple[str, ...] | None, example: str) -> None:
     for word in ABOUT:
         tree.data.pop(word, None)
     if only is not None:
-        for section in [word for word in tree.data if word in NAMED and word not in (*only, "parameters")]:
+        for section in [word for word in tree.data if word in NAMED and word not in (*only, *VALUES)]:
             del tree.data[section]

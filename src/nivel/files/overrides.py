@@ -110,7 +110,7 @@ def _key(container: Any, path: Path, step: str) -> str | int:
         return int(step)
     if not isinstance(container, dict):
         raise ModelError(f"`{place}` is a single value and has no `{step}`")
-    if step not in container and len(path) == 1 and path[0] in (*SECTIONS, "parameters", "assemblies"):
+    if step not in container and len(path) == 1 and path[0] in (*SECTIONS, "parameters", "functions", "assemblies"):
         raise ModelError(f"in `{place}`, {unknown_word(step, list(container), 'name')}")
     container.setdefault(step, None)
     return step

@@ -8,6 +8,7 @@ from typing import Any
 from nivel.errors import ModelError
 from nivel.files.placed_bodies import placed_beam, placed_body, placed_joint
 from nivel.files.placed_forces import placed_force
+from nivel.files.placed_hydraulics import placed_component
 from nivel.files.placement import AXIAL_Z, POLAR_Z, Placement
 from nivel.files.scene import Scene
 from nivel.files.substitution import NotRepresentableError, negative
@@ -35,6 +36,8 @@ def placed(elements: Elements, placing: Placement) -> dict[str, tuple[Record, ..
         "couplings": lambda coupling: placed_coupling(coupling, scene),
         "drivers": lambda driver: placed_driver(driver, scene),
         "forces": lambda force: placed_force(force, scene),
+        "fluids": lambda fluid: fluid,
+        "hydraulics": lambda component: placed_component(component, scene),
         "sensors": lambda sensor: placed_sensor(sensor, scene),
         "inputs": lambda each: each,
         "states": lambda state: placed_state(state, scene),

@@ -22,13 +22,14 @@ from nivel.machine import (
     PythonLaw,
     Record,
     Rope,
+    Servo,
     SpringDamper,
     Stop,
     TimeFunction,
     Torque,
     TorsionalSpringDamper,
 )
-from nivel.machine.forces import Between, ForceElement
+from nivel.machine.forces import Between, Ends, ForceElement
 
 Changes = dict[str, Any]
 _FUNCTIONS = (Expression, PythonLaw)
@@ -56,7 +57,7 @@ def _any_force(force: ForceElement, scene: Scene) -> Changes:
         raise NotRepresentableError(
             f"what a {force.type} with several functions would be in a placed part is not known"
         )
-    changes = _ends(force, scene, with_axes=True) if isinstance(force, Between) else {}
+    changes = placed_ends(force, scene, with_axes=True) if isinstance(force, Between) else {}
     return changes | {name: scene.varied(value) for name, value in force if isinstance(value, _FUNCTIONS)}
 
 
@@ -79,13 +80,13 @@ def _vector(vector: tuple[TimeFunction, ...], matrix: np.ndarray, scene: Scene) 
     return mixed(matrix, [scene.varied(each) for each in vector])
 
 
-def _ends(force: Between, scene: Scene, *, with_axes: bool) -> Changes:
+def placed_ends(force: Ends, scene: Scene, *, with_axes: bool) -> Changes:
     """Where a force between two bodies acts. With axes, points become markers, since theirs are global as placed."""
     if force.markers is not None:
         first, second = force.markers
         return {"markers": (scene.end(first), scene.end(second))}
     if force.bodies is None or force.points is None:
-        raise ValueError(f"force {force.name} acts nowhere")
+        raise ValueError("two ends are needed, and there are none")
     if not with_axes or not scene.placement.turns:
         return {"points": tuple(scene.placement.point(point) for point in force.points)}
     markers = tuple(
@@ -95,7 +96,7 @@ def _ends(force: Between, scene: Scene, *, with_axes: bool) -> Changes:
 
 
 def _spring_damper(force: SpringDamper, scene: Scene) -> Changes:
-    return {**_ends(force, scene, with_axes=False), **_varied(force, scene, "law")}
+    return {**placed_ends(force, scene, with_axes=False), **_varied(force, scene, "law")}
 
 
 def _torsional_spring_damper(force: TorsionalSpringDamper, scene: Scene) -> Changes:
@@ -104,7 +105,7 @@ def _torsional_spring_damper(force: TorsionalSpringDamper, scene: Scene) -> Chan
 
 
 def _pair_force(force: PairForce, scene: Scene) -> Changes:
-    changes = {**_ends(force, scene, with_axes=force.axes == "first"), **_varied(force, scene, "magnitude")}
+    changes = {**placed_ends(force, scene, with_axes=force.axes == "first"), **_varied(force, scene, "magnitude")}
     if force.vector is not None:
         in_marker = np.diag(AXIAL_Z if scene.placement.mirrored else np.ones(3))
         changes["vector"] = _vector(force.vector, scene.placement.polar if force.axes == "global" else in_marker, scene)
@@ -112,7 +113,7 @@ def _pair_force(force: PairForce, scene: Scene) -> Changes:
 
 
 def _bushing(force: Bushing, scene: Scene) -> Changes:
-    changes = _ends(force, scene, with_axes=True)
+    changes = placed_ends(force, scene, with_axes=True)
     if scene.placement.mirrored:
         signs = np.array([*AXIAL_Z, *(-each for each in AXIAL_Z)])  # of displacements, and of turns, which are axial
         for field in ("stiffness", "damping"):
@@ -130,9 +131,11 @@ def _rope(force: Rope, scene: Scene) -> Changes:
     return {"markers": tuple(scene.end(each) for each in force.markers), **_varied(force, scene, "speed")}
 
 
-def _on_coordinate(force: JointSpringDamper | Motor | Stop | Friction, scene: Scene) -> Changes:
+def _on_coordinate(force: JointSpringDamper | Motor | Servo | Stop | Friction, scene: Scene) -> Changes:
     """What acts on a joint coordinate keeps its numbers, unless the coordinate counts the other way."""
-    fields = {"JointSpringDamper": ("law",), "Motor": ("effort", "speed")}.get(type(force).__name__, ())
+    fields = {"JointSpringDamper": ("law",), "Motor": ("effort", "speed"), "Servo": ("target",)}.get(
+        type(force).__name__, ()
+    )
     changes = _varied(force, scene, *fields)
     if not scene.is_opposite(force.coordinate):
         return changes
@@ -149,7 +152,7 @@ def _on_coordinate(force: JointSpringDamper | Motor | Stop | Friction, scene: Sc
                 "lower": None if force.upper is None else -force.upper + 0.0,
                 "upper": None if force.lower is None else -force.lower + 0.0,
             }
-        case Motor():
+        case Motor() | Servo():
             changes |= {field: negative(changes[field]) for field in fields if field in changes}
     return changes
 
@@ -176,6 +179,7 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     TorsionalSpringDamper: _torsional_spring_damper,
     JointSpringDamper: _on_coordinate,
     Motor: _on_coordinate,
+    Servo: _on_coordinate,
     Stop: _on_coordinate,
     Friction: _on_coordinate,
     PairForce: _pair_force,

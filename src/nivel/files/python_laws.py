@@ -9,7 +9,7 @@ from nivel.files.outline import section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree
 
-WITH_LAWS: Final = ("drivers", "forces", "states", "control", "sensors", "events")
+WITH_LAWS: Final = ("drivers", "forces", "hydraulics", "states", "control", "sensors", "events")
 
 
 def read_python_laws(tree: Tree, sources: Sources) -> None:

@@ -11,6 +11,7 @@ from nivel.files.mass_file import KEY as MASS_PROPERTIES
 from nivel.files.outline import FORMAT
 from nivel.machine import MachineRecord, Record
 from nivel.machine.references import SECTIONS
+from nivel.machine.time_function import CURVE
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
 _QUANTITY = {"anyOf": [{"type": "number"}, {"type": "string"}]}
@@ -42,6 +43,11 @@ def schema() -> dict[str, Any]:
             "type": ["object", "null"],
             "additionalProperties": _QUANTITY,
             "description": "named numbers for use in every quantity; they may use each other",
+        },
+        "functions": {
+            "type": ["object", "null"],
+            "additionalProperties": {"anyOf": [*_QUANTITY["anyOf"], CURVE]},
+            "description": "named functions: `bump(x): …` an expression of its arguments, or a curve through points",
         },
         "include": {
             "anyOf": [*one, {"type": "array", "items": {"anyOf": one}}],

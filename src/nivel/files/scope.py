@@ -7,7 +7,7 @@ placed and get their prefix (assembly.py), and join those of the file that uses 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -20,13 +20,15 @@ from nivel.files.csv_tables import read_csv_tables
 from nivel.files.include import include
 from nivel.files.mass_file import read_mass_properties
 from nivel.files.mesh_file import read_meshes
-from nivel.files.outline import as_part, check_sections, check_start, section_of
+from nivel.files.outline import VALUES, as_part, check_sections, check_start, section_of
 from nivel.files.overrides import in_order, override, prefix_of
 from nivel.files.python_laws import read_python_laws
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine import MachineRecord, Record
-from nivel.machine.arithmetic import Parameters, Signal
+from nivel.machine.arithmetic import Number, Parameters, Signal
+from nivel.machine.control.problems import can_be_named
+from nivel.machine.named_function import resolve_functions
 from nivel.machine.parameters import resolve
 from nivel.machine.quantity import FAULT
 from nivel.machine.references import SECTIONS
@@ -46,6 +48,37 @@ def read_scope(
 
     Raises ModelError.
     """
+    tree, parameters = _tree_of(text, file, sources, overrides, user)
+    return _record(tree, parameters, _expanded(tree, parameters, sources))
+
+
+@dataclass(frozen=True)
+class FileNames:
+    """What a machine file names beside the elements: values of its parameters, and its assemblies with all their values."""
+
+    parameters: Mapping[str, float]
+    assemblies: Mapping[str, Assembly]
+
+
+def read_names(text: str, file: str, sources: Sources, *, overrides: Mapping[str, object]) -> FileNames:
+    """The names in a machine file that can be read without fault. Values in SI units."""
+    tree, values = _tree_of(text, file, sources, overrides, None)
+    entries = section_of(tree, "assemblies").items()
+    assemblies = {name: read_assembly(tree, name, given, values) for name, given in entries}
+    return FileNames(
+        {name: each.value for name, each in values.items() if isinstance(each, Number)},
+        {name: assembly for name, assembly in assemblies.items() if assembly is not None},
+    )
+
+
+def _tree_of(
+    text: str,
+    file: str,
+    sources: Sources,
+    overrides: Mapping[str, object],
+    user: tuple[Tree, str, Assembly] | None,
+) -> tuple[Tree, Parameters]:
+    """The file with all that it includes and what was set from outside, and the values of its parameters."""
     tree = read_tree(text, file)
     about_files, of_masses, others = in_order(overrides)
     override(tree, about_files)
@@ -65,7 +98,9 @@ def read_scope(
     read_csv_tables(tree, sources)
     parameters, faults = resolve(section_of(tree, "parameters"))
     tree.faults += [tree.fault(("parameters", name), message) for name, message in faults.items()]
-    return _record(tree, parameters, _expanded(tree, parameters, sources))
+    functions, wrong = resolve_functions(section_of(tree, "functions"), parameters)
+    tree.faults += [tree.fault(("functions", *place), message) for place, message in wrong.items()]
+    return tree, {**parameters, **functions}
 
 
 def _expanded(tree: Tree, parameters: Parameters, sources: Sources) -> Elements:
@@ -144,7 +179,8 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
     Raises ModelError.
     """
     data: dict[str, Any] = {"name": FilePath(tree.file).stem or "machine", **tree.data}
-    data.pop("parameters", None)
+    for section in VALUES:
+        data.pop(section, None)
     if data.get("simulation", ...) is None:
         del data["simulation"]
     names: dict[str, list[str]] = {}
@@ -157,7 +193,9 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
             data.pop(section, None)
     data.setdefault("bodies", [])
     signals = {
-        name: Signal(f"{name}.value") for name in (*names["control"], *names["inputs"]) if name not in parameters
+        name: Signal(f"{name}.value")
+        for name in (*names["control"], *names["inputs"])
+        if can_be_named(name, parameters)
     }
     try:
         record = MachineRecord.model_validate(data, context={"parameters": {**parameters, **signals}})

@@ -9,6 +9,7 @@ from pathlib import Path as FilePath
 from typing import Final, TypeVar
 
 from nivel.errors import Fault, ModelError
+from nivel.files.foreign import foreign_content
 from nivel.files.tree import Path, Tree
 from nivel.machine.quantity import shown
 
@@ -124,6 +125,8 @@ def read_text(path: str | FilePath) -> str:
     Raises ModelError where it cannot be read, or is not UTF-8.
     """
     content, file = read_bytes(path), str(path)
+    if what := foreign_content(content):
+        raise ModelError(Fault(file, 1, 1, "", what.format(file=file)))
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

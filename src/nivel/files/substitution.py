@@ -148,6 +148,8 @@ def _sum_of_tables(terms: Sequence[tuple[float, Table]], constant: float) -> Tab
         raise NotRepresentableError(
             "tables of different kinds would have to be added here; give them the same `of` and points"
         )
+    if first.interpolation == "monotone" and len(terms) > 1:
+        raise NotRepresentableError("monotone tables would have to be added here; take another interpolation")
     times = sorted({time for _, table in terms for time in table.times})
     if first.interpolation != "linear" and any(list(table.times) != times for _, table in terms):
         raise NotRepresentableError("smooth tables would have to be added here; give them the same points")

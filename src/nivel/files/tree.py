@@ -14,6 +14,7 @@ from typing import Any, Final
 
 from nivel.errors import Fault, ModelError
 from nivel.files import nodes
+from nivel.files.commas import cut_at_comma
 from nivel.files.nodes import DEEPEST, Node, NotYamlError, Place, Scalar, Sequence, compose
 
 Path = tuple[str | int, ...]
@@ -159,6 +160,9 @@ class _Reader:
         if id(node) in self.open:
             self.report(path, "this alias leads back to itself")
             return None
+        if node.flow and (whole := cut_at_comma(node)):
+            self.tree.report(path, f'inside [ ] and {{ }} a comma ends a value; put it in quotes: `"{whole}"`')
+            return {} if isinstance(node, nodes.Mapping) else []
         self.open.add(id(node))
         data = self.mapping(node, path) if isinstance(node, nodes.Mapping) else self.sequence(node, path)
         self.open.discard(id(node))

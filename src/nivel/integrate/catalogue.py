@@ -40,6 +40,11 @@ class IntegratorFacts:
         return self.step_residual_flexible if flexible else self.step_residual
 
     @property
+    def knows_corners(self) -> bool:
+        """Whether it ends its steps itself where functions of time have corners: by `nivel.integrate.corners`."""
+        return self.velocity_jumps or self.complex_shift
+
+    @property
     def accelerations(self) -> bool:
         """Whether it solves the residual at the end of a step for accelerations and multipliers."""
         return self.residual and not self.first_order and not self.step_residual
@@ -103,6 +108,15 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
         first_order=True,
     ),
     "ros2": IntegratorFacts("nivel.integrate.rosenbrock", "ros2", 2, 2, residual=True, first_order=True),
+    "extrapolated-euler": IntegratorFacts(
+        "nivel.integrate.extrapolated_euler",
+        "extrapolated_euler",
+        3,
+        2,
+        residual=True,
+        first_order=True,
+        complex_shift=True,
+    ),
     "radau": IntegratorFacts(
         "nivel.integrate.radau",
         "radau",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.integrate.run import ALLOWED, END, LARGEST, PARTS, REACHED, START, TAKEN, TIME, TURNED
+from nivel.integrate.run import ALLOWED, END, LARGEST, LEAST, PARTS, REACHED, START, TAKEN, TIME, TURNED
 from nivel.integrate.step_control import fastest_turn
 from nivel.native.function import leaf
 
@@ -18,8 +18,14 @@ def part_at(run, t):
 
 @leaf
 def allow(run):
-    """clock[LARGEST] := what a step that begins now may be long."""
-    run.clock[LARGEST] = run.pace[ALLOWED, part_at(run, run.clock[TIME])]
+    """clock[LARGEST] := what a step that begins now may be long: where it reaches into the next part, no longer there than one that begins
+    there may be."""
+    clock, t = run.clock, run.clock[TIME]
+    k = part_at(run, t)
+    clock[LARGEST] = run.pace[ALLOWED, k]
+    if k + 1 < PARTS:
+        left = clock[START] + (k + 1) * (clock[END] - clock[START]) / PARTS - t
+        clock[LARGEST] = min(clock[LARGEST], left + run.pace[ALLOWED, k + 1])
 
 
 @leaf
@@ -31,4 +37,5 @@ def note_step(machine, run, speed):
     first = part_at(run, run.clock[TIME])
     for k in range(first, part_at(run, run.clock[REACHED]) + 1):
         run.pace[TAKEN, k] = max(run.pace[TAKEN, k], h)
+        run.pace[LEAST, k] = min(run.pace[LEAST, k], h)
         run.pace[TURNED, k] = max(run.pace[TURNED, k], turn)

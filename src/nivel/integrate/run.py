@@ -25,7 +25,7 @@ BEFORE, AFTER, SIDE, WHEN, RATE_BEFORE, RATE_AFTER = 0, 1, 2, 3, 4, 5
 # most rows of Run.dense
 DENSE_ROWS = 13
 # rows of Run.pace, and parts of the duration
-ALLOWED, TAKEN, TURNED = 0, 1, 2
+ALLOWED, TAKEN, LEAST, TURNED = 0, 1, 2, 3
 PARTS = 1024
 
 
@@ -54,6 +54,7 @@ class Run(NamedTuple):
     scratch: F1  # (ny,) rates that nobody needs
     trial: F1  # (ny,) states inside a step
     scale: F1  # (ny,) what errors are measured by: a floor from the machine, raised to the largest |y| so far
+    raised: U1  # (ny,) whether it is raised: 0 of masses of fluid, whose pressure is a small part of them
     stages: F2  # (·, ny) work and history of the integrator
     numbers: F1  # (·,) further history of the integrator
     matrix: F2  # (ny, ny) of Newton's iteration, or (0, 0)
@@ -69,8 +70,8 @@ class Run(NamedTuple):
     samples: I1  # (sampled states,) taken so far of those with a period
     # [s] ascending: explicit methods that choose their steps end one there; implicit ones know corners themselves
     corners: F1
-    # (3, PARTS) of each part of the duration: the longest step ALLOWED to begin there [s] where steps are chosen, the longest one
-    # TAKEN [s], the largest angle that a body TURNED by in a step [rad]
+    # (4, PARTS) of each part of the duration: the longest step ALLOWED to begin there [s] where steps are chosen, the longest one
+    # TAKEN and the shortest, LEAST [s], the largest angle that a body TURNED by in a step [rad]
     pace: F2
     events: F2  # (capacity, 3) time [s], number of the event, direction 1 or -1
 

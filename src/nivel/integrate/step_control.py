@@ -70,9 +70,10 @@ def size(run, x):
 
 @leaf
 def raise_scale(run):
-    """The scale of every entry follows the largest |y| so far."""
+    """The scale of every entry follows the largest |y| so far, but for those that are not raised."""
     for i in range(run.y.shape[0]):
-        run.scale[i] = max(run.scale[i], np.abs(run.y[i]))
+        if run.raised[i] == 1:
+            run.scale[i] = max(run.scale[i], np.abs(run.y[i]))
 
 
 @leaf

@@ -2,29 +2,32 @@
 
 A program stands in a row of numbers, with all that it works on. Its instructions are groups of four numbers: an operation, the place of the
 result, the places of the operands (one of no meaning where there is one operand). Constants, intermediate results, arguments and what is
-left behind them have places in the same row. An instruction takes one to three nanoseconds, and what sin, exp, … take.
+left behind them have places in the same row. A curve has the place of its numbers as its second operand. An instruction takes one to three
+nanoseconds, and what sin, exp, … take.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import absolute, arctan2, maximum, minimum, power, real
+from nivel.kernels.analytic import absolute, arctan2, maximum, minimum, power, real, tanh
 from nivel.kernels.hook import law
-from nivel.kernels.smooth_step import step, step_acceleration, step_rate
 from nivel.native.function import leaf
 
 LENGTH = 4  # of an instruction
 # the end, which gives the value at its place; operations of two operands, and of one
 END, ADD, SUBTRACT, MULTIPLY, DIVIDE, POWER, ATAN2, MIN, MAX = range(9)
 COPY, NEGATIVE, SQUARE, SIN, COS, TAN, ASIN, ACOS, ATAN, SQRT, EXP, LOG, ABS = range(9, 22)
-# of an operand and four levels, which stand one behind the other from the place of the second operand on
-STEP, STEP_RATE, STEP_ACCELERATION = range(22, 25)
+# 1 where the comparison holds, else 0; the first operand where what stands at the place of the result is greater than zero, else the
+# second; the whole number below; a curve
+LESS, LESS_EQUAL, CHOOSE, FLOOR, TANH, CURVE = range(22, 28)
+# numbers of a curve: points, values before the first and behind the last point; points and six coefficients a piece follow
+POINTS, BEFORE, BEHIND, FIRST, COEFFICIENTS = 0, 1, 2, 3, 6
 
 
 @leaf
-def operate(operation, x, y):
-    """Value of an operation."""
+def operate(operation, x, y, condition):
+    """Value of an operation. `condition` is asked by CHOOSE alone."""
     if operation == ADD:
         return x + y
     if operation == SUBTRACT:
@@ -65,18 +68,46 @@ def operate(operation, x, y):
         return np.exp(x)
     if operation == LOG:
         return np.log(x)
+    if operation == LESS:
+        return truth(x, y, real(x) < real(y))
+    if operation == LESS_EQUAL:
+        return truth(x, y, real(x) <= real(y))
+    if operation == CHOOSE:
+        if real(condition) > 0.0:
+            return x
+        return y if real(condition) <= 0.0 else condition
+    if operation == FLOOR:
+        return 0.0 * x + np.floor(real(x))
+    if operation == TANH:
+        return tanh(x)
     return absolute(x)
 
 
 @leaf
-def smooth(operation, x, levels):
-    """Value of a smooth step, or of its first or second derivative."""
-    x0, y0, x1, y1 = levels[0], levels[1], levels[2], levels[3]
-    if operation == STEP:
-        return step(x, x0, y0, x1, y1)
-    if operation == STEP_RATE:
-        return step_rate(x, x0, y0, x1, y1)
-    return step_acceleration(x, x0, y0, x1, y1)
+def truth(x, y, holds):
+    """1 or 0; no number where one of x and y is none."""
+    if real(x) != real(x) or real(y) != real(y):
+        return x + y
+    return 0.0 * x + (1.0 if holds else 0.0)
+
+
+@leaf
+def curve(row, at, x):
+    """Value at x of the curve whose numbers begin at a place of the row."""
+    count, first, s = np.int64(real(row[at + POINTS])), at + FIRST, real(x)
+    if s < real(row[first]):
+        return row[at + BEFORE]
+    if s >= real(row[first + count - 1]):
+        return row[at + BEHIND]
+    low, high = np.int64(0), count - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if real(row[first + middle]) <= s:
+            low = middle
+        else:
+            high = middle
+    c, h = first + count + COEFFICIENTS * low, x - row[first + low]
+    return row[c] + h * (row[c + 1] + h * (row[c + 2] + h * (row[c + 3] + h * (row[c + 4] + h * row[c + 5]))))
 
 
 @leaf
@@ -93,8 +124,8 @@ def run(row):
         operation, to = place(row[at]), place(row[at + 1])
         if operation == END:
             return row[to]
-        x, second = row[place(row[at + 2])], place(row[at + 3])
-        row[to] = (
-            operate(operation, x, row[second]) if operation < STEP else smooth(operation, x, row[second : second + 4])
-        )
+        if operation == CURVE:
+            row[to] = curve(row, np.int64(real(row[at + 3])), row[place(row[at + 2])])
+        else:
+            row[to] = operate(operation, row[place(row[at + 2])], row[place(row[at + 3])], row[to])
         at += np.uint64(LENGTH)

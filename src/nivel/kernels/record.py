@@ -180,6 +180,30 @@ class Friction(NamedTuple):
     work: F2  # (3, X)
 
 
+class Circuit(NamedTuple):
+    """Nodes of hydraulic and pneumatic circuits, N of them: volumes, given pressures, pressures that are signals."""
+
+    node: U2  # (N, 2) fluid, state that is the mass [kg], or NONE: what flows there leaves the circuit
+    fluid: F2  # (fluids, ·) constants of each law of density, see `nivel.kernels.hydraulics.fluid`
+    room: F2  # (N, 5) of each volume what pistons do not change, see `nivel.kernels.hydraulics.volume`
+    secant: U1  # (1,) 1: restrictions have secants in place of tangents, for linearly implicit steps
+    # steps of `nivel.integrate.extrapolated_euler` whose extrapolation was not taken, largest difference of pressures in one [Pa]
+    guard: F1  # (2,)
+    kept: F1  # (N,) [Pa] pressures of another state
+    # (N, 8) of each volume the last mass and room, real numbers, with all that follows from them: see `nivel.kernels.hydraulics.volume`
+    known: F2
+    # work
+    volume: W1  # (N,) [m³] that pistons leave open, without what is constant
+    volume_rate: W1  # (N,) [m³/s]
+    pressure: W1  # (N,) [Pa] absolute
+    density: W1  # (N,) [kg/m³]
+    enthalpy: W1  # (N,) [J/kg] above that at atmospheric pressure
+    temperature: W1  # (N,) [K] of gas
+    inflow: W1  # (N,) [W] enthalpy that flows into gas
+    power: W1  # (4,) supplied to the fluid, given to bodies, dissipated [W]; taken from tanks [kg/s]
+    stored: W1  # (1,) [J] in the fluid, in elastic walls and in accumulators
+
+
 class Outputs(NamedTuple):
     """What forces, drivers and sensors report, one number each, and where all variables stand in a frame."""
 
@@ -396,6 +420,7 @@ class Record(NamedTuple):
     functions: Functions
     elements: Elements
     friction: Friction
+    circuit: Circuit
     saddle: Saddle
     tree: Tree
     frames: Frames

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from nivel.kernels.analytic import arctan2
 from nivel.kernels.coordinate import measure
 from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
@@ -15,6 +18,8 @@ OUTPUT, KIND, WHAT, FRAME = 0, 1, 2, 3
 # quantities of markers have three outputs, the others one
 POSITION, VELOCITY, ACCELERATION, ANGULAR_VELOCITY, ANGULAR_ACCELERATION = 0, 1, 2, 3, 4
 VALUE, RATE, SECOND, FUNCTION, COPY = 5, 6, 7, 8, 9
+# Euler angles about the axes i, j, k as turned so far have three outputs; their kind is this and 9 i + 3 j + k
+EULER_ANGLES = 16
 
 
 @stage
@@ -100,6 +105,34 @@ def second_derivative(machine, q):
     return total
 
 
+@stage
+def relative_entry(machine, m, frame, i, j):
+    """Component of axis j of marker m along axis i of another marker, or of the global frame."""
+    A = record_at(machine).markers.A
+    if frame == NONE:
+        return A[m, i, j]
+    return A[frame, 0, i] * A[m, 0, j] + A[frame, 1, i] * A[m, 1, j] + A[frame, 2, i] * A[m, 2, j]
+
+
+@stage
+def euler_angles(machine, m, frame, code):
+    """Three angles of A = A_i(a) A_j(b) A_k(c), a and c within half a turn (for i = k, b from 0 to π, else within a quarter turn)."""
+    i, j, k = code // 9, (code // 3) % 3, code % 3
+    third = 3 - i - j
+    sign = 1.0 if (j - i) % 3 == 1 else -1.0
+    if i == k:
+        up, across = relative_entry(machine, m, frame, j, i), -sign * relative_entry(machine, m, frame, third, i)
+        first = arctan2(up, across)
+        second = arctan2(np.sqrt(up * up + across * across), relative_entry(machine, m, frame, i, i))
+        along = sign * relative_entry(machine, m, frame, i, third)
+        return first, second, arctan2(relative_entry(machine, m, frame, i, j), along)
+    up, across = -sign * relative_entry(machine, m, frame, j, k), relative_entry(machine, m, frame, k, k)
+    tilt = sign * relative_entry(machine, m, frame, i, k)
+    second = arctan2(tilt, np.sqrt(up * up + across * across))
+    along = relative_entry(machine, m, frame, i, i)
+    return arctan2(up, across), second, arctan2(-sign * relative_entry(machine, m, frame, i, j), along)
+
+
 @family
 def apply(machine, number, t):
     """All sensors, from the state last evaluated."""
@@ -116,6 +149,9 @@ def apply(machine, number, t):
                 A = record.markers.A[frame]
                 for i in range(3):
                     out[first + i] = A[0, i] * x + A[1, i] * y + A[2, i] * z
+        elif kind >= EULER_ANGLES:
+            code = np.int64(kind) - EULER_ANGLES
+            out[first], out[first + 1], out[first + 2] = euler_angles(machine, what, sensors.columns[k, FRAME], code)
         elif kind == FUNCTION:
             out[first] = evaluate_function(machine, what, t)
         elif kind == COPY:

@@ -18,3 +18,4 @@ NOT_ON_RAIL = 15  # a slider has no place on its beam, or is beyond its end: con
 NOT_CLOSED = 16  # positions cannot be put back onto the constraints: control.failure is the row farthest open
 OPEN = 17  # positions of an accepted state are farther open than run.clock[OPEN_LIMIT]: nothing yet says whether that is drift
 NO_MASS_LEFT = 14  # the modes of a flexible body take up all the mass of its frame: control.failure is its number
+NO_VOLUME = 18  # a volume of a circuit has no fluid, or no room, left: control.failure is its node

@@ -20,6 +20,7 @@ from nivel.integrate.run import Run
 from nivel.kernels.handle import Handle
 from nivel.live.shared import Sizes
 from nivel.machine import MachineRecord, Table
+from nivel.machine.changes import changed
 
 LONGEST: Final = 86400.0  # s of a live run
 SHORTEST_TICK: Final = 1e-3  # s: more ticks a second cost more than they tell
@@ -61,8 +62,6 @@ def live_plan(machine: MachineRecord, settings: Mapping[str, Any], tick: float |
 
     Raises ModelError where the machine has no inputs to drive it, or its integrator chooses its steps.
     """
-    from nivel.analysis.changes import changed
-
     if not sys.platform.startswith("linux"):
         raise ModelError("live operation needs the absolute deadlines of Linux, which this system does not have")
     driven = [each.replace(signal=Table((0.0, 1.0), (each.rest_value, each.rest_value))) for each in machine.inputs]

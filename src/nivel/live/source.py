@@ -86,7 +86,7 @@ class LiveSource(Still):
         with self._lock:
             silent = time.monotonic() - self._heard > PATIENCE
             if on and (self._other is not None or (self._driver not in (None, page) and not silent)):
-                return Note("note", "somebody else operates the machine")
+                return Note("note", "another person operates the machine")
             if on:
                 self._driver, self._heard = page, time.monotonic()
             elif page is self._driver:

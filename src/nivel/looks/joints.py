@@ -16,6 +16,7 @@ SLIDING_ON_BEAMS = ("point-on-beam", "keyed-on-beam", "cylindrical-on-beam", "tr
 LINKS = {
     "distance": ("spherical", "spherical"),
     "spherical-spherical": ("spherical", "spherical"),
+    "variable-distance": ("spherical", "spherical"),
     "revolute-spherical": ("revolute", "spherical"),
     "revolute-cylindrical": ("revolute", "cylindrical"),
 }

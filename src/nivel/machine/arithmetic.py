@@ -1,5 +1,7 @@
 """The small arithmetic of machine files as a tree: ``2*length + 5 mm``, ``7850 kg/m^3``, ``10 + 3*sin(2*pi*time)``.
 
+A comparison is 1 where it holds and 0 where it does not; a condition holds where its value is greater than zero.
+
 grammar.py makes trees of texts. Here names are bound to parameters and units, and what does not vary becomes a number.
 What varies is `time` and signals: what the machine itself does, such as `hinge.angle_rate`.
 """
@@ -8,11 +10,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
+from itertools import pairwise
 from typing import Final, SupportsFloat
 
 from nivel.machine.dimension import Dimension
+from nivel.machine.interpolation import FEWEST, INTERPOLATIONS, interpolated
 from nivel.machine.unit import UNITS, UnknownUnitError, unit
 
 
@@ -66,7 +70,7 @@ class Negative:
 
 @dataclass(frozen=True)
 class Operation:
-    """`symbol` is one of + - * / **."""
+    """`symbol` is one of + - * / **, of < <= > >=, or `and`, `or`."""
 
     symbol: str
     left: Node
@@ -75,15 +79,34 @@ class Operation:
 
 @dataclass(frozen=True)
 class Call:
-    """A function of FUNCTIONS."""
+    """A function of FUNCTIONS; until it is bound, of any name."""
 
     function: str
     arguments: tuple[Node, ...]
 
 
-Node = Number | Time | Signal | Name | Negative | Operation | Call
+@dataclass(frozen=True)
+class Lookup:
+    """The curve of a `kind` of INTERPOLATIONS through `values` at `points`, which increase; or its derivative of an `order`."""
+
+    argument: Node
+    kind: str
+    points: tuple[float, ...]
+    values: tuple[float, ...]
+    order: int = 0
+
+
+@dataclass(frozen=True)
+class Function:
+    """A named function: a bound `body` in which the `arguments` stand as signals of their names."""
+
+    arguments: tuple[str, ...]
+    body: Node
+
+
+Node = Number | Time | Signal | Name | Negative | Operation | Call | Lookup
 # None marks a parameter at fault; blocks of a control stand among the parameters as their signals
-Parameters = Mapping[str, Number | Signal | None]
+Parameters = Mapping[str, Number | Signal | Function | None]
 
 
 def _step(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
@@ -100,6 +123,28 @@ def _step_rate(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
 def _step_acceleration(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
     s = min(max((x - x0) / (x1 - x0), 0.0), 1.0)
     return (y1 - y0) / (x1 - x0) ** 2 * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)
+
+
+def _ramp(x: float, x0: float, y0: float, x1: float, y1: float) -> float:
+    """y0 up to x0, y1 from x1 on, and a straight line between them."""
+    return y0 + (y1 - y0) * min(max((x - x0) / (x1 - x0), 0.0), 1.0)
+
+
+def _sign(x: float) -> float:
+    return float((x > 0.0) - (x < 0.0))
+
+
+def _choice(condition: float, yes: float, no: float) -> float:
+    return yes if condition > 0.0 else no
+
+
+def _modulo(x: float, y: float) -> float:
+    """What is left of x after whole multiples of y."""
+    return x - y * math.floor(x / y)
+
+
+def _not(x: float) -> float:
+    return float(x <= 0.0)
 
 
 NOT_FINITE: Final = ("nan", "inf", "infinity")
@@ -121,9 +166,19 @@ FUNCTIONS: Final[dict[str, tuple[Callable[..., float], tuple[int, int]]]] = {  #
     "step": (_step, (5, 5)),
     "step_rate": (_step_rate, (5, 5)),
     "step_acceleration": (_step_acceleration, (5, 5)),
+    "ramp": (_ramp, (5, 5)),
+    "if": (_choice, (3, 3)),
+    "not": (_not, (1, 1)),
+    "sign": (_sign, (1, 1)),
+    "floor": (math.floor, (1, 1)),
+    "mod": (_modulo, (2, 2)),
+    "tanh": (math.tanh, (1, 1)),
 }
+LOOKUP: Final = "lookup"  # lookup(x, KIND, x0, y0, x1, y1, …): a curve through points; KIND_1 is its derivative
+COMPARISONS: Final = ("<", "<=", ">", ">=")
+LOGICAL: Final = ("and", "or")
 TIME: Final = "time"
-RESERVED: Final = frozenset({TIME, *CONSTANTS, *FUNCTIONS})
+RESERVED: Final = frozenset({TIME, LOOKUP, *LOGICAL, *CONSTANTS, *FUNCTIONS})
 LOCAL_SYMBOLS: Final = ("length", "angle", "value", "rate")  # where a spring's law may use them they are signals
 
 
@@ -154,7 +209,7 @@ def given(value: SupportsFloat) -> float:
 def leaves(node: Node) -> Iterator[Node]:
     """The parts of `node` that have no parts, from left to right."""
     match node:
-        case Negative(operand):
+        case Negative(operand) | Lookup(operand):
             yield from leaves(operand)
         case Operation(_, left, right):
             yield from leaves(left)
@@ -205,7 +260,74 @@ def bind(node: Node, parameters: Parameters, local: Collection[str] = ()) -> Nod
             except UnknownNameError as problem:
                 raise _hinting_at_hyphen(problem, node) from None
         case Call(function, arguments):
-            return Call(function, tuple(bind(argument, parameters, local) for argument in arguments))
+            return _bind_call(function, arguments, parameters, local)
+        case Lookup(argument):
+            return replace(node, argument=bind(argument, parameters, local))
+        case _:
+            return node
+
+
+def _bind_call(function: str, arguments: tuple[Node, ...], parameters: Parameters, local: Collection[str]) -> Node:
+    """A call of a function of ours, a curve, or the body of a named function with its arguments put in."""
+    if function == LOOKUP:
+        return _bind_lookup(arguments, parameters, local)
+    bound = tuple(bind(argument, parameters, local) for argument in arguments)
+    if function in FUNCTIONS:
+        _check_count(function, len(bound), *FUNCTIONS[function][1])
+        return Call(function, bound)
+    meant = parameters.get(function)
+    if isinstance(meant, Function):
+        _check_count(function, len(bound), len(meant.arguments), len(meant.arguments))
+        return substituted(meant.body, dict(zip(meant.arguments, bound, strict=True)))
+    if function in parameters:
+        if meant is None:
+            raise FaultyParameterError(function)
+        raise ExpressionError(f"`{function}` is a number and takes no arguments; `*` is missing behind it")
+    known = [*FUNCTIONS, LOOKUP, *(name for name, each in parameters.items() if isinstance(each, Function))]
+    near = get_close_matches(function, known, n=1)
+    hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(known)}"
+    raise ExpressionError(f"there is no function `{function}`{hint}")
+
+
+def _check_count(function: str, given: int, fewest: int, most: int) -> None:
+    if not fewest <= given <= most:
+        wanted = str(fewest) if fewest == most else f"at least {fewest}"
+        raise ExpressionError(f"`{function}` takes {wanted} argument{'s' if fewest > 1 else ''}, got {given}")
+
+
+def _bind_lookup(arguments: tuple[Node, ...], parameters: Parameters, local: Collection[str]) -> Lookup:
+    form = f"`{LOOKUP}(x, linear, x0, y0, x1, y1, …)`"
+    if len(arguments) < 4 or len(arguments) % 2:
+        raise ExpressionError(f"{form} was expected: an argument, an interpolation, and points in pairs")
+    argument, kind, *numbers = arguments
+    word, _, order = kind.text.partition("_") if isinstance(kind, Name) else ("", "", "")
+    if word not in INTERPOLATIONS or order not in ("", "1", "2", "3", "4"):
+        raise ExpressionError(f"{form} was expected, with one of {', '.join(INTERPOLATIONS)} as the interpolation")
+    bound = [bind(number, parameters, local) for number in numbers]
+    if any(varies(number) for number in bound):
+        raise ExpressionError(f"the points of {form} are numbers; they cannot vary")
+    values = [evaluate(number) for number in bound]
+    points = tuple(values[::2])
+    if any(after <= before for before, after in pairwise(points)):
+        raise ExpressionError(f"the points x0, x1, … of `{LOOKUP}` increase")
+    if len(points) < FEWEST[word]:
+        raise ExpressionError(f"a {word} `{LOOKUP}` needs at least {FEWEST[word]} points, got {len(points)}")
+    return Lookup(bind(argument, parameters, local), word, points, tuple(values[1::2]), int(order or 0))
+
+
+def substituted(node: Node, arguments: Mapping[str, Node]) -> Node:
+    """`node` with what stands in `arguments` in place of the signals of these names."""
+    match node:
+        case Signal(path):
+            return arguments.get(path, node)
+        case Negative(operand):
+            return Negative(substituted(operand, arguments))
+        case Operation(symbol, left, right):
+            return Operation(symbol, substituted(left, arguments), substituted(right, arguments))
+        case Call(function, given):
+            return Call(function, tuple(substituted(each, arguments) for each in given))
+        case Lookup(argument):
+            return replace(node, argument=substituted(argument, arguments))
         case _:
             return node
 
@@ -227,6 +349,8 @@ def _value_of(name: str, parameters: Parameters, local: Collection[str]) -> Numb
         value = parameters[name]
         if value is None:
             raise FaultyParameterError(name)
+        if isinstance(value, Function):
+            raise ExpressionError(f"`{name}` is a function; write `{name}({', '.join(value.arguments)})`")
         return value
     if name in CONSTANTS:
         return Number(CONSTANTS[name])
@@ -274,8 +398,12 @@ def _evaluate(node: Node, time: float, values: Mapping[str, float]) -> float:
             return -_evaluate(operand, time, values)
         case Operation(symbol, left, right):
             return _operate(symbol, _evaluate(left, time, values), _evaluate(right, time, values))
+        case Call("if", (condition, yes, no)):
+            return _evaluate(yes if _evaluate(condition, time, values) > 0.0 else no, time, values)
         case Call(function, arguments):
             return float(FUNCTIONS[function][0](*(_evaluate(argument, time, values) for argument in arguments)))
+        case Lookup(argument, kind, points, heights, order):
+            return interpolated(kind, points, heights, _evaluate(argument, time, values), order)
         case Name(text):
             raise ExpressionError(f"`{text}` has no value")
 
@@ -290,10 +418,27 @@ def _operate(symbol: str, left: float, right: float) -> float:
             return left * right
         case "/":
             return left / right
+        case "<" | "<=" | ">" | ">=" | "and" | "or":
+            return float(_holds(symbol, left, right))
     raised = left**right
     if isinstance(raised, complex):
         raise ExpressionError("a negative number raised to a fraction is not a real number")
     return raised
+
+
+def _holds(symbol: str, left: float, right: float) -> bool:
+    match symbol:
+        case "<":
+            return left < right
+        case "<=":
+            return left <= right
+        case ">":
+            return left > right
+        case ">=":
+            return left >= right
+        case "and":
+            return left > 0.0 and right > 0.0
+    return left > 0.0 or right > 0.0
 
 
 def fold(node: Node) -> Node:
@@ -307,11 +452,13 @@ def fold(node: Node) -> Node:
             return Operation(symbol, fold(left), fold(right))
         case Call(function, arguments):
             return Call(function, tuple(fold(argument) for argument in arguments))
+        case Lookup(argument):
+            return replace(node, argument=fold(argument))
         case _:
             return node
 
 
-_PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
+_PRECEDENCE = {"or": -2, "and": -1, **dict.fromkeys(COMPARISONS, 0), "+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
 _SIGN, _ATOM = 3, 5
 
 
@@ -332,11 +479,14 @@ def _render(node: Node) -> tuple[str, int]:
             return f"-{_within(operand, _SIGN)}", _SIGN
         case Call(function, arguments):
             return f"{function}({', '.join(render(argument) for argument in arguments)})", _ATOM
+        case Lookup(argument, kind, points, values, order):
+            pairs = ", ".join(f"{point!r}, {value!r}" for point, value in zip(points, values, strict=True))
+            return f"{LOOKUP}({render(argument)}, {kind}{f'_{order}' if order else ''}, {pairs})", _ATOM
         case Operation(symbol, left, right):
             level = _PRECEDENCE[symbol]
-            space = " " if level == 1 else ""
+            space = " " if level <= 1 else ""
             rightwards = symbol == "**"
-            first = _within(left, level + rightwards)
+            first = _within(left, level + (rightwards or level == 0))
             second = _within(right, _SIGN if rightwards else level + 1)
             return f"{first}{space}{symbol}{space}{second}", level
 

@@ -53,16 +53,17 @@ class Checked(Record):
     def lines_beside(cls, error: ValidationError, data: Any, info: ValidationInfo) -> list[InitErrorDetails]:
         """What is wrong in `data` between the fields that `error` is not about."""
         wrong = {line["loc"][0] for line in error.errors(include_url=False) if line["loc"]}
-        return _lines(problems_beside(cls, data, wrong, info.context))
+        return lines_of(problems_beside(cls, data, wrong, info.context))
 
 
 def refuse(record: str, problems: Iterable[Problem]) -> None:
     """Raise a ValidationError with all `problems`, if there are any."""
-    if lines := _lines(problems):
+    if lines := lines_of(problems):
         raise ValidationError.from_exception_data(record, lines)
 
 
-def _lines(problems: Iterable[Problem]) -> list[InitErrorDetails]:
+def lines_of(problems: Iterable[Problem]) -> list[InitErrorDetails]:
+    """The lines of a ValidationError that say these problems."""
     return [
         InitErrorDetails(type=fault(each.message, at_key=each.at_key), loc=each.place, input=None) for each in problems
     ]

@@ -42,6 +42,7 @@ COORDINATE: Final = ("length", "angle")
 COORDINATE_RATE: Final = ("velocity", "angular velocity")
 COORDINATE_EFFORT: Final = ("force", "torque")
 COORDINATE_STIFFNESS: Final = ("stiffness", "torsional stiffness")
+COORDINATE_INTEGRAL: Final = ("stiffness per time", "torsional stiffness per time")
 COORDINATE_DAMPING: Final = ("damping", "torsional damping")
 
 
@@ -156,6 +157,17 @@ TorsionalStiffness = Annotated[float, Quantity("torsional stiffness"), NotNegati
 TorsionalDamping = Annotated[float, Quantity("torsional damping"), NotNegative]
 StiffnessPerLoad = Annotated[float, Quantity("stiffness per load", positive=True)]
 DampingPerLoad = Annotated[float, Quantity("damping per load"), NotNegative]
+NotNegativePressure = Annotated[float, Quantity("pressure"), NotNegative]
+Volume = Annotated[float, Quantity("volume", positive=True)]
+NotNegativeVolume = Annotated[float, Quantity("volume"), NotNegative]
+VolumeFlow = Annotated[float, Quantity("volume flow", positive=True)]
+Displacement = Annotated[float, Quantity("displacement", positive=True)]
+Leakage = Annotated[float, Quantity("leakage"), NotNegative]
+NotNegativeDuration = Annotated[float, Quantity("time"), NotNegative]
+Viscosity = Annotated[float, Quantity("kinematic viscosity", positive=True)]
+Frequency = Annotated[float, Quantity("frequency", positive=True)]
+NotNegativeTorque = Annotated[float, Quantity("torque"), NotNegative]
+Share = Annotated[float, Quantity("number"), AfterValidator(_fraction)]
 Pressure = Annotated[float, Quantity("pressure", positive=True)]
 PoissonRatio = Annotated[float, Quantity("number"), AfterValidator(_poisson_ratio)]
 Restitution = Annotated[float, Quantity("number"), AfterValidator(_fraction)]
@@ -172,4 +184,5 @@ CoordinateEffort = Annotated[float, OfCoordinate(COORDINATE_EFFORT)]
 PositiveEffort = Annotated[float, OfCoordinate(COORDINATE_EFFORT, "positive")]
 CoordinateStiffness = Annotated[float, OfCoordinate(COORDINATE_STIFFNESS, "not negative")]
 CoordinateDamping = Annotated[float, OfCoordinate(COORDINATE_DAMPING, "not negative")]
+CoordinateIntegral = Annotated[float, OfCoordinate(COORDINATE_INTEGRAL, "not negative")]
 PositiveGain = Annotated[float, OfCoordinate(COORDINATE_DAMPING, "positive")]

@@ -48,4 +48,5 @@ class OfCoordinateFunction:
 CoordinateLaw = Annotated[TimeFunction, OfCoordinateFunction(COORDINATE_EFFORT, local=("value", "rate"))]
 CoordinateEffortFunction = Annotated[TimeFunction, OfCoordinateFunction(COORDINATE_EFFORT)]
 CoordinateSpeed = Annotated[TimeFunction, OfCoordinateFunction(COORDINATE_RATE)]
+CoordinatePosition = Annotated[TimeFunction, OfCoordinateFunction(COORDINATE)]
 CoordinateMotion = Annotated[TimeFunction, OfCoordinateFunction(COORDINATE, smooth=True)]

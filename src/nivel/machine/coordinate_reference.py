@@ -11,6 +11,7 @@ from pydantic import BeforeValidator, WithJsonSchema
 from nivel.machine.joint import JOINT_COORDINATES, Joint
 from nivel.machine.quantity import fault, shown
 from nivel.machine.record import NAME, unknown_word
+from nivel.vocabulary import translated
 
 Kind = Literal["angle", "length"]
 
@@ -96,7 +97,9 @@ def an(words: str) -> str:
 def unknown_name(what: str, name: str, known: Sequence[str]) -> str:
     """A sentence that says that no element is called `name`, and offers the nearest, or all of them."""
     near = get_close_matches(name, known, n=1, cutoff=0.6)
-    if near:
+    if answer := translated(name, known):
+        hint = f"; {answer}"
+    elif near:
         hint = f"; did you mean `{near[0]}`?"
     else:
         hint = f"; there {'are' if len(known) > 1 else 'is'} {', '.join(known)}" if known else f"; there are no {what}s"

@@ -7,12 +7,17 @@ from typing import Any, Final
 
 from nivel.machine.coordinate_reference import Kind, UnknownCoordinateError, find
 from nivel.machine.index import Index, Place, as_list, as_mapping, elements
-from nivel.machine.joint import JOINT_KINDS, CoordinateRates, CoordinateValues
+from nivel.machine.joint import COORDINATE_OF, JOINT_KINDS, CoordinateRates, CoordinateValues, held_by
 from nivel.machine.record import GROUND, Record, entry
 
 Faults = Iterator[tuple[Place, str]]
 
-WITH_COORDINATE: Final = ("drivers", "forces", "sensors")  # sections of elements that may have a `coordinate`
+WITH_COORDINATE: Final = (
+    "drivers",
+    "forces",
+    "hydraulics",
+    "sensors",
+)  # sections of elements that may have a `coordinate`
 
 # of each type of coupling the key of its references, and the kinds of coordinate that they need
 _COUPLED: Final[dict[str, tuple[str, tuple[Kind, ...]]]] = {
@@ -74,7 +79,18 @@ def _find(reference: Any, index: Index, kind: Kind | None, place: Place) -> Iter
 def _held(found: tuple[str, str], index: Index, place: Place) -> Faults:
     joint, coordinate = found
     if coordinate in JOINT_KINDS[index.joints[joint]].held:
-        yield place, f"`{joint}.{coordinate}` is held by the joint itself and cannot change"
+        yield (
+            place,
+            f"`{joint}.{coordinate}` is held by the joint itself; one that changes is of `type: variable-distance`",
+        )
+    elif coordinate in held_by(index.locked[joint]):
+        yield place, f"`{joint}.{coordinate}` does not change: {_why_held(coordinate, index.locked[joint])}"
+
+
+def _why_held(coordinate: str, locked: tuple[Any, ...]) -> str:
+    if coordinate in (COORDINATE_OF.get(str(each)) for each in locked):
+        return f"the joint locks it (`locked: [{', '.join(map(str, locked))}]`)"
+    return "an angle about z needs `rx` and `ry` locked"
 
 
 def _driven_twice(

@@ -11,8 +11,11 @@ from __future__ import annotations
 from typing import Final
 
 from nivel.machine.arithmetic import (
+    COMPARISONS,
+    LOGICAL,
     Call,
     ExpressionError,
+    Lookup,
     Negative,
     Node,
     Number,
@@ -26,7 +29,7 @@ from nivel.machine.arithmetic import (
 )
 
 _MOST_LEAVES: Final = 4000  # second derivatives of long products grow with the cube of their length
-_CORNERS: Final = ("abs", "min", "max", "step_acceleration")
+_CORNERS: Final = ("abs", "min", "max", "step_acceleration", "ramp", "if", "not", "sign", "floor", "mod")
 _ZERO, _ONE, _TWO = Number(0.0), Number(1.0), Number(2.0)
 
 
@@ -63,14 +66,23 @@ def _derivative(node: Node) -> Node:
                 raise ExpressionError(f"the levels of `{function}` vary; a driver needs constant ones")
             after = "step_rate" if function == "step" else "step_acceleration"
             return times(Call(after, (argument, *levels)), _derivative(argument))
+        case Lookup(argument, kind, points, values, order):
+            if kind != "quintic":
+                raise ExpressionError(
+                    f"a {kind} curve has corners, at its ends at least; a driver must be smooth: take quintic"
+                )
+            return times(Lookup(argument, kind, points, values, order + 1), _derivative(argument))
         case Call(function, (argument, *_)) if function not in _CORNERS:
             return times(_outer(function, argument), _derivative(argument))
         case Call(function, _):
-            raise ExpressionError(f"`{function}` has corners; a driver must be smooth")
+            smooth = "; `step(time, t0, a, t1, b)` is smooth" if function in ("if", "ramp") else ""
+            raise ExpressionError(f"`{function}` has corners; a driver must be smooth{smooth}")
     raise AssertionError(node)
 
 
 def _of_operation(symbol: str, u: Node, v: Node) -> Node:
+    if symbol in (*COMPARISONS, *LOGICAL):
+        raise ExpressionError(f"`{symbol}` has corners; a driver must be smooth")
     match symbol:
         case "+":
             return plus(_derivative(u), _derivative(v))
@@ -105,6 +117,8 @@ def _outer(function: str, u: Node) -> Node:
             return over(_ONE, Call("sqrt", (minus(_ONE, times(u, u)),)))
         case "acos":
             return minus(over(_ONE, Call("sqrt", (minus(_ONE, times(u, u)),))))
+        case "tanh":
+            return minus(_ONE, to_the(Call("tanh", (u,)), _TWO))
         case "atan":
             return over(_ONE, plus(_ONE, times(u, u)))
         case "sqrt":

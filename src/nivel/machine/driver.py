@@ -8,6 +8,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from nivel.machine.checked import Checked, Problem, superfluous
+from nivel.machine.coefficient import Truth
 from nivel.machine.coordinate_function import CoordinateMotion
 from nivel.machine.coordinate_reference import CoordinateReference, Kind, kind_of
 from nivel.machine.record import GROUND, Name
@@ -24,11 +25,16 @@ class Driver(Checked):
     along: Literal["x", "y", "z"] | None = Field(
         default=None, description="axis of `relative_to` along which the marker's point is driven"
     )
-    about: Literal["z"] | None = Field(
-        default=None, description="axis of `relative_to` about which the marker is turned, x axis from x axis"
+    about: Literal["x", "y", "z"] | None = Field(
+        default=None,
+        description="axis of `relative_to` about which the marker is turned, measured between the axes that follow it",
     )
     relative_to: Name | None = Field(default=None, description="marker from which it is measured; default `ground`")
     value: CoordinateMotion = Field(description="length or angle, a function of time")
+    from_start: Truth = Field(
+        default=False,
+        description="the coordinate moves from where it is placed by what `value` changes from its value at t = 0",
+    )
 
     @property
     def kind(self) -> Kind | None:

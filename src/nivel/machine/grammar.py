@@ -1,10 +1,13 @@
 """How expressions are read: from text to the tree of arithmetic.py. Nothing is handed to Python's `eval`.
 
+    whole   = both { or both }                a condition holds where it is greater than zero
+    both    = compared { and compared }
+    compared = sum [ (< | <= | > | >=) sum ]
     sum     = term { (+ | -) term }
     term    = sign { (* | /) sign | unit }    a unit may follow a number, `)` or a unit directly: `10 cm`, `(1/2) in`
     sign    = [ + | - ] sign | power
     power   = atom [ (^ | **) sign ]          to the right first, and before the sign: -2^2 = -4, as in Python
-    atom    = number | name | signal | function ( sum, … ) | ( sum )
+    atom    = number | name | signal | function ( whole, … ) | ( whole )
     signal  = name . name                     without spaces: `hinge.angle`
     unit    = name [ (^ | **) sign ]
 
@@ -15,11 +18,11 @@ turn. `2 m / 4 s` could then be read in two ways and is refused; `(2 m)/(4 s)` i
 from __future__ import annotations
 
 import re
-from difflib import get_close_matches
 
 from nivel.machine.arithmetic import (
+    COMPARISONS,
     CONSTANTS,
-    FUNCTIONS,
+    LOGICAL,
     TIME,
     Call,
     ExpressionError,
@@ -35,10 +38,11 @@ from nivel.machine.arithmetic import (
 from nivel.machine.unit import UNITS
 
 _MOST_TOKENS = 400  # trees are walked by recursion: this and _DEEPEST keep them far from Python's limit
+_MOST_LISTED = 20_000  # with numbers and commas, of which points of curves are made
 _DEEPEST = 60
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|"
-    r"(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*|°)|(?P<symbol>\*\*|[-+*/^(),]))"
+    r"(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*|°)|(?P<symbol>\*\*|<=|>=|[-+*/^(),<>]))"
 )
 
 
@@ -60,10 +64,38 @@ class _Parser:
         self.depth = 0
 
     def whole(self) -> Node:
-        node = self.sum()
+        node = self.condition()
         if self.at < len(self.tokens):
             raise self.unexpected()
         return node
+
+    def condition(self) -> Node:
+        self.deeper()
+        node = self.both()
+        while self.word() == "or":
+            node = Operation(self.take(), node, self.both())
+        self.depth -= 1
+        return node
+
+    def both(self) -> Node:
+        node = self.compared()
+        while self.word() == "and":
+            node = Operation(self.take(), node, self.compared())
+        return node
+
+    def compared(self) -> Node:
+        node = self.sum()
+        if self.symbol() not in COMPARISONS:
+            return node
+        node = Operation(self.take(), node, self.sum())
+        if self.symbol() in COMPARISONS:
+            raise ExpressionError("one comparison at a time: for `a < x < b` write `a < x and x < b`")
+        return node
+
+    def word(self) -> str:
+        """`and` or `or`, which stand between conditions; else nothing."""
+        text = self.tokens[self.at][1] if self.at < len(self.tokens) else ""
+        return text if text in LOGICAL else ""
 
     def sum(self) -> Node:
         self.deeper()
@@ -80,7 +112,7 @@ class _Parser:
             if self.symbol() in ("*", "/"):
                 divided = self.take() == "/"
                 node = Operation("/" if divided else "*", node, self.sign())
-            elif self.kind() == "name" and self.follows_number():
+            elif self.kind() == "name" and not self.word() and self.follows_number():
                 if divided and has_unit:
                     raise ExpressionError("which part the last unit belongs to is unclear; write `(2 m)/(4 s)`")
                 node = Operation("*", node, self.unit())
@@ -134,26 +166,18 @@ class _Parser:
             return _named(name)
         if self.symbol() == "(":
             self.take()
-            node = self.sum()
+            node = self.condition()
             self.expect(")")
             return node
         raise self.unexpected()
 
     def call(self, name: str) -> Node:
-        if name not in FUNCTIONS:
-            near = get_close_matches(name, FUNCTIONS, n=1)
-            hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(FUNCTIONS)}"
-            raise ExpressionError(f"there is no function `{name}`{hint}")
         self.take()
-        arguments = [self.sum()]
+        arguments = [self.condition()]
         while self.symbol() == ",":
             self.take()
-            arguments.append(self.sum())
+            arguments.append(self.condition())
         self.expect(")")
-        fewest, most = FUNCTIONS[name][1]
-        if not fewest <= len(arguments) <= most:
-            wanted = str(fewest) if fewest == most else f"at least {fewest}"
-            raise ExpressionError(f"`{name}` takes {wanted} argument{'s' if fewest > 1 else ''}, got {len(arguments)}")
         return Call(name, tuple(arguments))
 
     def deeper(self) -> None:
@@ -192,14 +216,17 @@ def _named(name: str) -> Node:
 
 def _tokens(text: str) -> list[tuple[str, str]]:
     tokens: list[tuple[str, str]] = []
-    at, end = 0, len(text.rstrip())
+    at, parts, end = 0, 0, len(text.rstrip())
     while at < end:
         found = _TOKEN.match(text, at)
         if found is None:
-            raise ExpressionError(f"`{text[at:].lstrip()[0]}` is not understood")
+            sign = text[at:].lstrip()[0]
+            hint = "; numbers that vary are hardly ever equal: write `<` or `>`" if sign in "=!" else ""
+            raise ExpressionError(f"`{sign}` is not understood{hint}")
         tokens.append((str(found.lastgroup), found.group(str(found.lastgroup))))
         at = found.end()
-        if len(tokens) > _MOST_TOKENS:
+        parts += tokens[-1][0] != "number" and tokens[-1][1] != ","
+        if parts > _MOST_TOKENS or len(tokens) > _MOST_LISTED:
             raise ExpressionError("the expression is too long; split it with `parameters:`")
     if not tokens:
         raise ExpressionError("nothing stands here; a number was expected")

@@ -17,6 +17,8 @@ SECTIONS: Final = (
     "couplings",
     "drivers",
     "forces",
+    "fluids",
+    "hydraulics",
     "inputs",
     "states",
     "control",
@@ -45,8 +47,8 @@ class Index:
     """What the elements of a machine are, by name.
 
     bodies : type of the shape ("" without one), also of the stations of beams. beams : names of the stations.
-    point_masses : bodies that are. markers : the body. joints : the type. inputs : their names.
-    forces, states, control, sensors : the element.
+    point_masses : bodies that are. markers : the body. joints : the type. locked : motions that generic joints lock. inputs, fluids : their
+    names. forces, hydraulics, states, control, sensors : the element.
     """
 
     bodies: Mapping[str, str]
@@ -55,7 +57,10 @@ class Index:
     markers: Mapping[str, str]
     joints: Mapping[str, str]
     inputs: tuple[str, ...]
+    locked: Mapping[str, tuple[Any, ...]]
     forces: Mapping[str, Any]
+    fluids: tuple[str, ...]
+    hydraulics: Mapping[str, Any]
     states: Mapping[str, Any]
     control: Mapping[str, Any]
     sensors: Mapping[str, Any]
@@ -72,7 +77,12 @@ class Index:
             markers={name: _text(entry(marker, "body")) for name, marker in _by_name(machine, "markers").items()},
             joints={name: _text(entry(joint, "type")) for name, joint in _by_name(machine, "joints").items()},
             inputs=tuple(_by_name(machine, "inputs")),
+            locked={
+                name: tuple(as_list(entry(joint, "locked"))) for name, joint in _by_name(machine, "joints").items()
+            },
             forces=_by_name(machine, "forces"),
+            fluids=tuple(_by_name(machine, "fluids")),
+            hydraulics=_by_name(machine, "hydraulics"),
             states=_by_name(machine, "states"),
             control=_by_name(machine, "control"),
             sensors=_by_name(machine, "sensors"),

@@ -31,7 +31,12 @@ def markers_of(machine: MachineRecord) -> Iterator[tuple[Place, Marker]]:
     """Every marker of the machine, also those written out inside an element."""
     for at, marker in enumerate(machine.markers):
         yield ("markers", at), marker
-    keys = {"joints": ("markers",), "forces": ("markers", "plane"), "sensors": ("distance", "angle")}
+    keys = {
+        "joints": ("markers",),
+        "forces": ("markers", "plane"),
+        "hydraulics": ("markers",),
+        "sensors": ("distance", "angle"),
+    }
     for section, names in keys.items():
         for at, element in enumerate(getattr(machine, section)):
             for key in names:

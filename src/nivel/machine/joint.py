@@ -6,7 +6,8 @@ What a joint of each type is placed by, and its coordinates, are the facts of JO
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar, Final, Literal
 
@@ -32,6 +33,10 @@ JointType = Literal[
     "screw",
     "distance",
     "spherical-spherical",
+    "variable-distance",
+    "skew-universal",
+    "translational-universal",
+    "generic",
     "revolute-spherical",
     "revolute-cylindrical",
     "revolute-translational",
@@ -40,6 +45,10 @@ JointType = Literal[
     "cylindrical-on-beam",
     "translational-on-beam",
 ]
+
+Motion = Literal["x", "y", "z", "rx", "ry", "rz"]
+# of a generic joint: the coordinate of each motion that has one
+COORDINATE_OF: Final[dict[str, str]] = {"x": "x", "y": "y", "z": "displacement", "rz": "angle"}
 
 PERPENDICULAR: Final = 1e-3  # [rad] by which the two axes of a universal joint may miss the right angle
 
@@ -80,6 +89,10 @@ JOINT_KINDS: Final[dict[str, JointKind]] = {
     "screw": JointKind(("point", "axis"), ("angle", "displacement"), may=("x_axis",), size=("pitch",)),
     "distance": _ROD,
     "spherical-spherical": _ROD,
+    "variable-distance": JointKind(("points",), ("distance",)),
+    "skew-universal": JointKind(("point", "axes"), ("angle_1", "angle_2"), axes="not parallel"),
+    "translational-universal": JointKind(("point", "axis", "axes"), ("displacement",), axes="perpendicular"),
+    "generic": JointKind(("point",), ("x", "y", "displacement", "angle"), may=("axis", "x_axis"), size=("locked",)),
     "revolute-spherical": JointKind(("points", "axis"), ("angle",), may=("x_axis",)),
     "revolute-cylindrical": JointKind(("points", "axes")),
     "revolute-translational": JointKind(("point", "axes"), ("angle", "displacement"), axes="not parallel"),
@@ -91,7 +104,7 @@ JOINT_KINDS: Final[dict[str, JointKind]] = {
 JOINT_COORDINATES: Final = {name: kind.coordinates for name, kind in JOINT_KINDS.items()}
 
 _PLACE: Final = ("point", "interface", "points", "axis", "axes", "x_axis")
-_SIZE: Final = ("pitch", "distance")
+_SIZE: Final = ("pitch", "distance", "locked")
 _INSTEAD: Final = {"point": "points", "points": "point", "axis": "axes", "axes": "axis"}
 _WANTED: Final = {
     "point": "one",
@@ -99,6 +112,7 @@ _WANTED: Final = {
     "axis": "one, e.g. [0, 0, 1]",
     "axes": "two, e.g. [[0, 1, 0], [0, 0, 1]]",
     "pitch": "one: the advance per turn, e.g. 5 mm",
+    "locked": "a list of the motions that it does not allow, e.g. [x, y, rx, ry]",
 }
 
 
@@ -111,6 +125,7 @@ class CoordinateValues(Record):
     displacement: Length | None = None
     x: Length | None = None
     y: Length | None = None
+    distance: Length | None = None
 
     @property
     def given(self) -> dict[str, float]:
@@ -127,6 +142,7 @@ class CoordinateRates(Record):
     displacement: Velocity | None = None
     x: Velocity | None = None
     y: Velocity | None = None
+    distance: Velocity | None = None
 
     @property
     def given(self) -> dict[str, float]:
@@ -166,6 +182,10 @@ class Joint(Checked):
     )
     pitch: Length | None = Field(default=None, description="of a screw, advance per turn; negative: left-handed")
     distance: PositiveLength | None = Field(default=None, description="held between the points; default as placed")
+    locked: tuple[Motion, ...] | None = Field(
+        default=None,
+        description="of a generic joint: motions that it does not allow, x y z along and rx ry rz about the axes of its first marker",
+    )
     start: CoordinateValues | None = Field(default=None, description="of joint coordinates, held by the assembly")
     start_rates: CoordinateRates | None = Field(default=None, description="of joint coordinates at the start")
 
@@ -173,6 +193,11 @@ class Joint(Checked):
     def coordinates(self) -> tuple[str, ...]:
         """Names of the joint coordinates."""
         return JOINT_COORDINATES[self.type]
+
+    @property
+    def held(self) -> tuple[str, ...]:
+        """Those of them that the joint itself holds."""
+        return (*JOINT_KINDS[self.type].held, *held_by(self.locked or ()))
 
     @property
     def x_direction(self) -> Triple | None:
@@ -196,7 +221,16 @@ class Joint(Checked):
                 yield self._missing(key)
         if self.pitch == 0:
             yield Problem(("pitch",), "`pitch` is zero: a joint that only turns is revolute")
+        if self.locked is not None:
+            yield from self._problems_of_locked(self.locked)
         yield from self._problems_of_start(kind)
+
+    def _problems_of_locked(self, locked: tuple[str, ...]) -> Iterator[Problem]:
+        twice = [name for name, count in Counter(locked).items() if count > 1]
+        if twice:
+            yield Problem(("locked",), f"`{twice[0]}` stands here more than once")
+        if not locked:
+            yield Problem(("locked",), "nothing is locked: bodies without a joint are free; leave the joint out")
 
     def _gives(self, key: str) -> bool:
         return getattr(self, key) is not None
@@ -258,17 +292,31 @@ class Joint(Checked):
         if kind.axes == "perpendicular" and abs(angle - math.pi / 2) > PERPENDICULAR:
             apart = f"{math.degrees(angle):.4g} deg apart"
             yield Problem(("axes",), f"`axes` of a {self.type} joint are perpendicular; these are {apart}")
+        if self.axis is not None and any(self.axis):
+            off = abs(angle_between(self.axis, self.axes[0]) - math.pi / 2)
+            if off > PERPENDICULAR:
+                message = f"the first of the `axes` is perpendicular to `axis`; it is {math.degrees(off):.4g} deg off"
+                yield Problem(("axes",), message)
         if kind.axes == "not parallel" and parallel(*self.axes):
             yield Problem(("axes",), f"`axes` of a {self.type} joint are not parallel; these are")
 
     def _problems_of_start(self, kind: JointKind) -> Iterator[Problem]:
-        free = [name for name in kind.coordinates if name not in kind.held]
+        free = [name for name in kind.coordinates if name not in self.held]
         for key in ("start", "start_rates"):
             values: CoordinateValues | CoordinateRates | None = getattr(self, key)
             for name in values.given if values is not None else ():
                 if name not in free:
                     message = f"for a {self.type} joint {unknown_word(name, free, 'coordinate')}"
                     yield Problem((key, name), message, at_key=True)
+
+
+def held_by(locked: Iterable[object]) -> tuple[str, ...]:
+    """The joint coordinates that stay constant in a generic joint with these motions locked: without turns about x and y
+    alone there is no angle about z.
+    """
+    locked = tuple(locked)
+    held = [COORDINATE_OF[each] for each in locked if isinstance(each, str) and each in COORDINATE_OF]
+    return (*held, *(() if not locked or {"rx", "ry"} <= set(locked) or "angle" in held else ("angle",)))
 
 
 def _along(axis: Triple, points: tuple[Triple, Triple]) -> bool:

@@ -19,7 +19,7 @@ from pydantic_core import InitErrorDetails
 from nivel.machine.assembly_settings import AssemblySettings
 from nivel.machine.beam import Beam
 from nivel.machine.body import Body
-from nivel.machine.checked import Checked, Problem
+from nivel.machine.checked import Checked, Problem, lines_of
 from nivel.machine.control import ControlBlock
 from nivel.machine.control.problems import problems_of_control
 from nivel.machine.coordinate_uses import with_whole_coordinates
@@ -27,6 +27,7 @@ from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
 from nivel.machine.forces import Force
+from nivel.machine.hydraulics import Fluid, HydraulicComponent
 from nivel.machine.input import Input
 from nivel.machine.interface_uses import problems_of_interfaces
 from nivel.machine.joint import Joint
@@ -66,7 +67,7 @@ Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"
 class MachineRecord(Checked):
     """Everything nivel is told about a machine. SI, angles in radians."""
 
-    tagged = {"couplings": 2, "forces": 2, "control": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "forces": 2, "hydraulics": 2, "control": 2}  # noqa: RUF012
 
     name: Title
     description: str = ""
@@ -78,6 +79,8 @@ class MachineRecord(Checked):
     couplings: tuple[Coupling, ...] = ()
     drivers: tuple[Driver, ...] = ()
     forces: tuple[Force, ...] = ()
+    fluids: tuple[Fluid, ...] = ()
+    hydraulics: tuple[HydraulicComponent, ...] = ()
     inputs: tuple[Input, ...] = ()
     states: tuple[State, ...] = ()
     control: tuple[ControlBlock, ...] = ()
@@ -112,6 +115,7 @@ class MachineRecord(Checked):
         except ValidationError as error:
             raise restated(error, cls, [*lines, *cls.lines_beside(error, data, info)]) from None
         if lines:
+            lines += lines_of(problems_of_control(record))
             raise ValidationError.from_exception_data(cls.__name__, lines)
         return record
 

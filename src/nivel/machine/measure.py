@@ -14,6 +14,7 @@ from nivel.machine.arithmetic import (
     TIME,
     Call,
     ExpressionError,
+    Lookup,
     Name,
     Negative,
     Node,
@@ -93,6 +94,9 @@ def measure(node: Node, reading: Reading | None = None) -> Dimension | None:
             return _of_call(function, [measure(argument, reading) for argument in arguments])
         case Operation(symbol, left, right):
             return _of_operation(symbol, left, right, reading)
+        case Lookup(argument):
+            measure(argument, reading)  # for clashes in it; the points of a curve are numbers
+            return None
         case Name(text):
             raise ExpressionError(f"`{text}` has no value")
 
@@ -140,6 +144,11 @@ def _of_operation(symbol: str, left: Node, right: Node, reading: Reading) -> Dim
     match symbol:
         case "+" | "-":
             return _same(first, second, "added" if symbol == "+" else "subtracted")
+        case "<" | "<=" | ">" | ">=":
+            _same(first, second, "compared")
+            return None
+        case "and" | "or":
+            return None
         case "*":
             return product_of(first, second)
         case "/":
@@ -162,6 +171,14 @@ def _of_call(function: str, arguments: list[Dimension | None]) -> Dimension | No
             return result
         case "abs":
             return arguments[0]
+        case "if":
+            return _same(arguments[1], arguments[2], "values of one `if`")
+        case "not" | "sign" | "floor":
+            return None
+        case "mod":
+            return _same(arguments[0], arguments[1], "compared")
+        case "step" | "ramp" | "step_rate" | "step_acceleration":
+            return _of_step(function, arguments)
         case "sqrt":
             return power(arguments[0], 0.5)
         case "atan2":
@@ -175,6 +192,16 @@ def _of_call(function: str, arguments: list[Dimension | None]) -> Dimension | No
         wanted = "an angle" if function in ("sin", "cos", "tan") else "a pure number"
         raise ExpressionError(f"`{function}` is taken of {wanted}, not of {described(arguments[0])}")
     return _RADIAN if function in ("asin", "acos", "atan") else None
+
+
+def _of_step(function: str, arguments: list[Dimension | None]) -> Dimension | None:
+    x, x0, y0, x1, y1 = arguments
+    across = _same(_same(x, x0, "compared"), x1, "compared")
+    height = _same(y0, y1, "joined")
+    orders = {"step_rate": -1, "step_acceleration": -2}
+    if function not in orders:
+        return height
+    return None if height is None and across is None else product_of(height, power(across, orders[function]))
 
 
 def _same(first: Dimension | None, second: Dimension | None, action: str) -> Dimension | None:

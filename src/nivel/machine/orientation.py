@@ -36,7 +36,7 @@ def _sequence(value: Any) -> str:
     raise fault(unknown_word(text, SEQUENCES, "sequence"))
 
 
-_Sequence = Annotated[str, BeforeValidator(_sequence, json_schema_input_type=str | int)]
+AxisSequence = Annotated[str, BeforeValidator(_sequence, json_schema_input_type=str | int)]
 _Row = Direction
 _FORMS = ("euler", "axis", "matrix", "euler_parameters")
 
@@ -50,7 +50,9 @@ class Orientation(Record):
     euler: Annotated[tuple[Angle, Angle, Angle] | None, BeforeValidator(listed)] = Field(
         default=None, description="three angles, each about an axis of the frame as turned so far"
     )
-    sequence: _Sequence | None = Field(default=None, description="axes of the three turns; zxz is the classical 3-1-3")
+    sequence: AxisSequence | None = Field(
+        default=None, description="axes of the three turns; zxz is the classical 3-1-3"
+    )
     axis: Direction | None = Field(default=None, description="axis of the turn, of any length")
     angle: Angle | None = Field(default=None, description="turn about `axis`, right-handed")
     matrix: Annotated[tuple[_Row, _Row, _Row] | None, BeforeValidator(listed)] = Field(

@@ -19,7 +19,9 @@ from pydantic_core import ErrorDetails, InitErrorDetails
 
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
+from nivel.machine.example_line import list_line, mapping_line
 from nivel.machine.quantity import FAULT, REPORTED, fault, reported
+from nivel.machine.signature import PlainSignature
 from nivel.wording import shown, unknown_word
 
 NAME = re.compile(r"[^\W\d_][\w-]*")
@@ -79,6 +81,9 @@ class Record(BaseModel):
         given = {name: getattr(self, name) for name in self.model_fields_set}
         return type(self)(**(given | changes))
 
+    def __str__(self) -> str:
+        return repr(self)
+
     def __repr_args__(self) -> Any:
         """Only what differs from the default."""
         fields = type(self).model_fields
@@ -87,6 +92,12 @@ class Record(BaseModel):
             for name, value in super().__repr_args__()
             if name and value != fields[name].get_default(call_default_factory=True)
         ]
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        """Help and editors show what each field takes, in words; found out when somebody asks."""
+        super().__pydantic_init_subclass__(**kwargs)
+        cls.__signature__ = PlainSignature()  # type: ignore[assignment]
 
     @model_validator(mode="wrap")
     @classmethod
@@ -157,10 +168,21 @@ def _sentence(line: ErrorDetails, record: type[Record]) -> str:
         case "union_tag_not_found":
             if isinstance(line["input"], Mapping | Record):
                 return "`type` is missing"
-            return f"a mapping was expected, got {shown(line['input'])}"
+            return f"a mapping was expected, got {shown(line['input'])}" + mapping_line(
+                str(line["loc"][-1]), line["input"]
+            )
         case kind if kind in _SENTENCES:
-            return _SENTENCES[kind].format(**context | {"input": shown(line["input"])})
+            sentence = _SENTENCES[kind].format(**context | {"input": shown(line["input"])})
+            return sentence + _line_to_write(line, record)
     return line["msg"]
+
+
+def _line_to_write(line: ErrorDetails, record: type[Record]) -> str:
+    """What would be right where a list or a mapping was expected, as the end of the sentence."""
+    field = next((step for step in reversed(line["loc"]) if isinstance(step, str)), record.__name__.lower())
+    if line["type"] == "tuple_type":
+        return list_line(field, line["input"])
+    return mapping_line(field, line["input"]) if _SENTENCES[line["type"]].startswith("a mapping") else ""
 
 
 def _quoted(text: object) -> list[str]:

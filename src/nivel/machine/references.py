@@ -10,6 +10,7 @@ from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.coordinate_uses import coordinate_faults
 from nivel.machine.forces import Contact
 from nivel.machine.forces.contact import SHAPES_ON_PLANE
+from nivel.machine.hydraulic_uses import hydraulic_faults
 from nivel.machine.index import SECTIONS, Index, Place, as_list, elements
 from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.point_masses import point_mass_faults
@@ -22,7 +23,19 @@ Faults = Iterator[tuple[Place, str]]
 
 WITH_ROWS: Final = ("joints", "couplings", "drivers")  # their rows are called NAME.…, so they share their names
 # keys of blocks that may use symbols; conditions are looked at in `nivel.machine.control.problems`
-CONTROL_KEYS: Final = ("value", "input", "inputs", "reference", "measured", "feedforward", "then", "otherwise", "law")
+CONTROL_KEYS: Final = (
+    "value",
+    "input",
+    "inputs",
+    "reference",
+    "measured",
+    "feedforward",
+    "measured_speed",
+    "speed_reference",
+    "then",
+    "otherwise",
+    "law",
+)
 SHARING: Final = {"beams": "bodies and beams", "control": "states and blocks of the control"}
 _SHAPES: Final = ("box", "cylinder", "capsule", "tube", "sphere", "extrusion", "mesh")
 
@@ -47,6 +60,9 @@ def reference_faults(machine: Any, parameters: Parameters | None = None) -> Faul
         yield from _of_sensor(sensor, index, ("sensors", at))
     for at, block in enumerate(elements(machine, "control")):
         yield from symbol_faults(block, ("control", at), index, parameters or {}, CONTROL_KEYS)
+    yield from hydraulic_faults(machine, index, parameters or {})
+    for at, component in enumerate(elements(machine, "hydraulics")):
+        yield from _of_pair(component, index, ("hydraulics", at), "a cylinder needs two different bodies")
     for section in ("forces", "states", "sensors", "events"):
         for at, element in enumerate(elements(machine, section)):
             yield from symbol_faults(element, (section, at), index, parameters or {})
@@ -65,6 +81,8 @@ def _twice(machine: Any) -> Faults:
         ("markers",),
         WITH_ROWS,
         ("forces",),
+        ("fluids",),
+        ("hydraulics",),
         ("inputs",),
         ("states", "control"),
         ("sensors",),

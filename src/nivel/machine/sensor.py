@@ -10,11 +10,19 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.marker import TwoMarkers
+from nivel.machine.orientation import AxisSequence
 from nivel.machine.quantity import fault, shown
 from nivel.machine.record import Name, unknown_word
 from nivel.machine.time_function import Measured
 
-MARKER_QUANTITIES: Final = ("position", "velocity", "acceleration", "angular_velocity", "angular_acceleration")
+MARKER_QUANTITIES: Final = (
+    "position",
+    "velocity",
+    "acceleration",
+    "angular_velocity",
+    "angular_acceleration",
+    "euler_angles",
+)
 COORDINATE_QUANTITIES: Final = ("value", "rate", "acceleration")
 
 _FORMS: Final = ("marker", "coordinate", "distance", "angle", "force", "value")
@@ -49,6 +57,9 @@ class Sensor(Checked):
     relative_to: Name | None = Field(
         default=None, description="marker from which, and in whose axes, a marker is seen; default the global frame"
     )
+    sequence: AxisSequence | None = Field(
+        default=None, description="of `euler_angles`: the axes of the three turns, each about an axis as turned so far"
+    )
     units: str = Field(default="", description="of a `value`, for people")
 
     @property
@@ -75,6 +86,10 @@ class Sensor(Checked):
             yield superfluous("relative_to", "belongs to a `marker`")
         if self.relative_to is not None and self.relative_to == self.marker:
             yield Problem(("relative_to",), "a marker does not move relative to itself")
+        if self.quantity == "euler_angles" and self.sequence is None:
+            yield Problem((), "`sequence` is missing: the axes of the three turns, e.g. `zyx` for yaw, pitch and roll")
+        if self.sequence is not None and (form != "marker" or self.quantity != "euler_angles"):
+            yield superfluous("sequence", "belongs to the quantity `euler_angles` of a marker")
         if self.units and form != "value":
             yield superfluous("units", "belongs to a `value`; all else is in SI")
         pair = self.distance or self.angle

@@ -20,7 +20,7 @@ Integrator = Literal[
     "gear1", "gear2", "gear3", "gear4",
     "dopri5", "dop853", "adams", "gear",
     "newmark", "hht", "generalised-alpha", "energy-momentum",
-    "bdf", "ros2", "radau",
+    "bdf", "ros2", "extrapolated-euler", "radau",
 ]  # fmt: skip
 # those of them that choose their steps, and those that do so with `step_control: error`
 CHOOSING = ("dopri5", "dop853", "adams", "gear", "bdf", "radau")

@@ -1,7 +1,7 @@
 """What expressions can use of the machine itself: `hinge.angle_rate`, `tip.vx`.
 
 A symbol is the name of an element, a dot and a quantity. Where several elements have one name, the first that has
-the quantity is meant: of joints, inputs, states, blocks of the control, forces, sensors, markers and bodies, in this order.
+the quantity is meant: of joints, inputs, states, blocks of the control, forces, hydraulics, sensors, markers and bodies, in this order.
 """
 
 from __future__ import annotations
@@ -22,13 +22,15 @@ from nivel.machine.arithmetic import (
 from nivel.machine.control import BLOCK_TYPES
 from nivel.machine.forces import FORCES
 from nivel.machine.grammar import parse
+from nivel.machine.hydraulics import COMPONENT_OF
+from nivel.machine.hydraulics.signals import signals_of
 from nivel.machine.index import Index, Place
 from nivel.machine.joint import JOINT_COORDINATES
 from nivel.machine.record import entry
 from nivel.machine.table import SIGNAL_PATH
 from nivel.machine.time_function import Expression, PythonLaw, Table
 
-Section = Literal["joints", "inputs", "states", "control", "forces", "sensors", "markers", "bodies"]
+Section = Literal["joints", "inputs", "states", "control", "forces", "hydraulics", "sensors", "markers", "bodies"]
 
 POINT_QUANTITIES: Final = ("x", "y", "z", "vx", "vy", "vz")
 STATE_QUANTITY: Final = "value"
@@ -40,6 +42,7 @@ VARYING_KEYS: Final = (
     "magnitude",
     "effort",
     "speed",
+    "target",
     "value",
     "when",
     "rate",
@@ -96,7 +99,7 @@ def find_in(path: str, index: Index) -> Symbol:
     near = get_close_matches(name, known, n=1, cutoff=0.6)
     hint = f"; did you mean `{near[0]}.{quantity}`?" if near else ""
     empty = any(name in elements for elements in _quantities(index).values())
-    kinds = "joint, input, state, block, sensor, marker or body"
+    kinds = "joint, input, state, block, component, sensor, marker or body"
     what = f"`{name}` has no symbols" if empty else f"there is no {kinds} `{name}`"
     raise UnknownSymbolError(f"{what}{hint}")
 
@@ -109,6 +112,7 @@ def _quantities(index: Index) -> dict[Section, dict[str, tuple[str, ...]]]:
         "states": dict.fromkeys(index.states, (STATE_QUANTITY,)),
         "control": {name: quantities_of(block) for name, block in index.control.items()},
         "forces": {name: (*states_of(force), *outputs_of(force)) for name, force in index.forces.items()},
+        "hydraulics": {name: signals_of(each) for name, each in index.hydraulics.items()},
         "sensors": {name: _of_sensor(sensor) for name, sensor in index.sensors.items()},
         "markers": {name: _of_frame(body, index) for name, body in index.markers.items()},
         "bodies": {name: _of_frame(name, index) for name in index.bodies if "." not in name},
@@ -141,6 +145,14 @@ def is_output(symbol: Symbol, index: Index) -> bool:
     return symbol.section == "forces" and symbol.quantity not in states_of(index.forces[symbol.name])
 
 
+def follows_control(symbol: Symbol, index: Index) -> bool:
+    """Whether it follows from flows, and these from the control."""
+    if symbol.section != "hydraulics":
+        return False
+    kind = COMPONENT_OF.get(str(entry(index.hydraulics[symbol.name], "type")))
+    return kind is not None and symbol.quantity not in kind.early
+
+
 def quantities_of(block: Any) -> tuple[str, ...]:
     """The symbols of a block of a control: its value, and what else its kind has."""
     kind = BLOCK_TYPES.get(str(entry(block, "type")))
@@ -154,11 +166,11 @@ def _of_frame(body: str, index: Index) -> tuple[str, ...]:
 def symbol_faults(
     element: Any, place: Place, index: Index, parameters: Parameters, keys: Sequence[str] = VARYING_KEYS
 ) -> Iterator[tuple[Place, str]]:
-    """Symbols that a force, state, block, sensor or event uses in vain, under the `keys` that may use any."""
+    """Symbols that a force, component, state, block, sensor or event uses in vain, under the `keys` that may use any."""
     late = reads_outputs(str(place[0]), element)
     for key in keys:
         value = entry(element, key)
-        for where, path in _used(value, (*place, key), index, parameters):
+        for where, path in paths_in(value, (*place, key), index, parameters):
             try:
                 symbol = find_in(path, index)
             except UnknownSymbolError as problem:
@@ -166,6 +178,8 @@ def symbol_faults(
                 continue
             if not late and is_output(symbol, index):
                 yield where, of_forces(path)
+            elif place[0] == "control" and not late and follows_control(symbol, index):
+                yield where, of_circuits(path)
 
 
 def reads_outputs(section: str, element: Any) -> bool:
@@ -184,7 +198,16 @@ def of_forces(path: str) -> str:
     )
 
 
-def _used(value: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
+def of_circuits(path: str) -> str:
+    """What is wrong with a signal that follows from flows where the control computes at once."""
+    name = path.replace(".", "_")
+    return (
+        f"`{path}` follows from the flows, and these from the control; take a sample of it: "
+        f"`{name}: {{type: signal, value: {path}, sample_time: 1 ms}}`, and here `{name}.value`"
+    )
+
+
+def paths_in(value: Any, place: Place, index: Index, parameters: Parameters) -> Iterator[tuple[Place, str]]:
     """Places and paths of the symbols in what varies; local symbols, which have no dot, are passed over."""
     match value:
         case str():
@@ -195,10 +218,10 @@ def _used(value: Any, place: Place, index: Index, parameters: Parameters) -> Ite
             of = value.get("of")
             if isinstance(of, str) and SIGNAL_PATH.fullmatch(of):  # a whole path, in which a name may have a `-`
                 yield (*place, "of"), of
-            yield from _used(value.get("arguments"), (*place, "arguments"), index, parameters)
+            yield from paths_in(value.get("arguments"), (*place, "arguments"), index, parameters)
         case list() | tuple():
             for at, each in enumerate(value):
-                yield from _used(each, (*place, at), index, parameters)
+                yield from paths_in(each, (*place, at), index, parameters)
 
 
 def _in_text(text: str, index: Index, parameters: Parameters) -> tuple[str, ...]:
@@ -208,12 +231,11 @@ def _in_text(text: str, index: Index, parameters: Parameters) -> tuple[str, ...]
     except ExpressionError:
         return ()
     try:
-        bind(tree, parameters, LOCAL_SYMBOLS)
+        return tuple(path for path in signals(bind(tree, parameters, LOCAL_SYMBOLS)) if "." in path)
     except ExpressionError:
         return tuple(path for path in signals(tree) if not _has_hyphen(path, index))
     except FaultyParameterError:
-        pass
-    return signals(tree)
+        return signals(tree)
 
 
 def _has_hyphen(path: str, index: Index) -> bool:
@@ -221,6 +243,15 @@ def _has_hyphen(path: str, index: Index) -> bool:
     ending = f"-{path.partition('.')[0]}"
     return any(
         name.endswith(ending)
-        for its in (index.joints, index.inputs, index.states, index.control, index.sensors, index.markers, index.bodies)
+        for its in (
+            index.joints,
+            index.inputs,
+            index.states,
+            index.control,
+            index.hydraulics,
+            index.sensors,
+            index.markers,
+            index.bodies,
+        )
         for name in its
     )

@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Final, Literal
+from typing import Any, Final
 
 import numpy as np
 from pydantic import ValidationError
@@ -15,6 +15,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from nivel.arguments import checked_arguments, checked_fields
 from nivel.machine.arithmetic import TIME, ExpressionError, FaultyParameterError, Parameters
 from nivel.machine.dimension import KINDS
+from nivel.machine.interpolation import FEWEST, INTERPOLATIONS, Interpolation, interpolated, pieces
 from nivel.machine.measure import signal_dimensions
 from nivel.machine.quantity import (
     ANY,
@@ -28,8 +29,6 @@ from nivel.machine.quantity import (
 )
 from nivel.machine.record import unknown_word
 
-Interpolation = Literal["linear", "cubic"]
-INTERPOLATIONS: Final = ("linear", "cubic")
 SIGNAL_PATH: Final = re.compile(r"[^\W\d_][\w-]*\.[^\W\d]\w*")
 
 
@@ -38,7 +37,8 @@ SIGNAL_PATH: Final = re.compile(r"[^\W\d_][\w-]*\.[^\W\d]\w*")
 class Table:
     """`values` at `times` [s], which increase strictly; before the first and after the last the end values hold.
 
-    interpolation : straight lines, or a natural cubic spline (twice differentiable, not bent at its ends)
+    interpolation : straight lines; a natural cubic spline (twice differentiable, not bent at its ends); monotone, which never overshoots;
+    or a quintic spline (four times differentiable, at rest at its ends)
     of : what the table depends on, by its path if it is not time; `times` are then values of that
 
     Entries may be texts with units until the table stands in a record, which turns them into SI numbers.
@@ -58,32 +58,18 @@ class Table:
         """The value at the time [s] `at`, or where the variable `of` has the value `at`."""
         if self.interpolation == "linear":
             return float(np.interp(at, self.times, self.values))
-        if at >= self.times[-1]:
-            return float(self.values[-1])
-        k = max(int(np.searchsorted(self.times, at, side="right")) - 1, 0)
-        h = max(at - self.times[k], 0.0)
-        c = self._pieces[k]
-        return float(c[0] + h * (c[1] + h * (c[2] + h * c[3])))
+        return interpolated(self.interpolation, self.times, self.values, at)
 
     def coefficients(self) -> np.ndarray:
-        """The polynomials between the points: value = c[k, 0] + c[k, 1] h + c[k, 2] h² + c[k, 3] h³ with
-        h = t - times[k].
+        """The polynomials between the points: value = Σ c[k, i] h^i with h = t - times[k].
 
-        returns (n - 1, 4), SI; a table of one point has none
+        returns (n - 1, 4), of a quintic (n - 1, 6), SI; a table of one point has none
         """
         return self._pieces.copy()
 
     @cached_property
     def _pieces(self) -> np.ndarray:
-        times, values = np.array(self.times, dtype=float), np.array(self.values, dtype=float)
-        if self.interpolation == "cubic":
-            from scipy.interpolate import CubicSpline
-
-            return np.ascontiguousarray(CubicSpline(times, values, bc_type="natural").c[::-1].T)
-        pieces = np.zeros((len(times) - 1, 4))
-        pieces[:, 0] = values[:-1]
-        pieces[:, 1] = np.diff(values) / np.diff(times)
-        return pieces
+        return pieces(self.interpolation, self.times, self.values)
 
     @property
     def signals(self) -> tuple[str, ...]:
@@ -191,8 +177,10 @@ def _faults_of_columns(
         if points[at] <= points[at - 1]:
             order = f"{points[at]:g}{unit} does not come after {points[at - 1]:g}{unit}"
             return [_line((first, at), fault(f"{first} increase; {order}"))]
-    if interpolation == "cubic" and len(points) < 3:
-        return [_line((first,), fault(f"a cubic table needs at least three {first}, got {len(points)}"))]
+    fewest = FEWEST[interpolation]
+    if len(points) < fewest:
+        wanted = "three" if fewest == 3 else "two"
+        return [_line((first,), fault(f"a {interpolation} table needs at least {wanted} {first}, got {len(points)}"))]
     return []
 
 

@@ -16,6 +16,7 @@ from pydantic_core import CoreSchema, core_schema
 from nivel.machine.arithmetic import ExpressionError, FaultyParameterError, Node, Parameters, fold, render, varies
 from nivel.machine.derivative import derivative
 from nivel.machine.expression import Expression
+from nivel.machine.interpolation import INTERPOLATIONS
 from nivel.machine.measure import measure, readings
 from nivel.machine.python_law import PythonLaw, read_python_law
 from nivel.machine.quantity import (
@@ -29,7 +30,7 @@ from nivel.machine.quantity import (
     read_quantity,
     reported,
 )
-from nivel.machine.table import INTERPOLATIONS, Table, read_table
+from nivel.machine.table import Table, read_table
 
 TimeFunction = float | Table | Expression | PythonLaw
 
@@ -171,6 +172,15 @@ _LAW: Final = {
     },
     "required": ["function"],
     "anyOf": [{"required": ["python"]}, {"required": ["source"]}],
+    "additionalProperties": False,
+}
+
+
+# of a named function that is a curve
+CURVE: Final = {
+    "type": "object",
+    "properties": {"points": _COLUMN, "values": _COLUMN, "interpolation": {"enum": list(INTERPOLATIONS)}},
+    "required": ["points", "values"],
     "additionalProperties": False,
 }
 

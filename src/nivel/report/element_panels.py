@@ -16,6 +16,12 @@ MOST = 2 * TOGETHER  # curves in a plot: those after the first TOGETHER are dash
 FORCE_WORDS = {
     "magnitude": "magnitude",
     "power": "power",
+    "speed": "speeds of shafts",
+    "torque": "torques of shafts",
+    "current": "currents",
+    "voltage": "voltages",
+    "electrical_power": "electrical power",
+    "loss": "losses",
     "length": "lengths",
     "angle": "angles",
     "rate": "rates",

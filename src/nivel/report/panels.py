@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nivel.report.control_panel import control
+from nivel.report.circuit_panel import circuits
 from nivel.report.element_panels import couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.report.peaks import NEGLIGIBLE, negligible
@@ -29,6 +30,7 @@ def panels(result: Result) -> list[Panel]:
         _positions(result),
         sensors(result, floors),
         control(result),
+        circuits(result),
         _energies(result),
         _energy_error(result),
         drivers(result, floors),

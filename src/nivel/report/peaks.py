@@ -32,7 +32,7 @@ class PeakReaction:
 
 
 def peak_reactions(result: Result) -> list[PeakReaction]:
-    """One line per joint, in the order of the machine."""
+    """One line per joint that constrains something, in the order of the machine."""
     if "joint_force" not in result.variables or not len(result.time):
         return []
     kinds = {joint["name"]: joint["type"] for joint in result.scene.get("joints", [])}
@@ -45,6 +45,7 @@ def peak_reactions(result: Result) -> list[PeakReaction]:
     return [
         PeakReaction(name, kinds.get(name, ""), *force[k], *torque[k], name not in shaky)
         for k, name in enumerate(result.coordinates["joint"])
+        if kinds.get(name) != "variable-distance"
     ]
 
 

@@ -103,6 +103,13 @@ def _rod(first: str, second: str) -> Callable[[bool], str]:
     return lambda seen: f'{bar}<g transform="translate(-11 0)">{first}</g><g transform="translate(11 0)">{second}</g>'
 
 
+def _cylinder(seen: bool) -> str:
+    """A cylinder with its rod, between two balls."""
+    barrel = '<rect x="-9" y="-4" width="11" height="8" rx="1"/><path d="M-4 -4V4M-4 0H11" class="axis"/>'
+    ends = f'<g transform="translate(-12 0)">{_BALL}</g><g transform="translate(12 0)">{_BALL}</g>'
+    return f"{barrel}{ends}"
+
+
 def _unknown(seen: bool) -> str:
     return f'<circle r="{RADIUS}" class="thin"/>'
 
@@ -124,6 +131,10 @@ SIGNS: dict[str, Callable[[bool], str]] = {
     "screw": _screw,
     "distance": _rod(_BALL, _BALL),
     "spherical-spherical": _rod(_BALL, _BALL),
+    "variable-distance": _cylinder,
+    "skew-universal": _universal,
+    "translational-universal": _translational,
+    "generic": _unknown,
     "revolute-spherical": _rod(_HINGE, _BALL),
     "revolute-cylindrical": _rod(_HINGE, _SLEEVE),
     "revolute-translational": _pin_in_slot,

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.looks.poses import upwards
 from nivel.report.beam_shapes import beam_shapes
+from nivel.report.control_diagram import control_diagram
 from nivel.report.load_path import load_paths, vibration_table
 from nivel.report.panel import Group, Panel
 from nivel.report.panels import panels
@@ -80,6 +81,7 @@ def report_html(result: Result) -> str:
         motion_left_out=motion_left_out,
         shapes=beam_shapes(result),
         peaks=peak_reactions(result),
+        diagram=control_diagram(record),
         icon=joint_icon,
         panels=shown,
         data=_data(result, shown),

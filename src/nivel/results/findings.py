@@ -6,12 +6,22 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from nivel.results.bending import Bent
 from nivel.results.second_look import Damped, Growth, OwnError
 from nivel.results.steps_seen import Rounding, Turn
 from nivel.results.unseen import Unseen
 from nivel.results.verdicts import CHECKS, Item, Threshold, number
 
 SHOWN = 5  # functions of which each has a line
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A position passed at `time` [s] in which rows of `joints` depend on each other; left : of their independence, as a share."""
+
+    time: float
+    joints: tuple[str, ...]
+    left: float
 
 
 @dataclass(frozen=True)
@@ -24,6 +34,9 @@ class Findings:
     own: OwnError | None = None
     damped: Damped | None = None
     growth: Growth | None = None
+    unstiffened: Bent | None = None
+    passages: Sequence[Passage] = ()
+    bent: Bent | None = None
     method: str = ""
 
 
@@ -34,6 +47,12 @@ def finding_items(found: Findings) -> Iterator[Item]:
         yield from _told(_turn_item(found.turn))
     if found.rounding is not None:
         yield from _told(_rounding_item(found.rounding))
+    if found.passages:
+        yield _passage_item(found.passages)
+    if found.unstiffened is not None:
+        yield from _told(_unstiffened_item(found.unstiffened))
+    if found.bent is not None:
+        yield from _told(_bent_item(found.bent))
     if found.own is not None:
         yield from _told(_own_item(found.own))
     if found.damped is not None:
@@ -86,6 +105,33 @@ def _own_item(own: OwnError) -> Item:
     its = f"{number(own.extent)} {own.units}"
     said = f"{own.name} is off by {number(own.error)} {own.units}, {number(own.share)} of its own motion over {its}"
     return _measured("parts", f"Parts: {said}", own.share, None, own.name)
+
+
+def _passage_item(passages: Sequence[Passage]) -> Item:
+    times = ", ".join(f"{each.time:.6g}" for each in passages[:SHOWN]) + (" …" if len(passages) > SHOWN else "")
+    joints = ", ".join(dict.fromkeys(name for each in passages for name in each.joints))
+    text = (
+        f"Singular: at t = {times} s the machine passes a position where freedoms split (constraints of {joints} depend on each other); it "
+        f"went on by inertia, a real one may take the other way, and reactions near it are not to be trusted (green when none, amber "
+        f"otherwise)"
+    )
+    return Item("singular", "amber", text, row=joints, time=passages[0].time)
+
+
+def _unstiffened_item(found: Bent) -> Item:
+    said = (
+        f"Stiffening: {found.body} has no geometric stiffness and turns so fast at t = {found.time:.6g} s that the square of its speed is "
+        f"{number(found.value)} of that of its lowest frequency; reduce it with `stiffening: true`"
+    )
+    return _measured("stiffening", said, found.value, found.time, found.body)
+
+
+def _bent_item(found: Bent) -> Item:
+    said = (
+        f"Bending: {found.body} bends by {number(found.value)} of its size at t = {found.time:.6g} s; modes are made for small "
+        f"displacements: take a beam in its place, or several bodies"
+    )
+    return _measured("bending", said, found.value, found.time, found.body)
 
 
 def _damped_item(damped: Damped, method: str) -> Item:

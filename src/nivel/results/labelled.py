@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
 import xarray
 
 if TYPE_CHECKING:
@@ -22,7 +23,9 @@ def data_array(result: Result, name: str) -> xarray.DataArray:
     for dim, each in zip(variable.dims[1:], where[1:], strict=True):
         names = result.coordinates[dim]
         coords[dim] = (dim, list(names)) if isinstance(each, slice) else names[each]
-    attrs = {"units": result.units(name), "long_name": variable.long_name}
+    attrs: dict[str, object] = {"units": result.units(name), "long_name": variable.long_name}
+    if (error := result.estimated_error(name)).size and not np.isnan(error).all():
+        attrs["estimated_error"] = float(np.nanmax(error))
     return xarray.DataArray(result.array(name), dims=dims, coords=coords, name=name, attrs=attrs)
 
 

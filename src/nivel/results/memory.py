@@ -58,6 +58,10 @@ class Memory:
         self._buffer[self._count : end] = frames
         self._count = end
 
+    def forget_after(self, time: float) -> None:
+        """Drop the frames after `time` [s]."""
+        self._count = int(np.searchsorted(self._buffer[: self._count, 0], time, side="right"))
+
     def result(self) -> Result:
         """What was taken so far, with the attributes of the header."""
         return self._as_result({})

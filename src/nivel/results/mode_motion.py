@@ -38,7 +38,7 @@ def mode_motion(result: Result, number: int, frame: int = -1) -> Result:
     blocks = [
         time[:, None],
         (position + wave[:, None, None] * shift).reshape(FRAMES, -1),
-        np.stack([_turned(orientation, share * turn) for share in wave]).reshape(FRAMES, -1),
+        np.stack([turned(orientation, share * turn) for share in wave]).reshape(FRAMES, -1),
     ]
     entries: list[tuple[str, tuple[str, ...], str]] = [
         ("position", ("time", "body", "xyz"), "m"),
@@ -99,7 +99,7 @@ def _mass(result: Result) -> float:
     return sum(float(body.get("mass") or 0.0) for body in bodies) or 1.0
 
 
-def _turned(theta: Array, psi: Array) -> Array:
+def turned(theta: Array, psi: Array) -> Array:
     """Euler parameters (·, 4) after rotation vectors ψ (·, 3) in global axes."""
     half = 0.5 * np.linalg.norm(psi, axis=1, keepdims=True)
     e0, e = np.cos(half), 0.5 * np.sinc(half / np.pi) * psi

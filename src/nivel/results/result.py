@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -286,6 +286,39 @@ class Result:
         from nivel.view.export import write_scene
 
         return write_scene([self, *others], path)
+
+    def reactions(self) -> xarray.Dataset:
+        """Peak and RMS force and torque of every joint, and when."""
+        from nivel.results.loads import reactions
+
+        return reactions(self)
+
+    def powers(self) -> xarray.Dataset:
+        """Peak power, work done and work taken back of every driver, coupling and force that reports its power."""
+        from nivel.results.loads import powers
+
+        return powers(self)
+
+    @checked_arguments
+    def cycles(self, name: str, *, repeating: bool = False) -> xarray.Dataset:
+        """Rainflow cycles of a signal, e.g. `hinge.force.x`: range, mean and count. repeating : the history goes on as it began."""
+        from nivel.results.loads import cycles
+
+        return cycles(self, name, repeating=repeating)
+
+    @checked_arguments
+    def coupler_curve(self, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
+        """The path of a point of a body, given in the body's frame [m]: its motion, curvature and cusps."""
+        from nivel.results.mechanism import coupler_curve
+
+        return coupler_curve(self, body, position)
+
+    @checked_arguments
+    def transmission_angle(self, first: str, at: str, last: str) -> xarray.DataArray:
+        """[rad] angle at the joint `at` between the lines to the joints `first` and `last`; π/2 transmits best."""
+        from nivel.results.mechanism import transmission_angle
+
+        return transmission_angle(self, first, at, last)
 
     @checked_arguments
     def export_csv(self, path: str | os.PathLike[str], select: tuple[str, ...] | list[str] = ()) -> Path:

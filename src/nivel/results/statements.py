@@ -23,9 +23,13 @@ def statements(
     stopped_by: str = "",
     shared: Sequence[Shared] = (),
     unresolved: Unresolved | None = None,
+    *,
+    passed: bool = False,
+    blind: str = "",
 ) -> Iterator[Item]:
     """The items of the report; `failure` says what stopped the run, `stopped_by` which event ended it, `shared` which frictions share
-    a load in no certain way, `unresolved` the force that the energy error comes from."""
+    a load in no certain way, `unresolved` the force that the energy error comes from, `passed` whether a position was passed where
+    freedoms split, `blind` why a second run may be wrong as the first."""
     verdict, text = OUTCOMES.get(trust.outcome, ("red", f"Outcome: {trust.outcome}"))
     if stopped_by:
         text = f"Outcome: the event {stopped_by} ended the run, as it was to do"
@@ -36,11 +40,11 @@ def statements(
         yield _rate_item(trust)
     if trust.degrees_of_freedom is not None:
         yield freedom_item(trust)
-    yield redundancy_item(trust)
+    yield redundancy_item(trust, unique=not passed)
     if shared:
         yield _shared_item(shared)
     if trust.accuracy_estimate is not None:
-        yield _accuracy_item(trust, trust.accuracy_estimate)
+        yield _accuracy_item(trust, trust.accuracy_estimate, blind)
         if trust.verified_until is not None:
             yield _partly_verified_item(trust, trust.verified_until)
     if trust.neglected_share is not None:
@@ -105,8 +109,11 @@ def _rate_item(trust: Trust) -> Item:
     return numeric("rate_violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
 
 
-def _accuracy_item(trust: Trust, estimate: float) -> Item:
+def _accuracy_item(trust: Trust, estimate: float, blind: str) -> Item:
     fraction = estimate / trust.size
+    if blind:
+        said = f"Accuracy: a second run with {trust.accuracy_refinement} agrees within {number(estimate)} m, which says little: {blind}"
+        return numeric("accuracy", said, fraction, trust.accuracy_time, trust.accuracy_body)
     until = f" up to t = {trust.verified_until:.6g} s" if trust.verified_until is not None else ""
     within = f"within {number(estimate)} m of the exact motion of this model{until}, {number(fraction)} of the {_size(trust)}"
     where = f"; largest at {trust.accuracy_body}" if trust.accuracy_body else ""
@@ -141,8 +148,8 @@ def freedom_item(trust: Trust) -> Item:
     return Item("degrees_of_freedom", "green", f"Freedom: {degrees}{modes} (green from 1 on)")
 
 
-def redundancy_item(trust: Trust) -> Item:
-    """Constraints that repeat others."""
+def redundancy_item(trust: Trust, *, unique: bool = True) -> Item:
+    """Constraints that repeat others. unique : whether the motion is."""
     if not trust.redundant_rows:
         return Item(
             "redundancy",
@@ -157,7 +164,8 @@ def redundancy_item(trust: Trust) -> Item:
         if trust.non_unique_joints
         else "so are the reactions"
     )
-    text = f"Redundancy: {repeats} ({rows}). The motion is unique; {unsure} (green when none, amber otherwise)"
+    motion = "The motion is unique; " if unique else ""
+    text = f"Redundancy: {repeats} ({rows}). {motion}{unsure} (green when none, amber otherwise)"
     return Item("redundancy", "amber", text)
 
 

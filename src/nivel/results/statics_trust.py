@@ -111,6 +111,9 @@ def _residual(result: Readable) -> Item:
 def _stability(result: Readable) -> Item:
     counts, time = result.array("unstable_directions"), result.time
     unstable = np.flatnonzero(counts > 0)
+    if np.any(counts < 0):
+        text = "Stability: not judged, since it depends on what is sampled; a run that starts there shows whether it stays (amber)"
+        return Item("stability", "amber", text)
     if not len(unstable):
         return Item(
             "stability", "green", "Stability: every state is stable: no direction of negative stiffness (green so)"

@@ -15,6 +15,11 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.system.layout import Variable
 
+# what reading a file raises whose parts are not what they should be
+DAMAGE = (AttributeError, IndexError, KeyError, TypeError, ValueError, MemoryError)
+# A file holds at least this share of the bytes that its frames take: no compression of times gets below.
+LEAST_SHARE = 1e-4
+
 
 @contextmanager
 def opened(path: Path) -> Iterator[h5py.File]:
@@ -58,17 +63,23 @@ class StoredContents:
         self.coordinates: dict[str, tuple[str, ...]]
         self.frame_count: int
         with opened(path) as file:
-            if "nivel_version" not in file.attrs or "time" not in file:
-                raise ModelError(
-                    f"{path} is not a result file of nivel: "
-                    "it lacks the attribute `nivel_version` or the variable `time`"
-                )
-            self._understand(file)
+            try:
+                if "nivel_version" not in file.attrs or "time" not in file:
+                    raise ModelError(
+                        f"{path} is not a result file of nivel: "
+                        "it lacks the attribute `nivel_version` or the variable `time`"
+                    )
+                self._understand(file)
+            except DAMAGE as error:
+                raise ModelError(f"{path} is damaged and cannot be read: {error}") from None
 
     def _understand(self, file: h5py.File) -> None:
         self.attributes = {key: _plain(file.attrs[key]) for key in file.attrs if not key.startswith("_")}
         self.variables, self.coordinates = {}, {}
-        self.frame_count = _dataset(file, "time").shape[0]
+        times = _dataset(file, "time")
+        self.frame_count = times.shape[0]
+        if times.id.get_storage_size() < LEAST_SHARE * 8 * self.frame_count:
+            raise ValueError(f"it claims {self.frame_count} frames, which it does not hold")
         for name, dataset in _datasets(file):
             if name == "time":
                 continue
@@ -86,7 +97,10 @@ class StoredContents:
         frames = range(self.frame_count)[frames]
         index = slice(frames.start, frames.stop, frames.step) if isinstance(frames, range) else frames
         with opened(self.path) as file:
-            return np.asarray(_dataset(file, name)[(index, *rest)], dtype=np.float64)
+            try:
+                return np.asarray(_dataset(file, name)[(index, *rest)], dtype=np.float64)
+            except DAMAGE as error:
+                raise ModelError(f"{self.path} is damaged, `{name}` cannot be read: {error}") from None
 
 
 def _datasets(file: h5py.File) -> list[tuple[str, Any]]:

@@ -9,12 +9,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from nivel.results.circuits import Guard, circuit_items, guard_items
 from nivel.results.held import Shared
 from nivel.results.neglected import Cost
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
 from nivel.results.statements import number, statements
 from nivel.results.unresolved import unresolved_force
-from nivel.results.verdicts import THRESHOLDS, Item, Trust, worst
+from nivel.results.verdicts import THRESHOLDS, Item, Trust, blindness, worst
 
 __all__ = ["Facts", "Peak", "Trust", "assess", "peak", "worst_row"]
 
@@ -50,8 +51,8 @@ class Facts:
     that are prescribed, or that others hold too.
     further : lines of checks that only tell what is not green, see `nivel.results.findings`.
     small_states : those whose errors were hardly controlled. saturated : blocks of the control at a limit all the time.
-    failure : what stopped the run, in a sentence. stopped_by : name of the
-    event that ended it as it was to do.
+    guard : what was not extrapolated of steps over circuits.
+    failure : what stopped the run, in a sentence. stopped_by : name of the event that ended it as it was to do.
     """
 
     outcome: str
@@ -71,6 +72,7 @@ class Facts:
     small_states: tuple[SmallState, ...] = ()
     further: tuple[Item, ...] = ()
     saturated: tuple[str, ...] = ()
+    guard: Guard | None = None
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
@@ -128,12 +130,27 @@ def assess(result: Readable, facts: Facts) -> Trust:
         unresolved_time=unresolved.time if unresolved else 0.0,
     )
     items = (
-        *statements(trust, facts.failure, facts.stopped_by, facts.shared, unresolved),
+        *statements(
+            trust,
+            facts.failure,
+            facts.stopped_by,
+            facts.shared,
+            unresolved,
+            passed=_passes(facts.further),
+            blind=blindness(facts.further),
+        ),
         *facts.further,
         *(_small_state(each) for each in facts.small_states),
         *(_saturated(name) for name in facts.saturated),
+        *circuit_items(result),
+        *guard_items(facts.guard),
     )
     return replace(trust, items=items, verdict=worst(items))
+
+
+def _passes(further: tuple[Item, ...]) -> bool:
+    """Whether a position was passed where freedoms split."""
+    return any(item.name == "singular" for item in further)
 
 
 def _small_state(state: SmallState) -> Item:

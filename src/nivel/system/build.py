@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from nivel.kernels import friction, rail, sensor
 from nivel.kernels import point_inertia as points
+from nivel.kernels.control import apply as compute
+from nivel.kernels.input import apply as read_inputs
 from nivel.kernels.measure import measure
 from nivel.kernels.record import (
     BOTH,
@@ -42,6 +44,7 @@ from nivel.system.control import add_control
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.forces import FORCES
 from nivel.system.gradient_beams import point_inertia
+from nivel.system.hydraulics.components import ACTING, SENSED, add_circuits, add_components
 from nivel.system.implicit import no_newton, no_residual
 from nivel.system.inputs import add_inputs
 from nivel.system.interfaces import refuse_unknown_interfaces
@@ -60,6 +63,10 @@ from nivel.system.user_states import add_states, sampled_states
 DIRECTIONS = {"both": BOTH, "rising": RISING, "falling": FALLING}
 # [s] time within which stiction stops a joint, until a run says better
 STICK = 1e-3
+
+
+# what reads or computes signals, each after what it reads; all other elements follow
+ORDER: Final = (read_inputs, *SENSED, compute, *ACTING)
 
 
 def build(machine: MachineRecord, equations: Equations, *, measured: bool = False) -> System:
@@ -89,6 +96,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         coupled=tuple(draft.noted),
         states=states,
         input_functions=tuple(draft.input_functions),
+        nodes=tuple(draft.circuit.nodes.values()),
         frictions=tuple(force.name for force in machine.forces if force.type == "friction"),
         rows=tuple(row_names),
         row_owner=tuple(rows.owner),
@@ -114,7 +122,9 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
     add_couplings(draft, rows)
     add_drivers(draft, rows)
     add_inputs(draft)
+    add_circuits(draft)
     add_control(draft)
+    add_components(draft)
     add_states(draft)
     for force in machine.forces:
         _add_force(draft, force)
@@ -124,6 +134,7 @@ def _drafted(machine: MachineRecord) -> tuple[SystemBuilder, RowTable]:
         for values in (joint.start, joint.start_rates):
             for name in values.given if values is not None else ():
                 draft.coordinate(f"{joint.name}.{name}")
+    draft.elements.order(ORDER)
     return draft, rows
 
 
@@ -153,6 +164,7 @@ def _record(draft: SystemBuilder, rows: RowTable, units: list[str], equations: E
         functions=draft.functions.arrays(),
         elements=draft.elements.arrays(),
         friction=friction_tables(draft, saddle, extra, count),
+        circuit=draft.circuit.arrays(),
         saddle=saddle,
         tree=empty_tree(constraints),
         frames=Frames(bodies.R, bodies.theta, bodies.Rdot, bodies.Rddot),

@@ -18,6 +18,7 @@ from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
 from nivel.machine.symbols import find_symbol, is_output
 from nivel.machine.time_function import TimeFunction
+from nivel.system.circuit import CircuitTable
 from nivel.system.functions import FunctionTable, Signal
 from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import Placed, seen_from
@@ -26,6 +27,7 @@ from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, Outp
 
 GROUND = "ground"
 AXES = "xyz"
+NOTHING = Coupled(frozenset())
 
 
 @dataclass
@@ -37,6 +39,7 @@ class SystemBuilder:
     marker. noted : the bodies and states used in each `noting`. inputs : the signal of every input. input_functions : the function of
     each, in the order of the machine. control : the signal of every part of a block by its path.
     behind_signals : what a part that is no state depends on. functions_of : the function of every part.
+    begins : states that begin with what a function gives at the start.
     """
 
     machine: MachineRecord
@@ -45,6 +48,7 @@ class SystemBuilder:
     functions: FunctionTable = field(default_factory=FunctionTable)
     elements: ElementTable = field(default_factory=ElementTable)
     outputs: OutputTable = field(default_factory=OutputTable)
+    circuit: CircuitTable = field(default_factory=CircuitTable)
     joint_coordinates: dict[str, int] = field(default_factory=dict)
     frictions: list[tuple[list[int], list[float]]] = field(default_factory=list)
     noted: list[Coupled] = field(default_factory=list)
@@ -54,6 +58,7 @@ class SystemBuilder:
     control: dict[str, Signal] = field(default_factory=dict)
     behind_signals: dict[str, Coupled] = field(default_factory=dict)
     functions_of: dict[str, int] = field(default_factory=dict)
+    begins: list[tuple[int, LinearFunction]] = field(default_factory=list)
     _owner: str = ""
     _noting: set[int] = field(default_factory=set)
     _noting_states: set[int] = field(default_factory=set)
@@ -157,6 +162,20 @@ class SystemBuilder:
         self._noting_states.add(index)
         return index
 
+    def touch_state(self, number: int) -> None:
+        """The element being added reads or feeds this state."""
+        self._noting_states.add(number)
+
+    def node(self, name: str) -> int:
+        """Number of the node of a circuit of this name, on which the element being added acts or depends."""
+        self.note(self.circuit.depends.get(name, NOTHING))
+        return self.circuit.index(name)
+
+    def note(self, coupled: Coupled) -> None:
+        """The element being added depends on all this."""
+        self._noting.update(coupled.bodies)
+        self._noting_states.update(coupled.states)
+
     def measure_all(self) -> None:
         """All joint coordinates are measured in every evaluation from now on."""
         for name in self.joint_coordinates:
@@ -202,6 +221,10 @@ class SystemBuilder:
             return (OUTPUT, self.outputs.index(f"force.{path}"), 0)
         if symbol.section in ("states", "forces"):
             return (STATE, self.state(symbol.name if symbol.section == "states" else path), 0)
+        if symbol.section == "hydraulics":
+            output, coupled = self.circuit.signals[path]
+            self.note(coupled)
+            return (OUTPUT, output, 0)
         if symbol.section == "sensors":
             sensor = next(sensor for sensor in self.machine.sensors if sensor.name == symbol.name)
             ends = sensor.distance or sensor.angle

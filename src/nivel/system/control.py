@@ -11,7 +11,7 @@ from nivel.kernels.record import NONE
 from nivel.machine.control.order import PartOf, in_order, parts_of
 from nivel.machine.control.part import VALUE
 from nivel.machine.index import Index
-from nivel.machine.symbols import find_in, is_output
+from nivel.machine.symbols import find_in, follows_control, is_output
 from nivel.system.builder import SystemBuilder
 from nivel.system.located import located
 from nivel.system.state_facts import StateFact
@@ -102,7 +102,8 @@ def _reads_forces(draft: SystemBuilder, each: PartOf) -> bool:
     """Whether a sample takes something that forces report: it then keeps its value in statics."""
     index = Index.of(draft.machine)
     paths = [path for path in each.signals if path not in draft.control]
-    return any(is_output(find_in(path, index), index) for path in paths)
+    symbols = [find_in(path, index) for path in paths]
+    return any(is_output(symbol, index) or follows_control(symbol, index) for symbol in symbols)
 
 
 def _noted(draft: SystemBuilder, each: PartOf) -> int:

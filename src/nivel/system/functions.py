@@ -18,7 +18,7 @@ from nivel.machine.python_law import PythonLaw
 from nivel.machine.table import Table
 from nivel.machine.time_function import TimeFunction
 from nivel.system.laws import law_address
-from nivel.system.program import expression_program, motion_program
+from nivel.system.program import curve_motion_program, curve_program, expression_program, motion_program
 from nivel.system.tables import Array, index_array
 
 Signal = tuple[int, int, int]  # kind, index, component: see `nivel.kernels.function`
@@ -47,6 +47,10 @@ class FunctionTable:
         Raises ModelError where a law cannot be compiled.
         """
         match function:
+            case Table() if function.interpolation == "quintic":
+                make = curve_motion_program if motion else curve_program
+                program = make(function.interpolation, function.times, function.values)
+                return self._append(CODE, [function.of], find, address=run.address, program=program)
             case Table():
                 pieces = function.coefficients()
                 last = [float(function.values[-1]), 0.0, 0.0, 0.0]

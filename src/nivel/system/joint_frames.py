@@ -51,6 +51,9 @@ def _global_axes(joint: Joint) -> tuple[Array, Array]:
                 return axes, axes
             case "revolute-cylindrical":
                 return frame_from_axes(first), frame_from_axes(second)
+            case "translational-universal":
+                assert joint.axis is not None  # the record was checked
+                return frame_from_axes(joint.axis, first), frame_from_axes(second, first)
         return frame_from_axes(first, second), frame_from_axes(second, first)
     if joint.axis is None:
         return np.eye(3), np.eye(3)

@@ -5,7 +5,7 @@ A new joint is one entry of JOINTS. Axes are those of the two markers: x, y, z o
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from math import pi
 from typing import Final, Literal
@@ -165,19 +165,70 @@ ROD = Composition(
     "distance: between the points of the markers, held by the joint",
 )
 
+UNIVERSAL = (
+    "angle_1: right-handed turn of the cross about its arm on the first body (z of the first marker), zero where the "
+    "first x axis lies along the other arm; angle_2: of the second body about its arm (z of the second marker), zero "
+    "where the second x axis lies along the first body's arm"
+)
+ARMS = (
+    JointCoordinate("angle_1", Measured(CROSS_FIRST), "rad"),
+    JointCoordinate("angle_2", Measured(CROSS_SECOND), "rad"),
+)
+ALL_TURNS: Final = {"rx", "ry", "rz"}
+# perpendicular axes of the first and the second marker: one pair locks one turn, or both pairs of an axis the turns of that axis
+LOCKS: Final = {
+    frozenset({"rx"}): (PerpendicularAxes("y", "z"),),
+    frozenset({"ry"}): (PerpendicularAxes("z", "x"),),
+    frozenset({"rz"}): (NO_SPIN,),
+    frozenset({"rx", "ry"}): PARALLEL,
+    frozenset({"rx", "rz"}): (PerpendicularAxes("x", "y"), PerpendicularAxes("z", "y")),
+    frozenset({"ry", "rz"}): (PerpendicularAxes("y", "x"), PerpendicularAxes("z", "x")),
+    frozenset(ALL_TURNS): (*PARALLEL, NO_SPIN),
+    frozenset(): (),
+}
+
+
+def generic(locked: Collection[str]) -> Composition:
+    """The joint that locks some of x, y, z, rx, ry, rz, seen from the first marker. All three places together are points that coincide."""
+    turns, places = frozenset(ALL_TURNS & set(locked)), [axis for axis in "xyz" if axis in locked]
+    at: tuple[Basic, ...] = (POINT,) if len(places) == 3 else tuple(PerpendicularDistance(axis) for axis in places)
+    return Composition(
+        (*at, *LOCKS[turns]),
+        (X, Y, DISPLACEMENT, ANGLE),
+        6 - len(locked),
+        {"rx", "ry"} <= turns,
+        f"locked: {', '.join(locked)}; {PLACE}; {SLIDE}; {TURN}",
+    )
+
+
+def composition_of(joint: Joint) -> Composition:
+    """What a joint is made of, where the directions of its axes are as they should be."""
+    return generic(joint.locked or ()) if joint.type == "generic" else JOINTS[joint.type]
+
+
 JOINTS: Final[dict[str, Composition]] = {
     "spherical": Composition((POINT,), (), 3, False, NOTHING),
     "universal": Composition(
         (POINT, PerpendicularAxes("z", "z")),
-        (
-            JointCoordinate("angle_1", Measured(CROSS_FIRST), "rad"),
-            JointCoordinate("angle_2", Measured(CROSS_SECOND), "rad"),
-        ),
+        ARMS,
         2,
         False,
-        "angle_1: right-handed turn of the cross about its arm on the first body (z of the first marker), zero where the "
-        "first x axis lies along the other arm; angle_2: of the second body about its arm (z of the second marker), zero "
-        "where the second x axis lies along the first body's arm",
+        UNIVERSAL,
+    ),
+    # arms of the cross at any angle to each other, which stays as placed: also a cone that rolls on its tip
+    "skew-universal": Composition(
+        (POINT, Combination("axes", ((Measured(COSINE, 8), 1.0),), units="1")), ARMS, 2, False, UNIVERSAL
+    ),
+    # a universal joint whose cross slides along z of the first marker, with its arms along x of the first and z of the second
+    "translational-universal": Composition((*ON_AXIS, PerpendicularAxes("x", "z")), (DISPLACEMENT,), 3, False, SLIDE),
+    # locks nothing by itself: see `generic`
+    "generic": Composition((), (X, Y, DISPLACEMENT, ANGLE), 6, False, f"{PLACE}; {SLIDE}; {TURN}"),
+    "variable-distance": Composition(
+        (),
+        (JointCoordinate("distance", Measured(DISTANCE), "m"),),
+        6,
+        False,
+        "distance: between the points of the markers, which drivers and forces may act on",
     ),
     "revolute": Composition((POINT, *PARALLEL), (ANGLE,), 1, True, TURN),
     "cylindrical": Composition((*PARALLEL, *ON_AXIS), (ANGLE, DISPLACEMENT), 2, True, f"{TURN}; {SLIDE}"),

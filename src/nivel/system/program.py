@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from nivel.kernels import program as kernel
-from nivel.machine.arithmetic import TIME, Call, Negative, Node, Number, Operation, Signal, Time
+from nivel.machine.arithmetic import TIME, Call, Lookup, Negative, Node, Number, Operation, Signal, Time
+from nivel.machine.elementary import COMPOUND, elementary
 from nivel.machine.expression import Expression
+from nivel.machine.interpolation import differentiated, pieces
 
 OPERATIONS = {
     "+": kernel.ADD,
@@ -16,16 +20,35 @@ OPERATIONS = {
     "**": kernel.POWER,
     **{name: getattr(kernel, name.upper()) for name in ("atan2", "min", "max")},
     **{name: getattr(kernel, name.upper()) for name in ("sin", "cos", "tan", "asin", "acos", "atan")},
-    **{name: getattr(kernel, name.upper()) for name in ("sqrt", "exp", "log", "abs")},
-    **{name: getattr(kernel, name.upper()) for name in ("step", "step_rate", "step_acceleration")},
+    **{name: getattr(kernel, name.upper()) for name in ("sqrt", "exp", "log", "abs", "floor", "tanh")},
+    "<": kernel.LESS,
+    "<=": kernel.LESS_EQUAL,
 }
-TWO = Number(2.0)
+TWO, ZERO = Number(2.0), Number(0.0)
 
 
 def expression_program(expression: Expression, signals: Sequence[str]) -> list[float]:
     """The program of an expression of `signals`, of which the first is the time. The arguments are expected behind it."""
     program = _Program(signals)
     program.end(program.place_of(expression.tree))
+    return program.row()
+
+
+def curve_program(kind: str, points: Sequence[float], values: Sequence[float]) -> list[float]:
+    """The program of a curve over its one argument."""
+    program, argument = _Program([TIME]), Time()
+    program.end(program.place_of(Lookup(argument, kind, tuple(points), tuple(values))))
+    return program.row()
+
+
+def curve_motion_program(kind: str, points: Sequence[float], values: Sequence[float]) -> list[float]:
+    """The program of a curve over time, with its two derivatives as in `motion_program`."""
+    program, argument = _Program([TIME]), Time()
+    curves = [Lookup(argument, kind, tuple(points), tuple(values), order) for order in range(3)]
+    value, first, second = (program.place_of(curve) for curve in curves)
+    program.leave(1, first)
+    program.leave(2, second)
+    program.end(value)
     return program.row()
 
 
@@ -64,10 +87,19 @@ class _Program:
                 return self._operation(kernel.NEGATIVE, self.place_of(operand))
             case Operation("**", left, right) if right == TWO:
                 return self._operation(kernel.SQUARE, self.place_of(left))
+            case Operation(">" | ">=" as symbol, left, right):
+                return self.place_of(Operation("<" if symbol == ">" else "<=", right, left))
+            case Operation("and" | "or" as symbol, left, right):
+                function = "min" if symbol == "and" else "max"
+                return self.place_of(Operation("<", ZERO, Call(function, (left, right))))
             case Operation(symbol, left, right):
                 return self._operation(OPERATIONS[symbol], self.place_of(left), self.place_of(right))
-            case Call("step" | "step_rate" | "step_acceleration" as function, (argument, *levels)):
-                return self._operation(OPERATIONS[function], self.place_of(argument), self._together(levels))
+            case Lookup(argument):
+                return self._operation(kernel.CURVE, self.place_of(argument), self._curve(node))
+            case Call(function, _) if function in COMPOUND:
+                return self.place_of(elementary(node))
+            case Call("if", (condition, yes, no)):
+                return self._choice(self.place_of(condition), self.place_of(yes), self.place_of(no))
             case Call(function, (first, *others)):
                 place = self.place_of(first)
                 if not others:
@@ -77,13 +109,19 @@ class _Program:
                 return place
         raise ValueError(f"{node} is not bound")
 
-    def _together(self, nodes: Sequence[Node]) -> int:
-        """Place of the first of these values, behind which the others stand."""
-        values = [self.place_of(node) for node in nodes]
-        cells = [self._cell(0.0) for _ in nodes][::-1]  # of later numbers the place is the earlier one
-        for cell, value in zip(cells, values, strict=True):
-            self.leave(cell, value)
-        return cells[0]
+    def _choice(self, condition: int, yes: int, no: int) -> int:
+        place = self._operation(kernel.COPY, condition)
+        self._instructions.append((kernel.CHOOSE, place, yes, no))
+        return place
+
+    def _curve(self, curve: Lookup) -> int:
+        """The place where the numbers of a curve begin."""
+        points, values = curve.points, curve.values
+        coefficients = differentiated(pieces(curve.kind, points, values), curve.order)
+        before, behind = (values[0], values[-1]) if curve.order == 0 else (0.0, 0.0)
+        numbers = np.concatenate([[len(points), before, behind], points, coefficients.ravel()])
+        self._numbers += numbers[::-1].tolist()  # numbers stand in the row backwards
+        return -len(self._numbers)
 
     def _operation(self, operation: int, first: int, second: int | None = None) -> int:
         place = self._cell(0.0)

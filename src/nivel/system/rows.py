@@ -12,10 +12,10 @@ from nivel.machine.coordinate_reference import COORDINATE_KINDS
 from nivel.machine.driver import Driver
 from nivel.machine.joint import Joint
 from nivel.system.builder import SystemBuilder
+from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
 from nivel.system.joints import (
     AXES,
-    JOINTS,
     Basic,
     Coincident,
     Combination,
@@ -23,6 +23,7 @@ from nivel.system.joints import (
     Measured,
     PerpendicularAxes,
     PerpendicularDistance,
+    composition_of,
 )
 from nivel.system.located import located
 from nivel.system.rails import OnBeam
@@ -154,7 +155,7 @@ def add_joint(draft: SystemBuilder, rows: RowTable, joint: Joint) -> None:
 
 def composition(joint: Joint, cosine: float) -> Composition:
     """What the joint is made of; `cosine` is that of the angle between the z axes as placed."""
-    kind = JOINTS[joint.type]
+    kind = composition_of(joint)
     return kind.when_parallel if kind.when_parallel is not None and 1.0 - abs(cosine) < PARALLEL else kind
 
 
@@ -229,17 +230,30 @@ def add_drivers(draft: SystemBuilder, rows: RowTable) -> None:
         )
         with located(f"drivers.{driver.name}.value"):
             function = draft.function(driver.value, motion=True)
-        rows.combine(draft, row, [(coordinate, 1.0)], offset=0.0, function=function, report=(output, 1))
+        offset = None if driver.from_start else 0.0
+        rows.combine(draft, row, [(coordinate, 1.0)], offset=offset, function=function, report=(output, 1))
 
 
 def _driven(draft: SystemBuilder, driver: Driver) -> int:
     if driver.coordinate is not None:
         return draft.coordinate(driver.coordinate)
     assert driver.marker is not None  # the record was checked
+    if driver.about in ("x", "y"):
+        ends = (_with_axis(draft, name, driver.about) for name in (driver.reference, driver.marker))
+        return draft.coordinates.add(ROTATION, *ends)
     marker, reference = draft.marker(driver.marker), draft.marker_or_ground(driver.relative_to)
     if driver.along is not None:
         return draft.coordinates.add(TRANSLATION, reference, marker, AXES[driver.along])
     return draft.coordinates.add(ROTATION, reference, marker)
+
+
+def _with_axis(draft: SystemBuilder, name: str | None, axis: str) -> int:
+    """A marker like that called `name`, or the global frame, with this axis in the place of z and the next one in that of x."""
+    body, point, axes = ("ground", np.zeros(3), np.eye(3))
+    if name is not None:
+        body, point, axes = marker_place(draft.machine, draft.machine.marker_named[name])
+    k = AXES[axis]
+    return draft.place((body, point, axes[:, [(k + 1) % 3, (k + 2) % 3, k]]))
 
 
 def _units(draft: SystemBuilder, coordinate: int) -> str:

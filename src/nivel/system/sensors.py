@@ -18,6 +18,7 @@ VECTOR_UNITS = {
     "angular_velocity": "rad/s",
     "angular_acceleration": "rad/s^2",
 }
+TURNS = ("first", "second", "third")
 # suffixes of the units of a coordinate's value, rate, acceleration
 PER_SECOND = {"value": "", "rate": "/s", "acceleration": "/s^2"}
 
@@ -75,12 +76,26 @@ def _output(draft: SystemBuilder, sensor: Sensor, name: str) -> int:
 def _of_marker(draft: SystemBuilder, sensor: Sensor, vectors: dict[str, int]) -> list[int]:
     assert sensor.marker is not None  # the record was checked
     assert sensor.quantity is not None
+    if sensor.quantity == "euler_angles":
+        return _of_turns(draft, sensor, sensor.marker)
     words = f"{sensor.quantity.replace('_', ' ')} of {sensor.marker}"
     words += f" seen from {sensor.relative_to}" if sensor.relative_to is not None else ""
     units = VECTOR_UNITS[sensor.quantity]
     output = draft.outputs.add(*((f"sensor.{sensor.name}.{axis}", units, f"{axis} of the {words}") for axis in "xyz"))
     frame = NONE if sensor.relative_to is None else draft.marker_or_ground(sensor.relative_to)
     return [output, vectors[sensor.quantity], draft.marker(sensor.marker), frame]
+
+
+def _of_turns(draft: SystemBuilder, sensor: Sensor, marker: str) -> list[int]:
+    """Euler angles of a marker, named first, second and third in the results."""
+    assert sensor.sequence is not None  # the record was checked
+    words = [f"{turn} Euler angle ({sensor.sequence}) of {marker}" for turn in TURNS]
+    output = draft.outputs.add(
+        *((f"sensor.{sensor.name}.{turn}", "rad", text) for turn, text in zip(TURNS, words, strict=True))
+    )
+    i, j, k = ("xyz".index(axis) for axis in sensor.sequence)
+    frame = NONE if sensor.relative_to is None else draft.marker_or_ground(sensor.relative_to)
+    return [output, kernel.EULER_ANGLES + 9 * i + 3 * j + k, draft.marker(marker), frame]
 
 
 def _scalar(draft: SystemBuilder, name: str, quantity: str, scalars: dict[str, int], coordinate: int) -> list[int]:

@@ -11,8 +11,9 @@ class StateFact:
     """One first-order state x of an element.
 
     name : signal where it has a dot. variable : of the result, default `state.NAME`; units, long_name : of that, SI. start : at t = 0.
-    scale : what errors of x are measured by, at least; the largest |x| of the run counts where it is larger. sampled : x has no rate, it
-    changes at given times or events only.
+    scale : what errors of x are measured by, at least; the largest |x| of the run counts where it is larger and x is `relative`. sampled :
+    x has no rate, it changes at given times or events only. integral : nothing depends on x, so that no step and no iteration waits for
+    it; on what its rate depends need not be said.
     """
 
     name: str
@@ -22,6 +23,8 @@ class StateFact:
     scale: float
     sampled: bool = False
     variable: str = ""
+    relative: bool = True
+    integral: bool = False
 
     @property
     def result(self) -> str:

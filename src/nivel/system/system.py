@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.record import Control, Record
+from nivel.system.circuit import Node
 from nivel.system.layout import FrameLayout
 from nivel.system.rails import element_of
 from nivel.system.state_facts import Coupled, StateFact
@@ -42,6 +43,7 @@ class System:
     rows : name of every constraint row of the formulation, e.g. ``hinge.s.x``; the first `machine_rows` belong to joints, couplings
     and drivers. row_owner : name of the joint, coupling or driver of each of these. point_masses : (B,) bodies that do not turn.
     coupled : what each element acts on or depends on. states : first-order states of elements, in the order of `Elements.state`.
+    nodes : of hydraulic circuits.
     frame_markers : markers that are frames of bodies. marker_owners : `joints.hinge`, …: what each marker belongs to.
     input_functions : the function of each input.
     modes : names of the modal coordinates. gradient_sizes : (modes,) what those of gradients are measured by [kg^½ m], 0 for others.
@@ -57,6 +59,7 @@ class System:
     coupled: tuple[Coupled, ...]
     states: tuple[StateFact, ...]
     input_functions: tuple[int, ...]
+    nodes: tuple[Node, ...]
     frictions: tuple[str, ...]
     events: tuple[str, ...]
     rows: tuple[str, ...]

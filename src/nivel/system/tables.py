@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -154,6 +155,11 @@ class ElementTable:
         """Number of a state that gets its facts from its owner."""
         self._states[fact.name] = fact
         return self.state(fact.name)
+
+    def order(self, families: Sequence[Family]) -> None:
+        """Call these families before all others, in this order."""
+        first = {family: self.families[family] for family in families if family in self.families}
+        self.families = {**first, **self.families}
 
     @property
     def states(self) -> tuple[StateFact, ...]:

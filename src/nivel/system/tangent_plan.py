@@ -40,12 +40,14 @@ def plan_tangent(
     *,
     mirrored: bool,
     found: Collection[int] = (),
+    alone: Collection[int] = (),
     stages: int = 0,
 ) -> TangentPlan:
     """For groups of so many unknowns, of constraints or not, that are coupled in pairs.
 
     mirrored : derivatives with respect to multipliers are those of the constraints, so they are not found by evaluations of their own.
     found : groups whose derivatives are found otherwise; their entries are in the plan all the same.
+    alone : groups that nothing depends on, moved apart from all others: on what they depend is not in `couples`.
     stages : of a step, which are planned as one system too; 0: they are not.
     """
     pairs = {(a, b) for a, b in couples if a != b}
@@ -58,7 +60,10 @@ def plan_tangent(
     moved = [g for g in range(len(sizes)) if not (mirrored and constraint[g])]
     groups = [
         [int(first[g]) + k for g in together if k < sizes[g]]
-        for together in _together([g for g in moved if g not in found], beside)
+        for together in (
+            *_together([g for g in moved if g not in found and g not in alone], beside),
+            *([sorted(alone)] if alone else []),
+        )
         for k in range(max(sizes[g] for g in together))
     ]
     rows, columns, copied = [], [], []

@@ -8,7 +8,7 @@ from nivel.kernels.forces.state_rate import apply as state_rate
 from nivel.kernels.record import NONE, Sampled
 from nivel.machine.state import State
 from nivel.system.builder import SystemBuilder
-from nivel.system.control import SampleTable, add_samples
+from nivel.system.control import ONCE, SampleTable, add_samples
 from nivel.system.located import located
 from nivel.system.state_facts import StateFact
 from nivel.system.tables import index_array
@@ -48,6 +48,8 @@ def sampled_states(draft: SystemBuilder) -> Sampled:
             function = draft.function(state.update)
         event = NONE if state.event is None else events.index(state.event)
         table.add(draft.state(state.name), function, period=state.every or 0.0, event=event)
+    for state, begins in draft.begins:
+        table.add(state, draft.function(begins), period=ONCE)
     add_samples(draft, table)
     count = len(table.rows)
     state, output, at_once, function, event, period, offset = zip(*table.rows, strict=True) if count else ((),) * 7

@@ -12,6 +12,9 @@ from nivel.view.triples import triple
 AT_JOINT: Final[dict[str, tuple[ForceLook, ForceLook]]] = {
     "joint-spring-damper": ("coil", "slide"),
     "motor": ("turn", "slide"),
+    "dc-motor": ("turn", "slide"),
+    "servo-motor": ("turn", "slide"),
+    "servo": ("turn", "slide"),
     "driver": ("turn", "slide"),
 }
 HELD: Final[tuple[ForceLook, ForceLook]] = ("ring", "slide")  # of friction, stops and whatever else works there

@@ -12,7 +12,12 @@ from nivel.view.package import Block
 from nivel.view.records import Column
 
 MOST: Final = 20_000  # variables that are listed
-PREFIXES: Final = ("force.", "driver.", "coupling.")  # of variables that belong to what is named after them
+PREFIXES: Final = (
+    "force.",
+    "driver.",
+    "coupling.",
+    "hydraulics.",
+)  # of variables that belong to what is named after them
 # what is carried first where not all has room; of equal ones those that stand first in the result
 FIRST: Final = (
     "joint_coordinate",

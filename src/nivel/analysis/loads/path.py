@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.analysis.loads.functions import Varying, is_local
 from nivel.errors import ModelError
-from nivel.integrate.run import PARTS, TAKEN
+from nivel.integrate.run import LEAST, PARTS
 from nivel.machine.arithmetic import TIME
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.symbols import Symbol, UnknownSymbolError, find_symbol
@@ -21,32 +21,34 @@ Array = NDArray[np.float64]
 AXES = {"x": 0, "y": 1, "z": 2}
 # Steps that are looked at; of more, blocks all along the run.
 MOST_STEPS = 200_000
+# and in one part of the duration, where steps are chosen
+MOST_IN_PART = 2_000
 
 
 @dataclass(frozen=True)
 class Steps:
-    """Begins (n,) [s] of steps and their lengths (n,) [s], ascending; all of the run, or `share` of them."""
+    """Begins (n,) [s] of steps and their lengths (n,) [s], ascending: all of the run, or of very many some."""
 
     begin: Array
     length: Array
-    share: float = 1.0
 
     def until(self, end: float) -> Steps:
         """Those that begin before `end` [s]."""
         count = max(1, int(np.searchsorted(self.begin, end)))
-        return Steps(self.begin[:count], self.length[:count], self.share)
+        return Steps(self.begin[:count], self.length[:count])
 
 
 def steps_of(pace: Array, duration: float, step: float | None, corners: tuple[float, ...] = ()) -> Steps:
     """The steps of a run up to `duration` [s]. step [s] : a fixed one. pace : of `Run`, for steps that were chosen; they end at `corners`
-    [s], and as long as the longest one at that time."""
+    [s], and are as long as the shortest one at that time: a method that goes so far down has seen what there is."""
     if step is not None:
         count = max(1, int(np.ceil(duration / step * (1.0 - 1e-12))))
-        begin = step * np.arange(count, dtype=np.float64)
-        return _thinned(begin, np.full(count, step))
+        stride = -(-count // MOST_STEPS)
+        begin = step * np.arange(0, count, stride, dtype=np.float64)
+        return Steps(begin, np.full(len(begin), step))
     part = duration / PARTS
-    taken = np.where(pace[TAKEN] > 0.0, pace[TAKEN], part)
-    count = np.maximum(1, np.ceil(part / taken).astype(int))
+    taken = np.where(np.isfinite(pace[LEAST]), pace[LEAST], part)
+    count = np.clip(np.ceil(part / taken), 1, MOST_IN_PART).astype(int)
     # a step longer than a part begins where the one before it ends
     grid = [np.linspace(k * part, (k + 1) * part, count[k], endpoint=False) for k in range(PARTS)]
     times, last = [], 0.0
@@ -58,14 +60,8 @@ def steps_of(pace: Array, duration: float, step: float | None, corners: tuple[fl
             times.append(inside)
             last = inside[0]
     ends = np.unique(np.concatenate([*times, [t for t in corners if t < duration], [duration]]))
-    return _thinned(ends[:-1], np.diff(ends))
-
-
-def _thinned(begin: Array, length: Array) -> Steps:
-    if len(begin) <= MOST_STEPS:
-        return Steps(begin, length)
-    stride = int(np.ceil(len(begin) / MOST_STEPS))
-    return Steps(begin[::stride], length[::stride], 1.0 / stride)
+    stride = -(-len(ends) // MOST_STEPS)
+    return Steps(ends[:-1][::stride], np.diff(ends)[::stride])
 
 
 @dataclass(frozen=True)

@@ -69,7 +69,9 @@ def missed(function: Varying, path: Path, steps: Steps, weights: Array) -> Unsee
     exact, magnitude = _integrals(values, steps.length)
     nodes = np.linspace(0, SAMPLES, len(weights)).astype(int)
     seen = steps.length * (values[:, nodes] @ weights)
-    seen_magnitude = steps.length * (np.abs(values[:, nodes]) @ weights)
+    # what changes its sign once in a step is a kink of the magnitude, not a vibration within the step
+    vibrates = (np.diff(np.signbit(values), axis=1)).sum(axis=1) > 1
+    seen_magnitude = np.where(vibrates, steps.length * (np.abs(values[:, nodes]) @ weights), magnitude)
     narrow = _look_closer(function, path, steps, values, exact, magnitude)
     return _judged(function, steps, (exact - seen, magnitude - seen_magnitude, magnitude), values, narrow)
 

@@ -176,7 +176,7 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
         if not Z.shape[1]:
             return np.zeros(0), np.zeros((size, 0))
         inner = Z.T @ (tangent.K @ Z), symmetric(Z.T @ (M @ Z))
-        values, vectors = _symmetric(symmetric(inner[0]), inner[1]) if has_potential(tangent) else _general(*inner)
+        values, vectors = symmetric_modes(symmetric(inner[0]), inner[1]) if has_potential(tangent) else _general(*inner)
         order = np.argsort(np.abs(values), kind="stable") if nearest else np.arange(len(values))
         chosen = np.sort(order[:count])
         return values[chosen], Z @ vectors[:, chosen]
@@ -191,7 +191,7 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
     return values, np.hstack([directions[:, down], vectors[:, up]])[:, :count]
 
 
-def _symmetric(K: Array, M: Array) -> tuple[Array, Array]:
+def symmetric_modes(K: Array, M: Array) -> tuple[Array, Array]:
     """Eigenvalues and directions of K φ = ω² M φ, ascending. Every ω² is known to ε times the largest, which is nothing of the low ones
     where rotations of hardly any inertia are stiff. Those nearest to zero are taken from Lᵀ K⁻¹ L x = x/ω², M = L Lᵀ."""
     values, vectors = eigh(K, M)

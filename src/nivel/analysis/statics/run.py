@@ -30,7 +30,7 @@ from nivel.analysis.statics.refusals import at_rest, for_statics, refuse_frictio
 from nivel.analysis.statics.search import settle
 from nivel.analysis.statics.settings import StaticsSettings
 from nivel.analysis.statics.stability import is_mechanism, softest
-from nivel.analysis.statics.states import growing_motions, restlessness
+from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
 from nivel.errors import SolveError
 from nivel.integrate.sink import Header
@@ -166,6 +166,10 @@ def _follow(
         walk.outcome, walk.ended = "failed", path_ended(equations, walk.points[-1], steps, error, settings.arc_length)
 
 
+# in place of the number of unstable directions: what is sampled has no rates, by which it could be told
+NOT_JUDGED = -1
+
+
 def _take(
     equations: StaticEquations,
     writer: FrameWriter,
@@ -176,7 +180,8 @@ def _take(
 ) -> None:
     """Frames of the critical points before an equilibrium, and of itself."""
     if equations.states_move:
-        count = growing_motions(equations, point.state)
+        held = depends_on_samples(equations, point.state)
+        count = NOT_JUDGED if held else growing_motions(equations, point.state)
     else:
         count = unstable_directions(point.found.tangent)
         walk.without_potential |= not has_potential(point.found.tangent)

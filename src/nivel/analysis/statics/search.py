@@ -19,7 +19,7 @@ from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEqu
 from nivel.analysis.statics.linear import PivotError, factors, negative_directions, solve
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.analysis.statics.stability import is_mechanism, softest
-from nivel.analysis.statics.states import equilibrate_states, find_moving_states
+from nivel.analysis.statics.states import depends_on_samples, equilibrate_states, find_moving_states, growing_motions
 from nivel.system.system import Array
 
 MOST_STEPS = 600
@@ -41,12 +41,40 @@ MOVES_ON = "the machine moves on for ever"
 
 
 def settle(equations: StaticEquations, start: Rest, iteration: Iteration) -> Found:
-    """The equilibrium at the time of `start` where the machine settles: with its first-order states held, and then with them.
+    """The equilibrium at the time of `start` where the machine settles: next to `start` where states hold it there, as controllers do;
+    else with its first-order states held, and then with them.
 
     Raises EquilibriumError.
     """
     if not equations.state_count:
         return _settle(equations, start, iteration)
+    held = _held_by_states(equations, start, iteration)
+    # whether motions grow under what is sampled is no question of rates
+    if held is not None and (depends_on_samples(equations, held.state) or growing_motions(equations, held.state) == 0):
+        return held
+    try:
+        return _settled_with_states(equations, start, iteration)
+    except EquilibriumError:
+        if held is None:
+            raise
+        return held
+
+
+def _held_by_states(equations: StaticEquations, start: Rest, iteration: Iteration) -> Found | None:
+    """The equilibrium of positions and states next to `start`, or None."""
+    reference = equations.record.coordinates.reference.copy()
+    try:
+        find_moving_states(equations, start)
+        if equations.states_move:
+            return equilibrate_states(equations, start, iteration)
+    except (StateError, EquilibriumError):
+        pass
+    equations.record.coordinates.reference[:] = reference
+    return None
+
+
+def _settled_with_states(equations: StaticEquations, start: Rest, iteration: Iteration) -> Found:
+    """The equilibrium of positions alone, then with the states. Raises EquilibriumError."""
     found, error = None, None
     try:
         found = _settle(equations, start, iteration)

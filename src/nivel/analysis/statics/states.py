@@ -140,6 +140,15 @@ def restlessness(equations: StaticEquations, state: Rest) -> float:
     return float(np.max(np.abs(system.right[f : f + len(system.states)]), initial=0.0))
 
 
+def depends_on_samples(equations: StaticEquations, state: Rest) -> bool:
+    """Whether forces or rates depend on values that are sampled."""
+    n, count = equations.n, equations.state_count
+    sampled = np.array([fact.sampled for fact in equations.system.states], dtype=bool)
+    matrix = csc_matrix(equations.whole_matrix(state))
+    rows = np.concatenate([np.arange(n), n + np.flatnonzero(~sampled)])
+    return matrix[rows][:, n + np.flatnonzero(sampled)].count_nonzero() > 0 if count else False
+
+
 def growing_motions(equations: StaticEquations, state: Rest) -> int:
     """Number of small motions about an equilibrium, of positions and states together, that grow with time: eigenvalues λ of
 

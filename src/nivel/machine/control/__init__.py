@@ -9,6 +9,7 @@ from pydantic_core import CoreSchema
 
 from nivel.machine.control.algebra import DeadZone, Gain, Limit, Lookup, SignalBlock, Sum, Switch
 from nivel.machine.control.block import Block
+from nivel.machine.control.cascade import Cascade
 from nivel.machine.control.dynamics import (
     Derivative,
     HighPass,
@@ -34,6 +35,7 @@ BLOCKS: list[type[Block]] = [
     Switch,
     Lookup,
     Pid,
+    Cascade,
     Integrator,
     Derivative,
     TransferFunction,
@@ -71,6 +73,7 @@ __all__ = [
     "BLOCKS",
     "BLOCK_TYPES",
     "Block",
+    "Cascade",
     "ControlBlock",
     "DeadZone",
     "Delay",

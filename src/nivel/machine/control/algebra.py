@@ -9,21 +9,20 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem
-from nivel.machine.control.block import Block, Number, Numbers, Pair
+from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import beyond, chosen, limited
 from nivel.machine.control.part import Part, law
 from nivel.machine.linear_function import linear
 from nivel.machine.quantity import listed
 from nivel.machine.table import Interpolation, Table
-from nivel.machine.time_function import Measured
 
 
 class SignalBlock(Block):
     """A function of time and symbols under a name: a set-point, a measured value, a law in Python."""
 
     type: Literal["signal"] = "signal"
-    value: Measured = Field(description="expression of `time` and symbols, table, or law in Python")
+    value: Input = Field(description="expression of `time` and symbols, table, or law in Python")
 
     def computation(self) -> tuple[Part, ...]:
         return (self.present(self.output, self.value, key="value"),)
@@ -34,7 +33,7 @@ class OfInput(Block):
 
     quantities = ("value", "input")
 
-    input: Measured = Field(description="expression of `time` and symbols")
+    input: Input = Field(description="expression of `time` and symbols")
 
     @property
     def taken(self) -> Part:
@@ -60,7 +59,7 @@ class Sum(Block):
     """Σ factor · input."""
 
     type: Literal["sum"] = "sum"
-    inputs: Annotated[tuple[Measured, ...], BeforeValidator(listed)] = Field(
+    inputs: Annotated[tuple[Input, ...], BeforeValidator(listed)] = Field(
         description="expressions of `time` and symbols"
     )
     factors: Numbers | None = Field(default=None, description="one for each input; default 1")
@@ -114,8 +113,8 @@ class Switch(Block):
 
     type: Literal["switch"] = "switch"
     when: Condition = Field(description="comparison such as `boom.angle > 0.5`, or a value that is positive")
-    then: Measured = Field(description="expression of `time` and symbols")
-    otherwise: Measured = Field(description="expression of `time` and symbols")
+    then: Input = Field(description="expression of `time` and symbols")
+    otherwise: Input = Field(description="expression of `time` and symbols")
 
     def computation(self) -> tuple[Part, ...]:
         parts = {"condition": self.when, "then": self.then, "otherwise": self.otherwise}

@@ -3,19 +3,38 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, ValidationInfo
 
+from nivel.machine.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import NotNegative
 from nivel.machine.control.part import VALUE, Part, PartFunction
 from nivel.machine.linear_function import linear
-from nivel.machine.quantity import ANY, Duration, Quantity, listed
-from nivel.machine.record import Name
+from nivel.machine.measure import refuse_unlike_terms
+from nivel.machine.quantity import ANY, Duration, Quantity, bound_tree, expression_fault, listed, parameters_of
+from nivel.machine.record import Name, entry
+from nivel.machine.time_function import Measured
 
+
+def _of_one_kind(value: Any, info: ValidationInfo) -> Any:
+    """Refuse sums of what measures different things: `1 m - boom.angle`."""
+    if isinstance(value, str):
+        try:
+            tree = bound_tree(value, parameters_of(info))
+        except (ExpressionError, FaultyParameterError):
+            return value  # reported where the text is read
+        try:
+            refuse_unlike_terms(tree)
+        except ExpressionError as problem:
+            raise expression_fault(problem, value) from None
+    return value
+
+
+Input = Annotated[Measured, BeforeValidator(_of_one_kind)]
 Number = Annotated[float, Quantity(ANY)]
 PositiveNumber = Annotated[float, Quantity(ANY, positive=True)]
 Numbers = Annotated[tuple[Number, ...], BeforeValidator(listed)]
@@ -25,6 +44,15 @@ NotNegativeTime = Annotated[float, Quantity("time"), NotNegative]
 COMPUTED: Final = "computed"  # a value before its latency
 MOST_DELAYED: Final = 200  # samples that wait
 WHOLE: Final = 1e-9  # of a ratio of times that is a whole number
+
+
+def names_in(given: Any) -> tuple[str, ...]:
+    """Names in a mapping from names, or in a list of what has names, of raw data or records."""
+    if isinstance(given, Mapping):
+        found = list(given)
+    else:
+        found = [entry(each, "name") for each in given] if isinstance(given, list | tuple) else []
+    return tuple(name for name in found if isinstance(name, str))
 
 
 class Block(Checked):

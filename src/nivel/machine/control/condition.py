@@ -7,8 +7,8 @@ from typing import Annotated, Any, Final
 
 from pydantic import BeforeValidator, WithJsonSchema
 
+from nivel.machine.control.block import Input
 from nivel.machine.quantity import fault, shown
-from nivel.machine.time_function import Measured
 
 _COMPARISON: Final = re.compile(r"(<=|>=|==|!=|<|>|=)")
 
@@ -33,5 +33,5 @@ def _difference(value: Any) -> Any:
 
 # positive where the condition holds
 Condition = Annotated[
-    Measured, BeforeValidator(_difference), WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "number"}]})
+    Input, BeforeValidator(_difference), WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "number"}]})
 ]

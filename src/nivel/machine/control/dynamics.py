@@ -11,14 +11,13 @@ from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem
 from nivel.machine.control.algebra import OfInput, both, refuse_order
-from nivel.machine.control.block import Block, Number, Numbers, Pair
+from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.laws import bounded_rate, limited
 from nivel.machine.control.linear_system import LinearSystem, of_transfer_function, sampled, steady_state
 from nivel.machine.control.part import VALUE, Part, law
 from nivel.machine.linear_function import linear
 from nivel.machine.quantity import Duration, Quantity, listed
 from nivel.machine.record import entry
-from nivel.machine.time_function import Measured
 
 Frequency = Annotated[float, Quantity("frequency", positive=True)]
 Damping = Annotated[float, Quantity("number", positive=True)]
@@ -168,7 +167,7 @@ class StateSpace(Block):
     """ẋ = A x + B u, y = C x + D u of several inputs u; `NAME.value` is the first of y, `NAME.y2` the second, …"""
 
     type: Literal["state-space"] = "state-space"
-    inputs: Annotated[tuple[Measured, ...], BeforeValidator(listed)] = Field(
+    inputs: Annotated[tuple[Input, ...], BeforeValidator(listed)] = Field(
         description="expressions of `time` and symbols"
     )
     A: Matrix = Field(description="rows; one state each")

@@ -10,12 +10,11 @@ from pydantic import Field
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.control.algebra import both, refuse_order
-from nivel.machine.control.block import Block, NotNegativeTime, Number, Pair
+from nivel.machine.control.block import Block, Input, NotNegativeTime, Number, Pair
 from nivel.machine.control.laws import limited
 from nivel.machine.control.part import Part, law
 from nivel.machine.linear_function import linear
 from nivel.machine.quantity import Duration
-from nivel.machine.time_function import Measured
 
 
 class Pid(Block):
@@ -28,16 +27,14 @@ class Pid(Block):
     quantities = ("value", "error", "integral", "unlimited")
 
     type: Literal["pid"] = "pid"
-    input: Measured | None = Field(default=None, description="the error, set-point less measured value")
-    reference: Measured | None = Field(
-        default=None, description="the set-point r, in place of `input`; with `measured`"
-    )
-    measured: Measured | None = Field(default=None, description="the measured value y, in place of `input`")
+    input: Input | None = Field(default=None, description="the error, set-point less measured value")
+    reference: Input | None = Field(default=None, description="the set-point r, in place of `input`; with `measured`")
+    measured: Input | None = Field(default=None, description="the measured value y, in place of `input`")
     kp: Number = Field(default=0.0, description="proportional gain")
     ki: Number = Field(default=0.0, description="integral gain, per second")
     kd: Number = Field(default=0.0, description="derivative gain, seconds")
     limits: Pair | None = Field(default=None, description="lower and upper limit of the value")
-    feedforward: Measured | None = Field(default=None, description="what is added before the limits")
+    feedforward: Input | None = Field(default=None, description="what is added before the limits")
     set_point_weight: Number = Field(default=1.0, description="β, the share of the set-point in the proportional part")
     filter_time: NotNegativeTime | None = Field(
         default=None, description="time constant of the derivative's filter; default a tenth of kd/kp"

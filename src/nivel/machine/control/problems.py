@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
 from nivel.machine.arithmetic import RESERVED
@@ -14,6 +14,11 @@ from nivel.machine.symbols import UnknownSymbolError, find_in, is_output, of_for
 from nivel.machine.unit import UNITS
 
 CONDITIONS = ("when", "states")  # keys of what is made of comparisons
+
+
+def can_be_named(name: str, parameters: Collection[str]) -> bool:
+    """Whether the name of a block alone can stand for its value, beside these parameters."""
+    return name not in parameters and name not in RESERVED and name not in UNITS
 
 
 def problems_of_control(machine: Any) -> Iterator[Problem]:

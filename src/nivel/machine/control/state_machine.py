@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem
-from nivel.machine.control.block import Block
+from nivel.machine.control.block import Block, Input, names_in
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import entered
 from nivel.machine.control.part import Part, PartFunction, law
 from nivel.machine.linear_function import linear
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.record import Name, Record, entry, unknown_word
-from nivel.machine.time_function import Measured
 
 
 def _conditions(value: Any) -> Any:
@@ -47,14 +46,14 @@ class StateOutput(Record):
     """A value that a state gives to an output of its machine."""
 
     name: Name
-    value: Measured
+    value: Input
 
 
 class MachineState(Record):
     """One state: its value, what else it puts out, and where it leads."""
 
     name: Name
-    value: Measured | None = Field(default=None, description="default its number, from 0")
+    value: Input | None = Field(default=None, description="default its number, from 0")
     outputs: Annotated[tuple[StateOutput, ...], _named("name", "value")] = Field(
         default=(), description="further values by name, which are zero in states that do not give them"
     )
@@ -153,13 +152,9 @@ class StateMachine(Block):
             yield Problem((), "`sample_time` is missing: guards are looked at at samples")
 
 
-def _output_names(outputs: Any) -> tuple[str, ...]:
+def _output_names(outputs: Iterable[Any]) -> tuple[str, ...]:
     """Names of the outputs of all states, which may be raw data."""
-    names: dict[str, None] = {}
-    for each in outputs:
-        found = each if isinstance(each, Mapping) else [entry(one, "name") for one in each or ()]
-        names |= dict.fromkeys(name for name in found if isinstance(name, str))
-    return tuple(names)
+    return tuple(dict.fromkeys(name for each in outputs for name in names_in(each)))
 
 
 def _step_law(own: str, guards: list[str], arms: list[tuple[int, range, int]]) -> PythonLaw:

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, ValidationInfo
 
 from nivel.machine.checked import Problem
-from nivel.machine.control.block import Block, Number
+from nivel.machine.control.block import Block, Number, names_in
 from nivel.machine.control.part import VALUE, Part
 from nivel.machine.python_law import PythonLaw, read_python_law, returned_count
 from nivel.machine.quantity import fault, parameters_of, shown
@@ -48,9 +48,7 @@ class UserBlock(Block):
 
     @classmethod
     def symbols(cls, given: Any) -> tuple[str, ...]:
-        states = entry(given, "states")
-        names = list(states) if isinstance(states, Mapping) else [entry(each, "name") for each in states or ()]
-        return (VALUE, *(name for name in names if isinstance(name, str)))
+        return (VALUE, *names_in(entry(given, "states")))
 
     def computation(self) -> tuple[Part, ...]:
         results = [self.law, *(self._result(k + 1) for k in range(len(self.states)))]

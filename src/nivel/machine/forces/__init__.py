@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
-from nivel.machine.forces.between import Between, BetweenMarkers, End, GlobalPoint
+from nivel.machine.forces.between import Between, BetweenMarkers, End, Ends, GlobalPoint
 from nivel.machine.forces.bushing import Bushing
 from nivel.machine.forces.characteristic import Characteristic, EffortTable, ForceTable, TorqueTable
 from nivel.machine.forces.contact import Contact, Material
+from nivel.machine.forces.drives import DcMotor, ServoMotor, TorqueSpeed
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.forces.friction import Friction
 from nivel.machine.forces.joint_spring_damper import JointSpringDamper
@@ -18,6 +19,7 @@ from nivel.machine.forces.load import PointForce, Torque
 from nivel.machine.forces.motor import Motor
 from nivel.machine.forces.pair_force import PairForce
 from nivel.machine.forces.rope import Rope
+from nivel.machine.forces.servo import Servo
 from nivel.machine.forces.spring_damper import SpringDamper
 from nivel.machine.forces.stop import Stop
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
@@ -31,6 +33,9 @@ FORCES: list[type[ForceElement]] = [
     Stop,
     Friction,
     Motor,
+    DcMotor,
+    ServoMotor,
+    Servo,
     PairForce,
     Bushing,
     Contact,
@@ -64,8 +69,10 @@ __all__ = [
     "Bushing",
     "Characteristic",
     "Contact",
+    "DcMotor",
     "EffortTable",
     "End",
+    "Ends",
     "Force",
     "ForceElement",
     "ForceTable",
@@ -77,9 +84,12 @@ __all__ = [
     "PairForce",
     "PointForce",
     "Rope",
+    "Servo",
+    "ServoMotor",
     "SpringDamper",
     "Stop",
     "Torque",
+    "TorqueSpeed",
     "TorqueTable",
     "TorsionalSpringDamper",
     "register",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from pydantic import Field
 
-from nivel.machine.checked import Problem, superfluous
+from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.marker import Marker, TwoMarkers
 from nivel.machine.quantity import Position
@@ -36,8 +36,8 @@ class BetweenMarkers(ForceElement):
         return self.markers
 
 
-class Between(ForceElement):
-    """Acts between two `markers`, or between two `points` (global, as placed) of two `bodies`."""
+class Ends(Checked):
+    """Two `markers`, or two `points` (global, as placed) of two `bodies`."""
 
     markers: TwoMarkers | None = Field(default=None, description="on the first and second body: names or markers")
     bodies: tuple[BodyName, BodyName] | None = Field(
@@ -71,3 +71,7 @@ class Between(ForceElement):
         """Whether the points as placed have a line between them."""
         if self.markers is None and self.points is not None and self.points[0] == self.points[1]:
             yield Problem(("points",), "the two `points` are the same; the line between them has no direction")
+
+
+class Between(Ends, ForceElement):
+    """Acts between two `markers`, or between two `points` (global, as placed) of two `bodies`."""

@@ -1,16 +1,23 @@
-"""Stops and motors on joint coordinates in numbers."""
+"""Stops, motors and servos on joint coordinates in numbers."""
 
 from __future__ import annotations
 
 import math
 
 from nivel.kernels.forces.motor import apply as motor
+from nivel.kernels.forces.servo import apply as servo
 from nivel.kernels.forces.stop import apply as stop
-from nivel.machine.forces import Motor, Stop
+from nivel.kernels.record import NONE
+from nivel.machine.arithmetic import ExpressionError
+from nivel.machine.expression import Expression
+from nivel.machine.forces import Motor, Servo, Stop
+from nivel.machine.table import Table
+from nivel.machine.time_function import TimeFunction
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
 from nivel.system.forces.restitution import damping_of_restitution
+from nivel.system.state_facts import StateFact
 
 
 def add_stop(draft: SystemBuilder, force: Stop) -> None:
@@ -47,7 +54,41 @@ def add_motor(draft: SystemBuilder, force: Motor) -> None:
     draft.elements.add(motor, [first, coordinate, draft.function(command)], numbers)
 
 
+def add_servo(draft: SystemBuilder, force: Servo) -> None:
+    """A position servo on a joint coordinate."""
+    coordinate = draft.coordinate(force.coordinate)
+    angle = is_angle(draft, coordinate)
+    units = "rad" if angle else "m"
+    first = force_outputs(
+        draft,
+        force.name,
+        *effort_and_power(angle, "effort on the coordinate"),
+        ("value", units, "coordinate"),
+        ("rate", f"{units}/s", "rate of the coordinate"),
+        ("error", units, "target less coordinate"),
+    )
+    motion = is_motion(force.target)
+    state = NONE
+    if force.integral:
+        fact = StateFact(f"{force.name}.integral", f"{units} s", f"integrated error of {force.name}", 0.0, 0.01)
+        state = draft.own_state(fact)
+    limit = math.inf if force.limit is None else force.limit
+    numbers = [force.stiffness, force.damping, force.integral, limit, float(motion)]
+    draft.elements.add(servo, [first, coordinate, draft.function(force.target, motion=motion), state], numbers)
+
+
+def is_motion(target: TimeFunction) -> bool:
+    """Whether the rate of a target is known: a table of time, or a smooth expression of it."""
+    if isinstance(target, Table):
+        return not target.signals
+    try:
+        return isinstance(target, Expression) and target.derivative.derivative is not None
+    except ExpressionError:
+        return False
+
+
 KINDS = (
     ForceKind(Stop, add_stop, (stop,)),
     ForceKind(Motor, add_motor, (motor,)),
+    ForceKind(Servo, add_servo, (servo,)),
 )

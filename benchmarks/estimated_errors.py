@@ -1,0 +1,32 @@
+"""Estimated errors of verified runs against true ones: a table of ratios, one row a method.
+
+python benchmarks/estimated_errors.py [METHOD ...]
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "verification"))
+
+from test_estimated_errors import FULL, METHODS, STEPS, ratios
+
+
+def main() -> None:
+    """Least, middle and largest ratio of every method, and how many are within a third and three."""
+    every: list[float] = []
+    print(f"{'method':20} {'pairs':>5} {'least':>8} {'median':>8} {'largest':>8}")
+    for method in sys.argv[1:] or (*METHODS, *FULL):
+        found = list(ratios((method,), STEPS).values())
+        every += found
+        if found:
+            print(f"{method:20} {len(found):5} {min(found):8.3f} {np.median(found):8.3f} {max(found):8.3f}")
+    within = sum(1.0 / 3.0 <= ratio <= 3.0 for ratio in every)
+    print(f"{within} of {len(every)} pairs within a third and three times the true error")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,97 @@
+"""What the build of the site adds to the pages: reference, gallery, moving pictures, and files that pages link to."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from gallery import gallery, moving_picture
+from reference import command_page, key_page
+
+ROOT = Path(__file__).parents[2]
+# pages that stand beside docs/
+PAGES = {"NOTATION.md": "notation.md", "benchmarks/README.md": "benchmarks.md", "README.md": "index.md"}
+OUTSIDE = re.compile(r"\]\((?:\.\./)+([^)#\s]+)(#[^)\s]*)?\)")
+MOVING = ("slider-crank", "suspension", "four-bar")
+
+
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """Pages of docs/ that the navigation does not name stand at the end of the guides."""
+    named = set(re.findall(r"'([\w/-]+\.md)'", str(config.nav)))
+    rest = sorted(path.name for path in Path(config.docs_dir).glob("*.md") if path.name not in named)
+    for entry in config.nav or []:
+        if isinstance(entry, dict) and "Guides" in entry:
+            entry["Guides"] += rest
+    return config
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add what is generated."""
+
+    def add(path: str, content: str | bytes) -> None:
+        files.append(File.generated(config, path, content=content))
+
+    add("assets/nivel.css", STYLE)
+    add("keys.md", key_page())
+    add("command-line.md", command_page())
+    for source, page in PAGES.items():
+        if page != "index.md":
+            add(page, _with_links((ROOT / source).read_text(encoding="utf-8"), source))
+    for path in sorted((ROOT / "examples").rglob("*")):
+        if path.is_file() and path.suffix in (".yaml", ".py"):
+            add(f"files/{path.relative_to(ROOT).as_posix()}", path.read_bytes())
+    pictures = os.environ.get("NIVEL_SITE_PICTURES", "1") == "1"
+    page, drawn = gallery(pictures)
+    add("gallery.md", page)
+    for name, text in drawn.items():
+        add(name, text)
+    for name in MOVING if pictures else ():
+        add(f"moving/{name}.html", moving_picture(name))
+    return files
+
+
+STYLE = ".md-typeset td code{word-break:normal;white-space:nowrap}.md-typeset table:not([class]){font-size:.66rem}"
+
+
+def on_page_content(html: str, **_: Any) -> str:
+    """Docstrings end a sentence before code with two colons."""
+    return html.replace("::</p>", ":</p>")
+
+
+def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
+    """Links that lead out of docs/ lead to copies in the site."""
+    source = page.file.src_uri
+    return markdown if source in PAGES.values() and source != "index.md" else _with_links(markdown, f"docs/{source}")
+
+
+def _with_links(markdown: str, source: str) -> str:
+    """`markdown` of the file `source` with links to where things stand in the site."""
+    page = PAGES.get(source, source.removeprefix("docs/"))
+    up = "../" * page.count("/")
+
+    def moved(target: str, anchor: str) -> str:
+        place = (Path(source).parent / target).as_posix() if not target.startswith("..") else target
+        place = os.path.normpath(place)
+        if place.startswith("docs/"):
+            return f"]({up}{place.removeprefix('docs/')}{anchor})"
+        if place in PAGES:
+            return f"]({up}{PAGES[place]}{anchor})"
+        return f"]({up}files/{place})"
+
+    def outside(match: re.Match[str]) -> str:
+        target = match[0][2:-1].split("#")[0]
+        place = os.path.normpath((Path(source).parent / target).as_posix())
+        return moved(os.path.relpath(place, Path(source).parent), match[2] or "")
+
+    if source in PAGES:
+        return re.sub(r"\]\((?!http|#)([^)#\s]+)(#[^)\s]*)?\)", outside, markdown)
+    return OUTSIDE.sub(outside, markdown)

@@ -1,0 +1,115 @@
+"""Reference pages made from the records and commands themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import click
+
+
+def key_page() -> str:
+    """Every key of every element: what it takes, its default and meaning."""
+    from nivel.files.assembly import Assembly
+    from nivel.machine import MachineRecord
+    from nivel.machine.control import BLOCKS
+    from nivel.machine.forces import FORCES
+    from nivel.machine.references import SECTIONS
+
+    kinds = {"forces": FORCES, "control": BLOCKS}
+    lines = [
+        "# Every key",
+        "",
+        "This page is made from the records that read machine files, so that nothing is missing and nothing is out of date. "
+        "What the keys mean together stands in [machine files](machine-files.md).",
+        "",
+    ]
+    seen: set[type] = set()
+    for section in (*SECTIONS, "assembly", "simulation"):
+        records = kinds.get(section) or list(_records(MachineRecord.model_fields[section].annotation))
+        if len(records) > 1:
+            lines += [f"## {section}", ""]
+        for record in records:
+            lines += _table(record, section if len(records) == 1 else "", 2 if len(records) == 1 else 3)
+            seen.add(record)
+    lines += _table(Assembly, "assemblies", 2)
+    parts = sorted({part for record in seen for part in _parts(record)} - seen, key=lambda part: part.__name__)
+    lines += ["## Parts of elements", ""]
+    for part in parts:
+        lines += _table(part, "", 3)
+    return "\n".join(lines)
+
+
+def _records(annotation: Any) -> Iterator[type]:
+    """The record classes in a type."""
+    from nivel.machine import Record
+
+    if isinstance(annotation, type) and issubclass(annotation, Record):
+        yield annotation
+        return
+    for each in getattr(annotation, "__args__", ()):
+        yield from _records(each)
+
+
+def _parts(record: type) -> Iterator[type]:
+    """Records in the fields of a record, and in theirs."""
+    for field in record.model_fields.values():  # type: ignore[attr-defined]
+        for part in _records(field.annotation):
+            yield part
+            if part is not record:
+                yield from _parts(part)
+
+
+def _table(record: Any, section: str, level: int) -> list[str]:
+    from nivel.machine.signature import words_of
+
+    kind = record.model_fields["type"].default if "type" in record.model_fields else None
+    alone = bool(record.collection)  # an element is known by its type, a part of one by its name
+    title = section or (f"`type: {kind}`" if isinstance(kind, str) and alone else record.__name__)
+    text = " ".join((record.__doc__ or "").split("\n\n")[0].split())
+    lines = [f"{'#' * level} {title}", "", text, "", "| key | takes | default | meaning |", "|---|---|---|---|"]
+    for name, field in record.model_fields.items():
+        if name in ("name", "type") and section != "":
+            continue
+        key = field.alias or name
+        default = "must be given" if field.is_required() else _default(field)
+        takes = words_of(field).replace("|", "or")
+        lines.append(f"| `{key}` | {takes} | {default} | {(field.description or '').replace('|', 'or')} |")
+    return [*lines, ""]
+
+
+def _default(field: Any) -> str:
+    value = field.get_default(call_default_factory=True)
+    if value is None or value in ((), {}):
+        return ""
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    if isinstance(value, int | float):
+        return f"`{value:g}`"
+    if isinstance(value, tuple):
+        return f"`[{', '.join(map(str, value))}]`".replace(".0", "")
+    return f"`{value}`" if isinstance(value, str) else ""
+
+
+def command_page() -> str:
+    """Every command of the program with its options."""
+    from nivel.cli import COMMANDS, main
+
+    lines = ["# Command line", "", "`nivel COMMAND --help` prints the same.", ""]
+    context = click.Context(main)
+    for name in COMMANDS:
+        command = main.get_command(context, name)
+        assert command is not None
+        arguments = " ".join(
+            each.make_metavar(click.Context(command)) for each in command.params if isinstance(each, click.Argument)
+        )
+        lines += [f"## nivel {name}", "", f"```text\nnivel {name} {arguments} [OPTIONS]\n```", ""]
+        lines += [" ".join((command.help or "").replace("\b", "").split()), ""]
+        options = [each for each in command.params if isinstance(each, click.Option) and not each.hidden]
+        if options:
+            lines += ["| option | meaning |", "|---|---|"]
+        for each in options:
+            words = ", ".join(f"`{word}`" for word in each.opts)
+            lines.append(f"| {words} | {' '.join((each.help or '').split()).replace('|', 'or')} |")
+        lines.append("")
+    return "\n".join(lines)

@@ -1,0 +1,97 @@
+"""The fastest rate of a machine in a state, and the force that it is of: what an explicit step of fixed size has to be short for.
+
+Rates are the eigenvalues of ∂ẏ/∂y, by differences. In the motion of the fastest one the work of each force per second has a part of the
+second order, which is the work of that motion itself: the force with the largest one is named.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nivel.analysis.equations import MotionEquations
+from nivel.analysis.preparation import Prepared
+from nivel.kernels.observe import observe
+from nivel.kernels.status import OK
+from nivel.system.system import Array
+
+# States with more entries are not looked at; increments as shares of the scales of y.
+MOST_ENTRIES, SHARE = 300, 1e-6
+# Shares of the increments that work is found with.
+PART = 1e-2
+# Largest |rate| times step that a method holds, on the negative real axis; 1 for those that are not here
+HOLDS = {"euler": 2.0, "heun": 2.0, "rk4": 2.7, "ab1": 2.0, "ab2": 1.0, "ab3": 0.5, "ab4": 0.3, "ab5": 0.16}
+
+
+@dataclass(frozen=True)
+class Fastest:
+    """rate [1/s] of a state, and the name of the force that it is of; empty where no force works in it."""
+
+    rate: float
+    force: str
+
+
+def held_step(integrator: str, rate: float) -> float:
+    """The longest step [s] with which an explicit method holds this rate [1/s]."""
+    return HOLDS.get(integrator, 1.0) / rate if rate > 0.0 else np.inf
+
+
+def fastest_beyond(prepared: Prepared, integrator: str, step: float, time: float, last: Array) -> Fastest | None:
+    """The fastest rate at the start, or at time [s] in the `last` state, where a step [s] does not hold it; None where both are held."""
+    for t, y in ((0.0, prepared.start), (time, last)):
+        found = fastest(prepared.motion, t, y)
+        if found is not None and step > held_step(integrator, found.rate):
+            return found
+    return None
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a state that may be beyond all bounds
+def fastest(motion: MotionEquations, t: float, y: Array) -> Fastest | None:
+    """In this state; None where it has no rates, nothing changes, or it has too many entries."""
+    count = len(y) - 2  # energies follow from the others
+    if not 0 < count <= MOST_ENTRIES or not np.isfinite(y).all():
+        return None
+    steps = SHARE * np.maximum(np.abs(y[:count]), motion.system.size)
+    A = np.zeros((count, count))
+    for k in range(count):
+        ends = [_rate(motion, t, y, k, side * steps[k]) for side in (1.0, -1.0)]
+        if ends[0] is None or ends[1] is None:
+            return None
+        A[:, k] = (ends[0] - ends[1])[:count] / (2.0 * steps[k])
+    if not np.isfinite(A).all():
+        return None
+    rates, motions = np.linalg.eig(A)
+    k = int(np.argmax(np.abs(rates)))
+    if not np.abs(rates[k]) > 0.0:
+        return None
+    # a phase at which positions and speeds of a vibration are both there
+    shape = np.real(motions[:, k] * np.exp(0.25j * np.pi))
+    return Fastest(float(np.abs(rates[k])), _working(motion, t, y, shape))
+
+
+def _rate(motion: MotionEquations, t: float, y: Array, k: int, by: float) -> Array | None:
+    moved = y.copy()
+    moved[k] += by
+    status, rate = motion.evaluate(t, moved)
+    return rate if status == OK else None
+
+
+def _working(motion: MotionEquations, t: float, y: Array, shape: Array) -> str:
+    """The force whose work in the motion `shape` is largest."""
+    scale = PART * motion.system.size / max(float(np.abs(shape).max()), 1e-300)
+    powers = [_powers(motion, t, y, side * scale * shape) for side in (1.0, 0.0, -1.0)]
+    work = {name: abs(powers[0][name] - 2.0 * powers[1][name] + powers[2][name]) for name in powers[1]}
+    finite = {name: value for name, value in work.items() if np.isfinite(value) and value > 0.0}
+    return max(finite, key=lambda name: finite[name], default="")
+
+
+def _powers(motion: MotionEquations, t: float, y: Array, change: Array) -> dict[str, float]:
+    """The power [W] of each force in a state aside."""
+    aside, layout = y.copy(), motion.system.layout
+    aside[: len(change)] += change
+    motion.evaluate(t, aside)
+    frame = np.zeros(layout.width)
+    observe(motion.handle.address, t, aside, frame)
+    forces = [each for each in layout.variables if each.name.startswith("force.") and each.name.endswith(".power")]
+    return {each.name.removeprefix("force.").removesuffix(".power"): float(frame[each.columns][0]) for each in forces}

@@ -1,0 +1,1 @@
+"""Efforts that a motion asks for, and the matrices of robotics."""

@@ -1,0 +1,243 @@
+"""The matrices of robotics: mass matrix, bias forces and Jacobians of a machine in independent coordinates, for trees and closed loops.
+
+    M(q) a + h(q, v) = τ        velocities of all unknowns Z v + drift
+
+M = Zᵀ M Z and h = Zᵀ r(v̇₀), v̇₀ the accelerations for a = 0, so that the equation is exact whatever closes the loops; h holds weight,
+springs and all other forces of the machine. Velocities v (f,) belong to `names`; of machines with loops these are chosen among the
+coordinates of the spanning tree, and positions of the others are closed by Newton's method.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.analysis.instant import Complex, Instant
+from nivel.analysis.linearise.names import velocity_names
+from nivel.analysis.linearise.ports import Catalogue
+from nivel.analysis.linearise.reduction import Ports, Reduction
+from nivel.analysis.moment import Moment
+from nivel.analysis.statics.equations import turned
+from nivel.analysis.user_frames import frame_axes, frame_place, point_acceleration, point_velocity
+from nivel.errors import ModelError
+from nivel.machine.coordinate_reference import unknown_name
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.placement import marker_frame
+from nivel.system.system import Array
+
+# positions are closed to this share of the scales of the rows, in so many iterations at most
+CLOSED, MOST = 1e-13, 50
+# axes of turns are numbered up to this; plain positions have none
+LAST_AXIS = 2
+
+
+class Mechanics:
+    """Mass matrix, bias and Jacobians of one machine.
+
+    names : of the independent velocities v (f,). position_names : of the positions q, all of the spanning tree; turns that are no joint
+    coordinates are four Euler parameters. start : q at the start.
+    """
+
+    def __init__(self, machine: MachineRecord, moment: Moment) -> None:
+        self._machine, self._moment = machine, moment
+        self._instant = Instant(moment.motion, 0.0, moment.y)
+        reduction = self._reduction()
+        self._selected = reduction.selected
+        named = velocity_names(self._instant.system)
+        own = self._instant
+        self.names = tuple(named[own.free[k]][0] for k in self._selected)
+        self.position_names = _position_names(own, [name for name, _ in named])
+        self.start: Array = moment.y[: own.positions].copy()
+        self._signs = self._directions(Catalogue(machine, own))
+
+    def _directions(self, catalogue: Catalogue) -> Array:
+        """(n,) -1 where a joint coordinate of the results grows against the velocity of the same name, else 1."""
+        own, out = self._instant, np.ones(self._instant.n)
+        known = catalogue.coordinates
+        if known:
+            slopes = own.along("v", catalogue.reader([catalogue.outputs[f"{name}.rate"] for name in known])).seen
+            for k, j in enumerate(own.free):
+                name = velocity_names(own.system)[j][0]
+                if name in known and slopes[known.index(name), k] < 0.0:
+                    out[j] = -1.0
+        return out
+
+    def _reduction(self) -> Reduction:
+        own = self._instant
+        ports = Ports(np.zeros((own.n, 0)), np.zeros((own.rows, 0)), np.zeros(0, dtype=np.intp))
+        return Reduction(own, ports, _nothing, getattr(self, "_selected", None))
+
+    # --- states ---
+
+    def close(self, q: Array) -> Array:
+        """Positions with all loops closed: those of the independent velocities stay. Raises ModelError where that is not possible."""
+        own = self._instant
+        y = self._moment.y.copy()
+        y[: own.positions] = self._checked(q, own.positions, "q") * self._position_signs()
+        y[own.positions : own.first_state] = 0.0
+        dependent = np.setdiff1d(np.arange(len(own.free)), self._selected)
+        for _ in range(MOST):
+            y[: own.positions] = _normalised(own, y[: own.positions])
+            own.move_to(0.0, y, np.zeros(own.n))
+            first = own.n + own.state_count
+            C = own.value()[first : first + own.rows]
+            if np.max(np.abs(C) / own.row_scale, initial=0.0) <= CLOSED:
+                return y[: own.positions] * self._position_signs()
+            length = own.length[own.free][dependent]
+            found = np.linalg.lstsq(
+                own.J[:, dependent] * length / own.row_scale[:, None], -C / own.row_scale, rcond=1e-12
+            )
+            psi = np.zeros(own.n)
+            psi[own.free[dependent]] = length * found[0]
+            y[: own.positions] += own.position_rates(psi)
+        raise ModelError(f"the loops cannot be closed with {', '.join(self.names)} where they are asked for")
+
+    def displaced(self, q: Array, change: Array) -> Array:
+        """Positions after a change (f,) of the independent coordinates, turns about axes of their bodies; loops closed again."""
+        own, out = self._instant, q * self._position_signs()
+        psi = np.zeros(own.n)
+        psi[own.free[self._selected]] = self._chosen_signs * change
+        plain = own.place[:, 1] > LAST_AXIS
+        out[own.place[plain, 0]] += psi[plain]
+        first = np.flatnonzero(own.place[:, 1] == 0)
+        if len(first):
+            at = own.place[first, 0][:, None] + np.arange(4)
+            out[at] = turned(out[at], psi[first[:, None] + np.arange(3)])
+        return self.close(out * self._position_signs())
+
+    def _at(self, q: Array | None, v: Array | None) -> Reduction:
+        """The equations at positions q (closed first) and velocities v, with accelerations for a = 0."""
+        own = self._instant
+        y = self._moment.y.copy()
+        y[: own.positions] = self.close(self.start if q is None else q) * self._position_signs()
+        y[own.positions : own.first_state] = 0.0
+        own.move_to(0.0, y, np.zeros(own.n))
+        reduction = self._reduction()
+        rows = len(reduction.kept)
+        first = own.n + own.state_count + own.rows
+        drift = -reduction.inverse[:, :rows] @ own.value()[first : first + own.rows]
+        speed = np.zeros(len(self.names)) if v is None else self._checked(v, len(self.names), "v") * self._chosen_signs
+        y[own.positions + own.free] = reduction.Z @ speed + drift
+        own.move_to(0.0, y, np.zeros(own.n))
+        gamma = -own.value()[first + own.rows :]
+        still = np.zeros(own.n)
+        still[own.free] = reduction.inverse[:, :rows] @ gamma
+        own.move_to(0.0, y, still)
+        return reduction
+
+    # --- what is asked ---
+
+    def mass_matrix(self, q: Array | None = None) -> Array:
+        """(f, f) mass matrix at q, the start by default [kg, kg m, kg m²]."""
+        reduction = self._at(q, None)
+        M = reduction.Z.T @ reduction.by_rate.r[self._instant.free] @ reduction.Z
+        return self._chosen_signs[:, None] * M * self._chosen_signs
+
+    def bias(self, q: Array | None = None, v: Array | None = None) -> Array:
+        """(f,) efforts that a = 0 asks for at q and v: weight, centrifugal forces, springs, dampers [N, N m]."""
+        reduction = self._at(q, v)
+        own = self._instant
+        return self._chosen_signs * (reduction.Z.T @ own.value()[: own.n][own.free])
+
+    def inverse_dynamics(self, q: Array, v: Array, a: Array) -> Array:
+        """(f,) efforts on the independent coordinates that make the accelerations a (f,) at q and v."""
+        reduction = self._at(q, v)
+        own = self._instant
+        vdot = own.vdot.copy()
+        vdot[own.free] += reduction.Z @ (self._checked(a, len(self.names), "a") * self._chosen_signs)
+        own.move_to(0.0, own.y, vdot)
+        return self._chosen_signs * (reduction.Z.T @ own.value()[: own.n][own.free])
+
+    def forward_dynamics(self, q: Array, v: Array, tau: Array) -> Array:
+        """(f,) accelerations for efforts τ (f,) on the independent coordinates."""
+        right = self._checked(tau, len(self.names), "tau") - self.bias(q, v)
+        return np.asarray(np.linalg.solve(self.mass_matrix(q), right), dtype=np.float64)
+
+    def jacobian(self, point: str, q: Array | None = None) -> Array:
+        """(6, f) velocity and angular velocity (global axes) of a marker, or of the frame of a body, per velocity."""
+        b, position = self._point(point)
+        reduction = self._at(q, None)
+        rates = self._instant.along("v", lambda own: point_velocity(_measured(own), b, position)).seen
+        return rates @ reduction.Z * self._chosen_signs
+
+    def jacobian_bias(self, point: str, q: Array | None = None, v: Array | None = None) -> Array:
+        """(6,) acceleration and angular acceleration (global axes) of a marker or body for a = 0."""
+        b, position = self._point(point)
+        self._at(q, v)
+        return self._instant.read(lambda own: point_acceleration(_measured(own), b, position))
+
+    def pose(self, point: str, q: Array | None = None) -> tuple[Array, Array]:
+        """Place (3,) [m] and axes (3, 3) (columns) of a marker or the frame of a body at positions q, which are closed."""
+        b, position = self._point(point)
+        own = self._instant
+        y = self._moment.y.copy()
+        y[: own.positions] = (self.start if q is None else q) * self._position_signs()
+        own.move_to(0.0, y, np.zeros(own.n))
+        own.value()
+        axes = frame_axes(own, b).real
+        marker = self._machine.marker_named.get(point)
+        place = frame_place(own, b).real + axes @ position
+        return place, axes if marker is None else axes @ marker_frame(marker)[1]
+
+    @property
+    def size(self) -> float:
+        """[m] length of the machine."""
+        return self._instant.system.size
+
+    # --- names and signs ---
+
+    @property
+    def _chosen_signs(self) -> Array:
+        return self._signs[self._instant.free[self._selected]]
+
+    def _position_signs(self) -> Array:
+        own, out = self._instant, np.ones(self._instant.positions)
+        for j, (place, axis) in enumerate(own.place.tolist()):
+            if axis > LAST_AXIS:
+                out[place] = self._signs[j]
+        return out
+
+    def _point(self, name: str) -> tuple[int, Array]:
+        bodies = list(self._instant.system.bodies)
+        marker = self._machine.marker_named.get(name)
+        if marker is not None and marker.body in bodies:
+            return bodies.index(marker.body), np.array(marker.position, dtype=float)
+        if name not in bodies:
+            raise ModelError(unknown_name("marker or body", name, [*self._machine.marker_named, *bodies]))
+        return bodies.index(name), np.zeros(3)
+
+    def _checked(self, value: Array, count: int, what: str) -> Array:
+        out = np.asarray(value, dtype=float).ravel()
+        if len(out) != count or not np.isfinite(out).all():
+            names = self.position_names if what == "q" else self.names
+            raise ModelError(f"`{what}` must be {count} numbers, one for each of {', '.join(names)}; got {len(out)}")
+        return out
+
+
+def _measured(own: Instant) -> Instant:
+    own.place_markers()
+    return own
+
+
+def _nothing(_: Instant) -> Complex:
+    return np.zeros(0, dtype=np.complex128)
+
+
+def _normalised(own: Instant, q: Array) -> Array:
+    """q with Euler parameters of unit length."""
+    out = q.copy()
+    for place, axis in own.place.tolist():
+        if axis == 0:
+            out[place : place + 4] /= np.linalg.norm(out[place : place + 4])
+    return out
+
+
+def _position_names(own: Instant, names: list[str]) -> tuple[str, ...]:
+    """Of every position: that of its velocity, and four parameters of every turn in space."""
+    out = [""] * own.positions
+    for j, (place, axis) in enumerate(own.place.tolist()):
+        if axis == 0:
+            owner = names[j].rpartition(".")[0]
+            out[place : place + 4] = [f"{owner}.parameter_{k}" for k in range(4)]
+        elif axis > LAST_AXIS:
+            out[place] = names[j]
+    return tuple(out)

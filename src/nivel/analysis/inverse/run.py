@@ -1,0 +1,166 @@
+"""Inverse dynamics: the efforts of actuators that make a machine follow a given motion.
+
+With the residual r₀ = M v̇ - Q of the motion without these efforts, Z the motions that the joints allow and B the actuators' generalised
+forces,
+
+    Zᵀ B τ = Zᵀ r₀
+
+has one solution where there are as many independent actuators as freedoms; with more of them that of least weighted norm is taken, and
+with fewer what no effort gives is told. The reactions of the joints do not enter, redundant or not.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.instant import Instant
+from nivel.analysis.inverse.least import Least, least_efforts
+from nivel.analysis.inverse.settings import InverseSettings
+from nivel.analysis.inverse.states import MovingState, moving_states
+from nivel.analysis.listener import Listener
+from nivel.analysis.moment import at_start
+from nivel.analysis.plan import Methods
+from nivel.kernels.observe import observe
+from nivel.machine.machine_record import MachineRecord
+from nivel.results.efforts import Efforts
+from nivel.results.result import Result
+from nivel.system.system import Array
+
+# singular values of the constraints below this share of the largest are zero
+RANK = 1e-9
+# generalised forces missing below this share of the largest are round-off
+MISSING = 1e-6
+# coordinates that do as much to this share are alike
+ALIKE = 0.999
+
+
+def without_actuators(machine: MachineRecord, settings: InverseSettings) -> MachineRecord:
+    """The machine without the motors that stand for actuators, and without the drivers that do not hold."""
+    taken = {each.motor for each in settings.actuators}
+    return machine.replace(
+        forces=tuple(force for force in machine.forces if force.name not in taken),
+        drivers=tuple(driver for driver in machine.drivers if driver.name in settings.hold),
+        sensors=tuple(each for each in machine.sensors if each.force not in taken),
+    )
+
+
+def inverse(
+    methods: Methods, settings: InverseSettings, motion: Result, *, listener: Listener | None = None
+) -> Efforts:
+    """Efforts at every frame of the motion. methods : of the machine `without_actuators`, in absolute coordinates.
+
+    Raises ModelError where the motion is not one of the machine.
+    """
+    listener = listener or Listener()
+    listener.say("finding efforts", float(motion.time[-1]) if len(motion.time) else None)
+    moment = at_start(methods)
+    instant = Instant(moment.motion, 0.0, moment.y)
+    names = list(instant.system.layout.coordinates["joint_coordinate"])
+    index = instant.record.joints.coordinate.astype(np.int64)
+    places = [int(index[names.index(each.coordinate)]) for each in settings.actuators]
+    times, efforts, rates, missing, shares, worst = [], [], [], [], [], Counter[str]()
+    limited, rank, freedoms, open_by = False, 0, 0, 0.0
+    for state in moving_states(instant.system, motion):
+        found, b, speed, named = _at(instant, state, settings, places, index, names)
+        limited |= found.limited
+        open_by = max(open_by, _violation(instant))
+        rank, freedoms = max(rank, found.rank), max(freedoms, len(b))
+        times.append(state.time)
+        efforts.append(found.efforts)
+        rates.append(speed)
+        missing.append(named[1])
+        shares.append(float(np.linalg.norm(found.missing) / max(float(np.linalg.norm(b)), 1e-300)))
+        if named[0] and shares[-1] > MISSING:
+            worst[named[0]] += 1
+        if listener.progress is not None:
+            listener.progress(state.time)
+    of = worst.most_common(1)[0][0] if worst else ""
+    return Efforts(
+        name=motion.name,
+        time=np.array(times),
+        actuators=tuple(each.name for each in settings.actuators),
+        coordinates=tuple(each.coordinate for each in settings.actuators),
+        units=tuple(each.unit for each in settings.actuators),
+        effort=np.array(efforts).reshape(len(times), -1),
+        rate=np.array(rates).reshape(len(times), -1),
+        missing=np.array(missing),
+        missing_share=np.array(shares),
+        missing_at=of,
+        limits=settings.limits,
+        limited=limited,
+        violation=open_by,
+        freedoms=freedoms,
+        rank=rank,
+    )
+
+
+def _at(
+    instant: Instant,
+    state: MovingState,
+    settings: InverseSettings,
+    places: list[int],
+    index: NDArray[np.int64],
+    names: list[str],
+) -> tuple[Least, Array, Array, tuple[str, float]]:
+    """The efforts at a state, what they are to give, the rates of their coordinates, and where most is missing, and how much."""
+    instant.move_to(state.time, state.y, state.vdot)
+    free, length = instant.free, instant.length[instant.free]
+    J, by_coordinate = _jacobians(instant, index)
+    r0 = instant.value()[: instant.n][free]
+    velocity = state.y[instant.positions : instant.first_state]
+    rates = by_coordinate @ velocity
+    rows = J[:, free] * length
+    size = np.linalg.norm(rows, axis=1, keepdims=True)
+    Z = length[:, None] * _free_motions(rows / np.where(size > 0.0, size, 1.0))
+    every_coordinate = Z.T @ by_coordinate[:, free].T
+    column = [int(np.flatnonzero(index == place)[0]) for place in places]
+    b = Z.T @ r0
+    limit = settings.limits
+    reach = np.linalg.norm(by_coordinate[:, free] * length, axis=1)[column]
+    found = least_efforts(every_coordinate[:, column], b, settings.weights, -limit, limit, reach)
+    named = ("", 0.0)
+    if names and np.abs(found.missing).max(initial=0.0) > MISSING * max(float(np.abs(b).max(initial=0.0)), 1e-300):
+        named = _where(every_coordinate, found.missing, column, names)
+    return found, b, rates[column], named
+
+
+def _where(columns: Array, missing: Array, actuators: list[int], names: list[str]) -> tuple[str, float]:
+    """The joint coordinate on which an effort would give most of what is missing, one with an actuator where there is a choice; that
+    effort."""
+    sizes = np.linalg.norm(columns, axis=0)
+    given = np.abs(columns.T @ missing) / np.where(sizes > RANK * max(float(sizes.max()), 1e-300), sizes, np.inf)
+    best = np.flatnonzero(given >= ALIKE * given.max())
+    acting = [k for k in best if k in actuators]
+    chosen = acting[0] if acting else int(best[np.argmax(sizes[best])])
+    return names[chosen], float(columns[:, chosen] @ missing / sizes[chosen] ** 2)
+
+
+def _violation(instant: Instant) -> float:
+    """How far the constraints are open at the state last evaluated, as a share of their scales."""
+    constraints, count = instant.record.constraints, instant.system.machine_rows
+    return float(np.max(np.abs(constraints.C / constraints.scale)[:count], initial=0.0))
+
+
+def _jacobians(instant: Instant, index: NDArray[np.int64]) -> tuple[Array, Array]:
+    """(constraint rows, rows of all joint coordinates) with respect to the velocities, at the present state."""
+    motion, system = instant.motion, instant.system
+    motion.evaluate(instant.t, instant.y)
+    observe(motion.handle.address, instant.t, instant.y, np.zeros(system.layout.width))
+    row, body, block = motion.jacobian_blocks(index.tolist())
+    rows = system.machine_rows
+    out = np.zeros((rows + len(index), system.body_count, 6))
+    np.add.at(out, (row, body), block)
+    out = out.reshape(rows + len(index), 6 * system.body_count)
+    return out[:rows], out[rows:]
+
+
+def _free_motions(rows: Array) -> Array:
+    """(f, m) orthonormal basis of the motions that the rows allow."""
+    if not len(rows):
+        return np.eye(rows.shape[1])
+    _, size, every = np.linalg.svd(rows)
+    rank = int(np.sum(size > RANK * size[0])) if size[0] > 0.0 else 0
+    return every[rank:].T

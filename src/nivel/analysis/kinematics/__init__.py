@@ -1,0 +1,1 @@
+"""Positions, velocities, accelerations and reactions of fully driven machines."""

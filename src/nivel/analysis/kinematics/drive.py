@@ -1,0 +1,74 @@
+"""A machine with one joint coordinate driven evenly over the duration of an analysis."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+from math import pi
+from typing import Any
+
+import numpy as np
+
+from nivel.analysis.assemble import assemble
+from nivel.analysis.equations import equations
+from nivel.analysis.kinematics.settings import KinematicsSettings
+from nivel.errors import Fault, ModelError
+from nivel.kernels.observe import observe
+from nivel.machine.driver import Driver
+from nivel.machine.joint import Joint
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.beam_nodes import with_nodes
+
+
+def driven(machine: MachineRecord, settings: KinematicsSettings) -> tuple[MachineRecord, KinematicsSettings]:
+    """The machine with the driver that the settings ask for, if any, and its times; and the settings with both ends of the way.
+
+    Raises ModelError where the coordinate is driven already, or the machine cannot be assembled.
+    """
+    out = machine
+    if settings.drive:
+        for driver in machine.drivers:
+            if driver.coordinate is not None and settings.drive in (driver.coordinate, f"{driver.coordinate}.angle"):
+                message = f"`{settings.drive}` is driven by {driver.name} already: leave `drive` out, or that driver"
+                raise ModelError(Fault("", 0, 0, "kinematics.drive", message))
+        start = present_value(machine, settings.drive)[0] if settings.start is None else settings.start
+        end = start + 2.0 * pi if settings.end is None else settings.end
+        settings = replace(settings, start=start, end=end)
+        taken = {driver.name for driver in machine.drivers}
+        name = next(each for each in ("drive", *(f"drive_{k}" for k in range(2, len(taken) + 3))) if each not in taken)
+        value: Any = f"{start!r} + ({(end - start) / settings.duration!r})*time"
+        drivers = (*machine.drivers, Driver(name=name, coordinate=settings.drive, value=value))
+        out = machine.replace(joints=released(machine.joints, {settings.drive}), drivers=drivers)
+    simulation = out.simulation.replace(duration=settings.duration, step=settings.step, output_interval=settings.step)
+    return out.replace(simulation=simulation), settings
+
+
+def released(joints: Sequence[Joint], driven: Collection[str]) -> tuple[Joint, ...]:
+    """The joints without start values and rates of coordinates that are driven, which say how they start."""
+    return tuple(
+        joint.replace(
+            start=_without(joint, joint.start, driven), start_rates=_without(joint, joint.start_rates, driven)
+        )
+        if joint.start is not None or joint.start_rates is not None
+        else joint
+        for joint in joints
+    )
+
+
+def _without(joint: Joint, values: Any, driven: Collection[str]) -> dict[str, float] | None:
+    if values is None:
+        return None
+    return {name: value for name, value in values.given.items() if f"{joint.name}.{name}" not in driven} or None
+
+
+def present_value(machine: MachineRecord, name: str) -> tuple[float, str, float]:
+    """(value, unit, size of the machine [m]) of a joint coordinate of the machine as assembled [rad or m]."""
+    machine = with_nodes(machine)
+    motion = equations(machine)
+    system, assembly = motion.system, assemble(machine, motion)
+    motion.evaluate(0.0, assembly.y)
+    frame = np.zeros(system.layout.width)
+    observe(motion.handle.address, 0.0, assembly.y, frame)
+    columns = next(each.columns for each in system.layout.variables if each.name == "joint_coordinate")
+    k = system.layout.coordinates["joint_coordinate"].index(name)
+    return float(frame[columns][k]), system.coordinate_units[k], system.size

@@ -1,0 +1,189 @@
+"""A whole kinematic analysis: from a machine record to a result with its trust report."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import dataclass, replace
+from importlib import import_module
+from os import PathLike
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.attributes import run_attributes
+from nivel.analysis.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
+from nivel.analysis.history import start_history
+from nivel.analysis.kinematics.refusals import refuse_free_motions, refuse_what_bends
+from nivel.analysis.kinematics.settings import KinematicsSettings
+from nivel.analysis.kinematics.singular import singular_positions
+from nivel.analysis.listener import Listener
+from nivel.analysis.lockup import find_jam
+from nivel.analysis.outcome import failure
+from nivel.analysis.plan import Methods
+from nivel.analysis.preparation import Prepared, prepare
+from nivel.analysis.settings import RunSettings, complete
+from nivel.errors import SolveError
+from nivel.integrate.catalogue import IntegratorFacts
+from nivel.integrate.positions import follow_positions
+from nivel.integrate.run import ACCEPTED, DONE_STEPS, EVALUATIONS, REJECTED, STEP, Run
+from nivel.integrate.sink import Header, Sink
+from nivel.integrate.stabilise import direct
+from nivel.kernels.handle import Handle
+from nivel.kernels.status import CONTRADICTION, DONE
+from nivel.machine.machine_record import MachineRecord
+from nivel.results.kinematics_trust import KinematicsFacts, assess_kinematics
+from nivel.results.memory import Memory
+from nivel.results.result import Result
+from nivel.results.store import Store
+from nivel.system.layout import FrameLayout, laid_out
+from nivel.system.system import Array
+
+# share of the least singular value at the start, below which an analysis that cannot go on has come to a singular position
+STUCK = 1e-4
+# histories that only the integration of a motion has
+INTEGRATED = frozenset({"external_work", "dissipated_energy", "energy_error"})
+FACTS = IntegratorFacts("nivel.integrate.positions", "follow_positions", stages=0, order=1, numbers=1)
+
+
+@dataclass
+class _Chosen:
+    """Frames without the columns that mean nothing here, for another sink."""
+
+    sink: Memory | Store
+    columns: NDArray[np.intp]
+
+    def begin(self, header: Header) -> None:
+        self.sink.begin(header)
+
+    def take(self, frames: Array) -> None:
+        self.sink.take(np.ascontiguousarray(frames[:, self.columns]))
+
+
+def kinematics(
+    machine: MachineRecord,
+    methods: Methods,
+    settings: KinematicsSettings,
+    *,
+    source: str = "",
+    out: str | PathLike[str] | None = None,
+    force: bool = False,
+    listener: Listener | None = None,
+    compile_seconds: float = 0.0,
+) -> Result:
+    """Positions, velocities, accelerations and reactions of `machine`, driven as it is; the result is in memory, or in the file `out`.
+
+    methods : of the machine with neutral settings, its duration and step. Raises ModelError before anything is computed, SolveError (with
+    the positions so far) where it cannot go on.
+    """
+    listener = listener or Listener()
+    sink = Memory() if out is None else Store(out, force)
+    begin = time.perf_counter()
+    listener.say("preparing")
+    refuse_what_bends(machine)
+    prepared = replace(prepare(methods), integrator=FACTS)
+    refuse_free_motions(machine, prepared)
+    steps = complete(methods.machine.simulation, methods.coordinates)
+    chosen = _without_histories(prepared.motion.system.layout, sink)
+    attributes = _attributes(machine, source, prepared, settings)
+    chosen[0].begin(Header(chosen[1], attributes))
+    seconds = {"prepare_seconds": time.perf_counter() - begin, "compile_seconds": compile_seconds}
+    listener.say("finding positions", settings.duration)
+    finished, run = follow(prepared, steps, chosen[0], listener)
+    finished.timing |= seconds
+    return _close(sink, prepared, finished, run)
+
+
+def _attributes(
+    machine: MachineRecord, source: str, prepared: Prepared, settings: KinematicsSettings
+) -> dict[str, str | float | int]:
+    """The attributes of the result; that drivers give the bodies other velocities than the file is no news."""
+    attributes = run_attributes(machine, source, prepared, settings)
+    assembly = {**json.loads(str(attributes["assembly"])), "velocity_change": ()}
+    return {**attributes, "assembly": json.dumps(assembly), "analysis": "kinematics"}
+
+
+def follow(prepared: Prepared, settings: RunSettings, sink: Sink, listener: Listener) -> tuple[RunOutcome, Run]:
+    """Give every position to the sink (already begun). Returns how it ended, and the history."""
+    system = prepared.motion.system
+    system.record.control.stabilise[:] = direct.coefficients(settings.step, None, None)
+    run = start_history(prepared, settings, FACTS)
+    kernels, history = prepared.motion.kernels, Handle(run)
+    correct = import_module(prepared.path.correction).correct
+    evaluate, correct, machine = kernels.evaluate.address, correct.address, prepared.motion.handle
+    finished = RunOutcome("done")
+    begin = time.perf_counter()
+    status, loop_seconds = march_in_chunks(
+        lambda: follow_positions(evaluate, correct, machine.address, history.address),
+        system,
+        run,
+        [sink],
+        finished,
+        listener.progress,
+        None,
+    )
+    if status not in (*GOES_ON, DONE):
+        finished.outcome = "failed"
+        finished.failure = _failure(prepared, settings, run, status)
+        if status != CONTRADICTION:
+            keep_last(prepared.motion, run, [sink])
+    finished.timing = {
+        "steps": int(run.counter[DONE_STEPS]),
+        "evaluations": int(run.counter[EVALUATIONS]),
+        "rejected": int(run.counter[REJECTED]),
+        "loop_seconds": loop_seconds,
+        "wall_seconds": time.perf_counter() - begin,
+    }
+    return finished, run
+
+
+def _failure(prepared: Prepared, settings: RunSettings, run: Run, status: int) -> tuple[str, str, float]:
+    """(message, advice, time [s]) of an analysis that cannot go on."""
+    t = float(run.clock[ACCEPTED])
+    jam = find_jam(prepared, t, float(run.clock[STEP]), settings.step, settings.duration, run.previous)
+    if jam is not None:
+        return jam.message, jam.advice, t
+    message, advice = failure(prepared.motion, status, t, float(run.clock[STEP]), run.previous, chosen_by="kinematics")
+    return message, advice, t
+
+
+def _without_histories(layout: FrameLayout, sink: Memory | Store) -> tuple[_Chosen, FrameLayout]:
+    """The sink behind a choice of columns, and the layout that it sees."""
+    kept = [each for each in layout.variables if each.name not in INTEGRATED]
+    columns = [0] + [k for each in kept for k in range(each.columns.start, each.columns.stop)]
+    entries = [(each.name, each.dims, each.units, each.long_name) for each in kept]
+    return _Chosen(sink, np.array(columns, dtype=np.intp)), laid_out(entries, dict(layout.coordinates))
+
+
+def _close(sink: Memory | Store, prepared: Prepared, finished: RunOutcome, run: Run) -> Result:
+    message, advice, at = finished.failure or ("", "", 0.0)
+    redundancy = prepared.redundancy
+    near = singular_positions(prepared, sink.result())
+    if finished.failure is not None and "jams" not in message and near is not None and near.least < STUCK:
+        message = f"a position at t = {near.time:.6g} s is singular: the rows of {', '.join(near.joints)} depend on each other there"
+        advice = "Branches of positions meet in it. Take another number of positions, so that none falls on it: it is then stepped over."
+    facts = KinematicsFacts(
+        outcome=finished.outcome,
+        failure=message,
+        drivers=prepared.drivers,
+        redundant_rows=redundancy.redundant_rows,
+        non_unique_joints=redundancy.non_unique_joints,
+        halved=int(run.counter[REJECTED]),
+        passed=near.passed if near is not None else (),
+        nearest=(near.least, near.time) if near is not None else None,
+        split=near.joints if near is not None else (),
+    )
+    result = sink.close(
+        {
+            "outcome": finished.outcome,
+            "failure": message,
+            "advice": advice,
+            "events": "[]",
+            "stopped_by": "",
+            "trust": assess_kinematics(sink.result(), facts).to_json(),
+            "timing": json.dumps(finished.timing),
+        }
+    )
+    if finished.failure is not None:
+        raise SolveError(message, time=at, advice=advice, result=result)
+    return result

@@ -1,0 +1,202 @@
+"""Inputs and outputs of linear equations, by the names that results and machine files have for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import TypeVar
+
+import numpy as np
+
+from nivel.analysis.instant import Complex, Instant
+from nivel.analysis.linearise.reduction import Ports
+from nivel.analysis.user_frames import frame_place, frame_velocity
+from nivel.errors import Fault, ModelError
+from nivel.kernels import sensor
+from nivel.kernels.record import SENSE
+from nivel.machine.forces import Motor
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.layout import reported
+
+XYZ = "xyz"
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Output:
+    """A number that the machine shows. read : it, from the twin of an instant whose markers and coordinates are measured."""
+
+    name: str
+    units: str
+    read: Callable[[Instant], complex]
+
+
+@dataclass(frozen=True)
+class Input:
+    """What acts on the machine. kind : effort (of `shown`, by its rate), drive (acceleration of a row) or state (its value).
+
+    place : coordinate, row or state; body and axis of forces on a body.
+    """
+
+    name: str
+    units: str
+    kind: str
+    place: tuple[int, ...]
+
+
+class Catalogue:
+    """All inputs and outputs that a machine has; `instant` is in its coordinates."""
+
+    def __init__(self, machine: MachineRecord, instant: Instant) -> None:
+        self.machine, self.instant, self.system = machine, instant, instant.system
+        self.coordinates = list(self.system.layout.coordinates["joint_coordinate"])
+        self.index = self.system.record.joints.coordinate.astype(np.int64)
+        self.outputs: dict[str, Output] = {each.name: each for each in self._outputs()}
+        self.inputs: dict[str, Input] = {each.name: each for each in self._inputs()}
+
+    def default_inputs(self) -> list[str]:
+        """Motors and drivers."""
+        return [f.name for f in self.machine.forces if isinstance(f, Motor)] + [d.name for d in self.machine.drivers]
+
+    def default_outputs(self) -> list[str]:
+        """Sensors; without any the joint coordinates."""
+        measured = [name for name in self.outputs if name.startswith("sensor.")]
+        return measured or list(self.coordinates)
+
+    def chosen(self, inputs: Sequence[str] | None, outputs: Sequence[str] | None) -> tuple[list[Input], list[Output]]:
+        """Those of these names. Raises ModelError with every name that leads nowhere."""
+        faults: list[Fault] = []
+        taken = [self._find(self._whole(name), self.inputs, "inputs", faults) for name in inputs or ()]
+        if inputs is None:
+            taken = [self.inputs[name] for name in self.default_inputs()]
+        seen = [self._find(self._whole(name), self.outputs, "outputs", faults) for name in outputs or ()]
+        if outputs is None:
+            seen = [self.outputs[name] for name in self.default_outputs()]
+        if faults:
+            raise ModelError(faults)
+        return [each for each in taken if each is not None], [each for each in seen if each is not None]
+
+    @staticmethod
+    def _find(name: str, known: Mapping[str, T], field: str, faults: list[Fault]) -> T | None:
+        found = known.get(name) or known.get(f"sensor.{name}")
+        if found is None:
+            near = get_close_matches(name, known, n=3, cutoff=0.5)
+            hint = f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(list(known)[:8])} …"
+            faults.append(Fault("", 0, 0, f"linearise.{field}", f"there is no {field[:-1]} `{name}`; {hint}"))
+        return found
+
+    # --- outputs ---
+
+    def _outputs(self) -> list[Output]:
+        system, units = self.system, self.system.coordinate_units
+        out: list[Output] = []
+        for name, k, unit in zip(self.coordinates, self.index.tolist(), units, strict=True):
+            out.append(Output(name, unit, lambda own, k=k: own.twin.coordinates.value[k]))
+            out.append(Output(f"{name}.rate", f"{unit}/s", lambda own, k=k: own.twin.coordinates.rate[k]))
+        out += [each for b, body in enumerate(system.bodies) for each in self._of_body(b, body)]
+        for k, fact in enumerate(system.states):
+            out.append(
+                Output(f"state.{fact.name}", fact.units, lambda own, k=k: own.twin.residual.y[own.first_state + k])
+            )
+        drivers = {driver.name for driver in self.machine.drivers}
+        for row, owner, unit in self._rows(drivers):
+            effort = "N" if unit == "m" else "N m"
+            out.append(Output(f"driver.{owner}.effort", effort, lambda own, row=row: -own.twin.residual.lam[row]))
+        values = reported(system.layout, len(system.record.outputs.value))
+        for k, each in enumerate(values):
+            if each.name.startswith(("sensor.", "force.")):
+                out.append(Output(each.name, each.units, lambda own, k=k: own.twin.outputs.value[k]))
+        return out
+
+    def _rows(self, owners: set[str]) -> list[tuple[int, str, str]]:
+        """(row of the residual, owner, unit) of the rows of these owners."""
+        row = self.instant.record.residual.row.tolist()
+        system = self.system
+        return [
+            (k, system.row_owner[r], system.row_units[r])
+            for k, r in enumerate(row)
+            if r < len(system.row_owner) and system.row_owner[r] in owners
+        ]
+
+    def _of_body(self, b: int, body: str) -> list[Output]:
+        out = []
+        for i, axis in enumerate(XYZ):
+            out += [
+                Output(f"{body}.position.{axis}", "m", lambda own, i=i: frame_place(own, b)[i]),
+                Output(f"{body}.velocity.{axis}", "m/s", lambda own, i=i: frame_velocity(own, b)[i]),
+                Output(f"{body}.angular_velocity.{axis}", "rad/s", lambda own, i=i: own.twin.bodies.omega[b, i]),
+            ]
+        return out
+
+    def reader(self, outputs: Sequence[Output]) -> Callable[[Instant], Complex]:
+        """What reads these outputs from the twin."""
+        has_sensors = bool(self.system.record.hooks.address[SENSE])
+
+        def read(own: Instant) -> Complex:
+            own.place_markers()
+            own.measure_coordinates()
+            if has_sensors:
+                assert own.motion.twin is not None
+                sensor.apply.twin(own.motion.twin.address, 0, complex(own.t))
+            return np.array([each.read(own) for each in outputs], dtype=np.complex128)
+
+        return read
+
+    # --- inputs ---
+
+    def _inputs(self) -> list[Input]:
+        system = self.system
+        effort = {"rad": "N m", "m": "N"}
+        units = dict(zip(self.coordinates, system.coordinate_units, strict=True))
+        out = [
+            Input(name, effort.get(units[name], ""), "effort", (k,))
+            for name, k in zip(self.coordinates, self.index.tolist(), strict=True)
+        ]
+        by_name = {each.name: each for each in out}
+        for force in self.machine.forces:
+            if isinstance(force, Motor):
+                whole = self._whole(force.coordinate)
+                out.append(Input(force.name, by_name[whole].units, "effort", by_name[whole].place))
+        for row, owner, unit in self._rows({driver.name for driver in self.machine.drivers}):
+            out.append(Input(owner, f"{'rad' if unit == '1' else unit}/s^2", "drive", (row,)))
+        out += [Input(f"state.{fact.name}", fact.units, "state", (k,)) for k, fact in enumerate(system.states)]
+        for b, body in enumerate(system.bodies):
+            out += [Input(f"{body}.force.{axis}", "N", "force", (b, i)) for i, axis in enumerate(XYZ)]
+            out += [Input(f"{body}.torque.{axis}", "N m", "torque", (b, i)) for i, axis in enumerate(XYZ)]
+        return out
+
+    def _whole(self, reference: str) -> str:
+        """The full name of a joint coordinate that is mentioned by its joint alone; anything else as it is."""
+        found = [name for name in self.coordinates if name.startswith(f"{reference}.")]
+        return found[0] if len(found) == 1 else reference
+
+    def ports(self, inputs: Sequence[Input]) -> Ports:
+        """The generalised forces of inputs, and the rows that they prescribe."""
+        own = self.instant
+        force, held = np.zeros((own.n, len(inputs))), np.zeros((own.rows, len(inputs)))
+
+        def rates(twin_of: Instant) -> Complex:
+            twin_of.place_markers()
+            twin_of.measure_coordinates()
+            return np.array([_rate(twin_of, each) for each in inputs], dtype=np.complex128)
+
+        if inputs:
+            force[own.free] = own.along("v", rates).seen.T
+        opened: list[int] = []
+        for k, each in enumerate(inputs):
+            if each.kind == "drive":
+                held[each.place[0], k] = 1.0
+                opened.append(each.place[0])
+        return Ports(force, held, np.array(opened, dtype=np.intp))
+
+
+def _rate(own: Instant, each: Input) -> complex:
+    """The velocity on which an input does work; 0 where it does none."""
+    if each.kind == "effort":
+        return own.twin.coordinates.rate[each.place[0]]
+    if each.kind == "force":
+        return frame_velocity(own, each.place[0])[each.place[1]]
+    if each.kind == "torque":
+        return own.twin.bodies.omega[each.place]
+    return 0.0

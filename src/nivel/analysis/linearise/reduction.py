@@ -1,0 +1,233 @@
+"""Linear equations of motion in independent coordinates.
+
+With small changes δq of positions, δv of velocities, δx of first-order states and inputs u,
+
+    δq̇ = δv + E δq        C_q δq = 0        C_q δv + W δq = 0
+    [M C_qᵀ; C_q 0] [δv̇; δλ] = [F u - D δv - K δq - r_x δx;  G u - G_v δv - G_q δq]
+
+E is -ω̃̄ on the turns of bodies, W = ∂Ċ/∂q, G_v and G_q the derivatives of C̈. States are s = S δq, w = S δv and δx, where S selects
+independent coordinates; then δq = Z s, δv = Y s + Z w with constant S, so that no derivative of Z enters (Peterson, Gede, Hubbard 2015).
+The matrix K holds ∂(C_qᵀ λ)/∂q, the stiffness of the reactions.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lstsq, qr
+
+from nivel.analysis.instant import Instant, Reader, Slopes
+from nivel.system.system import Array
+
+# singular values of the constraints below this share of the largest are zero
+RANK = 1e-9
+# of the sum of the magnitudes of its terms, what is known of a number
+ROUND_OFF = 1e-14
+
+
+@dataclass(frozen=True)
+class Ports:
+    """Inputs of a machine: force (n, p) generalised forces of each, held (K, p) what it adds to C̈, opened : rows that inputs prescribe."""
+
+    force: Array
+    held: Array
+    opened: NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class StateSpace:
+    """ẋ = A x + B u, y = C x + D u."""
+
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+
+
+class Reduction:
+    """The linear equations of a machine at an instant; reader : of its outputs. selected : places of the independent coordinates; None:
+    chosen here."""
+
+    def __init__(
+        self, instant: Instant, ports: Ports, reader: Reader, selected: NDArray[np.intp] | None = None
+    ) -> None:
+        self.instant, self.ports, self._selected, self._reader = instant, ports, selected, reader
+
+    @cached_property
+    def by_q(self) -> Slopes:
+        """Derivatives with respect to positions."""
+        return self.instant.along("q", self._reader)
+
+    @cached_property
+    def by_v(self) -> Slopes:
+        """Derivatives with respect to velocities."""
+        return self.instant.along("v", self._reader)
+
+    @cached_property
+    def by_x(self) -> Slopes:
+        """Derivatives with respect to states of elements."""
+        return self.instant.along("x", self._reader)
+
+    @cached_property
+    def by_rate(self) -> Slopes:
+        """Derivatives with respect to accelerations."""
+        return self.instant.along("vdot", self._reader)
+
+    @cached_property
+    def by_force(self) -> Slopes:
+        """Derivatives with respect to multipliers."""
+        return self.instant.along("lam", self._reader)
+
+    @cached_property
+    def J(self) -> Array:
+        """(K, f) constraint rows of the free unknowns."""
+        return self.by_rate.Cddot
+
+    @cached_property
+    def kept(self) -> NDArray[np.intp]:
+        """Rows that no input prescribes."""
+        return np.setdiff1d(np.arange(self.instant.rows), self.ports.opened)
+
+    @cached_property
+    def selected(self) -> NDArray[np.intp]:
+        """Places among the free unknowns of the independent coordinates: those that move most in the motions that are left."""
+        return self._chosen_for(self.kept) if self._selected is None else self._selected
+
+    def _chosen_for(self, kept: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Independent coordinates of the motions that these rows leave."""
+        length = self.instant.length[self.instant.free]
+        N = _null_space(self.J[kept] * length / self.instant.row_scale[kept, None])
+        if not N.shape[1]:
+            return np.zeros(0, dtype=np.intp)
+        pivoted: Any = qr(N.T, mode="economic", pivoting=True)
+        return np.sort(pivoted[2][: N.shape[1]])
+
+    @cached_property
+    def inverse(self) -> Array:
+        """[C_q; S]⁻¹ (f, K + m), least norm where rows repeat each other."""
+        return self._inverse_with(self.kept, self.selected)
+
+    def _inverse_with(self, kept: NDArray[np.intp], selected: NDArray[np.intp]) -> Array:
+        f, m = len(self.instant.free), len(selected)
+        length = self.instant.length[self.instant.free]
+        S = np.zeros((m, f))
+        S[np.arange(m), selected] = 1.0
+        weight = np.concatenate([1.0 / self.instant.row_scale[kept], 1.0 / length[selected]])
+        whole = weight[:, None] * np.vstack([self.J[kept], S]) * length
+        if not f:
+            return np.zeros((0, len(weight)))
+        found: Any = lstsq(whole, np.diag(weight))
+        return length[:, None] * found[0]
+
+    @cached_property
+    def Z(self) -> Array:
+        """(f, m) motion of all unknowns for a unit rate of each independent one."""
+        return self.inverse[:, len(self.kept) :]
+
+    @cached_property
+    def Y(self) -> Array:
+        """(f, m) velocities that displaced independent coordinates ask for at rest."""
+        return -self.inverse[:, : len(self.kept)] @ (self.by_q.Cdot[self.kept] @ self.Z)
+
+    @cached_property
+    def E(self) -> Array:
+        """(f, f) δq̇ = δv + E δq: -ω̃̄ on the turns of bodies, else zero."""
+        own, out = self.instant, np.zeros((self.instant.n, self.instant.n))
+        for first in np.flatnonzero(own.place[:, 1] == 0):
+            x, y, z = own.y[own.positions + first :][:3]
+            out[first : first + 3, first : first + 3] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
+        return out[np.ix_(own.free, own.free)]
+
+    def state_space(self) -> StateSpace:
+        """A, B, C, D for the states (s, w, x)."""
+        own, free = self.instant, self.instant.free
+        Z, Y, m, S, p = self.Z, self.Y, len(self.selected), own.state_count, self.ports.force.shape[1]
+        q = np.hstack([Z, np.zeros((len(free), m + S + p))])
+        v = np.hstack([Y, Z, np.zeros((len(free), S + p))])
+        x = np.hstack([np.zeros((S, 2 * m)), np.eye(S), np.zeros((S, p))])
+        u = np.hstack([np.zeros((p, 2 * m + S)), np.eye(p)])
+        rate, lam = self._accelerations(q, v, x, u)
+        qdot = v + self.E @ q
+        xdot = self._combined("g", q, v, x, rate, lam)
+        seen = self._combined("seen", q, v, x, rate, lam)
+        whole = np.vstack([qdot[self.selected], rate[self.selected], xdot])
+        count = 2 * m + S
+        return StateSpace(whole[:, :count], whole[:, count:], seen[:, :count], seen[:, count:])
+
+    @cached_property
+    def _saddle(self) -> Array:
+        """(f + K, f + K) [M C_qᵀ; C_q 0]."""
+        free = self.instant.free
+        f, K = len(free), self.instant.rows
+        saddle = np.zeros((f + K, f + K))
+        saddle[:f, :f], saddle[:f, f:], saddle[f:, :f] = self.by_rate.r[free], self.by_force.r[free], self.J
+        return saddle
+
+    @cached_property
+    def _saddle_inverse(self) -> Array:
+        """(f + K, f + K) its inverse, in the null space of all rows: where these leave no motion, forces make none, exactly."""
+        free, K = self.instant.free, self.instant.rows
+        M, every = self.by_rate.r[free], np.arange(K)
+        inner = self._inverse_with(every, self._chosen_for(every) if len(self.ports.opened) else self.selected)
+        P, Z = inner[:, :K], inner[:, K:]
+        reduced = Z.T @ M @ Z
+        by_force = Z @ np.linalg.solve(reduced, Z.T) if Z.shape[1] else np.zeros((len(free), len(free)))
+        by_row = P - by_force @ M @ P
+        return np.block([[by_force, by_row], [P.T - P.T @ M @ by_force, -P.T @ M @ by_row]])
+
+    def _accelerations(self, q: Array, v: Array, x: Array, u: Array) -> tuple[Array, Array]:
+        """(δv̇, δλ) for changes of positions, velocities, states and inputs."""
+        free = self.instant.free
+        forces = self.ports.force[free] @ u - self._moved("r", q, v, x)[free]
+        rows = self.ports.held @ u - self._moved("Cddot", q, v, x)
+        out = self._saddle_inverse @ np.vstack([forces, rows])
+        return out[: len(free)], out[len(free) :]
+
+    def noise(self) -> Array:
+        """(n, n) what round-off may leave of entries of A in which larger terms cancel."""
+        own, free = self.instant, self.instant.free
+        Z, Y, m, S = np.abs(self.Z), np.abs(self.Y), len(self.selected), own.state_count
+        q = np.hstack([Z, np.zeros((len(free), m + S))])
+        v = np.hstack([Y, Z, np.zeros((len(free), S))])
+        x = np.hstack([np.zeros((S, 2 * m)), np.eye(S)])
+
+        def moved(part: str) -> Array:
+            terms = ((self.by_q, q), (self.by_v, v), (self.by_x, x))
+            return sum((np.abs(getattr(each, part)) @ size for each, size in terms), start=np.zeros((1, q.shape[1])))
+
+        inverse = np.abs(self._saddle_inverse)
+        # an inverse is as uncertain as what it is the inverse of
+        inverse = inverse + inverse @ np.abs(self._saddle) @ inverse
+        unknown = inverse @ np.vstack([moved("r")[free], moved("Cddot")])
+        rate, lam = unknown[: len(free)], unknown[len(free) :]
+        xdot = moved("g") + np.abs(self.by_rate.g) @ rate + np.abs(self.by_force.g) @ lam
+        qdot = v + np.abs(self.E) @ q
+        return ROUND_OFF * np.vstack([qdot[self.selected], rate[self.selected], xdot])
+
+    def _moved(self, part: str, q: Array, v: Array, x: Array) -> Array:
+        return getattr(self.by_q, part) @ q + getattr(self.by_v, part) @ v + getattr(self.by_x, part) @ x
+
+    def _combined(self, part: str, q: Array, v: Array, x: Array, rate: Array, lam: Array) -> Array:
+        """Change of a part of the equations, or of the outputs."""
+        more = getattr(self.by_rate, part) @ rate + getattr(self.by_force, part) @ lam
+        return self._moved(part, q, v, x) + more
+
+    def second_order(self) -> tuple[Array, Array, Array]:
+        """(M, D, K), each (m, m), in the independent coordinates of a machine at rest: Zᵀ M Z, Zᵀ D Z, Zᵀ K Z."""
+        free, Z = self.instant.free, self.Z
+        slopes: tuple[Slopes, ...] = (self.by_rate, self.by_v, self.by_q)
+        M, D, K = (Z.T @ each.r[free] @ Z for each in slopes)
+        return M, D, K
+
+
+def _null_space(rows: Array) -> Array:
+    """(f, m) orthonormal basis of the motions that the rows allow."""
+    if not rows.shape[0]:
+        return np.eye(rows.shape[1])
+    _, sizes, every = np.linalg.svd(rows)
+    rank = int(np.sum(sizes > RANK * sizes[0])) if len(sizes) else 0
+    return every[rank:].T

@@ -1,0 +1,299 @@
+"""A whole linearisation: from a machine record to its linear model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from nivel.analysis.attributes import run_attributes
+from nivel.analysis.instant import Instant
+from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues, with_squares
+from nivel.analysis.linearise.names import velocity_names
+from nivel.analysis.linearise.ports import Catalogue, Input
+from nivel.analysis.linearise.reduction import Ports, Reduction, StateSpace
+from nivel.analysis.linearise.refusals import MOST, refuse_jumps
+from nivel.analysis.linearise.settings import LineariseSettings
+from nivel.analysis.linearise.steady import BALANCE, acceleration_of, is_at_rest, keeps_its_equations
+from nivel.analysis.listener import Listener
+from nivel.analysis.moment import Moment, Posture, at_posture, at_start
+from nivel.analysis.plan import Methods
+from nivel.analysis.statics.linear import symmetric, symmetric_modes
+from nivel.analysis.unknowns import unknown_name
+from nivel.analysis.user_frames import frame_axes, frame_place
+from nivel.errors import Fault, ModelError
+from nivel.kernels.record import NONE
+from nivel.machine.machine_record import MachineRecord
+from nivel.results.linear_model import LinearModel
+from nivel.results.linear_motion import Posed
+from nivel.system.system import Array
+
+NAMED = 6  # states in a sentence
+SYMMETRIC = 1e-9  # share by which a symmetric stiffness may be unsymmetric
+
+
+@dataclass(frozen=True)
+class _States:
+    """Names and units of (s, w, x), and their sizes."""
+
+    names: list[str]
+    units: list[str]
+    scale: Array
+
+
+def linearise(
+    machine: MachineRecord,
+    methods: Methods,
+    settings: LineariseSettings,
+    *,
+    posture: Posture | None = None,
+    source: str = "",
+    listener: Listener | None = None,
+) -> LinearModel:
+    """The linear model of `machine`. methods : of the machine with neutral settings. posture : of a moment of a run, where it is wanted.
+
+    Raises ModelError for what has no linear equations, SolveError where they cannot be evaluated.
+    """
+    (listener or Listener()).say("linearising")
+    refuse_jumps(machine)
+    moment = at_start(methods) if posture is None else at_posture(methods, posture)
+    instant = Instant(moment.motion, moment.t, moment.y)
+    _refuse_large(instant)
+    catalogue = Catalogue(machine, instant)
+    inputs, outputs = catalogue.chosen(settings.inputs, settings.outputs)
+    reduction = Reduction(instant, catalogue.ports(inputs), catalogue.reader(outputs))
+    signs = _signs(catalogue, instant)[reduction.selected]
+    whole = _signed(reduction.state_space(), signs)
+    states = _states(instant, reduction)
+    space, states, inputs, kept = _opened(whole, states, inputs, instant, len(signs))
+    noise = reduction.noise()[np.ix_(kept, kept)]
+    found = eigenvalues(space.A, _timed(states.scale, space.A, len(signs)), noise)
+    if len(space.A) == 2 * len(signs) == len(whole.A) and is_at_rest(instant):
+        found = _undamped(found, *_held(instant, reduction).second_order())
+    shift, turn = _shapes(instant, reduction, found, signs, states, whole.A)
+    steady, notes = _judged(catalogue, moment, instant, reduction, inputs, whole.A, signs)
+    second = [signs[:, None] * each * signs for each in reduction.second_order()]
+    posed = _posed(machine, source, moment, instant, settings)
+    return LinearModel(
+        name=machine.name,
+        time=moment.t,
+        about=settings.words,
+        coordinates=methods.coordinates,
+        states=tuple(states.names),
+        state_units=tuple(states.units),
+        inputs=tuple(each.name for each in inputs),
+        input_units=tuple(each.units for each in inputs),
+        outputs=tuple(each.name for each in outputs),
+        output_units=tuple(each.units for each in outputs),
+        A=space.A,
+        B=space.B,
+        C=space.C,
+        D=space.D,
+        M=second[0],
+        damping=second[1],
+        K=second[2],
+        eigenvalues=found.values,
+        structural=found.zero,
+        right=found.right,
+        left=found.left,
+        shift=shift,
+        turn=turn,
+        structural_zeros=_zeros(found, states),
+        steady=steady,
+        notes=tuple(notes),
+        posed=posed,
+    )
+
+
+def _refuse_large(instant: Instant) -> None:
+    if instant.n > MOST:
+        message = f"{instant.n} velocities are more than the {MOST} of which full matrices are made: use `nivel statics --modes`"
+        raise ModelError(Fault("", 0, 0, "linearise", message))
+
+
+def _signs(catalogue: Catalogue, instant: Instant) -> Array:
+    """(f,) -1 where a joint coordinate of the results grows against the velocity of the same name, else 1."""
+    names = velocity_names(instant.system)
+    known = catalogue.coordinates
+    place = {name: k for k, name in enumerate(known)}
+    outputs = [catalogue.outputs[name] for name in known]
+    slopes = instant.along("q", catalogue.reader(outputs)).seen if outputs else np.zeros((0, len(instant.free)))
+    out = np.ones(len(instant.free))
+    for k, j in enumerate(instant.free):
+        row = place.get(names[j][0])
+        if row is not None and slopes[row, k] < 0.0:
+            out[k] = -1.0
+    return out
+
+
+def _signed(space: StateSpace, signs: Array) -> StateSpace:
+    m = len(signs)
+    more = np.ones(len(space.A))
+    more[:m], more[m : 2 * m] = signs, signs
+    return StateSpace(more[:, None] * space.A * more, more[:, None] * space.B, space.C * more, space.D)
+
+
+def _states(instant: Instant, reduction: Reduction) -> _States:
+    names = velocity_names(instant.system)
+    chosen = [names[instant.free[k]] for k in reduction.selected]
+    length = instant.length[instant.free][reduction.selected]
+    facts = instant.system.states
+    return _States(
+        [name for name, _ in chosen]
+        + [f"{name}.rate" for name, _ in chosen]
+        + [f"state.{fact.name}" for fact in facts],
+        [unit for _, unit in chosen] + [f"{unit}/s" for _, unit in chosen] + [fact.units for fact in facts],
+        np.concatenate([length, length, [fact.scale or 1.0 for fact in facts]]),
+    )
+
+
+def _opened(
+    space: StateSpace, states: _States, inputs: Sequence[Input], instant: Instant, m: int
+) -> tuple[StateSpace, _States, list[Input], NDArray[np.intp]]:
+    """States of elements that are inputs become columns of B; also which states are left."""
+    taken = {2 * m + each.place[0]: k for k, each in enumerate(inputs) if each.kind == "state"}
+    kept = np.array([k for k in range(len(space.A)) if k not in taken], dtype=np.intp)
+    B, D = space.B.copy(), space.D.copy()
+    for column, k in taken.items():
+        B[:, k], D[:, k] = space.A[:, column], space.C[:, column]
+    out = StateSpace(space.A[np.ix_(kept, kept)], B[kept], space.C[:, kept], D)
+    left = _States([states.names[k] for k in kept], [states.units[k] for k in kept], states.scale[kept])
+    return out, left, list(inputs), kept
+
+
+def _held(instant: Instant, reduction: Reduction) -> Reduction:
+    """The equations of the machine while drivers hold all that they prescribe, as inputs or not: the others add zeros alone."""
+    if not len(reduction.ports.opened):
+        return reduction
+    ports = Ports(np.zeros((instant.n, 0)), np.zeros((instant.rows, 0)), np.zeros(0, dtype=np.intp))
+    return Reduction(instant, ports, _nothing)
+
+
+def _undamped(found: Eigen, M: Array, D: Array, K: Array) -> Eigen:
+    """With the eigenvalues of symmetric matrices, where there is no damping and forces have a potential."""
+    size = float(np.max(np.abs(K), initial=0.0))
+    if not len(M) or np.any(D) or size == 0.0 or np.max(np.abs(K - K.T)) > SYMMETRIC * size:
+        return found
+    return with_squares(found, symmetric_modes(symmetric(K), symmetric(M))[0])
+
+
+def _timed(scale: Array, A: Array, m: int) -> Array:
+    """Sizes of the states, those of rates by the fastest vibration that stiffness alone would make."""
+    stiffness = np.abs(A[m : 2 * m, :m] * scale[:m] / scale[m : 2 * m, None])
+    out = scale.copy()
+    out[m : 2 * m] *= np.sqrt(float(np.max(stiffness, initial=0.0))) or 1.0
+    return out
+
+
+def _shapes(
+    instant: Instant, reduction: Reduction, found: Eigen, signs: Array, states: _States, A: Array
+) -> tuple[Complex, Complex]:
+    """(shift, turn), each (n, B, 3): what body frames do in each eigenvector."""
+    count, m = instant.system.body_count, len(signs)
+
+    def read(own: Instant) -> Complex:
+        places = np.array([frame_place(own, b) for b in range(count)])
+        axes = own.twin.bodies.A[:count]
+        return np.concatenate([places.ravel(), axes.ravel()])
+
+    if not count or not m or len(found.values) == 0:
+        return np.zeros((len(found.values), count, 3), complex), np.zeros((len(found.values), count, 3), complex)
+    seen = instant.along("q", read).seen @ (reduction.Z * signs)
+    axes = instant.read(read)[3 * count :].reshape(count, 3, 3)
+    spins = np.einsum("bijk,blj->bilk", seen[3 * count :].reshape(count, 3, 3, m), axes)
+    turns = 0.5 * np.stack(
+        [spins[:, 2, 1] - spins[:, 1, 2], spins[:, 0, 2] - spins[:, 2, 0], spins[:, 1, 0] - spins[:, 0, 1]], axis=1
+    )
+    x = found.right[:m]
+    shift = np.einsum("bim,mk->kbi", seen[: 3 * count].reshape(count, 3, m), x)
+    return shift, np.einsum("bim,mk->kbi", turns, x)
+
+
+def _zeros(found: Eigen, states: _States) -> tuple[str, ...]:
+    """Sentences on the eigenvalues that are exactly zero."""
+    out = []
+    single = [states.names[group[0]] for group in found.zeros if len(group) == 1]
+    if single:
+        out.append(f"{len(single)} exactly zero, by structure: nothing pulls back {_listed(single)}")
+    for group in dict.fromkeys(group for group in found.zeros if len(group) > 1):
+        names = [states.names[k] for k in group]
+        out.append(f"{found.zeros.count(group)} exactly zero, of a rigid motion of {_listed(names)}")
+    return tuple(out)
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(names[:NAMED]) + (f" and {len(names) - NAMED} more" if len(names) > NAMED else "")
+
+
+def _judged(
+    catalogue: Catalogue,
+    moment: Moment,
+    instant: Instant,
+    reduction: Reduction,
+    inputs: Sequence[Input],
+    A: Array,
+    signs: Array,
+) -> tuple[bool, list[str]]:
+    """Whether the eigenvalues describe the motion, and what a reader has to know."""
+    if is_at_rest(instant):
+        return _judged_at_rest(moment, instant, reduction, A)
+
+    def find(t: float, y: Array) -> Array | None:
+        if t == instant.t:
+            return A
+        own = Instant(moment.motion, t, y)
+        later = Reduction(own, catalogue.ports(inputs), _nothing, reduction.selected)
+        return _signed(later.state_space(), signs).A
+
+    if keeps_its_equations(moment.prepared.motion, instant, find):
+        return True, ["the machine moves steadily: A is the same at later moments of the motion"]
+    spinning = instant.place[instant.free[reduction.selected], 1] != NONE
+    hint = (
+        "where a body spins, measure it by joint coordinates: --coordinates relative"
+        if np.any(spinning)
+        else "A, B, C and D hold at this moment alone"
+    )
+    return False, [f"A changes while the machine moves, so its eigenvalues describe no motion: {hint}"]
+
+
+def _judged_at_rest(moment: Moment, instant: Instant, reduction: Reduction, A: Array) -> tuple[bool, list[str]]:
+    """At rest the machine has to be in equilibrium, states of elements included."""
+    gravity = float(np.linalg.norm(instant.record.bodies.gravity)) / instant.system.size
+    rate = float(np.max(np.abs(A), initial=0.0))
+    size = acceleration_of(instant)
+    worst = int(np.argmax(size)) if len(size) else 0
+    notes = []
+    if len(size) and size[worst] > BALANCE * max(gravity, rate, 1e-12):
+        name = unknown_name(instant.system, worst)
+        notes.append(
+            f"the machine is at rest but not in equilibrium ({name} accelerates most), so eigenvalues describe no motion: "
+            "linearise about equilibrium"
+        )
+    g = instant.value()[instant.n :][: instant.state_count]
+    facts = instant.system.states
+    for k, fact in enumerate(facts):
+        if abs(g[k]) > BALANCE * (fact.scale or 1.0) * max(1.0, abs(A[2 * len(reduction.selected) + k]).max()):
+            notes.append(
+                f"the state {fact.name} changes at a rate of {g[k]:.4g} per second: linearise about equilibrium"
+            )
+    return not notes, notes
+
+
+def _posed(machine: MachineRecord, source: str, moment: Moment, instant: Instant, settings: LineariseSettings) -> Posed:
+    """What it takes to show modes: the machine, and where its bodies are."""
+    count = instant.system.body_count
+
+    attributes = run_attributes(machine, source, moment.prepared, settings)
+    own = instant
+    own.value()
+    places = np.array([frame_place(own, b).real for b in range(count)]).reshape(count, 3)
+    axes = np.array([frame_axes(own, b).real for b in range(count)]).reshape(count, 3, 3)
+    theta = Rotation.from_matrix(axes).as_quat(scalar_first=True)
+    return Posed(tuple(own.system.bodies), places, theta, own.system.size, {**attributes, "outcome": "done"})
+
+
+def _nothing(_: Instant) -> Complex:
+    return np.zeros(0, dtype=np.complex128)

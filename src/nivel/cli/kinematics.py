@@ -1,0 +1,141 @@
+"""`nivel kinematics MACHINE`: positions, velocities, accelerations and reactions of a driven machine; a result file and a report."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
+from nivel.cli.progress import progress_listener
+from nivel.cli.run import COLOURS, assembly_lines, beside, refuse_to_replace
+
+if TYPE_CHECKING:
+    from nivel.results.mechanism import Range
+    from nivel.results.result import Result
+
+
+@click.command(short_help="Positions, velocities and reactions of a driven machine.")
+@file_argument("machine")
+@click.option("--drive", metavar="COORDINATE", help="Drive a joint coordinate evenly, e.g. hinge.angle.")
+@click.option("--from", "start", metavar="VALUE", help="Where it begins, e.g. '10 deg'; default: where it is.")
+@click.option("--to", "end", metavar="VALUE", help="Where it ends; default: one turn further.")
+@click.option("--range", "ranged", is_flag=True, help="Find how far the coordinate of --drive can go both ways.")
+@click.option("--duration", metavar="TIME", help="Of the motion; default that of the machine, 1 s with --drive.")
+@click.option("--positions", metavar="NUMBER", help="So many, both ends included; default 361.")
+@click.option(
+    "--transmission",
+    metavar="JOINTS",
+    multiple=True,
+    help="Transmission angle at the second of three joints, e.g. pin,rocker_pin,pivot. May be repeated.",
+)
+@click.option(
+    "--curve", metavar="POINT", multiple=True, help="Path of a marker or of BODY:X,Y,Z in its frame. May be repeated."
+)
+@click.option("--coordinates", metavar="NAME", help="What the equations are written in: auto, absolute, relative.")
+@override_option
+@allow_code_option
+@click.option("--out", metavar="FILE.nc", type=click.Path(), help="Result file. Default: NAME-kinematics.nc, here.")
+@click.option("--force", is_flag=True, help="Replace an existing result.")
+@click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
+@quiet_option
+@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")
+def command(
+    machine: str,
+    overrides: dict[str, str],
+    allow_code: bool,
+    out: str | None,
+    force: bool,
+    no_report: bool,
+    quiet: bool,
+    as_json: bool,
+    ranged: bool,
+    transmission: tuple[str, ...],
+    curve: tuple[str, ...],
+    **options: Any,
+) -> None:
+    """Move MACHINE through its positions, as its drivers say or by driving one joint coordinate, without integration.
+
+    Where it cannot go on, the message says which driver is held by which joints. Exit code 0 done, 2 the input is at fault, 3 the machine
+    cannot go on, 130 interrupted; the positions until then are kept.
+    """
+    from nivel.api import load
+    from nivel.errors import ModelError, SolveError
+    from nivel.results.mechanism import add_studies, read_curve, read_transmission
+
+    loaded = load(machine, overrides, allow_code=allow_code)
+    angles = [read_transmission(loaded.record, each) for each in transmission]
+    points = [read_curve(loaded.record, each) for each in curve]
+    if ranged:
+        _tell_range(loaded, options, quiet, as_json)
+        return
+    target = Path(out) if out is not None else Path(f"{loaded.name}-kinematics.nc")
+    report = None if no_report else beside(target)
+    refuse_to_replace(report, target, force, Path(machine))
+    failure: SolveError | None = None
+    with progress_listener(quiet) as listener:
+        try:
+            result = loaded.kinematics(**options, out=target, force=force, listener=listener)
+        except SolveError as error:
+            failure = error
+            result: Any = error.result
+        studies = add_studies(result, angles, points) if result is not None else None
+        if report is not None and result is not None:
+            listener.say("writing the report")
+            try:
+                result.report(report)
+                if studies is not None:
+                    studies.report(report.with_name(f"{report.stem}-curves.html"))
+            except ModelError:
+                if failure is None:
+                    raise
+    if as_json and result is not None:
+        summary = result.summary()
+        click.echo(json.dumps({**summary, "studies": studies.summary()} if studies is not None else summary, indent=2))
+    if not quiet and result is not None:
+        _say(result, target, report)
+        for line in studies.lines() if studies is not None else ():
+            click.echo(line, err=True)
+    if failure is not None:
+        raise failure
+    if result is not None and result.outcome == "interrupted":
+        raise KeyboardInterrupt
+
+
+def _tell_range(loaded: Any, options: dict[str, Any], quiet: bool, as_json: bool) -> None:
+    """Both ends of the way of a coordinate."""
+    from nivel.errors import Fault, ModelError
+
+    given = [name for name in ("start", "end", "duration") if options[name] is not None]
+    if options["drive"] is None:
+        raise ModelError(Fault("", 0, 0, "kinematics.drive", "--range needs a coordinate: name it with --drive"))
+    if given:
+        raise ModelError(Fault("", 0, 0, f"kinematics.{given[0]}", "has no part in --range, which finds both ends"))
+    with progress_listener(quiet) as listener:
+        found: Range = loaded.range_of_motion(
+            options["drive"], coordinates=options["coordinates"], positions=options["positions"], listener=listener
+        )
+    if as_json:
+        click.echo(json.dumps(found.summary(), indent=2))
+    if not quiet:
+        click.echo(str(found), err=True)
+
+
+def _say(result: Result, target: Path, report: Path | None) -> None:
+    from rich.console import Console
+
+    console = Console(stderr=True, highlight=False)
+    time, timing = result.time, result.timing
+    reached = f"t = {time[-1]:.6g} s" if len(time) else "no position"
+    console.print(
+        f"[bold]{result.name}[/bold]: {result.outcome}, {len(time)} positions up to {reached}, "
+        f"{timing.get('loop_seconds', 0.0):.3g} s of computing"
+    )
+    for line in assembly_lines(result):
+        console.print(line)
+    console.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
+    for item in result.trust.items:
+        console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
+    console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)

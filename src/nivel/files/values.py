@@ -1,0 +1,134 @@
+"""Values of a machine by path, such as ``bodies.crank.mass``: read, and set in a copy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from nivel.errors import Fault, ModelError
+from nivel.files.origin import OUTSIDE, Origin
+from nivel.files.outline import TOP_WORDS
+from nivel.files.reader import parse_machine
+from nivel.files.writer import write_machine
+from nivel.machine import MachineRecord, Record
+from nivel.machine.record import field_words
+from nivel.machine.references import SECTIONS
+from nivel.wording import shown, unknown_word
+
+PARAMETERS = (
+    "the machine has no parameters: they belong to machine files, and are worked out when elements are replaced in Python; "
+    "set them first, with `with_values` of the machine that was loaded"
+)
+
+
+def elements_named(record: MachineRecord, name: str) -> dict[str, Record]:
+    """The elements of this name, by section."""
+    found = ((section, each) for section in SECTIONS for each in getattr(record, section))
+    return {section: each for section, each in found if getattr(each, "name", None) == name}
+
+
+def whole_path(record: MachineRecord, path: str) -> str:
+    """`path` with its section, where it begins with the name of an element. Raises ModelError where several have this name."""
+    first = path.partition(".")[0].strip()
+    if first in (*TOP_WORDS, "assemblies", "include"):
+        return path
+    sections = list(elements_named(record, first))
+    if len(sections) > 1:
+        listed = " or ".join(f"`{section}.{path}`" for section in sections)
+        raise ModelError(Fault("", 0, 0, path, f"several elements are called `{first}`: write {listed}"))
+    return f"{sections[0]}.{path}" if sections else path
+
+
+def value_at(record: MachineRecord, path: str) -> Any:
+    """The value at `path`, whose steps are keys as in machine files, names of elements, and places in lists from 0.
+
+    Raises ModelError where nothing can stand there.
+    """
+    value: Any = record
+    steps = [step.strip() for step in path.split(".")]
+    for at, step in enumerate(steps):
+        try:
+            value = _entered(value, step, at == 0)
+        except ModelError as error:
+            raise ModelError(Fault("", 0, 0, ".".join(steps[: at + 1]), error.faults[0].message)) from None
+    return value
+
+
+def _entered(value: Any, step: str, is_section: bool) -> Any:
+    """What `value` has under `step`. Raises ModelError."""
+    match value:
+        case Record():
+            names = {field.alias or name: name for name, field in type(value).model_fields.items()}
+            if step not in names:
+                raise ModelError(unknown_word(step, field_words(type(value)), "section" if is_section else "key"))
+            return getattr(value, names[step])
+        case Mapping():
+            if step not in value:
+                raise ModelError(unknown_word(step, [str(key) for key in value], "key"))
+            return value[step]
+        case tuple() if step.isdecimal() and int(step) < len(value):
+            return value[int(step)]
+        case tuple():
+            names = [str(getattr(each, "name", "")) for each in value]
+            if step in names:
+                return value[names.index(step)]
+            if any(names) or not value:
+                raise ModelError(unknown_word(step, names, "name"))
+            raise ModelError(
+                f"this is a list of {len(value)}; its entries are 0 to {len(value) - 1}, not {shown(step)}"
+            )
+    raise ModelError(f"this is a single value, {shown(value)}, and has nothing inside")
+
+
+def with_values(record: MachineRecord, origin: Origin, values: Mapping[str, Any]) -> tuple[MachineRecord, Origin]:
+    """The machine with other values by path, and where it comes from. What depends on a parameter follows it.
+
+    Raises ModelError with everything that is wrong.
+    """
+    if not origin.source:
+        return _of_record(record, values), origin.edited()
+    values = {**origin.values, **values}
+    read = parse_machine(origin.source, origin.file, overrides=values, allow_code=origin.allow_code)
+    return read, replace(origin, values=values, outside=origin.outside | outside_paths(values), given={})
+
+
+def outside_paths(values: Iterable[str]) -> frozenset[str]:
+    """The paths as `Origin.outside` has them."""
+    return frozenset(".".join(step.strip() for step in path.split(".")) for path in values)
+
+
+def _of_record(record: MachineRecord, values: Mapping[str, Any]) -> MachineRecord:
+    if any(path.split(".")[0].strip() in ("parameters", "assemblies", "include") for path in values):
+        raise ModelError(PARAMETERS)
+    try:
+        return parse_machine(write_machine(record), overrides=values, allow_code=True)
+    except ModelError as error:
+        faults = [replace(each, file="", line=0, column=0, message=_inside(each.message)) for each in error.faults]
+        raise ModelError(faults) from None
+
+
+def _inside(message: str) -> str:
+    """The message without the remark that a value is not that of a file, where there is no file."""
+    return message.removesuffix(OUTSIDE)
+
+
+def replaced(record: MachineRecord, elements: Sequence[Record]) -> dict[str, tuple[Record, ...]]:
+    """The sections in which `elements` stand in place of those that have their names. Raises ModelError where none has."""
+    sections: dict[str, list[Record]] = {}
+    for element in elements:
+        section, name = section_of_element(element), str(getattr(element, "name", ""))
+        records = sections.setdefault(section, list(getattr(record, section)))
+        names = [str(getattr(each, "name", "")) for each in records]
+        if name not in names:
+            raise ModelError(Fault("", 0, 0, section, f"nothing to replace: {unknown_word(name, names, 'name')}"))
+        records[names.index(name)] = element
+    return {section: tuple(records) for section, records in sections.items()}
+
+
+def section_of_element(element: Any) -> str:
+    """The section of a machine in which such a record stands. Raises ModelError for anything else."""
+    section = element.collection if isinstance(element, Record) else ""
+    if not section:
+        raise ModelError(f"an element of a machine, such as a Body or a Joint, was expected, got {shown(element)}")
+    return section

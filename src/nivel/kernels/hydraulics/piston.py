@@ -1,0 +1,121 @@
+"""Pistons: what they displace, the forces of their pressures, their friction and end stops.
+
+A chamber has the volume V(s) = V₀ + A s + Σ ΔA_k R(s - s_k) over the stroke s, R a ramp: the area of a telescope falls from stage to stage.
+The force (p - pa) dV/ds does exactly the work that its fluid loses; pa acts on the rod.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.analytic import real, tanh
+from nivel.kernels.forces.impact import impact
+from nivel.kernels.forces.wrench import add_coordinate_force
+from nivel.kernels.hook import family
+from nivel.kernels.hydraulics.fluid import ATMOSPHERE
+from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, step
+from nivel.kernels.hydraulics.transfer import DELIVERED
+from nivel.kernels.record import NONE, record_at
+from nivel.kernels.status import OK
+from nivel.native.function import leaf
+
+# chambers: columns of `columns`; OUTPUT: of the piston
+OUTPUT, NODE, COORDINATE = 0, 1, 2
+# columns of `number`: value of the coordinate at s = 0, volume V₀, area A, width of a change of area [m], then STAGES pairs ΔA, s_k
+ORIGIN, ROOM, AREA, WIDTH, FIRST_STAGE = 0, 1, 2, 3, 4
+STAGES = 4
+
+# pistons: columns of `columns`; COORDINATE as above; outputs: force, power, position, speed, friction
+NODE_A, NODE_B = 1, 3
+FORCE, POWER, POSITION, SPEED, FRICTION = 0, 1, 2, 3, 4
+# columns of `number`: friction without pressure, by pressure [N/Pa], static over sliding, speeds of Stribeck's curve and of the change of
+# sign, viscous friction; stroke, stiffness of its ends, x of `nivel.kernels.forces.impact`
+COULOMB, SEAL, STATIC, STRIBECK, TRANSITION, VISCOUS, STROKE, STIFFNESS, LOSS = 1, 2, 3, 4, 5, 6, 7, 8, 9
+# pressure difference [Pa] below which the friction by pressure is rounded
+ROUNDED = 1e5
+
+
+@leaf
+def swept(n, s):
+    """(V [m³], dV/ds [m²]) at the stroke s."""
+    volume, area = n[ROOM] + n[AREA] * s, n[AREA] + 0.0 * s
+    for k in range(STAGES):
+        change = n[FIRST_STAGE + 2 * k]
+        if real(change) == 0.0:
+            continue
+        beyond = s - n[FIRST_STAGE + 2 * k + 1]
+        volume += change * ramp(beyond, n[WIDTH])
+        area += change * step(beyond * (1.0 / real(n[WIDTH])))
+    return volume, area
+
+
+@family
+def displace(machine, number, t):
+    """Volumes of chambers and their rates."""
+    record = record_at(machine)
+    elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
+    for node in range(circuit.volume.shape[0]):
+        circuit.volume[node], circuit.volume_rate[node] = 0.0, 0.0
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        q = index[COORDINATE]
+        volume, area = swept(n, coordinates.value[q] - n[ORIGIN])
+        circuit.volume[index[NODE]] += volume
+        circuit.volume_rate[index[NODE]] += area * coordinates.rate[q]
+    return OK
+
+
+@leaf
+def friction_force(n, v, difference):
+    """Friction [N] against the speed v at a difference of pressure."""
+    sliding = n[COULOMB] + n[SEAL] * magnitude_within(difference, ROUNDED)
+    ratio = v / n[STRIBECK]
+    dry = sliding * (1.0 + (n[STATIC] - 1.0) * np.exp(-ratio * ratio))
+    return dry * tanh(v / n[TRANSITION]) + n[VISCOUS] * v
+
+
+@family
+def guide(machine, number, t):
+    """Friction and end stops of pistons; their outputs begin here."""
+    record = record_at(machine)
+    elements, circuit, coordinates, control = record.elements, record.circuit, record.coordinates, record.control
+    followed = record.watched.followed[0]
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n, memory, proposal = elements.columns[k], elements.number[k], elements.memory[k], elements.proposal[k]
+        q, out, depth = index[COORDINATE], index[OUTPUT], elements.depth[k]
+        s, v = coordinates.value[q] - n[ORIGIN], coordinates.rate[q]
+        difference = circuit.pressure[index[NODE_A]] - ATMOSPHERE
+        if index[NODE_B] != NONE:
+            difference = circuit.pressure[index[NODE_A]] - circuit.pressure[index[NODE_B]]
+        friction = friction_force(n, v, difference)
+        depth[0], depth[1] = -s, s - n[STROKE]
+        if followed == 1:
+            elements.depth_rate[k, 0], elements.depth_rate[k, 1] = -v, v
+        up, stored, loss, proposal[0] = impact(depth[0], -v, n[STIFFNESS], 1.0, n[LOSS], memory[0], followed)
+        control.stored[0] += stored
+        control.power[1] += loss
+        down, stored, loss, proposal[1] = impact(depth[1], v, n[STIFFNESS], 1.0, n[LOSS], memory[1], followed)
+        control.stored[0] += stored
+        control.power[1] += loss + friction * v
+        effort = up - down - friction
+        value = record.outputs.value
+        value[out + FORCE], value[out + POWER] = effort, add_coordinate_force(machine, q, effort)
+        value[out + POSITION], value[out + SPEED], value[out + FRICTION] = s, v, friction
+    return OK
+
+
+@family
+def press(machine, number, t):
+    """Forces of the pressures in chambers."""
+    record = record_at(machine)
+    elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        q, out = index[COORDINATE], index[OUTPUT]
+        _, area = swept(n, coordinates.value[q] - n[ORIGIN])
+        effort = (circuit.pressure[index[NODE]] - ATMOSPHERE) * area
+        power = add_coordinate_force(machine, q, effort)
+        circuit.power[DELIVERED] += power
+        record.outputs.value[out + FORCE] += effort
+        record.outputs.value[out + POWER] += power
+    return OK

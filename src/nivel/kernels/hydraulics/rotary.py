@@ -1,0 +1,120 @@
+"""Pumps and motors, and what sets their displacement.
+
+Fluid goes from A to B as the shaft turns forward; losses are leakage and friction, so that power is lost in all four quadrants:
+
+    ṁ = ρ_in D ε ω - ρ̄ C (p_B - p_A)        T = ρ_in D ε (h_B - h_A) + T_v ω + c D |p_B - p_A| sgn ω
+
+ρ_in is the density on the side from which fluid is taken in; within SLOW of no speed, it passes from one to the other. T is the torque
+that drives the shaft forward.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.analytic import real
+from nivel.kernels.forces.wrench import add_coordinate_force
+from nivel.kernels.function import evaluate_function
+from nivel.kernels.hook import family
+from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within, step
+from nivel.kernels.hydraulics.spool import clipped
+from nivel.kernels.hydraulics.transfer import DELIVERED, SUPPLIED, lose, transfer
+from nivel.kernels.record import NONE, record_at
+from nivel.kernels.status import OK
+
+# machines: columns of `columns`; SPEED: function, or NONE; outputs: flow, torque, power, setting
+OUTPUT, FROM, TO, SPEED, COORDINATE = 0, 1, 2, 3, 4
+FLOW, TORQUE, POWER, SETTING = 0, 1, 2, 3
+# columns of `number`: D [m³/rad], turns of the shaft per turn of the joint, C [m³/s/Pa], T_v [N m s], c, ripple: periods a turn, share
+DISPLACEMENT, RATIO, LEAK, VISCOUS, DRY, PERIODS, RIPPLE = 0, 1, 2, 3, 4, 5, 6
+# speed [rad/s] and difference of pressure [Pa] within which signs are rounded
+SLOW, SMALL = 1.0, 1e5
+
+# settings: columns of `columns`; output: that of the machine; STATE: of load sensing, or NONE; nodes P and LS
+STATE, FUNCTION, HIGH, SENSED = 1, 2, 3, 4
+# columns of `number`: margin, range, greatest pressure [Pa], time [s]
+MARGIN, RANGE, CUT_OFF, TIME = 0, 1, 2, 3
+# share of the displacement over which a load-sensing pump comes to rest at its ends
+END = 0.05
+
+
+@family
+def set_displacement(machine, number, t):
+    """Share ε of the displacement: a function, or a state that holds a margin above the sensed pressure,
+
+    ε̇ = g/√(1 + g²)/T, g = (p_LS + margin - p_P)/range, or (p_max - p_P)/range where that is less.
+    """
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        if index[STATE] == NONE:
+            record.outputs.value[index[OUTPUT]] = clipped(evaluate_function(machine, index[FUNCTION], t), -1.0)
+            continue
+        own = elements.state[index[STATE]]
+        lacking = circuit.pressure[index[SENSED]] + n[MARGIN] - circuit.pressure[index[HIGH]]
+        spare = n[CUT_OFF] - circuit.pressure[index[HIGH]]
+        if real(spare) < real(lacking):
+            lacking = spare
+        g = lacking / n[RANGE]
+        rate = g / np.sqrt(1.0 + g * g) / n[TIME]
+        room = 1.0 - own if real(g) > 0.0 else own
+        elements.state_rate[index[STATE]] += rate * step(room / END)
+        record.outputs.value[index[OUTPUT]] = own
+    return OK
+
+
+@family
+def turn(machine, number, t):
+    """Flows and torques of pumps and motors."""
+    record = record_at(machine)
+    elements, circuit, coordinates, value = record.elements, record.circuit, record.coordinates, record.outputs.value
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b, out = index[FROM], index[TO], index[OUTPUT]
+        if index[SPEED] == NONE:
+            omega, angle = (
+                n[RATIO] * coordinates.rate[index[COORDINATE]],
+                n[RATIO] * coordinates.value[index[COORDINATE]],
+            )
+        else:
+            omega = evaluate_function(machine, index[SPEED], t)
+            angle = omega * t
+        swept = n[DISPLACEMENT] * value[out + SETTING] * (1.0 + n[RIPPLE] * np.cos(n[PERIODS] * angle))
+        displaced = swept * omega
+        mean = 0.5 * (circuit.density[a] + circuit.density[b])
+        taken = sign_within(omega * value[out + SETTING], SLOW)
+        density = mean + 0.5 * (circuit.density[a] - circuit.density[b]) * taken
+        difference = circuit.pressure[b] - circuit.pressure[a]
+        leak = n[LEAK] * difference
+        flow = density * displaced - mean * leak
+        torque = density * swept * (circuit.enthalpy[b] - circuit.enthalpy[a]) + n[VISCOUS] * omega
+        dry = n[DRY] * n[DISPLACEMENT] * magnitude_within(difference, SMALL)
+        torque += dry * sign_within(omega, SLOW)
+        power = torque * omega
+        lose(machine, power + transfer(machine, a, b, flow))
+        if index[SPEED] == NONE:
+            add_coordinate_force(machine, index[COORDINATE], -n[RATIO] * torque)
+            circuit.power[DELIVERED] -= power
+        else:
+            record.control.power[0] += power
+            circuit.power[SUPPLIED] += power
+        value[out + FLOW], value[out + TORQUE], value[out + POWER] = displaced - leak, torque, power
+    return OK
+
+
+@family
+def supply(machine, number, t):
+    """Sources of flow: ideal pumps; SPEED is the flow. Outputs: flow, power."""
+    record = record_at(machine)
+    elements, circuit, value = record.elements, record.circuit, record.outputs.value
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index = elements.columns[k]
+        a, b = index[FROM], index[TO]
+        flow = evaluate_function(machine, index[SPEED], t)
+        density = circuit.density[a] if real(flow) > 0.0 else circuit.density[b]
+        power = -transfer(machine, a, b, density * flow)
+        record.control.power[0] += power
+        circuit.power[SUPPLIED] += power
+        value[index[OUTPUT]], value[index[OUTPUT] + 1] = flow, power
+    return OK

@@ -1,0 +1,75 @@
+"""Positions of valves: spools that follow a command, poppets that pressures open."""
+
+from __future__ import annotations
+
+from nivel.kernels.analytic import real, tanh
+from nivel.kernels.function import evaluate_function
+from nivel.kernels.hook import family
+from nivel.kernels.hydraulics.smooth import step
+from nivel.kernels.record import NONE, record_at
+from nivel.kernels.status import OK
+from nivel.native.function import leaf
+
+# columns of `columns`; output: position
+OUTPUT, STATE, SPEED, COMMAND = 0, 1, 2, 3
+# spools: columns of `number`: least position, natural frequency [rad/s], damping ratio, greatest speed [1/s] (0: second order)
+LEAST, FREQUENCY, DAMPING, RATE = 0, 1, 2, 3
+
+# poppets: columns of `columns` from COMMAND on, a setting; then nodes
+FIRST_NODE, NODES = 4, 4
+# columns of `number`: range of pressures over which it opens [Pa], time constant [s], factor of the setting, constant pressure [Pa],
+# factors of the nodes
+RANGE, LAG, SETTING, OFFSET, FIRST_FACTOR = 0, 1, 2, 3, 4
+
+
+@leaf
+def clipped(x, least):
+    """x between `least` and one."""
+    if real(x) > 1.0:
+        return 0.0 * x + 1.0
+    if real(x) < real(least):
+        return 0.0 * x + least
+    return x
+
+
+@family
+def move(machine, number, t):
+    """Spools: at the command itself, or ü = ω² (u_c - u) - 2 ζ ω u̇, or with a greatest speed r, u̇ = r tanh(ω (u_c - u)/r)."""
+    record = record_at(machine)
+    elements = record.elements
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        command = clipped(evaluate_function(machine, index[COMMAND], t), n[LEAST])
+        if index[STATE] == NONE:
+            record.outputs.value[index[OUTPUT]] = command
+            continue
+        own, omega, rate = index[STATE], n[FREQUENCY], elements.state_rate
+        u = elements.state[own]
+        if index[SPEED] == NONE:
+            rate[own] += n[RATE] * tanh(omega * (command - u) / n[RATE])
+        else:
+            speed = elements.state[index[SPEED]]
+            rate[own] += speed
+            rate[index[SPEED]] += omega * omega * (command - u) - 2.0 * n[DAMPING] * omega * speed
+        record.outputs.value[index[OUTPUT]] = u
+    return OK
+
+
+@family
+def lift(machine, number, t):
+    """Poppets: the opening S((Σ factor p + setting + offset)/range), or a state that follows it, τ ẋ = S - x."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        pressure = n[OFFSET] + n[SETTING] * evaluate_function(machine, index[COMMAND], t)
+        for i in range(NODES):
+            if index[FIRST_NODE + i] != NONE:
+                pressure = pressure + n[FIRST_FACTOR + i] * circuit.pressure[index[FIRST_NODE + i]]
+        opening = step(pressure * (1.0 / real(n[RANGE])))
+        if index[STATE] != NONE:
+            own = index[STATE]
+            elements.state_rate[own] += (opening - elements.state[own]) * (1.0 / real(n[LAG]))
+            opening = elements.state[own]
+        record.outputs.value[index[OUTPUT]] = opening
+    return OK

@@ -1,0 +1,164 @@
+"""Pressures of the nodes of a circuit: volumes, given pressures, and pressures that are signals.
+
+The state of a volume is the mass m of its fluid; its pressure is the root of m v(p)/ρ₀ = V + V_e(p). V is what pistons leave open and a
+constant part, V_e what elastic walls, (p - pa) C, and the gas of an accumulator, V₀ R(1 - (p₀/p)^(1/n)), make room for. Energy stored:
+
+    E = m h - (p - pa) (V + V_e) + ∫ (p - pa) dV_e
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.analytic import real
+from nivel.kernels.function import evaluate_function
+from nivel.kernels.hook import family
+from nivel.kernels.hydraulics.fluid import ATMOSPHERE, DENSITY, EXACT, MOST, specific_volume
+from nivel.kernels.hydraulics.smooth import ramp, step
+from nivel.kernels.record import record_at
+from nivel.kernels.status import NO_VOLUME, OK
+from nivel.native.function import leaf, stage
+
+# columns of `columns`; STATE: of the mass, or of the pressure of a signal; FUNCTION: of a given pressure; output: pressure
+OUTPUT, NODE, KIND, STATE, FUNCTION = 0, 1, 2, 3, 4
+VOLUME, GIVEN, SIGNAL = 0, 1, 2
+# columns of `Circuit.room`: constant volume [m³], room that elastic walls make [m³/Pa]; gas of an accumulator: volume [m³], precharge [Pa],
+# exponent
+FIXED, COMPLIANCE, GAS, PRECHARGE, EXPONENT = 0, 1, 2, 3, 4
+# columns of `Circuit.known`: mass [kg] and volume [m³] without V_e, pressure, v and its derivative, ρ₀ h, V_e and its derivative
+MASS, OPEN, PRESSURE, VALUE, RATE, ENERGY, EXTRA, GIVE = 0, 1, 2, 3, 4, 5, 6, 7
+# Gas gives way over this share of its volume, smoothly.
+GAS_WIDTH = 0.02
+# points and weights of Gauss's rule on [0, 1], for the energy within that width
+NODES = (0.5 - 0.5 * np.sqrt(0.6), 0.5, 0.5 + 0.5 * np.sqrt(0.6))
+WEIGHTS = (5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0)
+
+
+@leaf
+def room(n, p):
+    """(V_e [m³], dV_e/dp) at the real pressure p."""
+    volume, slope = n[COMPLIANCE] * (p - ATMOSPHERE), n[COMPLIANCE]
+    if n[GAS] > 0.0:
+        left = (n[PRECHARGE] / p) ** (1.0 / n[EXPONENT])
+        volume += n[GAS] * ramp(1.0 - left, GAS_WIDTH)
+        slope += n[GAS] * step((1.0 - left) / GAS_WIDTH) * left / (n[EXPONENT] * p)
+    return volume, slope
+
+
+@leaf
+def energy_of_room(n, p):
+    """∫ (p - pa) dV_e from atmospheric pressure to p [J]."""
+    stored = 0.5 * n[COMPLIANCE] * (p - ATMOSPHERE) ** 2
+    if n[GAS] > 0.0:
+        gas, first, exponent = n[GAS], n[PRECHARGE], n[EXPONENT]
+        y = 1.0 - (first / p) ** (1.0 / exponent)
+        within = min(max(y, 0.0), GAS_WIDTH)
+        for k in range(3):
+            x = within * NODES[k]
+            stored += within * WEIGHTS[k] * gas * step(x / GAS_WIDTH) * (first * (1.0 - x) ** (-exponent) - ATMOSPHERE)
+        if y > GAS_WIDTH:
+            if exponent > 1.0:
+                grown = (1.0 - y) ** (1.0 - exponent) - (1.0 - GAS_WIDTH) ** (1.0 - exponent)
+                stored += gas * first * grown / (exponent - 1.0)
+            else:
+                stored += gas * first * np.log((1.0 - GAS_WIDTH) / (1.0 - y))
+            stored -= gas * ATMOSPHERE * (y - GAS_WIDTH)
+    return stored
+
+
+@leaf
+def pressure_in(f, n, mass, volume, guess):
+    """The pressure p > 0 with mass v(p)/ρ₀ = volume + V_e(p), real numbers; the left side falls and the right side rises with p."""
+    low, high = 0.0, np.inf
+    p = guess if guess > 0.0 else ATMOSPHERE
+    for _ in range(MOST):
+        v, slope, _ = specific_volume(f, p)
+        extra, give = room(n, p)
+        excess = mass * v / f[DENSITY] - volume - extra
+        if excess > 0.0:
+            low = p
+        else:
+            high = p
+        following = p - excess / (mass * slope / f[DENSITY] - give)
+        if not low < following < high:
+            following = 0.5 * (low + high) if high < np.inf else 2.0 * p
+        change, p = np.abs(following - p), following
+        if change <= EXACT * p:
+            break
+    return p
+
+
+@leaf
+def solve_volume(f, n, known, mass, volume):
+    """Fill `known` for the real mass and volume, unless it is that of these already. The search starts where the tangent of the last
+    solution leads."""
+    if known[MASS] == mass and known[OPEN] == volume:
+        return
+    guess = known[PRESSURE]
+    if guess > 0.0:
+        v, rate = known[VALUE], known[RATE]
+        change = (mass - known[MASS]) * v / f[DENSITY] - (volume - known[OPEN])
+        guess = max(guess + change / (known[GIVE] - known[MASS] * rate / f[DENSITY]), 0.1 * guess)
+    p = pressure_in(f, n, mass, volume, guess)
+    known[MASS], known[OPEN], known[PRESSURE] = mass, volume, p
+    known[VALUE], known[RATE], known[ENERGY] = specific_volume(f, p)
+    known[EXTRA], known[GIVE] = room(n, p)
+
+
+@stage
+def find_pressure(machine, node, mass):
+    """Fill pressure, density and enthalpy of a volume, and add its energy. Returns a status."""
+    record = record_at(machine)
+    circuit = record.circuit
+    f, n, known = circuit.fluid[circuit.node[node, 0]], circuit.room[node], circuit.known[node]
+    volume = n[FIXED] + circuit.volume[node]
+    if not (real(mass) > 0.0 and real(volume) > 0.0):
+        record.control.failure[0] = node
+        return NO_VOLUME
+    solve_volume(f, n, known, real(mass), real(volume))
+    p, v, slope, energy = known[PRESSURE], known[VALUE], known[RATE], known[ENERGY]
+    # one step of Newton's method, which on complex numbers gives the exact derivative
+    softness = 1.0 / (known[GIVE] - known[MASS] * slope / f[DENSITY])
+    change = (mass * (v / f[DENSITY]) - volume - known[EXTRA]) * softness
+    circuit.pressure[node] = p + change
+    circuit.density[node] = f[DENSITY] / v * (1.0 - slope / v * change)
+    circuit.enthalpy[node] = (energy + v * change) / f[DENSITY]
+    stored = known[MASS] * (energy - (p - ATMOSPHERE) * v) / f[DENSITY] + energy_of_room(n, p)
+    circuit.stored[0] += stored
+    record.control.stored[0] += stored
+    return OK
+
+
+@stage
+def give_pressure(machine, node, p):
+    """Fill pressure, density and enthalpy of a node whose pressure p is known."""
+    circuit = record_at(machine).circuit
+    f = circuit.fluid[circuit.node[node, 0]]
+    v, slope, energy = specific_volume(f, real(p))
+    change = p - real(p)
+    circuit.pressure[node] = p
+    circuit.density[node] = f[DENSITY] / v * (1.0 - slope / v * change)
+    circuit.enthalpy[node] = (energy + v * change) / f[DENSITY]
+
+
+@family
+def apply(machine, number, t):
+    """The state of every node."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    circuit.stored[0] = 0.0
+    for i in range(4):
+        circuit.power[i] = 0.0
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index = elements.columns[k]
+        node = index[NODE]
+        if index[KIND] == VOLUME:
+            status = find_pressure(machine, node, elements.state[index[STATE]])
+            if status != OK:
+                return status
+        elif index[KIND] == GIVEN:
+            give_pressure(machine, node, evaluate_function(machine, index[FUNCTION], t))
+        else:
+            circuit.pressure[node] = elements.state[index[STATE]]
+        record.outputs.value[index[OUTPUT]] = circuit.pressure[node]
+    return OK

@@ -1,0 +1,87 @@
+"""The line that would be right where a list or a mapping was expected and something else stands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Final
+
+from nivel.machine.unit import UNITS
+from nivel.vocabulary import plain
+
+# of fields that are lists: an entry that shows what is meant
+_LISTS: Final = {
+    "gravity": "[0, 0, -9.81]",
+    "axis": "[0, 0, 1]",
+    "x_axis": "[1, 0, 0]",
+    "axes": "[[0, 1, 0], [0, 0, 1]]",
+    "bodies": "[ground, BODY]",
+    "markers": "[FIRST, SECOND]",
+    "points": "[[0, 0, 0], [1, 0, 0]]",
+    "vector": "[10 N, 0, 0]",
+    "times": "[0, 1, 2]",
+    "values": "[0, 5, 0]",
+    "cut": "[JOINT]",
+    "euler_parameters": "[1, 0, 0, 0]",
+    "euler": "[30 deg, 0, 0]",
+    "joints": "[FIRST, SECOND]",
+}
+_MAPPINGS: Final = {
+    "orientation": "{euler: [0, 0, 90 deg], sequence: xyz}",
+    "shape": "{type: box, from: [0, 0, 0], to: [1, 0, 0], width: 5 cm, height: 5 cm}",
+    "start": "{angle: 30 deg}",
+    "start_rates": "{angle: 2 rad/s}",
+    "simulation": "{duration: 5 s, step: 1 ms}",
+    "baumgarte": "{alpha: 10, beta: 10}",
+}
+_DIRECTIONS: Final = {"x": "[1, 0, 0]", "y": "[0, 1, 0]", "z": "[0, 0, 1]"}
+
+
+def list_line(field: str, given: Any) -> str:
+    """``; write `gravity: [0, 0, -9.81]` …`` for a field that is a list; empty where nothing better is known."""
+    entries = _entries(field, given)
+    if field == "gravity" and entries is None:
+        size = _size(given) or "9.81"
+        return f"; gravity has a direction: write `gravity: [0, 0, -{size}]` where z points up, `[0, -{size}, 0]` where y does"
+    line = entries or _LISTS.get(field)
+    return f"; write `{field}: {line}`" if line else ""
+
+
+def mapping_line(field: str, given: Any) -> str:
+    """As `list_line`, of a field that is a mapping."""
+    if field == "shape" and isinstance(given, str):
+        return f"; write `shape: {{type: {given}, …}}`"
+    if field == "orientation" and isinstance(given, list | tuple) and len(given) == 4:
+        return f"; write `orientation: {{euler_parameters: {_listed(given)}}}`, scalar first"
+    if field == "orientation" and isinstance(given, list | tuple) and len(given) == 3:
+        return f"; write `orientation: {{euler: {_listed(given)}, sequence: xyz}}`, or another sequence of axes"
+    return f"; write `{field}: {_MAPPINGS[field]}`" if field in _MAPPINGS else ""
+
+
+def _entries(field: str, given: Any) -> str | None:
+    """What was given, as a list, where that is what was meant."""
+    if isinstance(given, Mapping) and set(given) == set("xyz"):
+        return _listed([given[axis] for axis in "xyz"])
+    if not isinstance(given, str):
+        return None
+    letter = given.strip().removeprefix("+").casefold()
+    if field in ("axis", "x_axis") and letter in _DIRECTIONS:
+        return _DIRECTIONS[letter]
+    words = given.replace(",", " ").split()
+    if field in ("bodies", "markers", "joints") and len(words) == 2:
+        return _listed(words)
+    if field == "bodies" and len(words) == 1:
+        return f"[ground, {words[0]}]"
+    if field in ("point", "position") and plain(given) in ("origin", "centre", "center", "zero"):
+        return "[0, 0, 0]"
+    return _listed(words) if len(words) == 3 and not any(word in UNITS for word in words) else None
+
+
+def _listed(entries: list[Any] | tuple[Any, ...]) -> str:
+    return f"[{', '.join(map(str, entries))}]"
+
+
+def _size(given: Any) -> str:
+    """The size of gravity that was given as a number, with its unit."""
+    if isinstance(given, bool) or not isinstance(given, int | float | str):
+        return ""
+    return str(given).strip().lstrip("+-").strip()

@@ -1,0 +1,95 @@
+"""Hydraulic circuits in words: fluids, and components by name, connected at nodes."""
+
+from functools import reduce
+from operator import or_
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import Field, GetCoreSchemaHandler
+from pydantic_core import CoreSchema
+
+from nivel.machine.hydraulics.actuators import (
+    Actuator,
+    Cushion,
+    HydraulicCylinder,
+    PistonFriction,
+    RotaryActuator,
+    TelescopicCylinder,
+)
+from nivel.machine.hydraulics.component import Component
+from nivel.machine.hydraulics.directional import DirectionalValve
+from nivel.machine.hydraulics.fluid import Fluid
+from nivel.machine.hydraulics.machines import FlowSource, HydraulicMotor, Pump
+from nivel.machine.hydraulics.nodes import Accumulator, LoadSensing, Tank, Volume
+from nivel.machine.hydraulics.restrictions import Orifice, Pipe
+from nivel.machine.hydraulics.valves import (
+    CheckValve,
+    Compensator,
+    CounterbalanceValve,
+    ReducingValve,
+    ReliefValve,
+)
+
+COMPONENTS: list[type[Component]] = [
+    Volume,
+    Tank,
+    Accumulator,
+    LoadSensing,
+    Orifice,
+    Pipe,
+    CheckValve,
+    ReliefValve,
+    CounterbalanceValve,
+    ReducingValve,
+    Compensator,
+    DirectionalValve,
+    FlowSource,
+    Pump,
+    HydraulicMotor,
+    HydraulicCylinder,
+    TelescopicCylinder,
+    RotaryActuator,
+]
+COMPONENT_OF = {component.model_fields["type"].default: component for component in COMPONENTS}
+
+
+class _AnyComponent:
+    """A record of one of COMPONENTS, told apart by its `type`."""
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, _: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return handler.generate_schema(Annotated[reduce(or_, COMPONENTS), Field(discriminator="type")])
+
+
+if TYPE_CHECKING:
+    HydraulicComponent = Component
+else:
+    HydraulicComponent = _AnyComponent
+
+__all__ = [
+    "COMPONENTS",
+    "COMPONENT_OF",
+    "Accumulator",
+    "Actuator",
+    "CheckValve",
+    "Compensator",
+    "Component",
+    "CounterbalanceValve",
+    "Cushion",
+    "DirectionalValve",
+    "FlowSource",
+    "Fluid",
+    "HydraulicComponent",
+    "HydraulicCylinder",
+    "HydraulicMotor",
+    "LoadSensing",
+    "Orifice",
+    "Pipe",
+    "PistonFriction",
+    "Pump",
+    "ReducingValve",
+    "ReliefValve",
+    "RotaryActuator",
+    "Tank",
+    "TelescopicCylinder",
+    "Volume",
+]

@@ -1,0 +1,193 @@
+"""Cylinders and rotary actuators in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.checked import Checked, Problem, superfluous
+from nivel.machine.coefficient import (
+    Damping,
+    Displacement,
+    NotNegativeForce,
+    NotNegativeNumber,
+    PositiveSpeed,
+    Pressure,
+    Restitution,
+    Share,
+    Volume,
+    VolumeFlow,
+)
+from nivel.machine.coordinate_reference import CoordinateReference
+from nivel.machine.forces.between import Ends
+from nivel.machine.hydraulics.component import Component
+from nivel.machine.quantity import Angle, PositiveLength, Quantity, listed
+from nivel.machine.record import Name
+
+StopStiffness = Annotated[float, Quantity(("stiffness", "torsional stiffness"), positive=True)]
+DEAD_SHARE = 0.02  # of the swept volume, that is left at the end of the stroke where nothing is said
+MOST_STAGES = 5
+
+
+class PistonFriction(Checked):
+    """(F_c + (static - 1) F_c exp(-(v/v_s)²)) tanh(v/v_t) + viscous v, with F_c = sliding + by_pressure |p_A - p_B| A_A."""
+
+    sliding: NotNegativeForce = Field(default=0.0, description="without pressure")
+    by_pressure: NotNegativeNumber = Field(default=0.0, description="friction over the force of the pressure, by seals")
+    static: Annotated[float, Quantity("number")] = Field(default=1.0, description="static over sliding friction")
+    stribeck_speed: PositiveSpeed = Field(default=0.02, description="v_s: speed over which the static part falls")
+    transition_speed: PositiveSpeed = Field(default=0.004, description="v_t: speed over which it changes its sign")
+    viscous: Damping = 0.0
+
+    def problems(self) -> Iterator[Problem]:
+        if self.static < 1.0:
+            yield Problem(("static",), f"static friction is at least the sliding one: 1 or more, got {self.static:g}")
+
+
+class Cushion(Checked):
+    """The outlet of a chamber is throttled on the last part of the stroke; a check valve beside it lets fluid in."""
+
+    length: PositiveLength = Field(description="of the part of the stroke that is cushioned")
+    least_opening: Share = Field(default=0.02, description="share of the opening that is left at the end")
+    flow: VolumeFlow = Field(description="through the open port at `pressure_drop`")
+    pressure_drop: Pressure = Field(description="at which `flow` is measured")
+    port_volume: Volume = Field(default=1e-4, description="of the fluid between the cushion and what is connected")
+
+
+class Actuator(Component):
+    """What all actuators share: chambers, the ends of the stroke, and their start."""
+
+    early: ClassVar[tuple[str, ...]] = ("pressure_A", "pressure_B", "position", "speed")
+    late: ClassVar[tuple[str, ...]] = ("force", "power", "friction")
+
+    dead_volume_A: Volume | None = Field(
+        default=None, description="of A, with its hose, at the start of the stroke; default 2 % of what is swept"
+    )
+    dead_volume_B: Volume | None = Field(
+        default=None, description="of B, with its hose, at the end of the stroke; default 2 % of what is swept"
+    )
+    wall_modulus: Pressure | None = Field(default=None, description="as of a volume, of dead volumes with their hoses")
+    start_A: Pressure | None = Field(
+        default=None, description="pressure in A at the start; default: what carries the load"
+    )
+    start_B: Pressure | None = Field(
+        default=None, description="pressure in B at the start; default: what carries the load"
+    )
+    stop_stiffness: StopStiffness = Field(default=2e8, description="of the ends of the stroke")
+    stop_restitution: Restitution = Field(default=0.2, description="speed after over speed before the end is met")
+    fluid: Name | None = Field(default=None, description="default: the only one")
+
+    @property
+    def chambers(self) -> tuple[str, ...]:
+        """A, or A and B."""
+        return ("A", "B")
+
+
+class HydraulicCylinder(Ends, Actuator):
+    """A cylinder between two points, its rod to the second one; double or single acting: then B is open to the air.
+
+    With `ports`, its chambers are parts of volumes; without, they are volumes of their own: NAME.A (piston side) and NAME.B.
+    """
+
+    may: ClassVar[tuple[str, ...]] = ("A", "B")
+    nodes: ClassVar[tuple[str, ...]] = (".A", ".B")
+
+    type: Literal["cylinder"] = "cylinder"
+    piston: PositiveLength = Field(description="diameter")
+    rod: Annotated[float, Quantity("length")] = Field(default=0.0, description="diameter")
+    stroke: PositiveLength
+    retracted_length: PositiveLength = Field(description="distance of its ends at the start of the stroke")
+    acting: Literal["double", "single"] = "double"
+    friction: PistonFriction | None = None
+    cushion_A: Cushion | None = Field(default=None, description="at the start of the stroke")
+    cushion_B: Cushion | None = Field(default=None, description="at the end of the stroke")
+
+    @property
+    def chambers(self) -> tuple[str, ...]:
+        return ("A", "B") if self.acting == "double" else ("A",)
+
+    @property
+    def areas(self) -> tuple[float, float]:
+        """[m²] of the piston, and of the ring around the rod."""
+        whole = 0.25 * math.pi * self.piston**2
+        return whole, whole - 0.25 * math.pi * self.rod**2
+
+    def problems(self) -> Iterator[Problem]:
+        yield from Ends.problems(self)
+        yield from self.problems_of_line()
+        yield from self.problems_of_ports((), self.chambers)
+        if not 0.0 <= self.rod < self.piston:
+            yield Problem(("rod",), f"a rod is thinner than its piston of {self.piston:g} m, got {self.rod:g} m")
+        if self.acting == "single":
+            for name in ("dead_volume_B", "start_B", "cushion_B"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, "belongs to a double-acting cylinder; B is open to the air")
+        for chamber in self.chambers:
+            if getattr(self, f"cushion_{chamber}") is not None and chamber in self.ports:
+                yield superfluous(f"cushion_{chamber}", f"needs a chamber of its own; leave port {chamber} to others")
+
+
+class TelescopicCylinder(Ends, Actuator):
+    """A single-acting telescope between two points; stages move one after the other, the largest first."""
+
+    may: ClassVar[tuple[str, ...]] = ("A",)
+    nodes: ClassVar[tuple[str, ...]] = (".A",)
+
+    type: Literal["telescopic-cylinder"] = "telescopic-cylinder"
+    stages: Annotated[tuple[PositiveLength, ...], BeforeValidator(listed)] = Field(description="diameters, falling")
+    strokes: Annotated[tuple[PositiveLength, ...], BeforeValidator(listed)] = Field(description="of each stage")
+    transition: PositiveLength = Field(default=5e-3, description="stroke over which one stage passes to the next")
+    retracted_length: PositiveLength = Field(description="distance of its ends at the start of the stroke")
+    friction: PistonFriction | None = None
+
+    @property
+    def chambers(self) -> tuple[str, ...]:
+        return ("A",)
+
+    @property
+    def stroke(self) -> float:
+        """[m] of all stages."""
+        return sum(self.strokes)
+
+    @property
+    def areas(self) -> tuple[float, ...]:
+        """[m²] of the stages."""
+        return tuple(0.25 * math.pi * diameter**2 for diameter in self.stages)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from Ends.problems(self)
+        yield from self.problems_of_line()
+        yield from self.problems_of_ports((), self.chambers)
+        if len(self.stages) != len(self.strokes) or not 1 <= len(self.stages) <= MOST_STAGES:
+            yield Problem(
+                ("strokes",),
+                f"as many strokes as stages, at most {MOST_STAGES}, were expected, got {len(self.strokes)}",
+            )
+        elif list(self.stages) != sorted(set(self.stages), reverse=True):
+            yield Problem(("stages",), "diameters that fall from stage to stage were expected")
+        for name in ("dead_volume_B", "start_B"):
+            if getattr(self, name) is not None:
+                yield superfluous(name, "belongs to a double-acting cylinder; a telescope has A alone")
+
+
+class RotaryActuator(Actuator):
+    """A vane or rack that turns a joint: A drives its angle up, B down."""
+
+    may: ClassVar[tuple[str, ...]] = ("A", "B")
+    nodes: ClassVar[tuple[str, ...]] = (".A", ".B")
+
+    type: Literal["rotary-actuator"] = "rotary-actuator"
+    coordinate: CoordinateReference = Field(description="angle of a joint")
+    displacement: Displacement
+    lower: Angle = Field(description="angle at the start of the stroke")
+    upper: Angle = Field(description="angle at its end")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if self.upper <= self.lower:
+            yield Problem(
+                ("upper",), f"an angle above `lower`, {self.lower:g} rad, was expected, got {self.upper:g} rad"
+            )

@@ -1,0 +1,83 @@
+"""Directional valves in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Final, Literal
+
+from pydantic import AfterValidator, Field
+
+from nivel.machine.checked import Problem, superfluous
+from nivel.machine.coefficient import Frequency, Leakage, PositiveNumber, Share
+from nivel.machine.hydraulics.component import Rated, problem_of_share
+from nivel.machine.quantity import Quantity, Rate, fault
+from nivel.machine.time_function import TimeFunction, varying
+
+Ways = Literal["2/2", "3/2", "4/2", "4/3"]
+Centre = Literal["closed", "tandem", "open", "float"]
+PORTS: Final[dict[str, tuple[str, ...]]] = {
+    "2/2": ("P", "A"),
+    "3/2": ("P", "T", "A"),
+    "4/2": ("P", "T", "A", "B"),
+    "4/3": ("P", "T", "A", "B"),
+}
+# edges that open with a position from 0 to 1 (of 4/3 valves), with one from 0 to -1 (of others: that close towards 1)
+EDGES: Final[dict[str, tuple[tuple[str, ...], tuple[str, ...]]]] = {
+    "2/2": (("PA",), ()),
+    "3/2": (("PA",), ("AT",)),
+    "4/2": (("PA", "BT"), ("PB", "AT")),
+    "4/3": (("PA", "BT"), ("PB", "AT")),
+}
+CENTRES: Final[dict[str, tuple[str, ...]]] = {
+    "closed": (),
+    "tandem": ("PT",),
+    "open": ("PT", "AT", "BT"),
+    "float": ("AT", "BT"),
+}
+
+
+def _overlap(value: float) -> float:
+    if not -0.5 < value < 0.9:
+        raise fault(f"a share of the stroke from -0.5 (underlap) to 0.9 (overlap) was expected, got {value:g}")
+    return value
+
+
+class DirectionalValve(Rated):
+    """A spool that joins P and T with A and B. `command` is its position: -1 to 1 of 4/3 valves, 0 to 1 of others.
+
+    `flow` at `pressure_drop` is that of one edge at a full stroke; a sheet that states a drop over the whole valve means two edges.
+    """
+
+    functions: ClassVar[tuple[str, ...]] = ("command",)
+    early: ClassVar[tuple[str, ...]] = ()
+    late: ClassVar[tuple[str, ...]] = ("position", "flow_PA", "flow_PB", "flow_AT", "flow_BT")
+
+    type: Literal["directional-valve"] = "directional-valve"
+    ways: Ways = Field(description="ports and positions: 2/2, 3/2, 4/2 or 4/3, in quotes")
+    command: Annotated[TimeFunction, varying("number")] = Field(description="position asked for")
+    overlap: Annotated[float, Quantity("number"), AfterValidator(_overlap)] = Field(
+        default=0.0, description="share of the stroke before an edge opens; negative: edges are open at the centre"
+    )
+    rounding: Share = Field(default=0.02, description="share of the stroke over which an edge begins to open")
+    centre: Centre = Field(default="closed", description="what is joined at the centre of a 4/3 valve")
+    frequency: Frequency | None = Field(default=None, description="natural frequency of the spool; default: no lag")
+    damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
+    rate_limit: Rate | None = Field(default=None, description="greatest speed of the spool, full strokes per second")
+    leakage: Leakage = Field(default=0.0, description="of each edge")
+
+    @property
+    def edges(self) -> tuple[str, ...]:
+        """All edges, as pairs of ports."""
+        return (*EDGES[self.ways][0], *EDGES[self.ways][1])
+
+    def problems(self) -> Iterator[Problem]:
+        yield from self.problems_of_ports(PORTS[self.ways])
+        yield from problem_of_share("command", self.command, -1.0 if self.ways == "4/3" else 0.0)
+        if self.centre != "closed" and self.ways != "4/3":
+            yield superfluous("centre", f"belongs to a 4/3 valve, not to {self.ways}")
+        if self.overlap + self.rounding > 1.0:
+            yield Problem(
+                ("rounding",), "an edge would not open within the stroke: overlap and rounding are more than 1"
+            )
+        if self.rate_limit is not None and self.frequency is None:
+            yield Problem((), "`frequency` is missing: a spool with a `rate_limit` follows its command with it")

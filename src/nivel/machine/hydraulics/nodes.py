@@ -1,0 +1,89 @@
+"""Nodes of a circuit in words: volumes, tanks, accumulators, signals of load sensing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.checked import Problem
+from nivel.machine.coefficient import Exponent, Pressure, Share, VolumeFlow
+from nivel.machine.coefficient import Volume as VolumeSize
+from nivel.machine.hydraulics.component import Component
+from nivel.machine.quantity import Duration, listed
+from nivel.machine.record import Name
+from nivel.machine.time_function import TimeFunction, varying
+
+ATMOSPHERE = 101325.0  # Pa
+VaryingPressure = Annotated[TimeFunction, varying("pressure")]
+
+
+class Volume(Component):
+    """A volume of fluid at one pressure: a line, a hose, a block. What is connected to it meets there."""
+
+    nodes: ClassVar[tuple[str, ...]] = ("",)
+    early: ClassVar[tuple[str, ...]] = ("pressure",)
+
+    type: Literal["volume"] = "volume"
+    volume: VolumeSize
+    wall_modulus: Pressure | None = Field(
+        default=None, description="pressure over the relative growth of the volume; default: rigid walls"
+    )
+    start: Pressure | None = Field(default=None, description="pressure at the start; default: that of a steady circuit")
+    fluid: Name | None = Field(default=None, description="default: the only one")
+
+
+class Tank(Component):
+    """A node of given pressure: a tank, or a supply that holds its pressure whatever flows."""
+
+    nodes: ClassVar[tuple[str, ...]] = ("",)
+    functions: ClassVar[tuple[str, ...]] = ("pressure",)
+    early: ClassVar[tuple[str, ...]] = ("pressure",)
+
+    type: Literal["tank"] = "tank"
+    pressure: VaryingPressure = Field(default=ATMOSPHERE, description="absolute")
+    fluid: Name | None = Field(default=None, description="default: the only one")
+
+
+class Accumulator(Component):
+    """A volume with gas in it, behind an inlet."""
+
+    needs: ClassVar[tuple[str, ...]] = ("A",)
+    nodes: ClassVar[tuple[str, ...]] = ("",)
+    early: ClassVar[tuple[str, ...]] = ("pressure",)
+    late: ClassVar[tuple[str, ...]] = ("flow",)
+
+    type: Literal["accumulator"] = "accumulator"
+    volume: VolumeSize = Field(description="of the gas at its precharge")
+    precharge: Pressure = Field(description="pressure of the gas without oil, absolute")
+    gas_exponent: Exponent = Field(default=1.3, description="polytropic exponent of the gas")
+    dead_volume: VolumeSize | None = Field(
+        default=None, description="of oil when it is empty; default 2 % of the volume"
+    )
+    flow: VolumeFlow = Field(description="through the inlet at `pressure_drop`")
+    pressure_drop: Pressure = Field(description="at which `flow` is measured")
+    start: Pressure | None = Field(default=None, description="pressure at the start; default: that of a steady circuit")
+    fluid: Name | None = Field(default=None, description="default: the only one")
+
+
+class LoadSensing(Component):
+    """A pressure signal: the highest load of several directional valves, of those that are open, with a lag."""
+
+    nodes: ClassVar[tuple[str, ...]] = ("",)
+    early: ClassVar[tuple[str, ...]] = ("pressure",)
+
+    type: Literal["load-sensing"] = "load-sensing"
+    valves: Annotated[tuple[Name, ...], BeforeValidator(listed)] = Field(description="directional valves of 4/3 ways")
+    lag: Duration = Field(default=0.01, description="time constant")
+    opens_within: Share = Field(default=0.05, description="opening of a valve at which its load is wholly sensed")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if not self.valves:
+            yield Problem(("valves",), "names of directional valves are needed, got none")
+
+
+def is_signal(component: Any) -> bool:
+    """Whether nothing may flow into the node of a component."""
+    return isinstance(component, LoadSensing)

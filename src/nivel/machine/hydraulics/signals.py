@@ -1,0 +1,25 @@
+"""What expressions, sensors and results can read of a component."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from nivel.machine.hydraulics import COMPONENT_OF
+from nivel.machine.hydraulics.directional import CENTRES, EDGES
+from nivel.machine.record import entry
+
+
+def signals_of(component: Any) -> tuple[str, ...]:
+    """Names of the quantities of a component, a record or raw data: `pressure`, `flow_PA`, …"""
+    kind = COMPONENT_OF.get(str(entry(component, "type")))
+    if kind is None:
+        return ()
+    if entry(component, "type") == "directional-valve":
+        ways, centre = str(entry(component, "ways")), str(entry(component, "centre") or "closed")
+        pairs = [edge for edges in EDGES.get(ways, ()) for edge in edges]
+        pairs += [edge for edge in CENTRES.get(centre, ()) if edge not in pairs]
+        return ("position", *(f"flow_{pair}" for pair in pairs))
+    if entry(component, "type") == "reducing-valve" and "T" not in (entry(component, "ports") or {}):
+        return tuple(each for each in kind.late if each != "relief_flow")
+    single = entry(component, "acting") == "single" or entry(component, "type") == "telescopic-cylinder"
+    return tuple(each for each in (*kind.early, *kind.late) if not (single and each == "pressure_B"))

@@ -1,0 +1,122 @@
+"""Valves that pressures open, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from nivel.machine.checked import Problem
+from nivel.machine.coefficient import (
+    Leakage,
+    NotNegativeDuration,
+    NotNegativePressure,
+    PositiveNumber,
+    Pressure,
+    Truth,
+    VolumeFlow,
+)
+from nivel.machine.hydraulics.component import Rated
+from nivel.machine.time_function import TimeFunction, varying
+
+VaryingPressure = Annotated[TimeFunction, varying("pressure")]
+
+
+class CheckValve(Rated):
+    """Lets fluid pass from A to B; with a port X it is opened the other way by a pilot, control pressure p_A - p_B + ratio p_X."""
+
+    needs: ClassVar[tuple[str, ...]] = ("A", "B")
+    may: ClassVar[tuple[str, ...]] = ("X",)
+    late: ClassVar[tuple[str, ...]] = ("flow", "position")
+
+    type: Literal["check-valve"] = "check-valve"
+    opens_at: NotNegativePressure = Field(
+        default=0.5e5, description="difference of pressure at which it begins to open"
+    )
+    opening_range: Pressure = Field(default=3e5, description="difference of pressure from there to fully open")
+    pilot_ratio: PositiveNumber | None = Field(default=None, description="area of the pilot over that of the seat")
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
+    leakage: Leakage = 0.0
+
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if ("X" in self.ports) != (self.pilot_ratio is not None):
+            lacking = "`pilot_ratio` is" if self.pilot_ratio is None else "port X is"
+            yield Problem((), f"{lacking} missing: a pilot has a port X and a `pilot_ratio`")
+
+
+class ReliefValve(Rated):
+    """Opens from P to T where the difference of pressure exceeds `opens_at`."""
+
+    needs: ClassVar[tuple[str, ...]] = ("P", "T")
+    functions: ClassVar[tuple[str, ...]] = ("opens_at",)
+    late: ClassVar[tuple[str, ...]] = ("flow", "position")
+
+    type: Literal["relief-valve"] = "relief-valve"
+    opens_at: VaryingPressure = Field(description="difference of pressure at which it begins to open")
+    opening_range: Pressure = Field(description="difference of pressure from there to fully open")
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
+    leakage: Leakage = 0.0
+
+
+class CounterbalanceValve(Rated):
+    """Holds a load at L until L and the pilot X open it towards V; from V to L fluid passes through a check valve.
+
+    Control pressure p_L + R p_X - (1 + R) p_V - opens_at; without p_V where the spring chamber is vented.
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ("L", "V", "X")
+    functions: ClassVar[tuple[str, ...]] = ("opens_at",)
+    late: ClassVar[tuple[str, ...]] = ("flow", "check_flow", "position")
+
+    type: Literal["counterbalance-valve"] = "counterbalance-valve"
+    opens_at: VaryingPressure = Field(description="load pressure at which it begins to open without a pilot")
+    opening_range: Pressure = Field(default=80e5, description="control pressure from there to fully open")
+    pilot_ratio: PositiveNumber = Field(default=3.0, description="R")
+    vented: Truth = Field(default=False, description="whether the pressure at V does not act on it")
+    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none")
+    check_flow: VolumeFlow | None = Field(default=None, description="of the check valve; default `flow`")
+    check_pressure_drop: Pressure | None = Field(
+        default=None, description="of the check valve; default `pressure_drop`"
+    )
+    check_opens_at: NotNegativePressure = 0.5e5
+    check_opening_range: Pressure = 4e5
+    leakage: Leakage = 0.0
+
+    @property
+    def check_conductance(self) -> float:
+        """K [m³/s/√Pa] of the check valve."""
+        return (self.check_flow or self.flow) / (self.check_pressure_drop or self.pressure_drop) ** 0.5
+
+
+class ReducingValve(Rated):
+    """Closes from P to A as the pressure at A comes to `pressure`; with a port T it relieves A above that."""
+
+    needs: ClassVar[tuple[str, ...]] = ("P", "A")
+    may: ClassVar[tuple[str, ...]] = ("T",)
+    functions: ClassVar[tuple[str, ...]] = ("pressure",)
+    late: ClassVar[tuple[str, ...]] = ("flow", "position", "relief_flow")
+
+    type: Literal["reducing-valve"] = "reducing-valve"
+    pressure: VaryingPressure = Field(description="at A, absolute, at which it is closed")
+    opening_range: Pressure = Field(default=5e5, description="pressure below that at which it is fully open")
+    lag: NotNegativeDuration = Field(default=0.0, description="time constant of the opening; 0: none")
+    leakage: Leakage = 0.0
+
+
+class Compensator(Rated):
+    """Holds the pressure at A, in front of a valve, a `margin` above the load pressure LS; in series, from P to A.
+
+    Opening S(½ - (p_A - p_LS - margin)/opening_range).
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ("P", "A", "LS")
+    functions: ClassVar[tuple[str, ...]] = ("margin",)
+    late: ClassVar[tuple[str, ...]] = ("flow", "position")
+
+    type: Literal["compensator"] = "compensator"
+    margin: VaryingPressure = Field(default=7e5, description="held between A and LS")
+    opening_range: Pressure = Field(default=6e5, description="from closed to fully open")
+    lag: NotNegativeDuration = Field(default=0.01, description="time constant of the opening; 0: none")
+    leakage: Leakage = 0.0

@@ -1,0 +1,47 @@
+"""Elements of a machine by name, to be read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Generic, TypeVar
+
+from nivel.arguments import checked_arguments
+from nivel.errors import Fault, ModelError
+from nivel.machine.record import Record
+from nivel.wording import unknown_word
+
+Element = TypeVar("Element", bound=Record)
+
+
+class Named(Mapping[str, Element], Generic[Element]):
+    """The elements of one kind, in the order of the machine: ``machine.bodies["rod"].mass``.
+
+    A mapping that cannot be changed: `len`, `in`, iteration over the names, `.values()`, `.items()`. `singular` is one element in words.
+    """
+
+    def __init__(self, singular: str, records: Iterable[Element], prefix: str = "") -> None:
+        self._singular = singular
+        self._records = {str(getattr(record, "name", "")).removeprefix(prefix): record for record in records}
+
+    @checked_arguments
+    def __getitem__(self, name: str) -> Element:
+        """The element of this name. Raises ModelError with the nearest name where there is none."""
+        if name not in self._records:
+            raise ModelError(Fault("", 0, 0, "", unknown_word(name, list(self._records), self._singular)))
+        return self._records[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._records
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._records)
+
+    def __len__(self) -> int:
+        return len(self._records)
+
+    def __repr__(self) -> str:
+        kinds = {name: getattr(record, "type", "") for name, record in self._records.items()}
+        return "{" + ", ".join(f"{name}: {kind}" if kind else name for name, kind in kinds.items()) + "}"
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self._records)

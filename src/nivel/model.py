@@ -1,0 +1,359 @@
+"""What a machine consists of: its elements by name, and copies with other values or elements."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from html import escape
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any, Self, TypeVar
+
+from nivel.arguments import checked_arguments
+from nivel.errors import Fault, ModelError
+from nivel.files.assembly import Assembly, NotRepresentableError, elements_of
+from nivel.files.origin import Origin
+from nivel.files.scope import FileNames, read_names
+from nivel.files.sources import Sources
+from nivel.files.values import elements_named, replaced, section_of_element, value_at, whole_path, with_values
+from nivel.files.writer import write_machine
+from nivel.machine import (
+    AssemblySettings,
+    Beam,
+    Body,
+    Driver,
+    Event,
+    Input,
+    Joint,
+    MachineRecord,
+    Marker,
+    Record,
+    Sensor,
+    SimulationSettings,
+    State,
+)
+from nivel.machine.changes import changed
+from nivel.machine.named import Named
+from nivel.machine.record import entry
+from nivel.machine.references import SECTIONS
+from nivel.wording import unknown_word
+
+Element = TypeVar("Element", bound=Record)
+
+
+class Elements:
+    """The elements of a machine, or of a part of it, by kind and name."""
+
+    record: MachineRecord
+
+    @property
+    def _prefix(self) -> str:
+        """Of the names of a part."""
+        return ""
+
+    def _named(self, singular: str, records: Sequence[Element]) -> Named[Element]:
+        mine = [each for each in records if str(getattr(each, "name", "")).startswith(self._prefix)]
+        return Named(singular, mine, self._prefix)
+
+    @property
+    def bodies(self) -> Named[Body]:
+        """Bodies by name."""
+        return self._named("body", self.record.bodies)
+
+    @property
+    def beams(self) -> Named[Beam]:
+        """Beams by name."""
+        return self._named("beam", self.record.beams)
+
+    @property
+    def markers(self) -> Named[Marker]:
+        """Markers by name."""
+        return self._named("marker", self.record.markers)
+
+    @property
+    def joints(self) -> Named[Joint]:
+        """Joints by name."""
+        return self._named("joint", self.record.joints)
+
+    @property
+    def couplings(self) -> Named[Any]:
+        """Couplings by name: gears, belts, racks and linear couplings."""
+        return self._named("coupling", self.record.couplings)
+
+    @property
+    def drivers(self) -> Named[Driver]:
+        """Drivers by name."""
+        return self._named("driver", self.record.drivers)
+
+    @property
+    def forces(self) -> Named[Any]:
+        """Forces by name, of all types."""
+        return self._named("force", self.record.forces)
+
+    @property
+    def fluids(self) -> Named[Any]:
+        """Fluids by name."""
+        return self._named("fluid", self.record.fluids)
+
+    @property
+    def hydraulics(self) -> Named[Any]:
+        """Components of hydraulic circuits by name."""
+        return self._named("component", self.record.hydraulics)
+
+    @property
+    def inputs(self) -> Named[Input]:
+        """Inputs by name."""
+        return self._named("input", self.record.inputs)
+
+    @property
+    def states(self) -> Named[State]:
+        """States beside the motion, by name."""
+        return self._named("state", self.record.states)
+
+    @property
+    def control(self) -> Named[Any]:
+        """Blocks of the control by name."""
+        return self._named("block", self.record.control)
+
+    @property
+    def sensors(self) -> Named[Sensor]:
+        """Sensors by name."""
+        return self._named("sensor", self.record.sensors)
+
+    @property
+    def events(self) -> Named[Event]:
+        """Events by name."""
+        return self._named("event", self.record.events)
+
+
+@dataclass(frozen=True, repr=False)
+class Subsystem(Elements):
+    """A part of a machine that an assembly makes: ``machine.assemblies["left"].bodies["thigh"]``.
+
+    assembly : file, place and parameters, as given. Its elements go by their names in the part; in the machine these have its `prefix`.
+    """
+
+    record: MachineRecord
+    assembly: Assembly
+
+    @property
+    def prefix(self) -> str:
+        """What stands before the names of its elements in the machine."""
+        return self.assembly.prefix
+
+    @property
+    def _prefix(self) -> str:
+        return self.assembly.prefix
+
+    def __repr__(self) -> str:
+        counts = [f"{len(getattr(self, section))} {section}" for section in SECTIONS if len(getattr(self, section))]
+        return f"<Subsystem {self.prefix}*: {', '.join(counts)}>"
+
+
+class Model(Elements):
+    """A machine as a model that can be read, changed and written. Nothing changes a machine; what changes it returns another."""
+
+    origin: Origin
+
+    @classmethod
+    @checked_arguments
+    def from_record(cls, record: MachineRecord, origin: Origin | None = None) -> Self:
+        """Wrap a record; `origin` says where its values were set."""
+        machine = cls.__new__(cls)
+        machine.record = record
+        machine.origin = origin or Origin()
+        return machine
+
+    @property
+    def name(self) -> str:
+        """Name of the machine."""
+        return self.record.name
+
+    @property
+    def description(self) -> str:
+        """What the machine is, in the words of its author."""
+        return self.record.description
+
+    @property
+    def gravity(self) -> tuple[float, float, float]:
+        """[m/s²] global axes."""
+        return self.record.gravity
+
+    @property
+    def assembly(self) -> AssemblySettings:
+        """How the machine is assembled."""
+        return self.record.assembly
+
+    @property
+    def simulation(self) -> SimulationSettings:
+        """How the machine is simulated where a run is not told otherwise."""
+        return self.record.simulation
+
+    @cached_property
+    def _file_names(self) -> FileNames:
+        origin = self.origin
+        if not origin.source:
+            return FileNames({}, {})
+        sources = Sources(origin.allow_code).inside(origin.file)
+        return read_names(origin.source, origin.file, sources, overrides=origin.values)
+
+    @property
+    def parameters(self) -> Mapping[str, float]:
+        """Values of the parameters of the machine's file, in SI units; none where the machine was written in Python."""
+        return dict(self._file_names.parameters)
+
+    @property
+    def assemblies(self) -> Mapping[str, Subsystem]:
+        """The subsystems that the `assemblies` of the machine's file make, by name."""
+        return {name: Subsystem(self.record, assembly) for name, assembly in self._file_names.assemblies.items()}
+
+    @checked_arguments
+    def __getitem__(self, path: str) -> Any:
+        """The element of this name, ``machine["crank"]``, or what stands at a path as in a machine file,
+        ``machine["bodies.crank.mass"]`` or ``machine["crank.mass"]``, in SI units. Raises ModelError with the nearest name.
+        """
+        if path.split(".", maxsplit=1)[0].strip() == "parameters" and "." in path:
+            return self._parameter(path.partition(".")[2].strip())
+        whole = whole_path(self.record, path)
+        if whole == path and "." not in path and path not in MachineRecord.model_fields:
+            names = [str(entry(each, "name")) for section in SECTIONS for each in getattr(self.record, section)]
+            raise ModelError(Fault("", 0, 0, "", unknown_word(path, list(dict.fromkeys(names)), "element")))
+        return value_at(self.record, whole)
+
+    def _parameter(self, name: str) -> float:
+        if name not in self.parameters:
+            raise ModelError(Fault("", 0, 0, "", unknown_word(name, list(self.parameters), "parameter")))
+        return self.parameters[name]
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and bool(elements_named(self.record, name))
+
+    @checked_arguments
+    def with_values(self, values: Mapping[str, Any]) -> Self:
+        """The same machine with other values by path: ``{"bodies.crank.mass": "22 kg", "parameters.length": 0.3}``.
+
+        Paths and texts are those of `nivel run --set`; numbers are in SI units. What a file computes from a parameter follows it.
+        Raises ModelError with every fault.
+        """
+        whole = {whole_path(self.record, path): value for path, value in values.items()}
+        given = {name: value for name, value in self.origin.given.items() if f"simulation.{name}" not in whole}
+        record, origin = with_values(self.record, self.origin, whole)
+        machine = type(self).from_record(record, origin)
+        return machine.with_settings(given) if given else machine
+
+    @checked_arguments
+    def with_settings(self, settings: Mapping[str, Any]) -> Self:
+        """The same machine with some simulation settings replaced."""
+        if not settings:
+            return self
+        # what was set from outside of the file is asked for as well, and never left behind
+        outside, origin = self.origin.settings_outside, self.origin.with_settings(settings)
+        asked = {name: getattr(self.record.simulation, name) for name in outside if name in ("rotations", "baumgarte")}
+        try:
+            simulation = changed(self.record.simulation, {**asked, **settings})
+        except ModelError as error:
+            raise ModelError(origin.placed(origin.of_settings(fault, settings) for fault in error.faults)) from None
+        try:
+            return type(self).from_record(self.record.replace(simulation=simulation), origin)
+        except ModelError as error:
+            raise ModelError(origin.placed(error.faults)) from None
+
+    @checked_arguments
+    def replace(self, *elements: Record, **words: Any) -> Self:
+        """The same machine with other elements or words: ``machine.replace(rod.replace(mass=3), gravity=(0, 0, -1.62))``.
+
+        elements : records that stand in place of those with their names. words : sections as lists of records, `gravity`, `name`,
+        `description`, `assembly`, `simulation`. Raises ModelError with everything that is wrong.
+        """
+        return self._edited({**replaced(self.record, elements), **words})
+
+    @checked_arguments
+    def with_elements(self, *elements: Record) -> Self:
+        """The same machine with more elements. Raises ModelError where a name is taken, or something does not fit."""
+        sections: dict[str, tuple[Any, ...]] = {}
+        for element in elements:
+            section = section_of_element(element)
+            before: tuple[Any, ...] = sections.get(section) or getattr(self.record, section)
+            sections[section] = (*before, element)
+        return self._edited(sections)
+
+    @checked_arguments
+    def without(self, *names: str) -> Self:
+        """The same machine without the elements of these names. Raises ModelError where one is not there, or is needed by others."""
+        sections: dict[str, tuple[Any, ...]] = {}
+        for name in names:
+            self[name]  # refuses names that are not there, or that several have
+            (section,) = elements_named(self.record, name)
+            before: tuple[Any, ...] = sections[section] if section in sections else getattr(self.record, section)
+            sections[section] = tuple(each for each in before if each.name != name)
+        return self._edited(sections)
+
+    @checked_arguments
+    def with_part(self, name: str, part: Model, **placing: Any) -> Self:
+        """The same machine with all elements of another one, `part`, placed and named as by an entry of `assemblies:`.
+
+        placing : `position`, `orientation`, `mirror`, `prefix` (default the name and `_`), as in a machine file.
+        """
+        assembly = Assembly(file="part", **{"prefix": f"{name}_", **placing})
+        try:
+            made = elements_of(part.record, assembly)
+        except NotRepresentableError as error:
+            raise ModelError(Fault("", 0, 0, name, str(error))) from None
+        more = {section: (*getattr(self.record, section), *records) for section, records in made.items() if records}
+        return self._edited(more)
+
+    def _edited(self, changes: Mapping[str, Any]) -> Self:
+        try:
+            record = self.record.replace(**changes)
+        except ModelError as error:
+            raise ModelError([replace(fault, file="", line=0, column=0) for fault in error.faults]) from None
+        return type(self).from_record(record, self.origin.edited())
+
+    @checked_arguments
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the machine as a YAML file; an existing file is replaced. Raises ModelError where it cannot be written."""
+        try:
+            Path(path).write_text(self.to_yaml(), encoding="utf-8")
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            raise ModelError(f"the machine file {fspath(path)} cannot be written: {reason.lower()}") from error
+
+    def to_yaml(self) -> str:
+        """The machine as the text of a machine file, which reads back to an equal machine. SI units, defaults left out."""
+        return write_machine(self.record)
+
+    def __eq__(self, other: object) -> bool:
+        return self.record == other.record if isinstance(other, Model) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.record.name)
+
+    def _repr_html_(self) -> str:
+        """A card for notebooks: what the machine consists of."""
+        record = self.record
+        rows = [
+            ("body", body.name, f"{body.mass:g} kg" if body.mass is not None else "from its shape")
+            for body in record.bodies
+        ]
+        rows += [("joint", joint.name, joint.type) for joint in record.joints]
+        rows += [("force", force.name, force.type) for force in record.forces]
+        lines = "".join(
+            f"<tr><td>{kind}</td><th>{escape(name)}</th><td>{escape(fact)}</td></tr>" for kind, name, fact in rows
+        )
+        return f"<table><caption>{escape(record.name)}</caption>{lines}</table>"
+
+    def __repr__(self) -> str:
+        record = self.record
+        parts = [
+            f"{len(items)} {word if len(items) != 1 else singular}"
+            for items, word, singular in (
+                (record.bodies, "bodies", "body"),
+                (record.joints, "joints", "joint"),
+                (record.forces, "forces", "force"),
+            )
+        ]
+        return f"<Machine {record.name}: {', '.join(parts)}>"
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [str(entry(each, "name")) for section in SECTIONS for each in getattr(self.record, section)]

@@ -1,0 +1,81 @@
+"""Nodes of circuits while a machine is built, and what depends on them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from nivel.kernels.hydraulics.volume import VOLUME
+from nivel.kernels.record import NONE, Circuit
+from nivel.system.state_facts import Coupled
+from nivel.system.tables import Array, index_array
+
+ROOM = 5  # columns of `Circuit.room`
+
+
+@dataclass(frozen=True)
+class Node:
+    """One node of a circuit.
+
+    kind : VOLUME, GIVEN or SIGNAL of `nivel.kernels.hydraulics.volume`. state : of its mass or signal, or NONE. room : as `Circuit.room`.
+    swept : volume that its pistons leave open at half their strokes [m³]. start : pressure at t = 0 that was given [Pa], or None.
+    owner : name of its component.
+    """
+
+    name: str
+    kind: int
+    fluid: int
+    state: int
+    room: tuple[float, ...]
+    swept: float
+    start: float | None
+    owner: str
+    output: int
+
+    @property
+    def is_volume(self) -> bool:
+        """Whether its state is a mass."""
+        return self.kind == VOLUME
+
+
+@dataclass
+class CircuitTable:
+    """Nodes by name, fluids as rows of `Circuit.fluid`, signals by path with what they depend on."""
+
+    nodes: dict[str, Node] = field(default_factory=dict)
+    fluids: list[tuple[float, ...]] = field(default_factory=list)
+    depends: dict[str, Coupled] = field(default_factory=dict)
+    signals: dict[str, tuple[int, Coupled]] = field(default_factory=dict)
+
+    def index(self, name: str) -> int:
+        """Number of a node."""
+        return list(self.nodes).index(name)
+
+    def arrays(self) -> Circuit:
+        """The tables."""
+        nodes = list(self.nodes.values())
+        count = len(nodes)
+
+        def work() -> Array:
+            return np.zeros(count)
+
+        flowing = [(node.fluid, node.state if node.is_volume else NONE) for node in nodes]
+        return Circuit(
+            node=index_array(flowing, 2),
+            fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), -1 if self.fluids else 6),
+            room=np.array([node.room for node in nodes], dtype=float).reshape(count, ROOM),
+            secant=np.zeros(1, dtype=np.uint32),
+            guard=np.zeros(2),
+            kept=work(),
+            known=np.zeros((count, 8)),
+            volume=work(),
+            volume_rate=work(),
+            pressure=work(),
+            density=work(),
+            enthalpy=work(),
+            temperature=work(),
+            inflow=work(),
+            power=np.zeros(4),
+            stored=np.zeros(1),
+        )

@@ -1,0 +1,163 @@
+"""Components of a circuit in numbers, by type."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Final
+
+from nivel.kernels.hook import Family
+from nivel.kernels.hydraulics import ledger, load_signal, pipe, piston, restriction, rotary, spool, volume
+from nivel.machine.hydraulics import (
+    Accumulator,
+    Actuator,
+    CheckValve,
+    Compensator,
+    Component,
+    CounterbalanceValve,
+    DirectionalValve,
+    FlowSource,
+    HydraulicCylinder,
+    HydraulicMotor,
+    LoadSensing,
+    Orifice,
+    Pipe,
+    Pump,
+    ReducingValve,
+    ReliefValve,
+    Tank,
+    Volume,
+)
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.builder import SystemBuilder
+from nivel.system.hydraulics.directional import add_directional, add_load_signal
+from nivel.system.hydraulics.machines import add_flow_source, add_machine
+from nivel.system.hydraulics.nodes import add_fluids, add_nodes
+from nivel.system.hydraulics.poppets import (
+    add_check,
+    add_compensator,
+    add_counterbalance,
+    add_reducing,
+    add_relief,
+)
+from nivel.system.hydraulics.restrictions import add_cushions, add_inlet, add_orifice, add_pipe
+from nivel.system.located import located
+from nivel.system.state_facts import StateFact
+
+# in the order of an evaluation: what a control may read at once, and what it acts on
+SENSED: Final[tuple[Family, ...]] = (piston.displace, volume.apply, piston.guide)
+ACTING: Final[tuple[Family, ...]] = (
+    piston.press,
+    spool.move,
+    spool.lift,
+    load_signal.apply,
+    rotary.set_displacement,
+    rotary.turn,
+    rotary.supply,
+    restriction.apply,
+    pipe.apply,
+    ledger.apply,
+)
+FAMILIES: Final = (*SENSED, *ACTING)
+ADDERS: Final[dict[type[Component], Callable[[SystemBuilder, Any], None]]] = {
+    Accumulator: add_inlet,
+    LoadSensing: add_load_signal,
+    Orifice: add_orifice,
+    Pipe: add_pipe,
+    CheckValve: add_check,
+    ReliefValve: add_relief,
+    CounterbalanceValve: add_counterbalance,
+    ReducingValve: add_reducing,
+    Compensator: add_compensator,
+    DirectionalValve: add_directional,
+    FlowSource: add_flow_source,
+    Pump: add_machine,
+    HydraulicMotor: add_machine,
+    HydraulicCylinder: add_cushions,
+}
+_POPPETS = (CheckValve, ReliefValve, CounterbalanceValve, ReducingValve, Compensator)
+_NEEDED: Final[dict[type[Component], tuple[Family, ...]]] = {
+    **dict.fromkeys(_POPPETS, (spool.lift, restriction.apply)),
+    Volume: (),
+    Tank: (),
+    Accumulator: (restriction.apply,),
+    LoadSensing: (load_signal.apply,),
+    Orifice: (restriction.apply,),
+    Pipe: (pipe.apply,),
+    DirectionalValve: (spool.move, restriction.apply),
+    FlowSource: (rotary.supply,),
+    Pump: (rotary.set_displacement, rotary.turn),
+    HydraulicMotor: (rotary.set_displacement, rotary.turn),
+    Actuator: (piston.displace, piston.guide, piston.press),
+    HydraulicCylinder: (piston.displace, piston.guide, piston.press),
+}
+LEDGER: Final = {
+    "supplied": ("J", "energy that shafts and tanks gave to fluids"),
+    "delivered": ("J", "energy that fluids gave to bodies"),
+    "lost": ("J", "energy that fluids lost"),
+    "taken_in": ("kg", "mass that tanks gave to volumes"),
+}
+
+
+def families_of(machine: MachineRecord) -> list[Family]:
+    """The kernels that the circuits of a machine need."""
+    if not machine.hydraulics:
+        return []
+    needed = {volume.apply, ledger.apply}
+    for component in machine.hydraulics:
+        kind = next(kind for kind in type(component).__mro__ if kind in _NEEDED)
+        needed.update(_NEEDED[kind])
+        if isinstance(component, HydraulicCylinder) and (component.cushion_A or component.cushion_B):
+            needed.update((spool.lift, restriction.apply))
+    return [family for family in FAMILIES if family in needed]
+
+
+def add_circuits(draft: SystemBuilder) -> None:
+    """Fluids, nodes and pressures of all circuits of a machine, and its pistons."""
+    if draft.machine.hydraulics:
+        add_fluids(draft)
+        add_nodes(draft)
+        _add_pressures(draft)
+
+
+def add_components(draft: SystemBuilder) -> None:
+    """What flows through and acts, after the control that steers it."""
+    components = draft.machine.hydraulics
+    if not components:
+        return
+    # positions of valves before what reads them
+    for component in sorted(components, key=lambda each: isinstance(each, LoadSensing)):
+        if (add := ADDERS.get(type(component))) is not None:
+            with located(f"hydraulics.{component.name}"), draft.noting():
+                add(draft, component)
+            _know_late(draft, component)
+    _add_ledger(draft)
+
+
+def _add_pressures(draft: SystemBuilder) -> None:
+    """One row for each node."""
+    given = {each.name: each for each in draft.machine.hydraulics if isinstance(each, Tank)}
+    for k, node in enumerate(draft.circuit.nodes.values()):
+        function = 0
+        if node.kind == volume.GIVEN:
+            with located(f"hydraulics.{node.owner}.pressure"), draft.noting():
+                function = draft.function(given[node.owner].pressure)
+        draft.elements.add(volume.apply, [node.output, k, node.kind, node.state, function])
+
+
+def _know_late(draft: SystemBuilder, component: Component) -> None:
+    """What a component reports, as signals."""
+    coupled, start = draft.noted[-1], f"hydraulics.{component.name}."
+    for k, (name, _, _) in enumerate(draft.outputs.entries):
+        if name.startswith(start):
+            draft.circuit.signals.setdefault(name.removeprefix("hydraulics."), (k, coupled))
+
+
+def _add_ledger(draft: SystemBuilder) -> None:
+    """Three energies and a mass as states that nothing depends on."""
+    first = draft.outputs.add(("hydraulics.stored", "J", "energy stored in fluids, hoses and accumulators"))
+    states = []
+    for name, (units, words) in LEDGER.items():
+        fact = StateFact(f"hydraulics.{name}", units, words, 0.0, 1.0, integral=True)
+        with draft.noting():
+            states.append(draft.own_state(fact))
+    draft.elements.add(ledger.apply, [first, states[0]])

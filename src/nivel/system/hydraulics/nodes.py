@@ -1,0 +1,301 @@
+"""Nodes of a circuit in numbers: volumes, chambers of actuators, given pressures, signals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from nivel.kernels.coordinate import DISTANCE
+from nivel.kernels.hydraulics import volume
+from nivel.kernels.hydraulics.fluid import ATMOSPHERE
+from nivel.kernels.hydraulics.piston import STAGES, displace, guide, press
+from nivel.kernels.record import NONE
+from nivel.machine.forces import Ends
+from nivel.machine.hydraulics import (
+    Accumulator,
+    Actuator,
+    Component,
+    Fluid,
+    HydraulicCylinder,
+    LoadSensing,
+    RotaryActuator,
+    Tank,
+    TelescopicCylinder,
+    Volume,
+)
+from nivel.machine.hydraulics.actuators import DEAD_SHARE, PistonFriction
+from nivel.machine.hydraulics.fluid import OIL
+from nivel.system.builder import SystemBuilder
+from nivel.system.circuit import Node
+from nivel.system.forces.restitution import damping_of_restitution
+from nivel.system.hydraulics.fluid_law import density_and_modulus
+from nivel.system.located import located
+from nivel.system.state_facts import Coupled, StateFact
+
+# pressure that the tolerance is a share of [Pa], and that masses start from until the circuit is at rest
+TYPICAL = 1e7
+RIGID = (0.0, 0.0, 0.0, 1.0, 1.0)  # of `Circuit.room`: no volume, no wall, no gas
+
+
+def add_fluids(draft: SystemBuilder) -> None:
+    """Rows of constants."""
+    for fluid in draft.machine.fluids or (OIL,):
+        draft.circuit.fluids.append(fluid_constants(fluid))
+
+
+def fluid_constants(fluid: Fluid) -> tuple[float, ...]:
+    """A row of `Circuit.fluid`."""
+    modulus, slope = fluid.bulk_modulus, fluid.bulk_modulus_slope
+    return (fluid.air, modulus, slope, fluid.gas_exponent, fluid.mixed_density, fluid.viscosity)
+
+
+def add_nodes(draft: SystemBuilder) -> None:
+    """All nodes, and chambers of actuators with their pistons."""
+    components = draft.machine.hydraulics
+    swept = _swept_by_node(components)
+    for component in components:
+        with located(f"hydraulics.{component.name}"):
+            for node in _own_nodes(draft, component, swept):
+                draft.circuit.nodes[node.name] = node
+    for component in components:
+        if isinstance(component, Actuator):
+            with located(f"hydraulics.{component.name}"), draft.within(f"hydraulics.{component.name}"):
+                _add_actuator(draft, component)
+    for component in components:
+        _know_pressures(draft, component)
+
+
+def _know_pressures(draft: SystemBuilder, component: Component) -> None:
+    """Pressures as signals; and of actuators, what their forces depend on, now that all that moves a node is known."""
+    circuit = draft.circuit
+    for node in circuit.nodes.values():
+        if node.owner == component.name and not isinstance(component, Actuator):
+            circuit.depends.setdefault(node.name, _states(node.state))
+            circuit.signals[f"{component.name}.pressure"] = (node.output, circuit.depends[node.name])
+    if isinstance(component, Actuator):
+        with draft.noting():
+            for chamber in _sweep(component)[1]:
+                name = chamber_node(component, chamber)
+                draft.node(name)
+                circuit.signals[f"{component.name}.pressure_{chamber}"] = (
+                    circuit.nodes[name].output,
+                    circuit.depends[name],
+                )
+        for node in circuit.nodes.values():
+            if node.owner == component.name:
+                circuit.depends.setdefault(node.name, _states(node.state))
+
+
+def _states(state: int) -> Coupled:
+    return Coupled(frozenset(), frozenset() if state == NONE else frozenset((state,)))
+
+
+def _own_nodes(draft: SystemBuilder, component: Component, swept: dict[str, float]) -> Iterator[Node]:
+    """The nodes that a component brings."""
+    match component:
+        case Volume():
+            room = (component.volume, _compliance(component.volume, component.wall_modulus), 0.0, 1.0, 1.0)
+            yield _volume(draft, component, component.name, "", room, component.start, swept)
+        case Accumulator():
+            dead = component.dead_volume or DEAD_SHARE * component.volume
+            room = (dead, 0.0, component.volume, component.precharge, component.gas_exponent)
+            yield _volume(draft, component, component.name, "", room, component.start, swept)
+        case Tank():
+            output = _pressure_output(draft, component.name, "pressure")
+            yield Node(
+                component.name, volume.GIVEN, _fluid(draft, component), NONE, RIGID, 0.0, None, component.name, output
+            )
+        case LoadSensing():
+            output = _pressure_output(draft, component.name, "pressure")
+            fact = StateFact(
+                f"{component.name}.pressure", "Pa", f"load signal of {component.name}", ATMOSPHERE, TYPICAL
+            )
+            state = draft.own_state(fact)
+            yield Node(component.name, volume.SIGNAL, 0, state, RIGID, 0.0, None, component.name, output)
+        case Actuator():
+            for chamber, dead in _dead_volumes(component).items():
+                if chamber in component.ports:
+                    continue
+                start = getattr(component, f"start_{chamber}")
+                cushion = getattr(component, f"cushion_{chamber}", None)
+                room = (dead, _compliance(dead, component.wall_modulus), 0.0, 1.0, 1.0)
+                inner = chamber_node(component, chamber)
+                yield _volume(draft, component, inner, f"_{chamber}", room, start, swept)
+                if cushion is not None:
+                    room = (cushion.port_volume, 0.0, 0.0, 1.0, 1.0)
+                    yield _volume(
+                        draft, component, f"{component.name}.{chamber}", f"_port_{chamber}", room, start, swept
+                    )
+
+
+def chamber_node(component: Actuator, chamber: str) -> str:
+    """Name of the node that a chamber is, or is a part of."""
+    if getattr(component, f"cushion_{chamber}", None) is not None:
+        return f"{component.name}.chamber_{chamber}"
+    return component.ports.get(chamber, f"{component.name}.{chamber}")
+
+
+def _volume(
+    draft: SystemBuilder,
+    component: Component,
+    name: str,
+    ending: str,
+    room: tuple[float, ...],
+    start: float | None,
+    swept: dict[str, float],
+) -> Node:
+    """A node with mass, at first at TYPICAL pressure."""
+    fluid = _fluid(draft, component)
+    constants = draft.circuit.fluids[fluid]
+    size = room[0] + swept.get(name, 0.0)
+    density, modulus = density_and_modulus(constants, TYPICAL)
+    scale = density * size / modulus * TYPICAL
+    fact = StateFact(
+        f"{component.name}.mass{ending}",
+        "kg",
+        f"mass of the fluid in {name}",
+        start=density * size,
+        scale=scale,
+        relative=False,
+    )
+    output = _pressure_output(draft, component.name, f"pressure{ending}")
+    return Node(name, volume.VOLUME, fluid, draft.own_state(fact), room, size - room[0], start, component.name, output)
+
+
+def _pressure_output(draft: SystemBuilder, name: str, quantity: str) -> int:
+    return draft.outputs.add(
+        (f"hydraulics.{name}.{quantity}", "Pa", f"{quantity.replace('_', ' in ', 1)} of {name}, absolute")
+    )
+
+
+def _fluid(draft: SystemBuilder, component: Component) -> int:
+    """Number of the fluid of a component."""
+    name = getattr(component, "fluid", None)
+    return 0 if name is None else [fluid.name for fluid in draft.machine.fluids].index(name)
+
+
+def _compliance(size: float, modulus: float | None) -> float:
+    """Room that walls make per pressure [m³/Pa]."""
+    return size / modulus if modulus else 0.0
+
+
+def _sweep(component: Actuator) -> tuple[float, dict[str, tuple[float, ...]]]:
+    """Stroke, and areas of the stages of each chamber [m², of turning ones m³/rad]."""
+    match component:
+        case HydraulicCylinder():
+            return component.stroke, {c: (component.areas[k],) for k, c in enumerate(component.chambers)}
+        case TelescopicCylinder():
+            return component.stroke, {"A": component.areas}
+        case RotaryActuator():
+            return component.upper - component.lower, dict.fromkeys(("A", "B"), (component.displacement,))
+    raise TypeError(component.type)
+
+
+def stroke_of(component: Actuator) -> float:
+    """Stroke [m or rad]."""
+    return _sweep(component)[0]
+
+
+def _dead_volumes(component: Actuator) -> dict[str, float]:
+    """Of each chamber [m³]."""
+    stroke, areas = _sweep(component)
+    given = {chamber: getattr(component, f"dead_volume_{chamber}") for chamber in areas}
+    return {chamber: given[chamber] or DEAD_SHARE * areas[chamber][0] * stroke for chamber in areas}
+
+
+def _swept_by_node(components: tuple[Component, ...]) -> dict[str, float]:
+    """What pistons leave open in each node at half their strokes [m³], with dead volumes of chambers that are parts of other volumes."""
+    out: dict[str, float] = {}
+    for component in components:
+        if not isinstance(component, Actuator):
+            continue
+        stroke, areas = _sweep(component)
+        for chamber, its in areas.items():
+            node = chamber_node(component, chamber)
+            dead = _dead_volumes(component)[chamber] if chamber in component.ports else 0.0
+            out[node] = out.get(node, 0.0) + dead + 0.5 * its[0] * stroke
+    return out
+
+
+def _add_actuator(draft: SystemBuilder, component: Actuator) -> None:
+    """Chambers, and the piston between them."""
+    stroke, areas = _sweep(component)
+    dead = _dead_volumes(component)
+    with draft.noting():
+        if isinstance(component, RotaryActuator):
+            coordinate, origin = draft.coordinate(component.coordinate), component.lower
+        else:
+            assert isinstance(component, Ends)
+            coordinate = draft.coordinates.add(DISTANCE, *draft.ends(component.ends))
+            draft.coordinates.use(coordinate)
+            origin = component.retracted_length  # type: ignore[attr-defined]
+        first = _outputs(draft, component)
+        nodes = {chamber: chamber_node(component, chamber) for chamber in areas}
+        for chamber, its in areas.items():
+            node = draft.circuit.nodes[nodes[chamber]]
+            extra = dead[chamber] if chamber in component.ports else 0.0
+            numbers = _chamber_numbers(component, chamber, its, origin, stroke, extra)
+            columns = [first, draft.circuit.index(node.name), coordinate]
+            draft.elements.add(displace, columns, numbers)
+            draft.elements.add(press, columns, numbers)
+            draft.touch_state(node.state)
+        ends = [draft.circuit.index(nodes[c]) if c in nodes else NONE for c in ("A", "B")]
+        numbers = [origin, *_friction(component), stroke, component.stop_stiffness]
+        numbers.append(damping_of_restitution(component.stop_restitution))
+        draft.elements.add(guide, [first, ends[0], coordinate, ends[1]], numbers, 2, (0, 1))
+    moved = draft.noted[-1]
+    for node in nodes.values():
+        own = draft.circuit.nodes[node].state
+        known = draft.circuit.depends.get(node, _states(own))
+        draft.circuit.depends[node] = Coupled(known.bodies | moved.bodies, known.states)
+    for k, quantity in enumerate(("force", "power", "position", "speed", "friction")):
+        draft.circuit.signals[f"{component.name}.{quantity}"] = (first + k, moved)
+
+
+def _chamber_numbers(
+    component: Actuator, chamber: str, areas: tuple[float, ...], origin: float, stroke: float, dead: float
+) -> list[float]:
+    """Numbers of a chamber: ORIGIN … of `nivel.kernels.hydraulics.piston`."""
+    if chamber == "B":
+        return [origin, dead + areas[0] * stroke, -areas[0], 1.0, *[0.0, 0.0] * STAGES]
+    out = [origin, dead, areas[0], getattr(component, "transition", 1.0)]
+    at, strokes = 0.0, getattr(component, "strokes", ())
+    for k in range(STAGES):
+        change = areas[k + 1] - areas[k] if k + 1 < len(areas) else 0.0
+        at += strokes[k] if k < len(strokes) else 0.0
+        out += [change, at - 0.5 * out[3]]
+    return out
+
+
+def _friction(component: Actuator) -> list[float]:
+    """COULOMB … VISCOUS of `nivel.kernels.hydraulics.piston`."""
+    friction: PistonFriction | None = getattr(component, "friction", None)
+    if friction is None:
+        return [0.0, 0.0, 1.0, 1.0, 1.0, 0.0]
+    area = component.areas[0]  # type: ignore[attr-defined]
+    return [
+        friction.sliding,
+        friction.by_pressure * area,
+        friction.static,
+        friction.stribeck_speed,
+        friction.transition_speed,
+        friction.viscous,
+    ]
+
+
+def _outputs(draft: SystemBuilder, component: Actuator) -> int:
+    """Index of the first output of a piston."""
+    turns = isinstance(component, RotaryActuator)
+    units = ("N m", "W", "rad", "rad/s", "N m") if turns else ("N", "W", "m", "m/s", "N")
+    words = (
+        "effort on what it moves, positive where it extends",
+        "power into the machine",
+        "stroke",
+        "speed",
+        "friction",
+    )
+    names = ("force", "power", "position", "speed", "friction")
+    entries = [
+        (f"hydraulics.{component.name}.{name}", unit, f"{word} of {component.name}")
+        for name, unit, word in zip(names, units, words, strict=True)
+    ]
+    return draft.outputs.add(*entries)

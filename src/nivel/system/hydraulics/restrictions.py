@@ -1,0 +1,127 @@
+"""Orifices, pipes, inlets and cushions in numbers."""
+
+from __future__ import annotations
+
+import math
+
+from nivel.kernels.hydraulics import pipe, restriction, spool
+from nivel.kernels.record import NONE
+from nivel.machine.hydraulics import Accumulator, HydraulicCylinder, Orifice, Pipe
+from nivel.machine.hydraulics.component import Rated
+from nivel.machine.time_function import TimeFunction
+from nivel.system.builder import SystemBuilder
+from nivel.system.circuit import Node
+from nivel.system.hydraulics.nodes import chamber_node
+from nivel.system.state_facts import StateFact
+
+TRANSITION = 0.5e5  # Pa, of restrictions that do not say
+CRITICAL_REYNOLDS = (0.3164 / 64.0) ** (-4.0 / 3.0)  # where 64/Re is 0.3164 Re^(-1/4)
+
+
+def add_flow(
+    draft: SystemBuilder,
+    component: str,
+    quantity: str,
+    ends: tuple[str, str],
+    numbers: list[float],
+    opening: tuple[int, int] = (restriction.FIXED, 0),
+) -> None:
+    """A restriction between two nodes. opening : its kind, and the output or function that it follows."""
+    first = draft.outputs.add(
+        (f"hydraulics.{component}.{quantity}", "m^3/s", f"{quantity.replace('_', ' ')} of {component}")
+    )
+    draft.elements.add(restriction.apply, [first, draft.node(ends[0]), draft.node(ends[1]), *opening], numbers)
+
+
+def rated(component: Rated, leakage: float) -> list[float]:
+    """FLOW, CORNER, LEAK of a component from a catalogue."""
+    return [component.conductance, component.transition, leakage]
+
+
+def add_orifice(draft: SystemBuilder, component: Orifice) -> None:
+    """A restriction, fixed or with an opening that varies."""
+    ends = component.ports["A"], component.ports["B"]
+    conductance = 0.0
+    if component.flow is not None:
+        assert component.pressure_drop is not None  # the record was checked
+        conductance = component.flow / math.sqrt(component.pressure_drop)
+    elif component.diameter is not None:
+        area = 0.25 * math.pi * component.diameter**2
+        density = draft.circuit.fluids[_flowing(draft, ends).fluid][4]
+        conductance = component.discharge_coefficient * area * math.sqrt(2.0 / density)
+    opening = (restriction.FIXED, 0)
+    if component.opening != 1.0:
+        opening = (restriction.GIVEN, draft.function(component.opening))
+    add_flow(draft, component.name, "flow", ends, [conductance, component.transition, component.leakage], opening)
+
+
+def _flowing(draft: SystemBuilder, ends: tuple[str, str]) -> Node:
+    return draft.circuit.nodes[ends[0]]
+
+
+def add_inlet(draft: SystemBuilder, component: Accumulator) -> None:
+    """The inlet of an accumulator."""
+    conductance = component.flow / math.sqrt(component.pressure_drop)
+    add_flow(draft, component.name, "flow", (component.ports["A"], component.name), [conductance, TRANSITION, 0.0])
+
+
+def add_pipe(draft: SystemBuilder, component: Pipe) -> None:
+    """Losses of a pipe, and its inertia."""
+    ends = component.ports["A"], component.ports["B"]
+    fluid = draft.circuit.fluids[_flowing(draft, ends).fluid]
+    density, viscosity, d = fluid[4], fluid[5], component.diameter
+    area = 0.25 * math.pi * d**2
+    first = draft.outputs.add((f"hydraulics.{component.name}.flow", "m^3/s", f"flow of {component.name}"))
+    critical = CRITICAL_REYNOLDS * viscosity * area / d
+    state = NONE
+    if component.inertia:
+        name = f"{component.name}.mass_flow"
+        state = draft.own_state(StateFact(name, "kg/s", f"mass flow of {component.name}", 0.0, density * critical))
+    resistance = 128.0 * viscosity * component.length / (math.pi * d**4)
+    columns = [first, draft.node(ends[0]), draft.node(ends[1]), state]
+    draft.elements.add(pipe.apply, columns, [resistance, critical, area / component.length, density])
+
+
+def add_cushions(draft: SystemBuilder, component: HydraulicCylinder) -> None:
+    """The throttled outlets of a cylinder, each with a check valve beside it."""
+    for chamber in component.chambers:
+        cushion = getattr(component, f"cushion_{chamber}")
+        if cushion is None:
+            continue
+        inner, port = chamber_node(component, chamber), f"{component.name}.{chamber}"
+        conductance = cushion.flow / math.sqrt(cushion.pressure_drop)
+        end, sign = (0.0, 1.0) if chamber == "A" else (component.stroke, -1.0)
+        position, coupled = draft.circuit.signals[f"{component.name}.position"]
+        draft.note(coupled)
+        numbers = [conductance, TRANSITION, 0.0, sign, end, cushion.length, 1.0, cushion.least_opening]
+        add_flow(
+            draft, component.name, f"cushion_flow_{chamber}", (inner, port), numbers, (restriction.CUSHION, position)
+        )
+        opening = add_poppet(
+            draft, component.name, f"check_{chamber}", {port: 1.0, inner: -1.0}, (3e5, 0.0, -1.0, 0.0), 0.5e5
+        )
+        add_flow(draft, component.name, f"check_flow_{chamber}", (port, inner), [conductance, TRANSITION, 0.0], opening)
+
+
+def add_poppet(
+    draft: SystemBuilder,
+    component: str,
+    quantity: str,
+    factors: dict[str, float],
+    numbers: tuple[float, float, float, float],
+    setting: TimeFunction,
+) -> tuple[int, int]:
+    """A valve that pressures open, and its opening as restrictions read it.
+
+    factors : of the pressures of nodes. numbers : range, time constant (0: none), factor of the setting, constant.
+    """
+    output = draft.outputs.add(
+        (f"hydraulics.{component}.{quantity}", "1", f"{quantity.replace('_', ' ')} of {component}, 0 closed")
+    )
+    state = NONE
+    if numbers[1] > 0.0:
+        state = draft.own_state(StateFact(f"{component}.{quantity}", "1", f"{quantity} of {component}", 0.0, 1.0))
+    nodes = [draft.node(name) for name in factors]
+    columns = [output, state, NONE, draft.function(setting), *nodes, *[NONE] * (spool.NODES - len(nodes))]
+    draft.elements.add(spool.lift, columns, [*numbers, *factors.values()])
+    return restriction.DIRECT, output

@@ -1,0 +1,230 @@
+"""Words of other programs and textbooks, and what nivel calls the same thing: asked only where a word is not known.
+
+A word of ours answers where it is valid in that place. Where no single word says it, a line to write does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+# ours: how other programs call it. Spelling counts without case, `-`, `_` and spaces.
+SAME: Final[dict[str, str]] = {
+    # joints
+    "revolute": "hinge, pin, pinned, rotary, rotational, continuous, hinge joint, revolute joint",
+    "translational": "prismatic, slider, sliding, linear, prismatic joint, translation, slide",
+    "spherical": "ball, ball joint, ball socket, ball and socket, globe, gimbal",
+    "universal": "hooke, hookes joint, cardan, u joint, universal joint, cardan joint",
+    "fixed": "weld, welded, rigid, bolted, clamped, rigid connection, fixed joint",
+    "planar": "plane, planar joint",
+    "screw": "helical, lead screw, ball screw",
+    "cylindrical": "cylindrical joint, telescoping",
+    "point-on-line": "inline, point curve, point on a line, pin in slot",
+    "point-on-plane": "inplane, point on a plane",
+    "distance": "rod, massless link, link, strut, length",
+    "variable-distance": "cylinder, hydraulic cylinder, linear actuator, actuator, telescopic, actuated distance, driven distance, ram",
+    "generic": "general, six dof, 6dof, dof, custom",
+    # keys of a run, and its methods
+    "duration": "t end, end time, stop time, final time, t final, t stop, t max, tf, max time, simulation time, time",
+    "step": "dt, time step, timestep, step size, delta t, h, sample time, fixed step",
+    "largest_step": "max step, hmax, dt max, maximum step",
+    "output_interval": "output step, dt out, output dt, save every, print interval, communication interval",
+    "integrator": "solver, method, integration, time integration, scheme, algorithm, solver type",
+    "tolerance": "rtol, reltol, tol, atol, abstol, rel tol, relative tolerance, error, precision",
+    "rk4": "ode4, runge kutta, runge kutta 4, classic, explicit",
+    "euler": "ode1, explicit euler, forward euler, semi implicit euler, symplectic euler",
+    "dopri5": "ode45, rk45, dormand prince, runge kutta fehlberg, rkf45, variable step",
+    "dop853": "rk853, ode8, dop",
+    "adams": "ode113, abam, vode",
+    "bdf": "ode15s, cvode, ida, lsoda, dassl, gstiff, wstiff, stiff, implicit euler, backward euler, daspk",
+    "radau": "radau5, radau iia, ode23s, implicit",
+    "newmark": "ode23t, trapezoidal, trapezoid rule",
+    "hht": "hht i3, hht alpha, hilber hughes taylor",
+    "generalised-alpha": "gen alpha, generalized alpha, chung hulbert",
+    # bodies, places and turns
+    "mass": "m, weight",
+    "inertia": "i, ixx, moment of inertia, inertia tensor, moments of inertia, inertial",
+    "centre_of_mass": "com, cog, cg, cm, centroid, center of gravity, centre of gravity",
+    "position": "pos, xyz, origin, location, translation, coordinates, loc, place",
+    "point": "origin, position, location, anchor, at, pos, loc, centre, center",
+    "axis": "direction, dir, normal, hinge axis, axis direction",
+    "orientation": "rotation, rot, rotate, angles, attitude, ori, pose",
+    "euler_parameters": "quaternion, quat, wxyz, q",
+    "angle": "theta, phi, angle 0, q",
+    "velocity": "vel, v, linear velocity, v0, initial velocity",
+    "angular_velocity": "omega, w, ang vel, rotational velocity, spin",
+    "density": "rho, material density",
+    "shape": "geometry, visual, geom, collision, solid",
+    "start": "initial, q0, initial position, initial value, x0, ic, initial conditions, init",
+    "start_rates": "qd0, initial velocity, initial velocities, initial rate, v0",
+    # sections of a file
+    "bodies": "links, parts, rigid bodies, masses, body, components",
+    "joints": "constraints, connections, joint, connectors",
+    "forces": "loads, springs, dampers, force, actuators, contacts, torques, elements, force elements",
+    "drivers": "motions, motion, driver, prescribed motions, inputs",
+    "couplings": "gears, coupling, transmissions, gearboxes",
+    "sensors": "outputs, probes, measures, requests, sensor, measurements",
+    "markers": "frames, sites, points, marker, attachment points, connection points",
+    "events": "event, stop conditions, triggers",
+    "simulation": "settings, options, solver, run, solver settings, sim, analysis, integration",
+    "parameters": "params, variables, constants, design variables, vars, parameter",
+    "assemblies": "subsystems, instances, submodels, modules",
+    "include": "import, imports, includes",
+    "name": "title, model",
+    "description": "comment, notes, about",
+    # forces
+    "spring-damper": "spring, damper, tsda, coil spring, shock, shock absorber, translational spring",
+    "torsional-spring-damper": "rotational spring, torsion spring, rsda, torsional spring",
+    "joint-spring-damper": "joint damping, joint spring, joint damper",
+    "torque": "moment, couple",
+    "force": "point force, applied force, external force, vector force, gforce",
+    "stop": "limit, end stop, hard stop, joint limit, bumpstop, bump stop",
+    "motor": "actuator, drive",
+    "bushing": "bush, rubber mount, compliant joint, mount",
+    "vector": "force, value, components, f, torque, load, magnitude",
+    "stiffness": "k, spring constant, rate, spring rate, spring stiffness",
+    "damping": "c, d, damping coefficient, damper",
+    "free_length": "l0, rest length, natural length, unstretched length, length, initial length",
+    "preload": "initial force, pretension",
+    "friction": "coulomb, coulomb friction",
+    # forces and drivers act on
+    "coordinate": "joint, dof, axis, joint coordinate, degree of freedom",
+    "value": "function, expression, motion, position, f, displacement, law, trajectory",
+    "when": "condition, trigger, expression, if",
+    "interpolation": "method, kind, interp, type",
+    "linear": "straight, piecewise linear, lin, polyline, linear interpolation",
+    "cubic": "spline, cubic spline, natural spline, smooth",
+    "times": "t, time, x, points",
+    "points": "x, abscissa, breakpoints, anchors, ends, positions",
+    "values": "y, data, ordinate, value",
+    "ground": "world, base, earth, inertial, global, fixed, origin, root, env, frame, base link",
+}  # fmt: skip
+
+
+class Line(NamedTuple):
+    """What to write for a word, where `beside` is one of the words that are valid there."""
+
+    words: str
+    beside: str
+    answer: str
+
+
+LINES: Final = (
+    Line("parent, child", "markers", "write `bodies: [PARENT, CHILD]`, first and second body of the joint"),
+    Line(
+        "body 1, body 2, body a, body b, from, to, base, follower, i, j, first, second, body i, body j",
+        "markers",
+        "write `bodies: [FIRST, SECOND]`",
+    ),
+    Line(
+        "limits, limit, range, lower, upper, min, max",
+        "markers",
+        "limits of a joint are a force: `forces: {limit: {type: stop, coordinate: JOINT.COORDINATE, lower: …, upper: …, stiffness: …}}`",
+    ),
+    Line(
+        "damping, stiffness, spring, damper",
+        "x_axis",
+        "a spring or damper in a joint is a force: "
+        "`forces: {damper: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, damping: …}}`",
+    ),
+    Line(
+        "friction",
+        "x_axis",
+        "friction of a joint is a force: `forces: {rubbing: {type: friction, …}}`",
+    ),
+    Line(
+        "motor, actuator, torque, force, motion, drive",
+        "x_axis",
+        "what moves a joint stands apart: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: …}}` prescribes its motion, "
+        "`forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: …}}` its effort",
+    ),
+    Line(
+        "free, floating, none",
+        "revolute",
+        "a body without a joint is free; leave the joint out",
+    ),
+    Line("gear, belt, rack, coupler", "revolute", "a gear is a coupling: `couplings: {pair: {type: gear, …}}`"),
+    Line("bushing, mount", "revolute", "a joint that yields is a force: `forces: {mount: {type: bushing, …}}`"),
+    Line(
+        "rope, cable, wire",
+        "revolute",
+        "a rope that may slacken is a force; a link that keeps its length is a `distance` joint",
+    ),
+    Line(
+        "fixed, static, ground, is static, immovable, kinematic",
+        "assembly_weight",
+        "a body that does not move is joined to the ground: `joints: {base: {type: fixed, bodies: [ground, BODY], point: [0, 0, 0]}}`",
+    ),
+    Line(
+        "parent, joint",
+        "assembly_weight",
+        "bodies are connected under `joints:`, e.g. `hinge: {type: revolute, bodies: [ground, BODY], point: [0, 0, 0], axis: [0, 0, 1]}`",
+    ),
+    Line("material", "density", "write `density`, e.g. `density: 7850 kg/m^3` of steel"),
+    Line("colour, color, rgba", "density", "the viewer chooses the colours; leave it out"),
+    Line(
+        "rpy, roll pitch yaw, euler angles, ypr, euler, eulerangles",
+        "orientation",
+        "write `orientation: {euler: [YAW, PITCH, ROLL], sequence: zyx}` for roll, pitch and yaw",
+    ),
+    Line(
+        "rpy, roll pitch yaw, ypr, xyz, euler angles",
+        "euler_parameters",
+        "roll, pitch and yaw are `{euler: [YAW, PITCH, ROLL], sequence: zyx}`, each about the axis as turned so far",
+    ),
+    Line(
+        "quaternion, quat, euler parameters",
+        "orientation",
+        "write `orientation: {euler_parameters: [W, X, Y, Z]}`, scalar first",
+    ),
+    Line("quaternion, quat, wxyz, xyzw", "euler_parameters", "write `euler_parameters: [W, X, Y, Z]`, scalar first"),
+    Line(
+        "t end, end time, stop time, duration, tf, t final, final time",
+        "simulation",
+        "write `simulation: {duration: 5 s}`",
+    ),
+    Line("dt, step, time step, timestep, step size", "simulation", "write `simulation: {step: 1 ms}`"),
+    Line("integrator, method, rtol", "simulation", "write `simulation: {integrator: rk4}`"),
+    Line("solver", "simulation", "write `simulation: {integrator: rk4, step: 1 ms, duration: 5 s}`"),
+    Line("g, grav, gravitation", "gravity", "write `gravity: [0, 0, -9.81]`, where z points up"),
+    Line(
+        "units, unit, unit system",
+        "gravity",
+        "a number without a unit is in SI units; other units stand behind numbers: `12 cm`, `30 deg`",
+    ),
+    Line("ground, world", "gravity", "`ground` is there already; leave it out"),
+    Line("materials", "gravity", "materials are parameters: `parameters: {steel: 7850 kg/m^3}`, then `density: steel`"),
+    Line(
+        "initial conditions, initial",
+        "gravity",
+        "the start is said where it belongs: `velocity` of a body, `start` and `start_rates` of a joint",
+    ),
+    Line("gravity, weight", "spring-damper", "gravity is a key of the whole file: `gravity: [0, 0, -9.81]`"),
+    Line(
+        "rope, cable", "spring-damper", "an elastic rope is a `spring-damper` with a `law` that has no force when slack"
+    ),
+)
+
+
+def translated(word: str, valid: Sequence[str]) -> str:
+    """What to write for `word` of another vocabulary where the words `valid` are known; empty where nothing is known of it."""
+    meant = plain(word)
+    for own in valid:
+        if plain(own) == meant:
+            return f"did you mean `{own}`?"
+    for line in LINES:
+        if line.beside in valid and meant in _plain_words(line.words):
+            return line.answer
+    for own, others in SAME.items():
+        if own in valid and meant in _plain_words(others):
+            return f"did you mean `{own}`?"
+    return ""
+
+
+def plain(word: str) -> str:
+    """`word` without case, `-`, `_` and spaces."""
+    return "".join(letter for letter in word.casefold() if letter not in "-_ ")
+
+
+def _plain_words(words: str) -> tuple[str, ...]:
+    return tuple(plain(word) for word in words.split(","))

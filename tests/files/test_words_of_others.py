@@ -1,0 +1,127 @@
+"""What people bring from other programs, and slips of a first day: each is answered with the right word or the line to write."""
+
+import pytest
+
+from nivel.errors import ModelError
+from nivel.files import parse_machine, read_machine
+from nivel.vocabulary import LINES, SAME, translated
+
+BASE = """\
+format: 1
+gravity: [0, -9.81, 0]
+bodies:
+  rod:
+    mass: 2 kg
+    inertia: [0.1, 0.1, 0.1]
+    position: [0.5, 0, 0]
+    orientation: {axis: [0, 0, 1], angle: 0}
+joints:
+  hinge: {type: revolute, bodies: [ground, rod], point: [0, 0, 0], axis: [0, 0, 1]}
+forces:
+  push: {type: force, body: rod, vector: [1, 0, 0]}
+simulation:
+  duration: 1 s
+  step: 1 ms
+  integrator: rk4
+"""
+RATHER = "did you mean `{}`?"
+
+# what stands there, what is written instead, the line of the fault, and what the answer must hold
+MISTAKES = {
+    "prismatic": ("type: revolute", "type: prismatic", 10, RATHER.format("translational")),
+    "weld": ("type: revolute", "type: weld", 10, RATHER.format("fixed")),
+    "ball": ("type: revolute", "type: ball", 10, RATHER.format("spherical")),
+    "hooke": ("type: revolute", "type: hooke", 10, RATHER.format("universal")),
+    "hinge": ("type: revolute", "type: hinge", 10, RATHER.format("revolute")),
+    "capital": ("type: revolute", "type: Revolute", 10, RATHER.format("revolute")),
+    "free": ("type: revolute", "type: free", 10, "leave the joint out"),
+    "world": ("[ground, rod]", "[world, rod]", 10, RATHER.format("ground")),
+    "parent and child": ("bodies: [ground, rod]", "parent: ground, child: rod", 10, "write `bodies: [PARENT, CHILD]`"),
+    "one body": ("bodies: [ground, rod]", "bodies: rod", 10, "write `bodies: [ground, rod]`"),
+    "origin of a joint": ("point: [0, 0, 0]", "origin: [0, 0, 0]", 10, RATHER.format("point")),
+    "a letter as an axis": ("axis: [0, 0, 1]}\nf", "axis: z}\nf", 10, "write `axis: [0, 0, 1]`"),
+    "limits": ("axis: [0, 0, 1]}\nf", "axis: [0, 0, 1], limits: [0, 1]}\nf", 10, "type: stop"),
+    "damping": ("axis: [0, 0, 1]}\nf", "axis: [0, 0, 1], damping: 3}\nf", 10, "type: joint-spring-damper"),
+    "t_end": ("duration: 1 s", "t_end: 1", 14, RATHER.format("duration")),
+    "stop_time": ("duration: 1 s", "stop_time: 1 s", 14, RATHER.format("duration")),
+    "dt": ("step: 1 ms", "dt: 1 ms", 15, RATHER.format("step")),
+    "solver": ("integrator: rk4", "solver: rk4", 16, RATHER.format("integrator")),
+    "RK4": ("integrator: rk4", "integrator: RK4", 16, RATHER.format("rk4")),
+    "ode45": ("integrator: rk4", "integrator: ode45", 16, RATHER.format("dopri5")),
+    "rtol": ("integrator: rk4", "rtol: 1e-6", 16, RATHER.format("tolerance")),
+    "t_end at the top": ("gravity: [0, -9.81, 0]", "t_end: 3", 2, "write `simulation: {duration: 5 s}`"),
+    "quaternion": ("{axis: [0, 0, 1], angle: 0}", "{quaternion: [1, 0, 0, 0]}", 8, "`euler_parameters: [W, X, Y, Z]`"),
+    "rpy": ("orientation: {axis: [0, 0, 1], angle: 0}", "rpy: [0, 0, 90 deg]", 8, "sequence: zyx}` for roll, pitch"),
+    "angles as a list": ("{axis: [0, 0, 1], angle: 0}", "[0, 0, 90 deg]", 8, "{euler: [0, 0, 90 deg], sequence: xyz}`"),
+    "decimal comma": ("mass: 2 kg", "mass: 2,5 kg", 5, "write `2.5 kg`"),
+    "fixed body": (
+        "mass: 2 kg",
+        "mass: 2 kg\n    fixed: true",
+        6,
+        "joints: {base: {type: fixed, bodies: [ground, BODY]",
+    ),
+    "gravity as a number": ("gravity: [0, -9.81, 0]", "gravity: 9.81", 2, "write `gravity: [0, 0, -9.81]`"),
+    "links": ("gravity: [0, -9.81, 0]", "links: {}", 2, RATHER.format("bodies")),
+    "units": ("gravity: [0, -9.81, 0]", "units: mm", 2, "SI units"),
+    "a list of bodies": (
+        "  rod:\n    mass",
+        "  - name: rod\n    mass",
+        3,
+        "write `rod: {…}` in place of `- name: rod`",
+    ),
+    "comma in a list": ("[1, 0, 0]}\nsim", "[min(time, 2), 0, 0]}\nsim", 12, 'put it in quotes: `"min(time, 2)"`'),
+    "comma in a mapping": ("angle: 0}", "angle: max(1, 2)}", 8, 'put it in quotes: `"max(1, 2)"`'),
+    "spring": ("type: force", "type: spring", 12, RATHER.format("spring-damper")),
+    "gravity as a force": ("type: force", "type: gravity", 12, "`gravity: [0, 0, -9.81]`"),
+    "t for time": ("vector: [1, 0, 0]", "vector: [5 * t, 0, 0]", 12, "the time is written `time`"),
+    "unit behind a list": ("[0.5, 0, 0]", "[500, 0, 0] mm", 7, "`[500 mm, 0, 0]`"),
+    "numbers without brackets": ("[0.5, 0, 0]", "0.5 0 0", 7, "write `position: [0.5, 0, 0]`"),
+    "x, y and z": ("position: [0.5, 0, 0]", "position: {x: 0.5, y: 0, z: 0}", 7, "write `position: [0.5, 0, 0]`"),
+    "shape as a word": ("position: [0.5, 0, 0]", "shape: box", 7, "write `shape: {type: box, …}`"),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_a_typical_mistake_is_answered_with_what_to_write(name):
+    old, new, line, answer = MISTAKES[name]
+    assert BASE.count(old) == 1
+    with pytest.raises(ModelError) as caught:
+        parse_machine(BASE.replace(old, new), "machine.yaml")
+    assert any(fault.line == line and answer in fault.message for fault in caught.value.faults), str(caught.value)
+
+
+def test_the_machine_that_is_spoilt_here_is_right():
+    assert parse_machine(BASE, "machine.yaml").name == "machine"
+
+
+def test_sec_is_a_second():
+    assert parse_machine(BASE.replace("1 s\n", "3 sec\n"), "machine.yaml").simulation.duration == 3.0
+
+
+FILES = {
+    "result.nc": (b"\x89HDF\r\n\x1a\n\x00\x00", "`nivel view {}` plays it"),
+    "report.html": (b"<!doctype html>\n<title>rod</title>", "a page for a browser"),
+    "robot.urdf": (b"<?xml version='1.0'?>\n<robot name='arm'>", "a model in URDF"),
+    "part.stl": (b"solid part\nfacet normal 0 0 1\n", "`shape: {{type: mesh, file: {}}}`"),
+}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_file_of_another_kind_is_recognised(name, tmp_path):
+    content, answer = FILES[name]
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(ModelError) as caught:
+        read_machine(path)
+    assert answer.format(path) in str(caught.value)
+
+
+def test_words_of_ours_are_never_translated_into_others():
+    own = set(SAME)
+    valid = sorted(own)
+    assert all(translated(word, valid) in ("", f"did you mean `{word}`?") for word in own)
+
+
+def test_no_word_is_answered_where_the_answer_is_not_valid():
+    assert translated("prismatic", ["mass", "inertia"]) == ""
+    assert all(translated(line.words.split(",")[0], []) == "" for line in LINES)

@@ -1,0 +1,86 @@
+"""A machine with every component of hydraulic circuits, in motion."""
+
+from simulating import hinge, machine, slide, solid
+
+RATED = {"flow": "40 L/min", "pressure_drop": "7 bar"}
+CUSHION = {"length": "20 mm", "flow": "40 L/min", "pressure_drop": "2 bar"}
+
+
+def machine_with_circuits():
+    """Two blocks on slides, pushed by a cylinder with cushions and by a telescope, and a wheel turned by an actuator and a motor."""
+    axes = {
+        "rail": slide("ground", "block", point=[0.6, 0, 0]),
+        "post": slide("ground", "top", (0, 0, 1), point=[0, 0, 0.6]),
+    }
+    return machine(
+        {
+            "gravity": [0, 0, -9.81],
+            "bodies": {
+                "block": solid(100.0, 2.0, position=[0.6, 0, 0], velocity=[0.2, 0, 0]),
+                "top": solid(80.0, 2.0, position=[0, 0, 0.6]),
+                "wheel": solid(20.0, 3.0, angular_velocity=[0, 0, 2]),
+            },
+            "joints": {**axes, "axle": hinge("ground", "wheel")},
+            "hydraulics": {
+                "tank": {"type": "tank", "pressure": "2 bar"},
+                "supply": {"type": "volume", "volume": "1 L", "wall_modulus": "1 GPa", "start": "120 bar"},
+                "line": {"type": "volume", "volume": "0.3 L", "start": "60 bar"},
+                "gap": {"type": "volume", "volume": "50 cm^3", "start": "70 bar"},
+                "ls": {"type": "load-sensing", "valves": ["valve"]},
+                "store": {
+                    "type": "accumulator", "ports": {"A": "supply"}, "volume": "1 L", "precharge": "80 bar",
+                    "start": "110 bar", **RATED,
+                },
+                "pump": {
+                    "type": "pump", "ports": {"A": "tank", "B": "supply", "LS": "ls"}, "margin": "20 bar",
+                    "displacement": "28 cm^3/rev", "speed": "1500 rpm", "pistons": 9, "volumetric_efficiency": 0.95,
+                    "mechanical_efficiency": 0.9, "nominal_pressure": "200 bar", "nominal_speed": "1500 rpm",
+                },
+                "spare": {"type": "flow-source", "ports": {"A": "tank", "B": "supply"}, "flow": "1e-5*(1 + sin(time))"},
+                "relief": {
+                    "type": "relief-valve", "ports": {"P": "supply", "T": "tank"}, "opens_at": "100 bar",
+                    "opening_range": "40 bar", "lag": "5 ms", **RATED,
+                },
+                "check": {"type": "check-valve", "ports": {"A": "line", "B": "supply", "X": "ram.A"}, "pilot_ratio": 3, **RATED},
+                "reducing": {
+                    "type": "reducing-valve", "ports": {"P": "supply", "A": "line", "T": "tank"}, "pressure": "58 bar", **RATED,
+                },
+                "compensator": {"type": "compensator", "ports": {"P": "supply", "A": "gap", "LS": "ls"}, **RATED},
+                "valve": {
+                    "type": "directional-valve", "ways": "4/3", "centre": "open", "overlap": 0.05, "frequency": "20 Hz",
+                    "ports": {"P": "gap", "T": "tank", "A": "ram.A", "B": "ram.B"}, "leakage": 1e-12,
+                    "command": "0.3 + 0.5*rail.displacement + 1e-9*line.pressure", **RATED,
+                },
+                "slow": {
+                    "type": "directional-valve", "ways": "3/2", "frequency": "5 Hz", "rate_limit": 4,
+                    "ports": {"P": "line", "T": "tank", "A": "swing.A"}, "command": 0.8, **RATED,
+                },
+                "hold": {
+                    "type": "counterbalance-valve", "ports": {"L": "mast.A", "V": "line", "X": "supply"},
+                    "opens_at": "180 bar", **RATED,
+                },
+                "leak": {"type": "orifice", "ports": {"A": "swing.B", "B": "tank"}, "diameter": "2 mm", "opening": "0.5 + time"},
+                "pipe": {"type": "pipe", "ports": {"A": "line", "B": "tank"}, "diameter": "8 mm", "length": 3},
+                "hose": {"type": "pipe", "ports": {"A": "supply", "B": "line"}, "diameter": "8 mm", "length": 5, "inertia": True},
+                "ram": {
+                    "type": "cylinder", "bodies": ["ground", "block"], "points": [[0, 0, 0], [0.6, 0, 0]], "piston": "50 mm",
+                    "rod": "30 mm", "stroke": 0.4, "retracted_length": 0.59, "cushion_A": CUSHION, "cushion_B": CUSHION,
+                    "friction": {"sliding": "100 N", "by_pressure": 0.01, "static": 1.3, "viscous": 200},
+                    "start_A": "60 bar", "start_B": "40 bar",
+                },
+                "mast": {
+                    "type": "telescopic-cylinder", "bodies": ["ground", "top"], "points": [[0, 0, 0], [0, 0, 0.6]],
+                    "stages": [0.06, 0.04], "strokes": [0.099, 0.3], "retracted_length": 0.5,
+                },
+                "swing": {
+                    "type": "rotary-actuator", "coordinate": "axle.angle", "displacement": "50 cm^3/rad", "lower": "-1 rev",
+                    "upper": "1 rev", "start_A": "30 bar", "start_B": "20 bar",
+                },
+                "motor": {
+                    "type": "hydraulic-motor", "ports": {"A": "line", "B": "tank"}, "displacement": "10 cm^3/rev",
+                    "coordinate": "axle.angle", "setting": 0.7,
+                },
+            },
+            "states": {"filter": {"rate": "ram.force*1e-6 + valve.flow_PA - filter.value"}},
+        }
+    )  # fmt: skip

@@ -1,0 +1,124 @@
+"""Sweeps: every variant is the run that the machine would make alone, and what fails is a row with its reason."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+from nivel.analysis.sweep.variants import lay_out
+from nivel.errors import ModelError
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SPRING = """
+format: 1
+parameters: {stiffness: 100 N/m}
+bodies: {block: {mass: 1, inertia: [1, 1, 1]}}
+joints:
+  rail: {type: translational, bodies: [ground, block], point: [0, 0, 0], axis: [1, 0, 0], start: {displacement: 10 cm}}
+forces: {spring: {type: joint-spring-damper, coordinate: rail.displacement, stiffness: stiffness}}
+events: {back: {when: rail.displacement + 0.09, direction: falling, stop: true}}
+simulation: {duration: 0.2, step: 1 ms}
+"""
+
+
+@pytest.fixture
+def spring(tmp_path):
+    (tmp_path / "spring.yaml").write_text(SPRING, encoding="utf-8")
+    return nivel.load(tmp_path / "spring.yaml")
+
+
+def test_every_variant_of_a_grid_is_its_closed_form(spring):
+    """x = 0.1 cos(√(k/m) t)."""
+    found = spring.sweep({"parameters.stiffness": [50, "100 N/m", 150], "block.mass": [1.0, 2.0]})
+    assert found["rail.displacement"].dims == ("parameters.stiffness", "block.mass", "time")
+    assert found["parameters.stiffness"].values.tolist() == [50, 100, 150]
+    k, m = found["parameters.stiffness"], found["block.mass"]
+    expected = 0.1 * np.cos(np.sqrt(k / m) * found["time"])
+    np.testing.assert_allclose(found["rail.displacement"], expected, atol=1e-9)
+    assert (found.outcome == "done").all()
+    assert (found.verdict == "green").all()
+
+
+def test_processes_give_what_one_process_gives():
+    machine = nivel.load(EXAMPLES / "slider-crank.yaml")
+    values = {"bodies.rod.mass": np.linspace(1, 3, 5), "crank.mass": np.linspace(20, 24, 5)}
+    from nivel.analysis.sweep import sweep as module
+
+    alone = machine.sweep(values, combine="rows", processes=1, duration="50 ms", save="crank.position")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "WORTH_A_PROCESS", 0.0)
+        together = machine.sweep(values, combine="rows", processes=2, duration="50 ms", save="crank.position")
+    assert together.attrs["processes"] == 2
+    np.testing.assert_array_equal(together["crank.position"], alone["crank.position"])
+    assert together["crank.mass"].dims == ("variant",)
+
+
+def test_failures_and_refusals_are_rows_with_their_reason(spring):
+    found = spring.sweep({"block.mass": [1, -1, 1], "parameters.stiffness": [100, 100, 400]}, combine="rows")
+    assert found.outcome.values.tolist() == ["done", "refused", "stopped"]
+    assert "a mass greater than zero was expected, got `-1`" in str(found.reason[1].values)
+    assert str(found.reason[2].values) == "event back"
+    # 0.1 cos(20 t) = -0.09
+    assert float(found.end_time[2]) == pytest.approx(np.arccos(-0.9) / 20, abs=1e-6)
+    assert np.isnan(found["rail.displacement"][1]).all()
+    after = found["rail.displacement"][2].where(found.time > found.end_time[2], drop=True)
+    assert np.isnan(after).all()
+
+
+def test_samples_fill_their_range_evenly():
+    """One of n samples of a Latin hypercube lies in each n-th of every range."""
+    variants = lay_out({"a": (2, 4), "b": ("10 cm", "20 cm")}, "grid", 10, seed=1)
+    assert variants.shape == (10,)
+    for path, low, high in (("a", 2, 4), ("b", 0.1, 0.2)):
+        share = (np.array(variants.coordinates[path][1]) - low) / (high - low)
+        assert sorted((share * 10).astype(int)) == list(range(10))
+
+
+def test_samples_of_a_distribution_have_its_median():
+    from scipy.stats import norm
+
+    variants = lay_out({"a": norm(5, 0.1)}, "grid", 1000, seed=3)
+    assert np.median(variants.coordinates["a"][1]) == pytest.approx(5, abs=1e-3)
+    assert np.std(variants.coordinates["a"][1]) == pytest.approx(0.1, rel=0.01)
+
+
+def test_machines_that_a_function_makes_are_swept():
+    def pendulum(length, mass=1.0):
+        bob = nivel.Body(name="bob", mass=mass, point_mass=True, position=(length, 0, 0))
+        rod = nivel.Joint(name="rod", type="distance", bodies=("ground", "bob"), points=((0, 0, 0), (length, 0, 0)))
+        return nivel.Machine(bodies=[bob], joints=[rod], gravity=(0, 0, -9.81), simulation={"duration": 0.1})
+
+    found = nivel.sweep(pendulum, {"length": [0.5, 1.0]}, save="bob.position")
+    assert found["bob.position"].dims == ("length", "time", "xyz")
+    np.testing.assert_allclose(found["bob.position"].isel(time=0, xyz=0), [0.5, 1.0])
+
+
+def test_a_sweep_may_start_from_equilibrium():
+    """The springs of the suspension carry the same weight whatever their stiffness: it rests lower on softer ones."""
+    machine = nivel.load(EXAMPLES / "suspension.yaml")
+    found = machine.sweep({"parameters.stiffness": ["22 kN/m", "28 kN/m", "34 kN/m"]}, duration="10 ms", step="1 ms")
+    heave = found["heave.displacement"].isel(time=0).values
+    assert (np.diff(heave) > 0).all()
+    np.testing.assert_allclose(found["heave.displacement"].isel(time=-1), heave, atol=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda m: m.sweep({}), "nothing varies"),
+        (lambda m: m.sweep({"block.mass": 3}), "block.mass: a list of values was expected, got `3`"),
+        (lambda m: m.sweep({"block.mas": [3]}), "did you mean `mass`"),
+        (lambda m: m.sweep({"block.mass": [3]}, save="rail.displacment"), "did you mean `rail.displacement`"),
+        (lambda m: m.sweep({"block.mass": [3]}, durtion=1), "did you mean `duration`"),
+        (lambda m: m.sweep({"block.mass": [3]}, combine="all"), "`grid` or `rows` was expected, got `all`"),
+        (lambda m: m.sweep({"block.mass": [3, 4], "gravity.0": [1]}, combine="rows"), "needs lists of one length"),
+        (lambda m: m.sweep({"block.mass": 3}, samples=5), "two bounds (1, 3) or a distribution of SciPy"),
+        (lambda m: m.sweep({"block.mass": (1, 2)}, samples=0), "a whole number of at least 1"),
+        (lambda m: nivel.sweep(lambda a: a, {"a": [1]}), "a function that returns a Machine was expected"),
+    ],
+)
+def test_faults_say_what_to_write(call, message, spring):
+    with pytest.raises(ModelError) as caught:
+        call(spring)
+    assert message in str(caught.value)

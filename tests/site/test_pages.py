@@ -1,0 +1,131 @@
+"""The pages of the documentation: their machines work, their Python runs, their links lead somewhere, their words are standard ones."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+from checking import check
+from nivel.analysis.plan import plan_run
+from nivel.files import parse_machine
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+PAGES = sorted([*DOCS.rglob("*.md"), ROOT / "README.md", ROOT / "NOTATION.md", ROOT / "benchmarks" / "README.md"])
+# pages that are made when the site is built
+MADE = {"keys.md", "command-line.md", "notation.md", "benchmarks.md", "gallery.md"}
+WRITTEN_HERE = [
+    "index.md",
+    "python.md",
+    *(f"tutorials/{path.name}" for path in sorted((DOCS / "tutorials").glob("*.md"))),
+]
+
+
+def named(path):
+    return path.relative_to(ROOT).as_posix()
+
+
+def blocks(text, language):
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+
+
+def files_of(text):
+    """Blocks whose first line is the name of their file."""
+    found = {}
+    for block in blocks(text, "yaml"):
+        name = re.match(r"# (\S+\.yaml)\n", block)
+        if name:
+            found[name[1]] = block
+    return found
+
+
+@pytest.mark.parametrize("page", WRITTEN_HERE)
+def test_python_of_a_page_runs_from_top_to_bottom(page, tmp_path):
+    text = (DOCS / page).read_text(encoding="utf-8")
+    for name, block in files_of(text).items():
+        (tmp_path / name).write_text(block, encoding="utf-8")
+    for example in ("suspension.yaml", "toggle.yaml"):
+        shutil.copy(ROOT / "examples" / example, tmp_path)
+    code = "\n".join(blocks(text, "python"))
+    if not code:
+        pytest.skip("no Python on this page")
+    before = Path.cwd()
+    os.chdir(tmp_path)
+    try:
+        exec(compile(code, page, "exec"), {"__name__": "page"})
+    finally:
+        os.chdir(before)
+
+
+HOW_TO = (DOCS / "how-to.md").read_text(encoding="utf-8")
+ANSWERS = re.findall(r"^### … ([^\n]*)\?\n(.*?)(?=^##|\Z)", HOW_TO, re.MULTILINE | re.DOTALL)
+
+
+def merged(base, part):
+    """The mappings of `base` with those of `part` in place of theirs, two levels deep."""
+    out = dict(base)
+    for section, content in part.items():
+        out[section] = {**base.get(section, {}), **content} if isinstance(content, dict) else content
+    return out
+
+
+@pytest.mark.parametrize(("question", "answer"), ANSWERS, ids=[question for question, _ in ANSWERS])
+def test_every_answer_is_a_machine_that_can_be_run(question, answer):
+    (base,) = files_of(HOW_TO).values()
+    for block in blocks(answer, "yaml"):
+        whole = yaml.safe_dump(merged(yaml.safe_load(base), yaml.load(block, yaml.BaseLoader)), sort_keys=False)
+        whole = re.sub(r"'(-?[\d.]+(?:e-?\d+)?|true|false)'", r"\1", whole)
+        machine = parse_machine(whole, question)
+        plan_run(machine)
+        check(machine)
+
+
+def test_there_are_thirty_answers():
+    assert len(ANSWERS) >= 30
+
+
+def anchors(text):
+    """Anchors of the headings of a page, as MkDocs and GitHub make them."""
+    bare = re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+    titles = re.findall(r"^#+ (.+)$", bare, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", re.sub(r"[`*]", "", title).lower()).strip().replace(" ", "-") for title in titles}
+
+
+@pytest.mark.parametrize("path", PAGES, ids=named)
+def test_links_of_a_page_lead_somewhere(path):
+    text = path.read_text(encoding="utf-8")
+    bare = re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+    for target, anchor in re.findall(r"\]\((?!http)([^)#\s]*)(?:#([^)\s]+))?\)", bare):
+        place = (path.parent / target).resolve() if target else path
+        if place.name in MADE and place.parent == DOCS:
+            continue
+        assert place.exists(), f"{named(path)}: {target}"
+        if anchor and place.suffix == ".md":
+            assert anchor in anchors(place.read_text(encoding="utf-8")), f"{named(path)}: {target}#{anchor}"
+
+
+def test_every_page_stands_in_the_navigation_or_is_a_guide():
+    text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+    for path in DOCS.rglob("*.md"):
+        page = path.relative_to(DOCS).as_posix()
+        assert page in text or "/" not in page, page
+    for page in re.findall(r"[\w/-]+\.md", text[text.index("nav:") :]):
+        assert page in MADE or (DOCS / page).exists(), page
+
+
+@pytest.mark.full
+def test_the_site_builds_without_warnings(tmp_path):
+    pytest.importorskip("mkdocs")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(tmp_path / "site")]
+    own = {**os.environ, "NIVEL_SITE_PICTURES": "0"}
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, env=own)
+    assert done.returncode == 0, done.stderr
+    for page in ("index.html", "keys.html", "command-line.html", "api.html", "tutorials/pendulum.html"):
+        text = (tmp_path / "site" / page).read_text(encoding="utf-8")
+        assert "https://fonts" not in text
+        assert "cdn" not in text

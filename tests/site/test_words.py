@@ -1,0 +1,67 @@
+"""Words that people read are the standard ones of the field: home-made terms stand in no page and no message."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGES = [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md"]
+
+# what is not written, and what is written in its place
+HOME_MADE = {
+    r"feels?|felt": "carries, takes up",
+    r"told": "reported",
+    r"in vain": "to something that does not exist",
+    r"heeds?|heeded": "respects",
+    r"nobody|somebody": "no one is needed: say what happens",
+    r"gives? way": "yields, deforms",
+    r"goes? before": "overrides",
+    r"thick fluid": "overdamped relaxation",
+    r"turned too far": "the rotation in a step is too large",
+    r"march(es|ed|ing)?": "advances",
+    r"settings? at rest": "ignored settings",
+    r"turn freedoms": "rotational degrees of freedom",
+}
+# besides these, of pages
+IN_PAGES = {r"freedoms": "degrees of freedom"}
+
+
+def prose(text):
+    """A page without its code."""
+    return re.sub(r"`[^`\n]*`|\]\([^)]*\)", "", re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL))
+
+
+def messages(path):
+    """Texts of a module that people may read: constants of more than one word which are no docstrings."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
+    first = [node.body[0] for node in ast.walk(tree) if isinstance(node, documented) and node.body]
+    docs = {id(each.value) for each in first if isinstance(each, ast.Expr)}
+    for node in ast.walk(tree):
+        if (
+            isinstance(node, ast.Constant)
+            and isinstance(node.value, str)
+            and " " in node.value
+            and id(node) not in docs
+        ):
+            yield node.lineno, node.value
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_no_page_has_a_home_made_term(path):
+    text = prose(path.read_text(encoding="utf-8"))
+    for word, instead in (HOME_MADE | IN_PAGES).items():
+        found = re.search(rf"[^\n]*\b({word})\b[^\n]*", text)
+        assert not found, f"{path.name}: `{found[1]}`, write: {instead}\n{found[0]}"
+
+
+def test_no_message_has_a_home_made_term():
+    wrong = []
+    for path in sorted((ROOT / "src" / "nivel").rglob("*.py")):
+        for line, text in messages(path):
+            for word, instead in HOME_MADE.items():
+                if found := re.search(rf"\b({word})\b", text):
+                    wrong.append(f"{path.relative_to(ROOT)}:{line}: `{found[1]}`, write: {instead}")
+    assert not wrong, "\n".join(wrong)

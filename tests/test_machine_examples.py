@@ -1,0 +1,103 @@
+"""The machines of a newcomer's first day: each does what its first line says."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+MACHINES = ("double-wishbone", "excavator", "geneva-drive", "robot-arm", "stewart-platform", "washing-machine")
+
+
+def simulated(name, **settings):
+    return nivel.load(EXAMPLES / f"{name}.yaml").simulate(**settings)
+
+
+def way(t, begin, end, length):
+    """The quintic between two times."""
+    s = np.clip((t - begin) / (end - begin), 0, 1)
+    return length * (10 * s**3 - 15 * s**4 + 6 * s**5)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_a_machine_takes_at_most_forty_lines(name):
+    assert len((EXAMPLES / f"{name}.yaml").read_text(encoding="utf-8").splitlines()) <= 40
+
+
+def test_cylinders_of_the_excavator_move_by_their_strokes():
+    result = simulated("excavator")
+    t = result.time
+    strokes = {
+        "boom_ram": way(t, 0.5, 3, 0.35),
+        "stick_ram": way(t, 2, 4.5, -0.30),
+        "bucket_ram": way(t, 4, 5.5, 0.25) - way(t, 6, 7.5, 0.25),
+    }
+    for name, stroke in strokes.items():
+        length = result.array(f"{name}.distance")
+        np.testing.assert_allclose(length - length[0], stroke, atol=1e-9)
+
+
+def test_the_work_of_the_excavators_cylinders_is_the_weight_times_its_rise():
+    """At rest again: the bucket ends as it began, boom and stick are higher."""
+    result = simulated("excavator")
+    masses = {"boom": 1400, "stick": 700, "bucket": 500}
+    risen = sum(
+        mass
+        * 9.81
+        * np.ptp(result.array(f"{name}.position")[[0, -1], 2])
+        * np.sign(result.array(f"{name}.position")[-1, 2] - result.array(f"{name}.position")[0, 2])
+        for name, mass in masses.items()
+    )
+    assert result.array("external_work")[-1] == pytest.approx(risen, rel=1e-6)
+
+
+def test_legs_of_the_platform_have_the_lengths_that_are_driven():
+    result = simulated("stewart-platform")
+    t, grown = result.time, way(result.time, 0, 1.5, 0.1)
+    for k, phase in enumerate((0, 0.5, 2, 2.5, 4, 4.5)):
+        length = result.array(f"leg_{k + 1}.distance")
+        assert length[0] == pytest.approx(np.sqrt(1.2**2 + 0.7**2 - 2 * 1.2 * 0.7 * 0.5 + 1.1**2), abs=1e-12)
+        np.testing.assert_allclose(length - length[0], grown * np.sin(2.5 * t + phase), atol=1e-9)
+
+
+def test_the_arm_follows_its_trajectory_and_comes_to_rest():
+    result = simulated("robot-arm")
+    for k in range(1, 7):
+        assert np.degrees(np.abs(result.array(f"force.drive_{k}.error")).max()) < 3.0
+        assert abs(result.array(f"j{k}.angle.rate")[-1]) < 0.02
+    halfway = np.searchsorted(result.time, 1.5)
+    assert np.degrees(result.array("j1.angle")[halfway]) == pytest.approx(60, abs=1.0)
+
+
+def test_the_geneva_wheel_stands_after_every_quarter_turn():
+    result = simulated("geneva-drive")
+    angle = np.degrees(result.array("pivot.angle"))
+    for time, expected in ((0.6, 0), (1.6, -90), (2.4, -90), (3.6, -180), (4.4, -180), (5.6, -270)):
+        assert angle[np.searchsorted(result.time, time)] == pytest.approx(expected, abs=0.02)
+    # in between it follows the geometry: tan of its angle is sin α / (√2 - cos α), α of the crank from the line of centres
+    t = np.array([0.85, 0.95, 1.1, 1.2])
+    alpha = np.pi * (t - 1)
+    exact = -45 - np.degrees(np.arctan2(np.sin(alpha), np.sqrt(2) - np.cos(alpha)))
+    found = np.interp(t, result.time, angle)
+    np.testing.assert_allclose(found, exact, atol=0.3)
+
+
+def test_a_fast_drum_turns_about_its_centre_of_mass():
+    """Far above its resonances a suspended rotor shakes by m r / M; near them by more."""
+    result = simulated("washing-machine")
+    x, t = result.array("sensor.shake.x"), result.time
+    fast, slow = np.ptp(x[t > 9]), np.ptp(x[(t > 2.5) & (t < 3.5)])
+    assert fast == pytest.approx(2 * 1.0 * 0.2 / 48, rel=0.25)
+    assert slow > 1.7 * fast
+
+
+def test_the_wheel_rises_over_the_bump_and_its_camber_turns_inwards():
+    result = simulated("double-wishbone")
+    rise = result.array("knuckle.position")[:, 2] - result.array("knuckle.position")[0, 2]
+    camber = np.degrees(result.array("sensor.camber_and_toe.first"))
+    top = int(np.argmax(rise))
+    assert 0.045 < rise[top] < 0.08
+    assert camber[top] - camber[0] > 0.5  # of a left wheel: about +x, its top leans towards the car
+    assert rise[-1] == pytest.approx(0.0, abs=1e-4)

@@ -4,6 +4,7 @@ import asyncio
 import json
 import random
 import socket
+import struct
 import time
 
 import numpy as np
@@ -14,6 +15,7 @@ from browsing import served
 from nivel.integrate.paced import DONE
 from nivel.live.datagrams import Counts, Datagrams, packed_inputs
 from nivel.live.source import LiveSource
+from nivel.view.records import FRAME
 
 websockets = pytest.importorskip("websockets")
 
@@ -41,6 +43,32 @@ async def statuses(page, wanted):
             message = json.loads(content)
             if wanted(message):
                 return message
+
+
+def test_inputs_come_back_in_frames_many_times_a_second(live):
+    """A page that acknowledges every frame gets 60 a second, and soon one that has what it wanted."""
+    _, viewing = live
+
+    async def talk():
+        frames, delay, begin, asked = 0, None, time.monotonic(), 0.0
+        async with connected(viewing) as page:
+            await page.send('{"type": "take", "on": 1}')
+            while time.monotonic() < begin + 2.0:
+                content = await asyncio.wait_for(page.recv(), 30.0)
+                if not isinstance(content, bytes) or struct.unpack_from("<I", content)[0] != FRAME:
+                    continue
+                frames += 1
+                await page.send(json.dumps({"type": "shown", "frame": struct.unpack_from("<I", content, 4)[0]}))
+                asked = asked or time.monotonic()
+                await page.send('{"type": "drive", "values": [0, 1.5]}')
+                if delay is None and struct.unpack_from("<f", content, len(content) - 4)[0] == 1.5:
+                    delay = time.monotonic() - asked
+        return frames, delay
+
+    frames, delay = asyncio.run(talk())
+    assert frames > 30
+    assert delay is not None
+    assert delay < 1.0
 
 
 def test_one_page_operates_and_another_may_not(live):

@@ -40,7 +40,7 @@ class LiveSource(Still):
         self._gauges = gauges(layout)
         self._columns = [variable.columns.start for _, variable in self._gauges]
         self._package = self._packed(attributes)
-        session.on_frame = self.on_change
+        session.on_frame = self._tell
 
     def _packed(self, attributes: dict[str, Any]) -> bytes:
         scene, record, block = json.loads(attributes["scene"]), json.loads(attributes["machine_record"]), Block()
@@ -53,6 +53,10 @@ class LiveSource(Still):
         controls = [control(each) for each in self._session.plan.machine.inputs]
         shown = [Gauge(name, variable.units) for name, variable in self._gauges]
         return to_bytes(Package(PROTOCOL, "live", [stage], controls, shown), block)
+
+    def _tell(self) -> None:
+        """There is a new frame, for whoever shows this source now."""
+        self.on_change()
 
     def package(self) -> bytes:
         return self._package

@@ -58,6 +58,11 @@ NAMES = {
     "vibrations": "Vibrations",
     "at_rest": "At rest",
     "potential": "Potential",
+    "hydraulics": "Hydraulics",
+    "fluid mass": "Fluid",
+    "cavitation": "Cavitation",
+    "saturation": "Saturation",
+    "pressure steps": "Pressure steps",
 }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from nivel.machine.hydraulics import COMPONENT_OF
@@ -19,7 +20,8 @@ def signals_of(component: Any) -> tuple[str, ...]:
         pairs = [edge for edges in EDGES.get(ways, ()) for edge in edges]
         pairs += [edge for edge in CENTRES.get(centre, ()) if edge not in pairs]
         return ("position", *(f"flow_{pair}" for pair in pairs))
-    if entry(component, "type") == "reducing-valve" and "T" not in (entry(component, "ports") or {}):
+    ports = entry(component, "ports")
+    if entry(component, "type") == "reducing-valve" and not (isinstance(ports, Mapping) and "T" in ports):
         return tuple(each for each in kind.late if each != "relief_flow")
     single = entry(component, "acting") == "single" or entry(component, "type") == "telescopic-cylinder"
     return tuple(each for each in (*kind.early, *kind.late) if not (single and each == "pressure_B"))

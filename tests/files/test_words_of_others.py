@@ -72,6 +72,7 @@ MISTAKES = {
     "comma in a list": ("[1, 0, 0]}\nsim", "[min(time, 2), 0, 0]}\nsim", 12, 'put it in quotes: `"min(time, 2)"`'),
     "comma in a mapping": ("angle: 0}", "angle: max(1, 2)}", 8, 'put it in quotes: `"max(1, 2)"`'),
     "spring": ("type: force", "type: spring", 12, RATHER.format("spring-damper")),
+    "a controller": ("type: force", "type: pid", 12, RATHER.format("servo")),
     "gravity as a force": ("type: force", "type: gravity", 12, "`gravity: [0, 0, -9.81]`"),
     "t for time": ("vector: [1, 0, 0]", "vector: [5 * t, 0, 0]", 12, "the time is written `time`"),
     "unit behind a list": ("[0.5, 0, 0]", "[500, 0, 0] mm", 7, "`[500 mm, 0, 0]`"),

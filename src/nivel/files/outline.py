@@ -57,7 +57,8 @@ def _check_section(tree: Tree, section: str) -> None:
     content = tree.data.get(section)
     if not isinstance(content, dict):
         if content is not None:
-            message = f"a mapping from names to what they are was expected, got {shown(content)}{_as_mapping(content)}"
+            hint = "" if section in VALUES else _as_mapping(content)
+            message = f"a mapping from names to what they are was expected, got {shown(content)}{hint}"
             tree.faults.append(tree.fault((section,), message))
             tree.unread.add("")
         if section in tree.data:

@@ -76,6 +76,7 @@ def test_one_page_operates_and_another_may_not(live):
 
     async def talk():
         async with connected(viewing) as first, connected(viewing) as second:
+            await statuses(first, lambda m: m["type"] == "status" and m["driver"] == "nobody")
             await first.send('{"type": "take", "on": 1}')
             await statuses(first, lambda m: m["type"] == "status" and m["driver"] == "you")
             await second.send('{"type": "take", "on": 1}')
@@ -84,7 +85,8 @@ def test_one_page_operates_and_another_may_not(live):
             refused = await statuses(second, lambda m: m["type"] == "note")
             await second.send('{"type": "drive", "values": [1, 1]}')
             await first.send('{"type": "drive", "values": [0, 2]}')
-            await statuses(first, lambda m: m["type"] == "status" and m["operated"])
+            while session.live.target.tolist() != [0.0, 2.0]:
+                await asyncio.wait_for(first.recv(), 30.0)
             targets = session.live.target.tolist()
             await first.send('{"type": "take", "on": 0}')
             await second.send('{"type": "take", "on": 1}')

@@ -49,7 +49,7 @@ def test_what_drives_is_smooth():
             {"marker": "tip", "along": "x", "about": "z", "value": 1},
             "drivers.d.about: `about` stands in place of `along`",
         ),
-        ({"marker": "tip", "about": "x", "value": 1}, "drivers.d.about: the word `x` is not known; there is z"),
+        ({"marker": "tip", "about": "w", "value": 1}, "drivers.d.about: the word `w` is not known; there are x, y, z"),
         ({"marker": "tip", "along": "x", "relative_to": "tip", "value": 1}, "does not move relative to itself"),
     ],
 )

@@ -94,7 +94,7 @@ def test_one_page_operates_and_another_may_not(live):
             return note["text"], refused["text"], targets
 
     note, refused, targets = asyncio.run(talk())
-    assert note == "somebody else operates the machine"
+    assert note == "another person operates the machine"
     assert refused == "take the controls first"
     assert targets == [0.0, 2.0]
     assert session.mode == "running"

@@ -134,7 +134,7 @@ SIGNS: dict[str, Callable[[bool], str]] = {
     "variable-distance": _cylinder,
     "skew-universal": lambda seen: f'{_universal(seen)}<path d="M-2 8L2 4" class="axis"/>',
     "translational-universal": lambda seen: f'{_translational(seen)}<path d="M0 -4V4M-4 0H4" class="axis"/>',
-    "generic": _unknown,
+    "generic": lambda seen: f'{_unknown(seen)}<circle r="2.4" class="dot"/>',
     "revolute-spherical": _rod(_HINGE, _BALL),
     "revolute-cylindrical": _rod(_HINGE, _SLEEVE),
     "revolute-translational": _pin_in_slot,

@@ -407,6 +407,15 @@ def test_live_ticks(paced):
     assert repeat_family(family, motion.handle.address, 0, 0.0, 2) == OK
 
 
+# --- circuits ---
+
+
+@pytest.mark.parametrize("integrator", [EXPLICIT, "extrapolated-euler", "radau"])
+def test_circuits(integrator):
+    """Every family of components, in a circuit with a cylinder, a telescope and a rotary actuator."""
+    short(hydraulic_zoo.machine_with_circuits().record, integrator, steps=2, step=1e-4)
+
+
 # --- nothing is left out ---
 
 
@@ -434,9 +443,3 @@ def test_every_kernel_was_called(request):
         pytest.skip("not all tests ran")
     idle = {name for place, name in kernels().items() if place not in plain.CALLED}
     assert not idle - LEFT_OUT, " ".join(sorted(idle - LEFT_OUT))
-
-
-@pytest.mark.parametrize("integrator", [EXPLICIT, "extrapolated-euler", "radau"])
-def test_circuits(integrator):
-    """Every family of components, in a circuit with a cylinder, a telescope and a rotary actuator."""
-    short(hydraulic_zoo.machine_with_circuits().record, integrator, steps=2, step=1e-4)

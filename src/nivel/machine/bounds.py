@@ -11,7 +11,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.arithmetic import TIME, Call, Negative, Node, Number, Operation, Signal, Time
+from nivel.machine.arithmetic import TIME, Call, Lookup, Negative, Node, Number, Operation, Signal, Time
+from nivel.machine.elementary import COMPOUND, elementary
+from nivel.machine.interpolation import curve_of
 
 Array = NDArray[np.float64]
 Interval = tuple[Array, Array]
@@ -28,6 +30,9 @@ _VALUES: Final[dict[str, Callable[..., Array]]] = {
     "exp": np.exp,
     "log": np.log,
     "abs": np.abs,
+    "floor": np.floor,
+    "tanh": np.tanh,
+    "if": lambda condition, yes, no: np.where(condition > 0.0, yes, no),
 }
 # functions that rise with their argument, and the least and the largest argument that they take
 _RISING: Final = {
@@ -36,6 +41,8 @@ _RISING: Final = {
     "sqrt": (0.0, np.inf),
     "exp": (-np.inf, np.inf),
     "log": (0.0, np.inf),
+    "floor": (-np.inf, np.inf),
+    "tanh": (-np.inf, np.inf),
 }
 
 
@@ -56,8 +63,12 @@ def values_of(node: Node, known: Mapping[str, Array]) -> Array:
         case Call(("min" | "max") as function, arguments):
             chosen = np.minimum if function == "min" else np.maximum
             return chosen.reduce([values_of(each, known) for each in arguments])
+        case Call(function, _) if function in COMPOUND:
+            return values_of(elementary(node), known)
         case Call(function, arguments):
             return _VALUES[function](*(values_of(each, known) for each in arguments))
+        case Lookup(argument):
+            return _values_of_curve(node, values_of(argument, known))
     raise ValueError(f"a name is not bound: {node}")
 
 
@@ -77,8 +88,12 @@ def bounds_of(node: Node, known: Mapping[str, Interval]) -> Interval:
             return -high, -low
         case Operation(symbol, left, right):
             return _bounded(*_bounds_of_operation(symbol, bounds_of(left, known), bounds_of(right, known)))
+        case Call(function, _) if function in COMPOUND:
+            return bounds_of(elementary(node), known)
         case Call(function, arguments):
             return _bounded(*_bounds_of_call(function, [bounds_of(each, known) for each in arguments]))
+        case Lookup(argument):
+            return _bounds_of_curve(node, *bounds_of(argument, known))
     raise ValueError(f"a name is not bound: {node}")
 
 
@@ -92,7 +107,24 @@ def _operate(symbol: str, left: Array, right: Array) -> Array:
             return left * right
         case "/":
             return left / right
-    return np.power(left, right)
+        case "**":
+            return np.power(left, right)
+    return _truth(symbol, left, right).astype(float)
+
+
+def _truth(symbol: str, left: Array, right: Array) -> NDArray[np.bool_]:
+    match symbol:
+        case "<":
+            return left < right
+        case "<=":
+            return left <= right
+        case ">":
+            return left > right
+        case ">=":
+            return left >= right
+        case "and":
+            return (left > 0.0) & (right > 0.0)
+    return (left > 0.0) | (right > 0.0)
 
 
 def _bounded(low: Array, high: Array) -> Interval:
@@ -117,7 +149,13 @@ def _bounds_of_operation(symbol: str, left: Interval, right: Interval) -> Interv
             low, high = _products(left, (1.0 / d, 1.0 / c))
             holds_zero = (c <= 0.0) & (d >= 0.0)
             return np.where(holds_zero, -np.inf, low), np.where(holds_zero, np.inf, high)
-    return _bounds_of_power(left, right)
+        case "**":
+            return _bounds_of_power(left, right)
+    # a comparison surely holds where it does at the end of each interval that is worst for it, and may where it does at the best
+    worst, best = ((b, c), (a, d)) if symbol in ("<", "<=") else ((a, d), (b, c))
+    if symbol in ("and", "or"):
+        worst, best = (a, c), (b, d)
+    return _truth(symbol, *worst).astype(float), _truth(symbol, *best).astype(float)
 
 
 def _products(left: Interval, right: Interval) -> Interval:
@@ -146,6 +184,14 @@ def _bounds_of_call(function: str, arguments: list[Interval]) -> Interval:
         low, high = _hull(*corners)
         return np.where(right, low, -np.pi), np.where(right, high, np.pi)
     low, high = arguments[0]
+    if function == "if":
+        (_, yes, no) = arguments
+        least, largest = _hull(yes[0], no[0])[0], _hull(yes[1], no[1])[1]
+        surely, never = low > 0.0, high <= 0.0
+        return (
+            np.where(surely, yes[0], np.where(never, no[0], least)),
+            np.where(surely, yes[1], np.where(never, no[1], largest)),
+        )
     match function:
         case "sin":
             return _bounds_of_sine(low, high)
@@ -172,3 +218,35 @@ def _bounds_of_sine(low: Array, high: Array) -> Interval:
     bottoms = np.ceil((low + 0.25 * turn) / turn) * turn - 0.25 * turn <= high
     everywhere = ~(high - low < turn)  # also of infinite intervals
     return np.where(bottoms | everywhere, -1.0, least), np.where(tops | everywhere, 1.0, largest)
+
+
+def _values_of_curve(curve: Lookup, x: Array) -> Array:
+    points, coefficients, before, behind = curve_of(curve.kind, curve.points, curve.values, curve.order)
+    inner = np.full_like(x, before)
+    if len(coefficients):
+        k = np.clip(np.searchsorted(points, x, side="right") - 1, 0, len(coefficients) - 1)
+        inner = sum(c * (x - points[k]) ** i for i, c in enumerate(coefficients[k].T))
+    return np.where(x < points[0], before, np.where(x >= points[-1], behind, inner))
+
+
+def _bounds_of_curve(curve: Lookup, low: Array, high: Array) -> Interval:
+    """Of what each piece is over the part of the interval that lies in it."""
+    points, coefficients, before, behind = curve_of(curve.kind, curve.points, curve.values, curve.order)
+    least, largest = np.full_like(low, np.inf), np.full_like(high, -np.inf)
+    for k, piece in enumerate(coefficients):
+        inside = (low <= points[k + 1]) & (high >= points[k])
+        part = np.maximum(low, points[k]) - points[k], np.minimum(high, points[k + 1]) - points[k]
+        bounds: Interval = (np.zeros_like(low), np.zeros_like(high))
+        for c in piece[::-1]:
+            lower, upper = _products(bounds, part)
+            bounds = lower + c, upper + c
+        least, largest = (
+            np.where(inside, np.minimum(least, bounds[0]), least),
+            np.where(inside, np.maximum(largest, bounds[1]), largest),
+        )
+    for beyond, value in ((low < points[0], before), (high >= points[-1], behind)):
+        least, largest = (
+            np.where(beyond, np.minimum(least, value), least),
+            np.where(beyond, np.maximum(largest, value), largest),
+        )
+    return least, largest

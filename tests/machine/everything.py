@@ -210,7 +210,7 @@ EVERYTHING = {
             "coefficient": 0.2,
             "normal_load": 5,
         },
-        {"name": "servo", "type": "servo", "coordinate": "turn", "target": "30 deg", "stiffness": 5, "integral": 2},
+        {"name": "holder", "type": "servo", "coordinate": "turn", "target": "30 deg", "stiffness": 5, "integral": 2},
         {
             "name": "motor",
             "type": "motor",

@@ -247,6 +247,14 @@ EVERYTHING = {
             "gear": 100,
             "torque_speed": {"speeds": [0, "3000 rpm"], "torques": [2, 1]},
         },
+        {
+            "name": "hoist",
+            "type": "rope",
+            "markers": ["tip", "eye"],
+            "stiffness": "1 kN/m",
+            "length": 2,
+            "speed": "0.1*time",
+        },
         {"name": "gas", "type": "pair-force", "markers": ["tip", "eye"], "magnitude": "5 N m / length"},
         {"name": "field", "type": "pair-force", "markers": ["tip", "eye"], "vector": [0, "tip.vx", 0], "axes": "first"},
         {

@@ -195,7 +195,7 @@ def test_a_smooth_step_is_the_quintic_with_its_exact_derivatives():
     ("text", "fault"),
     [
         ("step(time, 0, 0, 1)", "`step` takes 5 arguments, got 4"),
-        ("step(time, 0, 1 m, 1 s, 2 kg)", "a length (m) and a mass (kg) cannot be compared"),
+        ("step(time, 0, 1 m, 1 s, 2 kg)", "a length (m) and a mass (kg) cannot be joined"),
         ("step(boom.angle, 0 rad, 1, 1 m, 2)", "cannot be compared"),
     ],
 )

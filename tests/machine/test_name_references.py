@@ -73,7 +73,7 @@ def test_the_machine_of_these_tests_is_right():
         ({"events": ({"name": "e", "when": "time"},) * 2}, "events.e.name: the name `e` stands twice in events"),
         (
             {"events": ({"name": "e", "when": "hing.angle"},)},
-            "events.e.when: there is no joint, state, block, sensor, marker or body `hing`; did you mean `hinge.angle`?",
+            "events.e.when: there is no joint, input, state, block, component, sensor, marker or body `hing`; did you mean `hinge.angle`?",
         ),
         (
             {"couplings": ({"name": "g", "type": "gear", "joints": ("hing", "slide"), "ratio": 1},)},
@@ -105,7 +105,7 @@ def test_the_machine_of_these_tests_is_right():
         ),
         (
             {"drivers": ({"name": "d", "coordinate": "link", "value": 1},)},
-            "drivers.d.coordinate: `link.distance` is held by the joint itself and cannot change",
+            "drivers.d.coordinate: `link.distance` is held by the joint itself; one that changes is of `type: variable-distance`",
         ),
         (
             {
@@ -224,25 +224,29 @@ def law(text):
     [
         (
             law("3*hing.angle"),
-            "forces.m.effort: there is no joint, state, block, sensor, marker or body `hing`; did you mean `hinge.angle`?",
+            "forces.m.effort: there is no joint, input, state, block, component, sensor, marker or body `hing`; "
+            "did you mean `hinge.angle`?",
         ),
         (law("3*hinge.angl"), "forces.m.effort: `hinge` has no `angl`; did you mean `hinge.angle`?"),
         (law("3*hinge.q"), "forces.m.effort: `hinge` has no `q`; it has angle, angle_rate"),
         (law("3*weld.angle"), "forces.m.effort: `weld` has no symbols"),
         (law("3*gap.length"), "forces.m.effort: `gap` has no `length`; it has distance, rate"),
-        (law("3*spring.length"), "forces.m.effort: there is no joint, state, block, sensor, marker or body `spring`"),
+        (
+            law("3*spring.length"),
+            "forces.m.effort: there is no joint, input, state, block, component, sensor, marker or body `spring`",
+        ),
         (
             law(Table((0, 1), (0, 1), of="hing.angle")),
-            "forces.m.effort: there is no joint, state, block, sensor, marker or body `hing`",
+            "forces.m.effort: there is no joint, input, state, block, component, sensor, marker or body `hing`",
         ),
         (law({"of": "hing.angle", "points": [0, 1], "values": [0, 1]}), "forces.m.effort.of: there is no joint"),
         (
             law(PythonLaw("def f(x):\n    return x\n", "f", ("hing.angle",))),
-            "forces.m.effort: there is no joint, state, block, sensor, marker or body `hing`",
+            "forces.m.effort: there is no joint, input, state, block, component, sensor, marker or body `hing`",
         ),
         (
             law({"source": "def f(t, x):\n    return x\n", "function": "f", "arguments": ["time", "hing.angle"]}),
-            "forces.m.effort.arguments.1: there is no joint, state, block, sensor, marker or body `hing`",
+            "forces.m.effort.arguments.1: there is no joint, input, state, block, component, sensor, marker or body `hing`",
         ),
         (
             {"forces": ({"name": "f", "type": "torque", "body": "rod", "vector": (0, "3*rod.wq", 0)},)},
@@ -275,7 +279,7 @@ def test_symbols_in_vain(given, fault):
 def test_records_are_looked_through_too():
     spring = JointSpringDamper(name="f", coordinate="hinge", law=Expression("3 N*value + tap.vx"))
     assert (
-        "forces.f.law: there is no joint, state, block, sensor, marker or body `tap`; did you mean `tip.vx`?"
+        "forces.f.law: there is no joint, input, state, block, component, sensor, marker or body `tap`; did you mean `tip.vx`?"
         in refused(machine, forces=(spring,))
     )
 

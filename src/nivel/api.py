@@ -249,6 +249,7 @@ class Machine(Model):
                 compile_seconds=compile_seconds,
             )
 
+    @checked_arguments
     def export_c(self, folder: str | PathLike[str], *, listener: Listener | None = None) -> Files:
         """Write the machine as a C library: what a run with its settings does step by step, for programs without Python.
 
@@ -588,18 +589,22 @@ class Machine(Model):
     def _mechanics(self) -> Mechanics:
         return self.mechanics()
 
+    @checked_arguments
     def mass_matrix(self, q: Any = None) -> Any:
         """(f, f) mass matrix in the independent coordinates `mechanics().names`, at positions q; default: the start."""
         return self._mechanics.mass_matrix(q)
 
+    @checked_arguments
     def bias(self, q: Any = None, v: Any = None) -> Any:
         """(f,) efforts that no acceleration asks for at positions q and velocities v: weight, centrifugal and all other forces."""
         return self._mechanics.bias(q, v)
 
+    @checked_arguments
     def inverse_dynamics(self, q: Any, v: Any, a: Any) -> Any:
         """(f,) efforts that make the accelerations a at positions q and velocities v."""
         return self._mechanics.inverse_dynamics(q, v, a)
 
+    @checked_arguments
     def jacobian(self, point: str, q: Any = None) -> Any:
         """(6, f) velocity and angular velocity of a marker or body per velocity, global axes, at positions q."""
         return self._mechanics.jacobian(point, q)

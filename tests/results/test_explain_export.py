@@ -71,7 +71,7 @@ def test_export_of_a_choice_to_a_file_and_to_standard_output(folder):
     ("arguments", "said"),
     [
         (["explain", "nothing.nc"], "there is no result file nothing.nc"),
-        (["export", "run.nc"], "say in which format"),
+        (["export", "run.nc"], "say in which form"),
         (["export", "run.nc", "--csv", "--select", "hinge.angel"], "did you mean `hinge.angle`"),
         (["export", "run.nc", "--csv", "nowhere/out.csv"], "cannot be written: no such file or directory"),
     ],

@@ -20,13 +20,13 @@ joints:
 # the cart moves by 1 m/s: rail.displacement is the time
 BLOCKS = """
 control:
-  ramp: {type: signal, value: rail.displacement}
+  way_along: {type: signal, value: rail.displacement}
   wave: {type: signal, value: sin(7*time)}
   scaled: {type: gain, input: wave, gain: 3}
-  total: {type: sum, inputs: [ramp, wave, 2], factors: [1, -2, 0.5]}
+  total: {type: sum, inputs: [way_along, wave, 2], factors: [1, -2, 0.5]}
   cut: {type: limit, input: 2*wave, limits: [-1, 0.5]}
   dead: {type: dead-zone, input: wave, band: [-0.3, 0.4]}
-  pick: {type: switch, when: wave > 0.5, then: 1, otherwise: ramp}
+  pick: {type: switch, when: wave > 0.5, then: 1, otherwise: way_along}
   look: {type: lookup, input: wave, points: [-1, 0, 1], values: [2, 0, 5]}
   integral: {type: integrator, input: wave, gain: 2, start: 0.3}
   full: {type: integrator, input: 1, limits: [0, 0.25]}
@@ -36,14 +36,14 @@ control:
   fast: {type: high-pass, input: 1, time_constant: 0.1}
   quiet: {type: notch, input: 1, frequency: 5 Hz, damping: 0.2}
   early: {type: lead-lag, input: 1, lead: 0.3, lag: 0.05}
-  slope: {type: derivative, input: ramp, time_constant: 0.05}
-  pair: {type: state-space, inputs: [1, ramp], A: [[0, 1], [-9, -2]], B: [[0, 1], [1, 0]], C: [[1, 0], [0, 2]], D: [[0, 0], [1, 1]]}
-  late: {type: delay, input: ramp, time: 30 ms, sample_time: 10 ms}
-  at_once: {type: signal, value: ramp, sample_time: 10 ms}
-  part_late: {type: signal, value: ramp, sample_time: 10 ms, latency: 4 ms}
-  one_late: {type: signal, value: ramp, sample_time: 10 ms, latency: 10 ms}
-  offset_late: {type: signal, value: ramp, sample_time: 10 ms, latency: 25 ms, offset: 2 ms}
-  mean: {type: moving-average, input: ramp, samples: 4, sample_time: 10 ms}
+  slope: {type: derivative, input: way_along, time_constant: 0.05}
+  pair: {type: state-space, inputs: [1, way_along], A: [[0, 1], [-9, -2]], B: [[0, 1], [1, 0]], C: [[1, 0], [0, 2]], D: [[0, 0], [1, 1]]}
+  late: {type: delay, input: way_along, time: 30 ms, sample_time: 10 ms}
+  at_once: {type: signal, value: way_along, sample_time: 10 ms}
+  part_late: {type: signal, value: way_along, sample_time: 10 ms, latency: 4 ms}
+  one_late: {type: signal, value: way_along, sample_time: 10 ms, latency: 10 ms}
+  offset_late: {type: signal, value: way_along, sample_time: 10 ms, latency: 25 ms, offset: 2 ms}
+  mean: {type: moving-average, input: way_along, samples: 4, sample_time: 10 ms}
   held_back: {type: rate-limit, input: "step(time, 0.1, 0, 0.101, 1)", rate: 2, sample_time: 10 ms}
   relay: {type: hysteresis, input: wave, on: 0.5, off: -0.5, values: [3, 7], sample_time: 1 ms}
   trap: {type: trapezoid, last: -0.5, begin: 0.1, speed: 2, acceleration: 10}

@@ -34,13 +34,17 @@ SAMPLES = 2000
 STRAIGHT = 1e-9
 
 
-def corners(machine: MachineRecord) -> tuple[float, ...]:
-    """Corners within the run [s], ascending."""
+def corners(machine: MachineRecord, *, with_values: bool = False) -> tuple[float, ...]:
+    """Corners within the run [s], ascending. with_values : only those at which the function has a value, so that a step can end there."""
     end = machine.simulation.duration
     found: set[float] = set()
     for part in (*machine.drivers, *machine.forces, *machine.states):
         for function in _functions(part):
-            found |= set(corners_of(function, end))
+            found |= {
+                time
+                for time in corners_of(function, end)
+                if not with_values or isinstance(function, Table) or _holds(function, time)
+            }
     return tuple(sorted(found))
 
 
@@ -92,11 +96,11 @@ def _found(expression: Expression, end: float) -> Iterator[float]:
             root_scalar(difference, bracket=(times[k], times[k + 1]), xtol=1e-15 * end, rtol=1e-14).root
             for k in np.flatnonzero(values[:-1] * values[1:] < 0.0)
         ]
-        yield from (time for time in (*roots, *map(float, times[values == 0.0])) if _holds(expression, time))
+        yield from (*roots, *map(float, times[values == 0.0]))
 
 
 def _holds(expression: Expression, time: float) -> bool:
-    """Whether a function has a value at a corner: a step cannot end where it has none."""
+    """Whether a function has a value at a corner."""
     if expression.signals:
         return True
     try:

@@ -88,7 +88,7 @@ def prepare(methods: Methods) -> Prepared:
         len(machine.drivers),
         integrator,
         machine.beams,
-        corners(machine) if methods.chooses_steps and not integrator.knows_corners else (),
+        corners(machine, with_values=True) if methods.chooses_steps and not integrator.knows_corners else (),
         allowed_steps(machine, machine.simulation.duration) if methods.chooses_steps else None,
     )
 

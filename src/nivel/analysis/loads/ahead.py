@@ -31,7 +31,8 @@ def allowed_steps(machine: MachineRecord, duration: float) -> Array:
         if not np.isfinite(values).any():
             continue
         at, seen = _features(curve, time, np.nan_to_num(values))
-        slope = np.abs(np.diff(seen)) / np.maximum(np.diff(at), 1e-300)
+        with np.errstate(over="ignore"):  # a jump has no slope that is a number
+            slope = np.abs(np.diff(seen)) / np.maximum(np.diff(at), 1e-300)
         part = np.minimum((0.5 * (at[:-1] + at[1:]) / duration * PARTS).astype(int), PARTS - 1)
         steepest = np.zeros(PARTS)
         np.maximum.at(steepest, part, slope)

@@ -40,16 +40,3 @@ def specific_volume(f, p):
     value = (1.0 - alpha) * liquid + alpha * air
     derivative = -(1.0 - alpha) * liquid / (modulus * L) - alpha * air / (n * p)
     return value, derivative, (1.0 - alpha) * energy + alpha * air_energy
-
-
-@leaf
-def density_and_enthalpy(f, p):
-    """(ρ [kg/m³], h [J/kg]) at the real pressure p."""
-    v, _, energy = specific_volume(f, p)
-    return f[DENSITY] / v, energy / f[DENSITY]
-
-
-@leaf
-def viscosity(f):
-    """Kinematic viscosity [m²/s]."""
-    return f[VISCOSITY]

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Final
 
 from pydantic import BeforeValidator, ValidationError
 
-from nivel.errors import ModelError
+from nivel.errors import Fault, ModelError
 from nivel.files.outline import FORMAT, NAMED, VALUES, as_part, check_sections, check_start, section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
@@ -83,7 +83,7 @@ def _read(tree: Tree, path: Path, entry: Any, sources: Sources) -> Tree | None:
         return None
     text, file = found
     if STARTS.search(text) is None:  # not read, nor quoted in any message
-        tree.report(path, f"`{wanted.file}` is no machine file: `format: {FORMAT}` is missing")
+        tree.faults.append(Fault(file, 1, 1, "", f"`format: {FORMAT}` is missing: this is no machine file"))
         return None
     try:
         part = read_tree(text, file)

@@ -84,7 +84,11 @@ def _values_of(machine: MachineRecord, system: System) -> Iterator[tuple[Actuato
     for k, actuator in enumerate(each for each in machine.hydraulics if isinstance(each, Actuator)):
         assert row is not None
         e = int(elements.span[row, 0]) + k
-        yield actuator, float(system.record.coordinates.value[elements.columns[e, 2]]), float(elements.number[e, ORIGIN])
+        yield (
+            actuator,
+            float(system.record.coordinates.value[elements.columns[e, 2]]),
+            float(elements.number[e, ORIGIN]),
+        )
 
 
 def _shares_of_strokes(machine: MachineRecord, system: System) -> Iterator[tuple[Actuator, float]]:

@@ -11,6 +11,7 @@ from nivel.machine.record import entry
 
 Faults = Iterator[tuple[Place, str]]
 GAS: Final = "ideal-gas"
+KINDS: Final = ("liquid", GAS)
 DEFAULT: Final = ""  # name of the fluid of a machine without `fluids`
 RATED: Final = "`sonic_conductance`, in dm^3/(s*bar), and `critical_ratio`"
 OF_LIQUIDS: Final = ("wall_modulus",)
@@ -27,9 +28,8 @@ def fluid_faults(machine: Any, nodes: Mapping[str, Any]) -> Faults:
         if len(set(touched.values())) > 1:
             said = ", ".join(f"{node} of {fluid}" for node, fluid in touched.items())
             yield place, f"one component carries one fluid; its nodes are {said}"
-        elif touched:
-            gas = kinds[next(iter(touched.values()))] == GAS
-            yield from _of_kind(component, place, gas)
+        elif touched and (kind := kinds[next(iter(touched.values()))]) in KINDS:
+            yield from _of_kind(component, place, kind == GAS)
 
 
 def _touched(component: Any, nodes: Mapping[str, Any], kinds: Mapping[str, str]) -> dict[str, str]:
@@ -69,4 +69,7 @@ def _of_kind(component: Any, place: Place, gas: bool) -> Faults:
         if gas and entry(rating, "flow") is not None:
             yield (*where, "flow"), f"a flow at a difference of pressure is of liquids; gases have {RATED}"
         if not gas and entry(rating, "sonic_conductance") is not None:
-            yield (*where, "sonic_conductance"), "a sonic conductance is of gases; liquids have `flow` at `pressure_drop`"
+            yield (
+                (*where, "sonic_conductance"),
+                "a sonic conductance is of gases; liquids have `flow` at `pressure_drop`",
+            )

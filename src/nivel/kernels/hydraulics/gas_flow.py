@@ -45,7 +45,7 @@ def reduced_flow(n, high, low, secant):
 
 @stage
 def carry_heat(machine, a, b, flow):
-    """Energies that a mass flow [kg/s] from a to b takes along. Returns the available energy [W] that b gains beside that of its own gas."""
+    """Energies that a mass flow [kg/s] from a to b takes along. Returns the available energy [W] of its heat in the gas that it meets."""
     record = record_at(machine)
     circuit, rate = record.circuit, record.elements.state_rate
     up, down = (a, b) if real(flow) >= 0.0 else (b, a)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nivel.kernels.hydraulics import gas_flow, pipe, restriction, spool
-from nivel.kernels.hydraulics.gas import RATIO, REFERENCE, GAS_CONSTANT
+from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, REFERENCE
 from nivel.kernels.record import NONE
 from nivel.machine.hydraulics import Accumulator, HydraulicCylinder, Orifice, Pipe
 from nivel.machine.hydraulics.component import Rating
@@ -50,7 +50,11 @@ def add_orifice(draft: SystemBuilder, component: Orifice) -> None:
     if component.diameter is not None:
         area = 0.25 * math.pi * component.diameter**2 * component.discharge_coefficient
         fluid = draft.circuit.fluids[_flowing(draft, ends).fluid]
-        numbers[:2] = _nozzle(area, fluid) if _flowing(draft, ends).gas else (area * math.sqrt(2.0 / fluid[4]), component.transition)
+        numbers[:2] = (
+            _nozzle(area, fluid)
+            if _flowing(draft, ends).gas
+            else (area * math.sqrt(2.0 / fluid[4]), component.transition)
+        )
     opening = (restriction.FIXED, 0)
     if component.opening != 1.0:
         opening = (restriction.GIVEN, draft.function(component.opening))

@@ -182,5 +182,6 @@ def _placed_axes(joint: Joint, placing: Placement) -> dict[str, Any]:
         first, second = joint.axes
         slides = joint.type == "revolute-translational"
         turned = placing.direction if slides else placing.turning
-        changes["axes"] = (placing.turning(first), turned(second))
+        normal = placing.direction if joint.type == "rolling" else placing.turning
+        changes["axes"] = (normal(first), turned(second))
     return changes

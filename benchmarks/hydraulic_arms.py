@@ -18,13 +18,14 @@ import numpy as np
 
 import hydraulic_arms_data as data
 import nivel
+from nivel.files.reader import parse_machine
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
 from step_time import call_peer
 
 PEER = Path(__file__).resolve().parent / "peers" / "exudyn_hydraulic_arms.py"
 EVERY = 0.01
 # nivel's method and step [s]; Exudyn's solvers run at the step of the data
-METHODS = (("extrapolated-euler", 1e-3), ("extrapolated-euler", 2e-3), ("rk4", 1e-3), ("rk4", 2e-3), ("rk4", 4e-3))
+METHODS = (("extrapolated-euler", 1e-3), ("extrapolated-euler", 2e-3), ("rk4", 1e-3), ("rk4", 2e-3), ("rk4", 2.5e-3), ("rk4", 5e-3))
 SOLVERS = ("trapezoidal", "generalised-alpha")
 
 
@@ -75,6 +76,7 @@ def text() -> dict:
     circuit["supply"] = {"type": "tank", "pressure": data.SUPPLY + ATMOSPHERE}
     circuit["tank"] = {"type": "tank", "pressure": data.TANK + ATMOSPHERE}
     return {
+        "format": 1,
         "name": "hydraulic-arms",
         "gravity": [0, -data.GRAVITY, 0],
         "fluids": {"oil": {"bulk_modulus": data.MODULUS, "bulk_modulus_slope": 0, "air": 1e-4}},
@@ -116,7 +118,7 @@ def main() -> None:
     parser.add_argument("--peer")
     parser.add_argument("--runs", type=int, default=5)
     options = parser.parse_args()
-    machine = nivel.Machine.from_dict(text())
+    machine = nivel.Machine.from_record(parse_machine(json.dumps(text())))
     tight, _ = run(machine, integrator="radau", tolerance=1e-9)
     own: dict[tuple[str, float], list[float]] = {key: [] for key in METHODS}
     peers: dict[str, list[float]] = {solver: [] for solver in SOLVERS}

@@ -44,6 +44,7 @@ NAMES = {
     "accuracy": "Accuracy",
     "verified": "Verified",
     "loads": "Loads",
+    "sampling": "Sampling",
     "turn": "Turning",
     "rounding": "Round-off",
     "parts": "Parts",

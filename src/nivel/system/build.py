@@ -229,7 +229,7 @@ def _hooks(draft: SystemBuilder, *, sensors: bool, sampled: bool) -> Hooks:
 
 def _control(rows: int) -> Control:
     return Control(
-        rank=np.array([rows], dtype=np.uint32),
+        rank=np.array([rows, 0, 0], dtype=np.uint32),
         iterations=np.array([1, 0, 0], dtype=np.uint32),
         stabilise=np.zeros(4),
         energy=np.zeros(3),

@@ -115,7 +115,9 @@ def test_the_rope_carries_the_load_and_shortens_by_what_the_winch_hauls_in():
     """The tension is the force that the motion of the load needs, |m (a - g) + c v|, and equals m g at the start."""
     result = simulated("rope-crane")
     tension, across = result.array("force.rope.magnitude"), np.array([80.0, 80.0, 0.0])
-    needed = 800 * (result.array("load.acceleration") + [0, 0, 9.81]) + across * result.array("load.velocity")
+    needed = 800 * (result.array("load.acceleration") - np.array([0, 0, -9.81])) + across * result.array(
+        "load.velocity"
+    )
     np.testing.assert_allclose(tension, np.linalg.norm(needed, axis=1), rtol=1e-9)
     assert tension[0] == pytest.approx(800 * 9.81, rel=1e-9)
     length = result.array("state.rope.length")

@@ -21,6 +21,7 @@ SAME: Final[dict[str, str]] = {
     "cylindrical": "cylindrical joint, telescoping",
     "point-on-line": "inline, point curve, point on a line, pin in slot",
     "point-on-plane": "inplane, point on a plane",
+    "rolling": "wheel, disc, disk, rolling disc, rolling without slip, no slip, tyre, tire, nonholonomic, non holonomic",
     "distance": "rod, massless link, link, strut, length",
     "variable-distance": "cylinder, hydraulic cylinder, linear actuator, actuator, telescopic, actuated distance, driven distance, ram",
     "generic": "general, six dof, 6dof, dof, custom",

@@ -333,3 +333,29 @@ def test_a_part_that_is_not_placed_stays_as_it_is():
     machine = parse_machine(MIRRORED)
     part = {section: getattr(machine, section) for section in SECTIONS}
     assert placed(part, Placement.of((0, 0, 0), None, "none")) == part
+
+
+def test_the_looks_of_a_mirrored_body_are_mirrored():
+    """A point of a solid beside the body frame, and of an outline, is where the mirror image has it."""
+    corners = ((0.0, 0.0), (1.0, 0.0), (0.0, 2.0))
+    body = Body(
+        name="a",
+        mass=1,
+        inertia=INERTIA,
+        position=(0.3, 0.1, -0.2),
+        looks=(
+            {"type": "sphere", "radius": 0.1, "centre": (0.1, 0.2, 0.3), "colour": "red"},
+            {"type": "extrusion", "outline": corners, "length": 1, "along": "z"},
+        ),
+    )
+    placing = PLACEMENTS["y turned"]
+    (image,) = placed(elements(bodies=(body,)), placing)["bodies"]
+    position, parameters = placement(image)
+    A = matrix_from_euler_parameters(parameters)
+    for k, corner in enumerate(corners):
+        point = np.array([*image.looks[1].outline[k], 0.0])
+        np.testing.assert_allclose(
+            position + A @ point, placing.point((0.3 + corner[0], 0.1 + corner[1], -0.2)), atol=1e-12
+        )
+    np.testing.assert_allclose(position + A @ image.looks[0].centre, placing.point((0.4, 0.3, 0.1)), atol=1e-12)
+    assert image.looks[0].colour == "red"

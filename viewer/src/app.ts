@@ -95,7 +95,7 @@ export class App {
     this.traces = new Traces(this.actor, this.motion, this.world.look);
     this.violations = new Violations(this.actor, this.world.look);
     this.labels = new Labels(this.actor, names);
-    this.labels.shown.body = stage.bodies.length <= FEW_NAMES;
+    this.labels.shown.body = stage.bodies.length <= FEW_NAMES && content.mode !== "live";
     this.follower = new Follower(this.world, this.actor);
     this.handled = new Handled(this.world, this.actor);
     this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
@@ -147,7 +147,8 @@ export class App {
     if (this.player) this.showTime();
     else if (this.motion) this.motion.sample(this.motion.start, this.actor.frame);
     this.refreshFrame();
-    if (content.mode === "machine") this.world.around = () => cloudNow(this.actor);
+    if (this.live) this.handled.watchAll();
+    if (content.mode === "machine" || this.live) this.world.around = () => cloudNow(this.actor);
     const first = columns.list().find((column) => /\.(angle|displacement)$/.test(column.name));
     if (first && this.player) void this.plots.show([first.name]);
   }

@@ -86,6 +86,7 @@ class Check:
     sensors: tuple[str, ...]
     events: tuple[str, ...]
     degrees_of_freedom: int
+    position_freedoms: int  # more than those of velocities where wheels roll without slip
     freedoms: tuple[Freedom, ...]  # each in words; empty where they are not named
     exact: tuple[str, ...]  # changes of joints after which no constraint repeats another and every freedom stays
     modes: int  # of flexible bodies, whose coordinates are freedoms too
@@ -110,7 +111,8 @@ class Check:
 def _freedoms(facts: Check) -> str:
     count = facts.degrees_of_freedom
     modes = f", with {facts.modes} modes of flexible bodies" if facts.modes else ""
-    return f"{count} degree{'' if count == 1 else 's'} of freedom{modes}"
+    more = f", {facts.position_freedoms} of positions" if facts.position_freedoms != count else ""
+    return f"{count} degree{'' if count == 1 else 's'} of freedom{more}{modes}"
 
 
 def _lines(facts: Check) -> Iterator[str]:
@@ -261,6 +263,7 @@ def check(plan: Plan) -> Check:
         sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
         events=tuple(event_in_words(event) for event in machine.events),
         degrees_of_freedom=redundancy.degrees_of_freedom,
+        position_freedoms=redundancy.position_freedoms,
         freedoms=named_freedoms(machine, measured),
         exact=exact_joints(machine, measured, redundancy.non_unique_joints) if redundancy.redundant_rows else (),
         modes=len(prepared.motion.system.modes),

@@ -54,7 +54,7 @@ def _write_c_library(machine: str, folder: str, overrides: dict[str, str]) -> No
 
     written = load(machine, overrides).export_c(folder)
     click.echo(
-        f"C library: {written.folder}/{written.name}.h, {len(written.outputs)} outputs, {written.size / 1000:.0f} kB a machine; "
+        f"C library: {written.folder}/{written.name}.h, {len(written.inputs)} inputs, {len(written.outputs)} outputs, {written.size / 1000:.0f} kB a machine; "
         f"`make -C {written.folder}` builds it",
         err=True,
     )

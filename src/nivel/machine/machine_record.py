@@ -29,7 +29,7 @@ from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
 from nivel.machine.forces import Force
-from nivel.machine.hydraulics import Fluid, HydraulicComponent
+from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.input import Input
 from nivel.machine.interface_uses import problems_of_interfaces
 from nivel.machine.joint import Joint
@@ -71,7 +71,7 @@ Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"
 class MachineRecord(Checked):
     """Everything nivel is told about a machine. SI, angles in radians."""
 
-    tagged = {"couplings": 2, "forces": 2, "hydraulics": 2, "control": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "forces": 2, "fluids": 2, "hydraulics": 2, "control": 2}  # noqa: RUF012
 
     name: Title
     description: str = ""
@@ -83,7 +83,7 @@ class MachineRecord(Checked):
     couplings: tuple[Coupling, ...] = ()
     drivers: tuple[Driver, ...] = ()
     forces: tuple[Force, ...] = ()
-    fluids: tuple[Fluid, ...] = ()
+    fluids: tuple[AnyFluid, ...] = ()
     hydraulics: tuple[HydraulicComponent, ...] = ()
     inputs: tuple[Input, ...] = ()
     states: tuple[State, ...] = ()

@@ -26,9 +26,11 @@ class Passage:
 
 @dataclass(frozen=True)
 class Findings:
-    """Each None, or empty, where it was not looked at; see the modules of their types. method : the integrator."""
+    """Each None, or empty, where it was not looked at; see the modules of their types. unseen : by steps. between : samples, of functions
+    that are sampled. method : the integrator."""
 
     unseen: Sequence[Unseen] = ()
+    between: Sequence[Unseen] = ()
     turn: Turn | None = None
     rounding: Rounding | None = None
     own: OwnError | None = None
@@ -43,6 +45,7 @@ class Findings:
 def finding_items(found: Findings) -> Iterator[Item]:
     """The lines of what is not green."""
     yield from _unseen_items(found.unseen)
+    yield from _sampling_items(found.between)
     if found.turn is not None:
         yield from _told(_turn_item(found.turn))
     if found.rounding is not None:
@@ -83,6 +86,16 @@ def _unseen_items(unseen: Sequence[Unseen]) -> Iterator[Item]:
             f"{number(each.scale)} s, in steps of {number(each.step)} s; take steps of {number(each.scale / 10.0)} s"
         )
         yield _measured("loads", f"Loads: {said} {advice}", each.share, each.time, each.name)
+
+
+def _sampling_items(between: Sequence[Unseen]) -> Iterator[Item]:
+    told = sorted((each for each in between if not each.share < CHECKS["sampling"].green), key=lambda each: -each.share)
+    for each in told[:SHOWN]:
+        said = f"after t = {each.time:.6g} s {each.name} changes by {number(each.share)} of its range and back between two samples"
+        advice = (
+            f"{number(each.step)} s apart, as fast as in {number(each.scale)} s; sample faster if that is to be seen"
+        )
+        yield _measured("sampling", f"Sampling: {said} {advice}", each.share, each.time, each.name)
 
 
 def _turn_item(turn: Turn) -> Item:

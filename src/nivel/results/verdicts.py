@@ -69,6 +69,12 @@ CHECKS = {
         "A hundredth of an impulse that the steps do not see is as much as loads of real machines are known to; a tenth is seen in every "
         "curve.",
     ),
+    "sampling": Threshold(
+        0.3,
+        math.inf,
+        "By this share of its range a function goes beyond two samples between them: a sine with less than three samples a period, or a "
+        "pulse that they do not see. The model samples, so its motion is as exact as ever.",
+    ),
     "turn": Threshold(
         0.5,
         3.0,

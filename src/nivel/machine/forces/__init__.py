@@ -22,6 +22,7 @@ from nivel.machine.forces.rope import Rope
 from nivel.machine.forces.servo import Servo
 from nivel.machine.forces.spring_damper import SpringDamper
 from nivel.machine.forces.stop import Stop
+from nivel.machine.forces.three_axis_spring import ThreeAxisSpring
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
 
 FORCES: list[type[ForceElement]] = [
@@ -38,6 +39,7 @@ FORCES: list[type[ForceElement]] = [
     Servo,
     PairForce,
     Bushing,
+    ThreeAxisSpring,
     Contact,
     Rope,
 ]
@@ -88,6 +90,7 @@ __all__ = [
     "ServoMotor",
     "SpringDamper",
     "Stop",
+    "ThreeAxisSpring",
     "Torque",
     "TorqueSpeed",
     "TorqueTable",

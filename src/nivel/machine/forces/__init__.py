@@ -14,6 +14,7 @@ from nivel.machine.forces.contact import Contact, Material
 from nivel.machine.forces.drives import DcMotor, ServoMotor, TorqueSpeed
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.forces.friction import Friction
+from nivel.machine.forces.hand import Hand
 from nivel.machine.forces.joint_spring_damper import JointSpringDamper
 from nivel.machine.forces.load import PointForce, Torque
 from nivel.machine.forces.motor import Motor
@@ -40,6 +41,7 @@ FORCES: list[type[ForceElement]] = [
     Bushing,
     Contact,
     Rope,
+    Hand,
 ]
 
 
@@ -78,6 +80,7 @@ __all__ = [
     "ForceTable",
     "Friction",
     "GlobalPoint",
+    "Hand",
     "JointSpringDamper",
     "Material",
     "Motor",

@@ -167,7 +167,9 @@ def linear_entries(methods: Methods) -> list[Entry]:
 def all_entries() -> list[Entry]:
     """Every entry that any run may need, those that take longest to compile first."""
     paths, integrators = (*PATHS.values(), *FLEXIBLE.values()), INTEGRATORS.values()
-    modules = [facts.module for facts in integrators] + [facts.module for facts in (*BY_MODES.values(), *BY_CIRCUITS.values())]
+    modules = [facts.module for facts in integrators] + [
+        facts.module for facts in (*BY_MODES.values(), *BY_CIRCUITS.values())
+    ]
     modules += [
         module for facts in paths for module in (facts.module, facts.correction, facts.residual, facts.dependent)
     ]

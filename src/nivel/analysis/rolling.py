@@ -31,7 +31,8 @@ def refuse_rolling_by_positions(machine: MachineRecord, coordinates: str) -> Non
     integrator = INTEGRATORS[settings.integrator]
     if integrator.step_residual:
         refuse_rolling(
-            machine, f"`integrator: {settings.integrator}` closes positions over a step; take generalised-alpha, radau or rk4"
+            machine,
+            f"`integrator: {settings.integrator}` closes positions over a step; take generalised-alpha, radau or rk4",
         )
     feeds_back = FORMULATIONS[settings.formulation].factor > 0.0
     closes_positions = settings.stabilisation == "none" and not feeds_back and coordinates != "independent"

@@ -299,7 +299,9 @@ class Joint(Checked):
             return
         if self.type == "rolling":
             if self.rim_radius != self.radius:
-                yield Problem(("axes",), "the two `axes`, the plane's normal and the axle, are parallel: the wheel lies flat")
+                yield Problem(
+                    ("axes",), "the two `axes`, the plane's normal and the axle, are parallel: the wheel lies flat"
+                )
         elif _along(self.axes[0], points):
             yield Problem(("axes",), "the two `axes` are one line: that is a cylindrical joint, without a link")
 

@@ -164,7 +164,6 @@ KEY = on_rail("twist", TWIST, "1")
 PLACE_ON_BEAM = JointCoordinate("displacement", Measured(ALONG, seen_from="rail"), "m")
 
 
-
 def slip(axis: int) -> Combination:
     """The row that lets a wheel not slip along an axis of the plane's marker."""
     name = "xy"[axis]
@@ -179,9 +178,7 @@ ON_PLANE = Combination(
     zero=True,
     effort=("normal_force", "force of the plane on the wheel along its normal"),
 )
-ROLLING = (
-    "x, y: of the wheel's centre along the x and y axes of the plane's marker; normal force and friction act on the second body, the wheel"
-)
+ROLLING = "x, y: of the wheel's centre along the x and y axes of the plane's marker; normal force and friction act on the second body, the wheel"
 
 ROD = Composition(
     (Combination("distance", ((Measured(DISTANCE), 1.0),), given="distance"),),

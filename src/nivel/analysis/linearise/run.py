@@ -142,9 +142,7 @@ def _states(instant: Instant, reduction: Reduction) -> _States:
     length = instant.length[instant.free]
     facts = instant.system.states
     return _States(
-        [name for name, _ in places]
-        + [f"{name}.rate" for name, _ in rates]
-        + [f"state.{fact.name}" for fact in facts],
+        [name for name, _ in places] + [f"{name}.rate" for name, _ in rates] + [f"state.{fact.name}" for fact in facts],
         [unit for _, unit in places] + [f"{unit}/s" for _, unit in rates] + [fact.units for fact in facts],
         np.concatenate([length[reduction.selected], length[reduction.moving], [fact.scale or 1.0 for fact in facts]]),
     )
@@ -188,9 +186,7 @@ def _timed(scale: Array, A: Array, m: int, moving: int) -> Array:
     return out
 
 
-def _shapes(
-    instant: Instant, reduction: Reduction, found: Eigen, signs: Array
-) -> tuple[Complex, Complex]:
+def _shapes(instant: Instant, reduction: Reduction, found: Eigen, signs: Array) -> tuple[Complex, Complex]:
     """(shift, turn), each (n, B, 3): what body frames do in each eigenvector."""
     count, m = instant.system.body_count, len(signs)
 

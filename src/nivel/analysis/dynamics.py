@@ -251,11 +251,11 @@ def failure_of(
 
 
 def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, advice: str) -> str:
-    """The advice, led by the force that is too fast for the step where there is one."""
+    """The advice, led by the part that is too fast for the step where there is one."""
     found = fastest_beyond(prepared, settings.integrator, settings.step, float(run.clock[ACCEPTED]), run.previous)
     if found is None:
         return advice
-    of = f", of {found.force}" if found.force else ""
+    of = f", of {found.part}" if found.part else ""
     step = held_step(settings.integrator, found.rate)
     return (
         f"The fastest rate here is {found.rate:.2g}/s{of}: {settings.integrator} holds it with steps below {step:.2g} s, "

@@ -49,7 +49,8 @@ class Slopes:
 class Instant:
     """The equations of `motion`, which has a residual and its complex twin, at time t [s] in the state y.
 
-    n : velocities. free : those that mean something (points do not turn). velocity_rows : rows that hold velocities alone. v̇ (n,) and λ (K,) are those of the motion.
+    n : velocities. free : those that mean something (points do not turn). velocity_rows : rows that hold
+    velocities alone. v̇ (n,) and λ (K,) are those of the motion.
     """
 
     def __init__(self, motion: MotionEquations, t: float, y: Array) -> None:

@@ -116,6 +116,17 @@
     ctx.restore();
   }
 
+  // pressures in the diagram of a circuit: of the frame at the cursor, at first and without a cursor those of the first one
+  const shown = [...document.querySelectorAll("[data-pressure]")].map((place) => {
+    const curves = data.panels.flatMap((panel) => panel.groups.filter((group) => group.unit === "bar").flatMap((group) => group.curves));
+    return { place, curve: curves.find((curve) => curve.label === place.dataset.pressure) };
+  });
+  function showPressures(index) {
+    for (const { place, curve } of shown) {
+      if (curve) place.textContent = `${+(values(curve, false)[index ?? 0] ?? 0).toPrecision(4)} bar`;
+    }
+  }
+
   const plots = new Map();
 
   function setRange(min, max, from) {
@@ -158,6 +169,7 @@
         draw: [limitLines(group.limits), eventMarks],
         setScale: [(u, key) => key === "x" && u.ready && setRange(u.scales.x.min, u.scales.x.max, u)],
         ready: [(u) => { u.ready = true; }],
+        setCursor: [(u) => showPressures(u.cursor.idx)],
       },
     };
   }

@@ -82,9 +82,7 @@ def _unseen_items(unseen: Sequence[Unseen]) -> Iterator[Item]:
     for each in told[:SHOWN]:
         by = "" if each.of == "time" else f" along {each.of}"
         said = f"the steps miss {number(min(each.share, 1.0))} of {each.name} at t = {each.time:.6g} s, where it changes{by} within"
-        advice = (
-            f"{number(each.scale)} s, in steps of {number(each.step)} s; take steps of {number(each.scale / 10.0)} s"
-        )
+        advice = f"{number(each.scale)} s, in steps of {number(each.step)} s; take steps of {number(min(each.scale, each.step) / 10.0)} s"
         yield _measured("loads", f"Loads: {said} {advice}", each.share, each.time, each.name)
 
 

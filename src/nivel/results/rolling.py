@@ -35,6 +35,8 @@ def _wheel_item(result: Readable, wheel: str) -> Item:
     pressed = normal > PULLED * largest
     ratio = np.divide(friction, normal, out=np.zeros_like(friction), where=pressed)
     worst = int(np.argmax(ratio))
-    said = f"{name} is pressed on with {number(float(normal[least]))} N or more"
-    needs = f"does not slip where the coefficient of friction is {ratio[worst]:.3g} or more (t = {time[worst]:.6g} s)"
+    said = f"the plane presses on {name} with {number(float(normal[least]))} N or more"
+    needs = (
+        f"it does not slip where the coefficient of friction is {ratio[worst]:.3g} or more (t = {time[worst]:.6g} s)"
+    )
     return Item("rolling", "green", f"Rolling: {said}, and {needs} (green while nothing pulls)", row=name)

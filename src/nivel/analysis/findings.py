@@ -7,6 +7,7 @@ import numpy as np
 from nivel.analysis.corners import corners
 from nivel.analysis.dynamics import RunOutcome
 from nivel.analysis.loads.path import steps_of
+from nivel.analysis.loads.sampled import between_samples
 from nivel.analysis.loads.seen import unseen_loads
 from nivel.analysis.passages import passages
 from nivel.analysis.plan import Plan
@@ -40,6 +41,7 @@ def find(
     implicit = prepared.integrator.residual or prepared.integrator.circuit_tangent
     return Findings(
         unseen=_unseen(plan, prepared, finished, result),
+        between=tuple(between_samples(plan.machine, float(result.time[-1]))),
         # where steps are chosen no body turns too far
         turn=largest_turn(result, turned, settings.duration, counted=settings.coordinates == "relative")
         if fixed

@@ -15,6 +15,7 @@ from nivel.system.tables import Array, index_array
 
 Index = NDArray[np.uint32]
 ROOM = 5  # columns of `Circuit.room`
+FLUID = 10  # columns of `Circuit.fluid`
 
 
 def tangent_tables(
@@ -64,7 +65,8 @@ class Node:
 
     kind : VOLUME, GIVEN or SIGNAL of `nivel.kernels.hydraulics.volume`. state : of its mass or signal, or NONE. room : as `Circuit.room`.
     swept : volume that its pistons leave open at half their strokes [m³]. start : pressure at t = 0 that was given [Pa], or None.
-    owner : name of its component.
+    owner : name of its component. output : its pressure. gas : whether it holds gas. energy : state of the inner energy of gas, or NONE.
+    walls : heat through its walls [W/K]. quantity : its pressure among the results of its component.
     """
 
     name: str
@@ -76,11 +78,25 @@ class Node:
     start: float | None
     owner: str
     output: int
+    gas: bool = False
+    energy: int = NONE
+    walls: float = 0.0
+    quantity: str = "pressure"
 
     @property
     def is_volume(self) -> bool:
         """Whether its state is a mass."""
         return self.kind == VOLUME
+
+    @property
+    def variable(self) -> str:
+        """Result variable of its pressure."""
+        return f"hydraulics.{self.owner}.{self.quantity}"
+
+    @property
+    def states(self) -> frozenset[int]:
+        """Numbers of its states."""
+        return frozenset({self.state, self.energy} - {NONE})
 
 
 @dataclass
@@ -104,10 +120,10 @@ class CircuitTable:
         def work() -> Array:
             return np.zeros(count)
 
-        flowing = [(node.fluid, node.state if node.is_volume else NONE) for node in nodes]
+        flowing = [(node.fluid, node.state if node.is_volume else NONE, node.energy) for node in nodes]
         return Circuit(
-            node=index_array(flowing, 2),
-            fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), -1 if self.fluids else 6),
+            node=index_array(flowing, 3),
+            fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), FLUID),
             room=np.array([node.room for node in nodes], dtype=float).reshape(count, ROOM),
             secant=np.zeros(1, dtype=np.uint32),
             guard=np.zeros(2),

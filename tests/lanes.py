@@ -12,6 +12,6 @@ def tail(values, default):
     return [each if each in default else pytest.param(each, marks=pytest.mark.full) for each in values]
 
 
-def thirds():
-    """A grid in three parts, of which the first is for all tests: the number of the part, and every so many."""
-    return pytest.mark.parametrize("third", tail(range(3), [0]))
+def parts(count):
+    """A grid in `count` parts, of which the first is for all tests: the number of the part."""
+    return pytest.mark.parametrize("part", tail(range(count), [0]))

@@ -15,7 +15,7 @@ from observing import assert_same_frame, observed, of_absolute
 from preparing import prepare
 from test_rails import KINDS
 from tree_machines import write_beams
-from unknowns import Unknowns, error_of
+from unknowns import Unknowns
 
 TIME = 0.1
 
@@ -81,7 +81,7 @@ def error_of_matrix(here):
     widths = unknowns.widths()
     widths[: here.n][here.modal] *= here.motion.system.modal_sizes()
     unknowns.widths = lambda: widths
-    return error_of(unknowns.matrix()[1], unknowns.jacobian(), widths)
+    return unknowns.error()
 
 
 def carried(here):

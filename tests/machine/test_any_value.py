@@ -4,7 +4,7 @@ from functools import partial
 
 from everything import EVERYTHING
 
-from lanes import thirds
+from lanes import parts
 from nivel.machine import MachineRecord, Record
 from wrong_values import WRONG, told_or_done
 
@@ -19,8 +19,8 @@ def records(record):
                 yield from records(each)
 
 
-@thirds()
-def test_records_refuse_any_value_of_any_field_in_words(third):
+@parts(3)
+def test_records_refuse_any_value_of_any_field_in_words(part):
     seen = set()
     for record in records(MachineRecord(**EVERYTHING)):
         base = {name: getattr(record, name) for name in record.model_fields_set}
@@ -28,6 +28,6 @@ def test_records_refuse_any_value_of_any_field_in_words(third):
             if (type(record), name) in seen:
                 continue
             seen.add((type(record), name))
-            for value in WRONG[(len(seen) + third) % 3 :: 3]:
+            for value in WRONG[(len(seen) + part) % 3 :: 3]:
                 told_or_done(partial(type(record), **{**base, name: value}))
     assert len(seen) > 200

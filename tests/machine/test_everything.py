@@ -6,7 +6,7 @@ from copy import deepcopy
 import pytest
 from everything import EVERYTHING
 
-from lanes import thirds
+from lanes import parts
 from nivel.errors import ModelError
 from nivel.files import parse_machine, write_machine
 from nivel.machine import JOINT_COORDINATES, MachineRecord
@@ -16,6 +16,7 @@ from nivel.machine.hydraulics import COMPONENTS
 from nivel.machine.index import SECTIONS
 
 MACHINE = MachineRecord(**EVERYTHING)
+PARTS = 8
 GARBAGE = (
     None,
     True,
@@ -82,10 +83,10 @@ def spoilt(path, garbage):
     return data
 
 
-@thirds()
+@parts(PARTS)
 @pytest.mark.parametrize("section", [key for key in EVERYTHING if key != "name"])
-def test_garbage_anywhere_gives_a_machine_or_faults(section, third):
-    for at, path in list(enumerate(places(EVERYTHING[section], (section,))))[third::3]:
+def test_garbage_anywhere_gives_a_machine_or_faults(section, part):
+    for at, path in list(enumerate(places(EVERYTHING[section], (section,))))[part::PARTS]:
         for garbage in GARBAGE[at % 7 :: 7]:
             try:
                 MachineRecord(**spoilt(path, garbage))
@@ -93,9 +94,10 @@ def test_garbage_anywhere_gives_a_machine_or_faults(section, third):
                 assert error.faults, (path, garbage)  # noqa: PT017
 
 
+@parts(3)
 @pytest.mark.parametrize("section", SECTIONS)
-def test_what_is_missing_gives_a_machine_or_faults(section):
-    for path in places(EVERYTHING[section], (section,)):
+def test_what_is_missing_gives_a_machine_or_faults(section, part):
+    for path in list(places(EVERYTHING[section], (section,)))[part::3]:
         data = deepcopy(EVERYTHING)
         container = data
         for step in path[:-1]:

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from assembled import TIME, random_states
+from lanes import FULL
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.implicit import ResidualOptions, evaluate_residual, find_tangent, with_residual
 from nivel.kernels.record import EULER_ANGLES, NONE, ROTATION_VECTOR
@@ -195,15 +196,14 @@ class Unknowns:
         lam = np.full(len(here.lam), 1.0 + np.abs(here.lam).max(initial=0.0))
         return 0.02 * np.concatenate([lengths / cq, np.full(here.states, 5e-3 / cx), lam])
 
-    def derivative(self, j, width):
-        """Column j of the Jacobian: of differences with steps halved again and again, entry by entry the one that halving changes least."""
+    def derivative(self, direction):
+        """The Jacobian times a direction: of differences with steps halved again and again, by entry the one that halving changes least."""
         before, column, least = None, None, None
         for k in range(HALVINGS):
             found = np.zeros(len(self.z))
-            step = np.zeros(len(self.z))
             for m, weight in enumerate(CENTRAL, start=1):
-                step[j] = m * 0.5**k * width
-                found += weight * 2.0**k / width * (self.residual(self.z + step) - self.residual(self.z - step))
+                step = m * 0.5**k * direction
+                found += weight * 2.0**k * (self.residual(self.z + step) - self.residual(self.z - step))
             if before is not None:
                 changed = np.abs(found - before)
                 better = changed < (np.inf if least is None else least)
@@ -214,10 +214,23 @@ class Unknowns:
             before = found
         return column
 
-    def jacobian(self):
-        """The whole Jacobian, columns those of changes of z."""
-        columns = [self.derivative(j, width) for j, width in enumerate(self.widths())]
-        return np.array(columns).reshape(len(columns), len(columns)).T
+    def error(self, count=None):
+        """Largest error of an entry of `matrix` as a share of the largest in its row; unknowns in units of their widths.
+
+        Entries are looked at one by one, or by default tests all at once along `count` random directions, where each that is wrong shows.
+        """
+        widths = self.widths()
+        _, own = self.matrix()
+        directions = np.diag(widths)
+        if count and not FULL and len(widths) > count:
+            rng = np.random.default_rng(len(widths))
+            signs = rng.choice([-1.0, 1.0], (len(widths), count))
+            directions = 0.25 * widths[:, None] * signs * rng.uniform(0.5, 1.0, signs.shape)
+        expected = (
+            np.array([self.derivative(direction) for direction in directions.T]).reshape(directions.shape[::-1]).T
+        )
+        rows = np.abs(own * widths).max(axis=1, keepdims=True, initial=0.0)
+        return float((np.abs(own @ directions - expected) / np.maximum(rows, 1e-300)).max(initial=0.0))
 
     def matrix(self):
         """(matrix of `differentiate` at z, the same for changes of z): its columns are for turns after the change."""
@@ -230,9 +243,3 @@ class Unknowns:
         for k in self.first_turns:
             own[:, k : k + 3] = matrix[:, k : k + 3] @ tangent_of_vector(self.change[k : k + 3])
         return matrix, own
-
-
-def error_of(found, expected, widths):
-    """Largest difference of an entry as a share of the largest in its row; unknowns in units of their widths."""
-    rows = np.abs(expected * widths).max(axis=1, keepdims=True, initial=0.0)
-    return float((np.abs(found - expected) * widths / np.maximum(rows, 1e-300)).max(initial=0.0))

@@ -56,6 +56,7 @@ def test_a_still_has_its_size_and_shows_its_moment(stored, tmp_path):
 
 
 @with_browser
+@pytest.mark.full
 def test_a_gif_has_all_frames_and_they_differ(stored, tmp_path):
     image = pytest.importorskip("PIL.Image")
     heard = []
@@ -73,6 +74,7 @@ def test_a_gif_has_all_frames_and_they_differ(stored, tmp_path):
 
 
 @with_browser
+@pytest.mark.full
 def test_an_mp4_is_made_where_ffmpeg_is_found(stored, tmp_path):
     if not shutil.which("ffmpeg"):
         pytest.importorskip("imageio_ffmpeg")

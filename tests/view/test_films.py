@@ -32,6 +32,7 @@ def assert_moving(pictures):
 
 
 @with_browser
+@pytest.mark.full
 def test_an_mp4_is_read_by_ffmpeg(source, tmp_path):
     heard = []
     film(source, tmp_path / "a.mp4", LOOK, lambda *done: heard.append(done))
@@ -53,6 +54,7 @@ def test_an_mp4_is_read_by_ffmpeg(source, tmp_path):
 
 
 @with_browser
+@pytest.mark.full
 def test_a_gif_is_read_by_pillow(source, tmp_path):
     film(source, tmp_path / "a.gif", LOOK, lambda *_: None)
     pictures = []

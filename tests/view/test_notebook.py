@@ -15,6 +15,7 @@ EXAMPLE = Path(__file__).parent.parent.parent / "examples" / "simple-pendulum.ya
 
 
 @pytest.mark.filterwarnings("ignore")  # of the programs that run notebooks
+@pytest.mark.full
 def test_a_notebook_shows_a_motion_that_plays(tmp_path):
     cells = [
         f"import nivel\nresult = nivel.load({str(EXAMPLE)!r}).simulate(duration=0.5)",

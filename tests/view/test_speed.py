@@ -70,7 +70,7 @@ def assert_fast(rates, free):
 @pytest.mark.parametrize(
     ("stage", "moment"),
     [
-        (many_bodies.stage, many_bodies.moment),
+        pytest.param(many_bodies.stage, many_bodies.moment, marks=pytest.mark.full),
         pytest.param(many_bodies.chain, many_bodies.wave, marks=pytest.mark.full),
     ],
     ids=["fifty bodies and a mesh", "a chain of 300 links"],
@@ -88,9 +88,9 @@ def test_frames_are_new_and_vertices_have_their_colours():
     colours = "new Set(Array.from(m.attributes.color.array).map((c) => c.toFixed(2))).size] })()"
     places = "nivel.app.actor.deforming[0].mesh.geometry.attributes.position.array"
     with opened(many_bodies.stage, many_bodies.moment) as (page, _):
-        vertices, tones = page.evaluate(count + colours)
         page.evaluate(f"window.first = {places}.slice()")
         until(page, f"{places}.some((x, k) => Math.abs(x - first[k]) > 1e-3)")
+        vertices, tones = page.evaluate(count + colours)
     assert vertices == 1000
     assert tones > 20
 

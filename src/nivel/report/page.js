@@ -160,8 +160,9 @@
           stroke: () => colour(`tone-${/\d/.test(curve.tone) ? Number(curve.tone) % 8 : curve.tone}`),
           dash: Number(curve.tone) >= 8 ? [6, 4] : undefined,
           width: 1.6,
+          pxAlign: 0,
           points: { show: false },
-          value: (u, v) => (v == null ? "" : `${short(v)} ${group.unit === "1" ? "" : group.unit}`),
+          value: (u, v) => (v == null ? "" : quantity(v, group.unit)),
         })),
       ],
       hooks: {
@@ -173,12 +174,42 @@
     };
   }
 
+  // the value that a curve keeps, or null where it changes or has gaps
+  function constant(curve, floor) {
+    const all = values(curve, false);
+    let low = Infinity, high = -Infinity;
+    for (const v of all) {
+      if (v === null) return null;
+      low = Math.min(low, v);
+      high = Math.max(high, v);
+    }
+    return high - low <= Math.max(floor, 1e-7 * Math.max(Math.abs(low), Math.abs(high))) ? 0.5 * (low + high) : null;
+  }
+
+  // what is constant in a plot is said, and what changes is drawn
+  function parted(panel, group) {
+    if (panel.log || time.length < 2) return [group, ""];
+    const kept = group.curves.map((curve) => constant(curve, group.floor));
+    const said = group.curves
+      .map((curve, k) => [curve.label, kept[k]])
+      .filter(([, value]) => value !== null)
+      .map(([label, value]) => `${label} = ${quantity(Math.abs(value) <= group.floor ? 0 : value, group.unit)}`);
+    const moving = group.curves.filter((curve, k) => kept[k] === null);
+    return [{ ...group, curves: moving.length ? moving : group.curves }, said.length ? `Constant: ${said.join(", ")}.` : ""];
+  }
+
+  function quantity(v, unit) {
+    if (unit === "1") return short(v);
+    return unit === "rad" ? `${short(v)} rad (${short(+((v * 180) / Math.PI).toPrecision(4))}°)` : `${short(v)} ${unit}`;
+  }
+
   function build(card) {
     const panel = data.panels[card.dataset.panel];
-    const group = panel.groups[card.querySelector("select")?.value ?? 0];
+    const [group, said] = parted(panel, panel.groups[card.querySelector("select")?.value ?? 0]);
     const place = card.querySelector(".canvas");
     plots.get(card)?.destroy();
     card.querySelector(".unit").textContent = group.unit === "1" ? "" : `[${group.unit}]`;
+    card.querySelector(".constant").textContent = said;
     const lines = [time, ...group.curves.map((curve) => values(curve, panel.log))];
     const plot = new uPlot(options(panel, group, place.clientWidth || 400), lines, place);
     plots.set(card, plot);

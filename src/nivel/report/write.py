@@ -59,6 +59,7 @@ def report_html(result: Result) -> str:
 
     environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters["number"] = number
+    environment.filters["quantity"] = quantity
     record = json.loads(str(result.attributes.get("machine_record", "{}")))
     shown = panels(result)
     motion, motion_left_out = _motion(result)
@@ -102,6 +103,14 @@ def number(value: float, digits: int = 4) -> str:
         return f"{value:.{digits}g}" if abs(value) < 10.0**digits else f"{value:.0f}"
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
     return f"{float(mantissa):g}e{int(exponent)}"
+
+
+def quantity(value: float, unit: str) -> str:
+    """A number with its unit for people: 32.5 kN, 122 kN m, 840 N."""
+    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if abs(value) >= factor and np.isfinite(value) and abs(value) < 1e12:
+            return f"{value / factor:.4g} {prefix}{unit}"
+    return f"{number(value)} {unit}"
 
 
 def _picture(result: Result, record: dict[str, Any]) -> str:

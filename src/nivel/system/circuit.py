@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import get_args, get_type_hints
 
 import numpy as np
 
+from nivel.kernels.circuit_record import CircuitTangent
 from nivel.kernels.hydraulics.volume import VOLUME
 from nivel.kernels.record import NONE, Circuit
 from nivel.system.state_facts import Coupled
@@ -13,6 +15,16 @@ from nivel.system.tables import Array, index_array
 
 ROOM = 5  # columns of `Circuit.room`
 FLUID = 10  # columns of `Circuit.fluid`
+
+
+def no_tangent() -> CircuitTangent:
+    """For methods that do not need it: all arrays empty."""
+    shapes = {1: (0,), 2: (0, 0), 3: (0, 0, 0)}
+    kinds = {"index": np.uint32, "real": float}
+    hints = get_type_hints(CircuitTangent, include_extras=True)
+    return CircuitTangent(
+        **{name: np.zeros(shapes[get_args(hint)[1]], kinds[get_args(hint)[2]]) for name, hint in hints.items()}
+    )
 
 
 @dataclass(frozen=True)
@@ -94,4 +106,5 @@ class CircuitTable:
             inflow=work(),
             power=np.zeros(4),
             stored=np.zeros(1),
+            tangent=no_tangent(),
         )

@@ -85,6 +85,7 @@ SAME: Final[dict[str, str]] = {
     "servo": "pid, pd, controller, position control, position servo, pid controller, pd controller",
     "target": "setpoint, set point, reference, command, desired, goal",
     "integral": "ki, integral gain",
+    "three-axis-spring": "linear spring 3d, cartesian spring, translational bushing",
     "bushing": "bush, rubber mount, compliant joint, mount",
     "vector": "force, value, components, f, torque, load, magnitude",
     "stiffness": "k, spring constant, rate, spring rate, spring stiffness, kp, gain, proportional gain, p",

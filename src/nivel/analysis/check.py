@@ -80,6 +80,7 @@ class Check:
     drivers: tuple[str, ...]
     forces: tuple[str, ...]
     hydraulics: tuple[str, ...]
+    pressures: dict[str, float]  # [Pa] of nodes of circuits at the start, by the name of their result variable
     inputs: tuple[str, ...]
     states: tuple[str, ...]
     control: tuple[str, ...]
@@ -261,6 +262,7 @@ def check(plan: Plan) -> Check:
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
         hydraulics=_hydraulics(machine, system),
+        pressures=_pressures(system),
         inputs=tuple(input_in_words(each) for each in machine.inputs),
         states=tuple(state_in_words(state) for state in machine.states),
         control=tuple(block_in_words(block) for block in machine.control),
@@ -298,6 +300,11 @@ def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:
         f"start: {', '.join(pressures)}",
         f"{count} states of components",
     )
+
+
+def _pressures(system: System) -> dict[str, float]:
+    """Pressures of nodes at the start [Pa], by the name of the result variable."""
+    return {node.variable: float(system.record.circuit.pressure[k]) for k, node in enumerate(system.nodes)}
 
 
 def _cut(methods: Methods) -> tuple[str, ...]:

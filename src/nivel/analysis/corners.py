@@ -95,7 +95,9 @@ def _found(expression: Expression, end: float) -> Iterator[float]:
             root_scalar(difference, bracket=(times[k], times[k + 1]), xtol=1e-15 * end, rtol=1e-14).root
             for k in np.flatnonzero(values[:-1] * values[1:] < 0.0)
         ]
-        yield from (*roots, *map(float, times[values == 0.0]))
+        # where it is zero all along, as between two equal functions, only the ends are corners
+        zero = np.concatenate([[False], values == 0.0, [False]])
+        yield from (*roots, *map(float, times[zero[1:-1] & ~(zero[:-2] & zero[2:])]))
 
 
 def _holds(expression: Expression, time: float) -> bool:
@@ -129,9 +131,19 @@ def _sides(node: Node) -> Iterator[tuple[Node, Node | None]]:
             alone = [argument for argument in arguments if not signals(argument)]
             if function == "abs":
                 yield from ((argument, None) for argument in alone)
-            elif function in ("if", "not", "sign") and not signals(arguments[0]):
+            elif function in ("if", "not", "sign") and not signals(arguments[0]) and not _is_truth(arguments[0]):
                 yield arguments[0], None
             elif function in ("step", "ramp", "step_rate", "step_acceleration") and not signals(node):
                 yield from ((arguments[0], arguments[k]) for k in (1, 3))
             elif function in ("min", "max"):
                 yield from ((first, second) for k, first in enumerate(alone) for second in alone[:k])
+
+
+def _is_truth(node: Node) -> bool:
+    """Whether a node is a condition, 1 or 0, whose own sides say where it changes."""
+    match node:
+        case Operation(symbol, _, _):
+            return symbol in (*COMPARISONS, "and", "or")
+        case Call(function, _):
+            return function == "not"
+    return False

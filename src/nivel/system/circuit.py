@@ -34,7 +34,7 @@ class Node:
     kind : VOLUME, GIVEN or SIGNAL of `nivel.kernels.hydraulics.volume`. state : of its mass or signal, or NONE. room : as `Circuit.room`.
     swept : volume that its pistons leave open at half their strokes [m³]. start : pressure at t = 0 that was given [Pa], or None.
     owner : name of its component. output : its pressure. gas : whether it holds gas. energy : state of the inner energy of gas, or NONE.
-    walls : heat through its walls [W/K].
+    walls : heat through its walls [W/K]. quantity : its pressure among the results of its component.
     """
 
     name: str
@@ -49,11 +49,17 @@ class Node:
     gas: bool = False
     energy: int = NONE
     walls: float = 0.0
+    quantity: str = "pressure"
 
     @property
     def is_volume(self) -> bool:
         """Whether its state is a mass."""
         return self.kind == VOLUME
+
+    @property
+    def variable(self) -> str:
+        """Result variable of its pressure."""
+        return f"hydraulics.{self.owner}.{self.quantity}"
 
     @property
     def states(self) -> frozenset[int]:

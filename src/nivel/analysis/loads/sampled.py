@@ -35,7 +35,7 @@ def _beyond(function: Varying, sampling: Sampling, end: float) -> Unseen | None:
     count = min(int((end - sampling.offset) / sampling.period), MOST_SAMPLES)
     if count < 1:
         return None
-    samples = sampling.offset + sampling.period * np.arange(count + 1)
+    samples: Array = sampling.offset + sampling.period * np.arange(count + 1, dtype=np.float64)
     share = np.arange(PLACES) / PLACES
     time = np.append((samples[:-1, None] + sampling.period * share).ravel(), samples[-1])
     time, values = with_features(function.curve, time, np.nan_to_num(function.curve.values({TIME: time})))

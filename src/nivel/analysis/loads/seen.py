@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 # Parts of a step between samples, and how many parts of the run are judged by themselves.
 SAMPLES, WINDOWS = 16, 20
 # A part of the run where a function is below this share of its largest mean magnitude counts as if it had that.
-QUIET = 1e-3
+QUIET = 1e-2
 # Bounds that allow this share of the largest magnitude beyond what was sampled are looked into, by so many halvings, so many at once.
 BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 14, 20_000
 # A found feature is sampled by so many points; at most so many are.

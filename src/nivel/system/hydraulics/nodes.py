@@ -172,9 +172,20 @@ def _volume(
         energy = draft.own_state(
             StateFact(f"{component.name}.energy{ending}", "J", words, inner, inner, relative=False)
         )
-    swept_half, owner = size - room[0], component.name
     return Node(
-        name, volume.VOLUME, fluid, state, room, swept_half, start, owner, output, gas is not None, energy, walls
+        name,
+        volume.VOLUME,
+        fluid,
+        state,
+        room,
+        size - room[0],
+        start,
+        component.name,
+        output,
+        gas=gas is not None,
+        energy=energy,
+        walls=walls,
+        quantity=f"pressure{ending}",
     )
 
 

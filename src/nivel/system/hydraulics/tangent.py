@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.kernels.circuit_record import CircuitTangent
 from nivel.kernels.hook import FAMILIES
-from nivel.kernels.hydraulics import load_signal, pipe, piston, restriction, rotary, spool, volume
+from nivel.kernels.hydraulics import ledger, load_signal, pipe, piston, restriction, rotary, spool, volume
 from nivel.kernels.record import NONE, Record
 from nivel.system.factor_plan import minimum_degree
 from nivel.system.system import System
@@ -29,6 +29,8 @@ DERIVED = (
     restriction.apply,
     pipe.apply,
 )
+# those whose derivatives are those of nodes, or none
+WITHOUT = (volume.apply, rotary.supply, ledger.apply)
 Index = NDArray[np.uint32]
 
 

@@ -272,6 +272,15 @@ EVERYTHING = {
             "stiffness": [[2 if i == j else 0.1 for j in range(6)] for i in range(6)],
         },
         {
+            "name": "cushion",
+            "type": "three-axis-spring",
+            "markers": ["tip", "eye"],
+            "stiffness": [1, 2, 3],
+            "damping": [0.1, 0.2, 0.3],
+            "free_displacement": [0.1, 0, 0],
+            "preload": [1, 0, -1],
+        },
+        {
             "name": "floor",
             "type": "contact",
             "body": "box",

@@ -74,6 +74,12 @@ def dashed_sign(first: Point, second: Point) -> str:
     return f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" class="pair-force"/>'
 
 
+def rope_sign(first: Point, second: Point) -> str:
+    """A line from point to point."""
+    (x1, y1), (x2, y2) = first, second
+    return f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" class="rope"/>'
+
+
 def cylinder_sign(first: Point, second: Point, barrel: float, wide: float, thin: float) -> str:
     """A barrel of this length from the first point on, and a rod to the second one. wide, thin : their thickness; all in pixels."""
     (x1, y1), (x2, y2) = first, second

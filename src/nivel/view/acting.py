@@ -104,7 +104,7 @@ def _look(force: dict[str, Any], record: dict[str, Any]) -> ForceLook:
             return "cylinder"
         case "rope":
             return "rope"
-        case "bushing":
+        case "bushing" | "three-axis-spring":
             return "bushing"
         case "contact":
             return "plane" if "axis" in force else "nothing"

@@ -23,6 +23,7 @@ from nivel.machine.forces.rope import Rope
 from nivel.machine.forces.servo import Servo
 from nivel.machine.forces.spring_damper import SpringDamper
 from nivel.machine.forces.stop import Stop
+from nivel.machine.forces.three_axis_spring import ThreeAxisSpring
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
 
 FORCES: list[type[ForceElement]] = [
@@ -39,6 +40,7 @@ FORCES: list[type[ForceElement]] = [
     Servo,
     PairForce,
     Bushing,
+    ThreeAxisSpring,
     Contact,
     Rope,
     Hand,
@@ -91,6 +93,7 @@ __all__ = [
     "ServoMotor",
     "SpringDamper",
     "Stop",
+    "ThreeAxisSpring",
     "Torque",
     "TorqueSpeed",
     "TorqueTable",

@@ -284,7 +284,7 @@ class Beam(Checked):
         else:
             return
         message = (
-            f"an `ancf-cable` bends alike in all directions, and nothing couples its strains; here {why}: {OTHERS}"
+            f"an `ancf-cable` has the same bending stiffness in all directions, and nothing couples its strains; here {why}: {OTHERS}"
         )
         yield Problem(("section",), message)
 

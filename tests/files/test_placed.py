@@ -102,7 +102,7 @@ WITH_AXES = [
 
 def joint_of(kind, by):
     """A joint of a kind between a and b, by points or by markers."""
-    size = {"screw": {"pitch": 0.01}, "generic": {"locked": ("rx", "ry")}}.get(kind, {})
+    size = {"screw": {"pitch": 0.01}, "generic": {"locked": ("rx", "ry")}, "rolling": {"radius": 0.5}}.get(kind, {})
     if by == "markers":
         first = Marker(body="a", position=(0.1, 0.2, 0.3), axis=(1, 2, 0.5), x_axis=(0.3, 0, 1))
         second = Marker(body="b", position=(-0.1, 0.2, 0), orientation=Orientation(euler=(1, 2, 3), sequence="xyz"))
@@ -121,7 +121,7 @@ def ends(joint):
     points = joint.points or (joint.point, joint.point)
     if joint.axes is not None:
         first, second = joint.axes
-        frames = [frame_from_axes(first, second)] * 2
+        frames = [frame_from_axes(first, joint.x_axis if joint.type == "rolling" else second)] * 2
         if joint.axis is not None:
             frames[0] = frame_from_axes(joint.axis, first)
         if joint.type != "revolute-translational":
@@ -169,6 +169,7 @@ def test_joints_keep_the_meaning_of_their_coordinates(kind, by, placing, rng):
     of_image, its_rows = coordinates(made["joints"][0], made["bodies"], images)
     for name in JOINT_KINDS[kind].coordinates:
         opposite = placing.mirrored and kind in ("cylindrical", "screw", "generic") and name == "displacement"
+        opposite |= placing.mirrored and kind == "rolling" and name == "y"
         assert of_image[name] == pytest.approx(-values[name] if opposite else values[name], abs=1e-12), name
     if joint.axes is None:
         assert its_rows == pytest.approx(rows, abs=1e-12)

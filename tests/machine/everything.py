@@ -290,6 +290,14 @@ EVERYTHING = {
             "friction": 0.3,
             "friction_transition_speed": "1 mm/s",
         },
+        {
+            "name": "helper",
+            "type": "hand",
+            "pull": "lever.value",
+            "body_number": 1,
+            "point": [0, 0, "1 cm"],
+            "towards": ["0.1*time", 0, 1],
+        },
         {"name": "billiards", "type": "contact", "bodies": ["a", "b"], "materials": [STEEL, STEEL], "restitution": 0.9},
     ],
     "inputs": [

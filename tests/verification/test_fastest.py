@@ -89,9 +89,26 @@ def test_a_run_that_fails_for_another_reason_names_no_force():
     ids=["block of the control", "volume of a circuit", "force that a law gives"],
 )  # fmt: skip
 def test_states_of_circuits_and_controls_are_named(sections, part, rate):
-    """The arm lies along the rail: cart and arm move as one of 3 kg. The modulus of the oil at 50 bar is a little more than at the air's."""
+    """The arm lies along the rail: cart and arm move as one of 3 kg. The modulus of oil at 50 bar is a little more."""
     record = machine({**cart(), **{key: value for key, value in sections.items() if value}}).record
     prepared = prepare(record, "newton-euler", "relative")
     found = fastest(prepared.motion, 0.0, prepared.start)
     assert found.part == part
     assert found.rate == pytest.approx(rate, rel=0.1)
+
+
+def test_a_red_run_names_what_is_too_fast_for_its_steps():
+    """A spring of 30 rad/s, 30.3 on a cart that gives way, in steps of 0.05 s is held by rk4, and not followed: 0.3/30.3 s."""
+    spring = {
+        "type": "joint-spring-damper",
+        "coordinate": "wrist.angle",
+        "stiffness": 900.0 * inertia(),
+        "free_value": 0.5,
+    }
+    result = machine(cart(spring=spring)).simulate(
+        step=0.05, output_interval=0.05, integrator="rk4", coordinates="relative"
+    )
+    assert result.trust.verdict == "red"
+    (item,) = [item for item in result.trust.items if item.name == "steps"]
+    assert (item.verdict, item.row) == ("amber", "spring")
+    assert "rk4 follows it with steps below 0.00991 s, not 0.05 s" in item.text

@@ -12,6 +12,7 @@ import { cloudNow, cloudOf } from "./stage/cloud";
 import type { Extra } from "./stage/extras";
 import { Labels } from "./stage/labels";
 import { Follower } from "./stage/follower";
+import { Hand } from "./stage/hand";
 import { Handled } from "./stage/handled";
 import { listenToPicks } from "./stage/picking";
 import { Traces } from "./stage/traces";
@@ -56,6 +57,7 @@ export class App {
   private readonly coordinates: Coordinates | null = null;
   readonly live: Live | null = null;
   private trails: Trails | null = null;
+  private hand: Hand | null = null;
   private shownTime = 0;
   private readonly panels: Panels;
   private readonly dialog = helpDialog();
@@ -131,7 +133,15 @@ export class App {
       this.trails = new Trails(this.actor);
       this.world.scene.add(this.trails.root);
       this.actor.show("signs", false);
-      this.live = new Live(content.controls, content.gauges, (message) => connection.send(message));
+      const live = new Live(content.controls, content.gauges, (message) => connection.send(message));
+      const hand = new Hand(this.world, this.actor, (message) => {
+        if (message.on && !live.operator.driving) live.take(true);
+        connection.send(message);
+      });
+      live.onHand = (on) => (hand.isOut = on);
+      this.actor.root.add(hand.object);
+      this.live = live;
+      this.hand = hand;
     }
     const data = el("div", {}, this.live?.panel ?? null, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;
@@ -208,6 +218,7 @@ export class App {
       this.latest = null;
       this.refreshFrame();
       this.trails?.add();
+      this.hand?.update();
       this.handled.keepInSight();
     }
     const { clientWidth, clientHeight } = this.world.holder;

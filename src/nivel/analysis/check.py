@@ -25,6 +25,7 @@ from nivel.analysis.named_freedoms import Freedom, named_freedoms
 from nivel.analysis.plan import Methods, Plan
 from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import RunSettings
+from nivel.analysis.unique_reactions import ReactionFacts, unique_reactions
 from nivel.machine.joint import JOINT_KINDS, Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import bending_bodies
@@ -94,6 +95,7 @@ class Check:
     constraint_rows: int
     redundant_rows: tuple[str, ...]
     non_unique_joints: tuple[str, ...]
+    reactions: tuple[ReactionFacts, ...]  # which components of theirs are unique
     gap: float
     gap_row: str
     moved: tuple[tuple[str, float, float], ...]
@@ -207,6 +209,9 @@ def _redundancy_lines(facts: Check) -> Iterator[str]:
     if facts.redundant_rows:
         yield f"constraints: {facts.constraint_rows} rows, redundant: {', '.join(facts.redundant_rows)}"
         yield f"  the motion is unique; reactions are not in: {', '.join(facts.non_unique_joints)}"
+        if any(each.unique for each in facts.reactions):
+            yield "  along the axes of their first markers"
+            yield from (f"    {each}" for each in facts.reactions)
         if facts.exact:
             yield f"  exactly constrained, with the same freedoms: {'; '.join(facts.exact)}"
     else:
@@ -272,6 +277,7 @@ def check(plan: Plan) -> Check:
         constraint_rows=system.machine_rows,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
+        reactions=unique_reactions(measured) if redundancy.redundant_rows else (),
         gap=assembly.gap,
         gap_row=assembly.gap_row,
         moved=assembly.moved,

@@ -1,4 +1,4 @@
-"""Machines whose only stiffness is that of their circuits: `extrapolated-euler` needs no tangents of all else there."""
+"""Machines whose only stiffness is that of their circuits and modes: `extrapolated-euler` needs no tangents of all else there."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ MOVING = ("joints", "inputs", "markers", "bodies")  # what signals of the motion
 
 
 def only_circuits_are_stiff(machine: MachineRecord) -> bool:
-    """Whether a machine of rigid bodies has circuits with derivatives by hand, and besides them and weight no forces but those given in
+    """Whether a machine has circuits with derivatives by hand, and besides them and weight no forces but those given in
     time, no states but sampled ones, and in circuits no commands that follow pressures at once."""
     return (
         bool(machine.hydraulics)
-        and not (machine.is_flexible or machine.beams)
+        and not machine.beams
         and all(isinstance(each, PointForce | Torque) for each in machine.forces)
         and all(state.update is not None for state in machine.states)
         and all(block.is_sampled for block in machine.control)

@@ -17,8 +17,10 @@ from scipy.linalg import eig
 
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.preparation import Prepared
+from nivel.analysis.settings import RunSettings
 from nivel.kernels.observe import observe
 from nivel.kernels.status import OK
+from nivel.results.findings import Fast
 from nivel.system.system import Array
 
 Vectors = NDArray[np.complex128]
@@ -36,6 +38,20 @@ class Fastest:
 
     rate: float
     part: str
+
+
+def too_long(prepared: Prepared, settings: RunSettings, last: tuple[float, Array] | None) -> Fast | None:
+    """The fastest rate at the start or in the `last` state (time [s], y) of a run, of which an explicit step of fixed size is too large a
+    share; None for other methods, and where it is not."""
+    facts = prepared.integrator
+    if settings.steps == 0 or facts.implicit or facts.residual:
+        return None
+    states = [(0.0, prepared.start), *([last] if last is not None else [])]
+    found = [each for each in (fastest(prepared.motion, t, y) for t, y in states) if each is not None]
+    worst = max(found, key=lambda each: each.rate, default=None)
+    if worst is None:
+        return None
+    return Fast(worst.part, worst.rate, settings.step, held_step(settings.integrator, worst.rate), settings.integrator)
 
 
 def held_step(integrator: str, rate: float) -> float:

@@ -69,6 +69,8 @@ def command(
     from nivel.api import load
     from nivel.errors import ModelError, SolveError
 
+    if out is not None:
+        refuse_to_replace(None if no_report else beside(Path(out)), Path(out), force, Path(machine))
     loaded = load(machine, overrides, allow_code=allow_code)
     target = Path(out) if out is not None else Path(f"{loaded.name}.nc")
     report = None if no_report else beside(target)

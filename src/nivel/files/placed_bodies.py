@@ -34,7 +34,11 @@ _SLIDING = (
     "point-on-line",
     "translational-universal",
 )  # joints whose axis is a direction of motion, not an axis of turning
-KEPT = {"universal": AXIAL, "skew-universal": AXIAL, **dict.fromkeys(_SLIDING, POLAR_Z)}  # others keep AXIAL_Z
+KEPT = {
+    "universal": AXIAL,
+    "skew-universal": AXIAL,
+    **dict.fromkeys((*_SLIDING, "rolling"), POLAR_Z),
+}  # others keep AXIAL_Z
 
 
 def placed_body(body: Body, placing: Placement) -> Body:
@@ -169,8 +173,10 @@ def placed_joint(joint: Joint, scene: Scene) -> Joint:
         changes["pitch"] = -joint.pitch
     for field in ("start", "start_rates"):
         values = getattr(joint, field)
-        if values is not None and values.displacement is not None and scene.is_opposite(joint.name):
-            changes[field] = values.replace(displacement=-values.displacement)
+        given = values.given if values is not None else {}
+        opposite = {name: -value for name, value in given.items() if scene.is_opposite(f"{joint.name}.{name}")}
+        if opposite:
+            changes[field] = values.replace(**opposite)
     return joint.replace(**changes)
 
 
@@ -188,4 +194,6 @@ def _placed_axes(joint: Joint, placing: Placement) -> dict[str, Any]:
         turned = placing.direction if slides else placing.turning
         normal = placing.direction if joint.type == "rolling" else placing.turning
         changes["axes"] = (normal(first), turned(second))
+        if joint.type == "rolling":
+            changes["x_axis"] = placing.direction(triple(frame_from_axes(first, joint.x_axis)[:, 0]))
     return changes

@@ -135,10 +135,15 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
 
 # in place of those of the same name for machines whose only stiffness is that of modes, in relative coordinates: without tangents
 BY_MODES: dict[str, IntegratorFacts] = {"ros2": IntegratorFacts("nivel.integrate.modal_rosenbrock", "ros2", 2, 2)}
-# the same for machines whose only stiffness is that of circuits: with tangents by hand
+# the same for machines whose only stiffness is that of circuits, with rigid bodies and with flexible ones: with tangents by hand
 BY_CIRCUITS: dict[str, IntegratorFacts] = {
     "extrapolated-euler": IntegratorFacts(
-        "nivel.integrate.circuit_euler", "circuit_euler", 3, 2, implicit=True, circuit_tangent=True
+        "nivel.integrate.circuit_euler", "circuit_euler", 4, 2, implicit=True, circuit_tangent=True
+    )
+}
+BY_FLEXIBLE_CIRCUITS: dict[str, IntegratorFacts] = {
+    "extrapolated-euler": IntegratorFacts(
+        "nivel.integrate.flexible_circuit_euler", "flexible_circuit_euler", 4, 2, implicit=True, circuit_tangent=True
     )
 }
 

@@ -97,7 +97,7 @@ JOINT_KINDS: Final[dict[str, JointKind]] = {
     "revolute-spherical": JointKind(("points", "axis"), ("angle",), may=("x_axis",)),
     "revolute-cylindrical": JointKind(("points", "axes")),
     "revolute-translational": JointKind(("point", "axes"), ("angle", "displacement"), axes="not parallel"),
-    "rolling": JointKind(("points", "axes"), ("x", "y"), size=("radius",), may_size=("rim_radius",)),
+    "rolling": JointKind(("points", "axes"), ("x", "y"), may=("x_axis",), size=("radius",), may_size=("rim_radius",)),
     "point-on-beam": _ON_BEAM,
     "keyed-on-beam": _ON_BEAM,
     "cylindrical-on-beam": _ON_BEAM,
@@ -210,7 +210,7 @@ class Joint(Checked):
     @property
     def x_direction(self) -> Triple | None:
         """Where the joint's x axis points, global: as given, or to the second of two points; None: as for any axis."""
-        if self.x_axis is not None or self.points is None:
+        if self.x_axis is not None or self.points is None or self.type == "rolling":
             return self.x_axis
         return _line(self.points)
 
@@ -232,6 +232,8 @@ class Joint(Checked):
         if self.locked is not None:
             yield from self._problems_of_locked(self.locked)
         yield from self._problems_of_rim()
+        if self.type == "rolling":
+            yield from self._problems_of_plane()
         yield from self._problems_of_start(kind)
 
     def _problems_of_rim(self) -> Iterator[Problem]:
@@ -241,6 +243,16 @@ class Joint(Checked):
         if rim is not None and radius is not None and rim > radius:
             message = f"`rim_radius` is {rim:.6g} m, more than the `radius` of the wheel, {radius:.6g} m"
             yield Problem(("rim_radius",), message)
+
+    def _problems_of_plane(self) -> Iterator[Problem]:
+        if self.x_axis is None or self.axes is None or not any(self.axes[0]):
+            return
+        zero = list(no_direction("x_axis", self.x_axis))
+        yield from zero
+        if not zero and parallel(self.axes[0], self.x_axis):
+            yield Problem(
+                ("x_axis",), "`x_axis` is parallel to the plane's normal, the first of `axes`; it must point elsewhere"
+            )
 
     def _problems_of_locked(self, locked: tuple[str, ...]) -> Iterator[Problem]:
         twice = [name for name, count in Counter(locked).items() if count > 1]

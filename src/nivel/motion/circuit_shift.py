@@ -1,11 +1,13 @@
-"""Linear equations (1 - s J) k = f of a machine whose only stiffness is that of its circuits, in relative coordinates.
+"""Linear equations (1 - s J) k = f of a machine whose only stiffness is that of its circuits and modes, in relative coordinates.
 
-    k_x = f_x + s (G_x k_x + G_s k_s + G_r k_r)        k_r = J f_v + s C (E_x k_x + E_s k_s + E_r k_r)        k_s = J f_q + s k_r
+    k_x = f_x + s (G_x k_x + G_s k_s + G_r k_r)        k_r = J o_v + s C (E_x k_x + E_s k_s + E_r k_r)        k_s = J f_q + s k_r
 
 for states x of circuits, coordinates s on which they act and their rates r, with the slopes G of ẋ and E of the efforts e by hand
 (`nivel.kernels.hydraulics.tangent`) and the compliance C = J M⁻¹ Jᵀ of the mechanics (`nivel.motion.unit_efforts`). Then
 
-    k_v = f_v + s M⁻¹ Jᵀ e        k_q = f_q + s T k_v
+    k_v = o_v + s M⁻¹ Jᵀ e        k_q = f_q + s T k_v
+
+o is k without circuits: f of rigid bodies; with modes that of `nivel.motion.modal_shift`, and M is the mass of its factors.
 
 All else that moves the machine (weight, velocity forces) is slow against a step of these and taken as it is: a method that is of its order
 for any J needs no more.
@@ -95,9 +97,9 @@ def factorise_circuit(machine, number, s):
 
 
 @leaf
-def solve_circuit(machine, number, s, f, part):
-    """Fill b with k of the states and rates of coordinates, `load` with e, and add the change of the coordinates to travel[part], for the
-    rate f (ny,) of the state last evaluated."""
+def solve_circuit(machine, number, s, f, other):
+    """Fill b with k of the states and rates of coordinates, `load` with e, and add the change of the coordinates to `travel` of these
+    factors, for the rate f (ny,) of the state last evaluated and `other` (ny,), o."""
     record = record_at(machine)
     tangent, coordinates = record.circuit.tangent, record.coordinates
     b, states, count = tangent.b, tangent.state.shape[0], tangent.coordinate.shape[0]
@@ -108,7 +110,7 @@ def solve_circuit(machine, number, s, f, part):
     for c in range(count):
         total, direction = 0.0, tangent.direction[c]
         for k in range(columns):
-            total += direction[k] * f[positions + k]
+            total += direction[k] * other[positions + k]
         b[states + c] = total
     for c in range(count):
         moved = s * coordinates.rate[tangent.coordinate[c]]
@@ -123,22 +125,22 @@ def solve_circuit(machine, number, s, f, part):
             along = coordinates.rate[tangent.coordinate[d]] + s * b[states + d]
             total += effort[states + d] * along + effort[states + count + d] * b[states + d]
         tangent.load[c] = total
-        tangent.travel[part, c] += s * (coordinates.rate[tangent.coordinate[c]] + s * b[states + c])
+        tangent.travel[number, c] += s * (coordinates.rate[tangent.coordinate[c]] + s * b[states + c])
 
 
 @leaf
-def advance_circuit(machine, number, s, f, y, part, into):
-    """into := y + s k with (1 - s J) k = f, for factors `number` of this s; y is the state last evaluated."""
+def advance_circuit(machine, number, s, f, other, y, into):
+    """into := y + s k with (1 - s J) k = f, for factors `number` of this s and o in `other`; y is the state last evaluated."""
     record = record_at(machine)
     tangent, tree = record.circuit.tangent, record.tree
-    solve_circuit(machine, number, s, f, part)
+    solve_circuit(machine, number, s, f, other)
     positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
     first = positions + columns
     for k in range(columns):
         total = 0.0
         for c in range(tangent.coordinate.shape[0]):
             total += tangent.response[c, k] * tangent.load[c]
-        tree.change[k] = s * (f[positions + k] + s * total)
+        tree.change[k] = s * (other[positions + k] + s * total)
         into[positions + k] = y[positions + k] + tree.change[k]
     for n in range(tree.node.shape[0]):
         write_positions(machine, y, tree.change, tree.moved, n, np.int64(tree.node[n, 4]))

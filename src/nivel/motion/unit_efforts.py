@@ -14,7 +14,7 @@ from nivel.kernels.record import record_at
 from nivel.kernels.saddle import solve_rows, subtract_rows
 from nivel.kernels.status import OK
 from nivel.motion.tree_motion import WIDTH
-from nivel.native.function import leaf, stage
+from nivel.native.function import leaf, shared, stage
 
 
 @leaf
@@ -36,7 +36,7 @@ def load_unit(machine, q):
         F[5] += J[2]
 
 
-@leaf
+@stage
 def project(machine, direction):
     """`direction` := generalised forces of `tree.wrench`."""
     record = record_at(machine)
@@ -54,6 +54,22 @@ def project(machine, direction):
 
 
 @stage
+def hold_rows(machine):
+    """z := what is left of it where constraints are kept. Returns a status."""
+    saddle = record_at(machine).saddle
+    if saddle.row.shape[0] == 0:
+        return OK
+    b = saddle.b
+    for k in range(b.shape[0]):
+        b[k] = 0.0
+    for k in range(saddle.blocks[0]):
+        b[saddle.block[k, 0]] += saddle.W[k, 0] * saddle.z[saddle.block[k, 3], 0]
+    status = solve_rows(machine, 0.0)
+    subtract_rows(saddle, WIDTH)
+    return status
+
+
+@stage
 def answer(machine, response):
     """`response` := accelerations for `tree.wrench` alone. Returns a status."""
     record = record_at(machine)
@@ -67,22 +83,17 @@ def answer(machine, response):
             saddle.z[last - 1 - c, 0] = transmit(tree, last - 1 - c, wrench)
         if parent != ground:
             hand_wrench(wrench, tree.arm[child], tree.wrench[parent])
-    status = OK
-    if saddle.row.shape[0] > 0:
-        b = saddle.b
-        for k in range(b.shape[0]):
-            b[k] = 0.0
-        for k in range(saddle.blocks[0]):
-            b[saddle.block[k, 0]] += saddle.W[k, 0] * saddle.z[saddle.block[k, 3], 0]
-        status = solve_rows(machine, 0.0)
-        subtract_rows(saddle, WIDTH)
+    status = hold_rows(machine)
     accelerate(machine, response)
     return status
 
 
-@leaf
-def answer_unit_efforts(machine):
-    """Fill `direction`, `response` and `compliance` of the circuit's coordinates. Returns a status."""
+@shared
+def answer_unit_efforts(machine, project, answer):
+    """Fill `direction`, `response` and `compliance` of the circuit's coordinates. Returns a status.
+
+    project, answer : what follows from a wrench in the tree, compiled into this one.
+    """
     tangent = record_at(machine).circuit.tangent
     count = tangent.coordinate.shape[0]
     for c in range(count):

@@ -25,6 +25,18 @@ class Passage:
 
 
 @dataclass(frozen=True)
+class Fast:
+    """The fastest rate [1/s] of a machine and the part that it is of, the step [s] of a run, and the longest with which `method` holds
+    that rate [s]."""
+
+    part: str
+    rate: float
+    step: float
+    held: float
+    method: str
+
+
+@dataclass(frozen=True)
 class Findings:
     """Each None, or empty, where it was not looked at; see the modules of their types. unseen : by steps. between : samples, of functions
     that are sampled. method : the integrator."""
@@ -94,6 +106,16 @@ def _sampling_items(between: Sequence[Unseen]) -> Iterator[Item]:
             f"{number(each.step)} s apart, as fast as in {number(each.scale)} s; sample faster if that is to be seen"
         )
         yield _measured("sampling", f"Sampling: {said} {advice}", each.share, each.time, each.name)
+
+
+def steps_item(fast: Fast) -> Item:
+    """Why a run with steps of fixed size is wrong, where its steps are too long for what is fastest."""
+    of = f", of {fast.part}" if fast.part else ""
+    step = fast.held if fast.step > fast.held else CHECKS["steps"].green / fast.rate
+    does = "holds" if fast.step > fast.held else "follows"
+    said = f"the fastest rate of the machine is {number(fast.rate)}/s{of}, and {fast.method} {does} it with steps below {number(step)} s"
+    text = f"Steps: {said}, not {number(fast.step)} s; take those, or `integrator: radau`"
+    return _measured("steps", text, fast.step * fast.rate, None, fast.part)
 
 
 def _turn_item(turn: Turn) -> Item:

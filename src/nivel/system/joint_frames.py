@@ -48,7 +48,9 @@ def _global_axes(joint: Joint) -> tuple[Array, Array]:
             case "revolute-translational":
                 axes = frame_from_axes(first)
                 return axes, axes
-            case "revolute-cylindrical" | "rolling":
+            case "rolling":
+                return frame_from_axes(first, joint.x_axis), frame_from_axes(second)
+            case "revolute-cylindrical":
                 return frame_from_axes(first), frame_from_axes(second)
             case "translational-universal":
                 assert joint.axis is not None  # the record was checked

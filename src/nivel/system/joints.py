@@ -178,7 +178,7 @@ ON_PLANE = Combination(
     zero=True,
     effort=("normal_force", "force of the plane on the wheel along its normal"),
 )
-ROLLING = "x, y: of the wheel's centre along the x and y axes of the plane's marker; normal force and friction act on the second body, the wheel"
+ROLLING = "x, y: of the wheel's centre along the x and y axes of the plane's marker; normal force and friction act on the wheel"
 
 ROD = Composition(
     (Combination("distance", ((Measured(DISTANCE), 1.0),), given="distance"),),

@@ -544,6 +544,18 @@ class Drive:
 
 
 @dataclass(frozen=True)
+class Hold:
+    """From the page that operates, again and again while it holds a body (on 1): the point of it, in its frame, and where that is
+    pulled, counted from the origin of the stage [m]. Once when it lets go (on 0)."""
+
+    type: Literal["hold"]
+    body: int
+    point: list[float]
+    towards: list[float]
+    on: int
+
+
+@dataclass(frozen=True)
 class Take:
     """From the page: it wants to operate the machine (on 1), or lets go of it (0)."""
 
@@ -561,4 +573,4 @@ class Command:
 
 
 FROM_SERVER: Final = (Note, Moved, Refused, Status)
-FROM_PAGE: Final = (Shown, Want, Move, Reset, Drive, Take, Command)
+FROM_PAGE: Final = (Shown, Want, Move, Reset, Drive, Hold, Take, Command)

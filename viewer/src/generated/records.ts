@@ -366,6 +366,15 @@ export interface Drive {
   values: number[];
 }
 
+/** From the page that operates, again and again while it holds a body (on 1): the point of it, in its frame, and where that is pulled, counted from the origin of the stage [m]. Once when it lets go (on 0). */
+export interface Hold {
+  type: "hold";
+  body: number;
+  point: number[];
+  towards: number[];
+  on: number;
+}
+
 /** From the page: it wants to operate the machine (on 1), or lets go of it (0). */
 export interface Take {
   type: "take";
@@ -381,4 +390,4 @@ export interface Command {
 
 export type FromServer = Note | Moved | Refused | Status;
 
-export type FromPage = Shown | Want | Move | Reset | Drive | Take | Command;
+export type FromPage = Shown | Want | Move | Reset | Drive | Hold | Take | Command;

@@ -19,6 +19,8 @@ export class Live {
   readonly panel: HTMLElement;
   readonly operator: Operator;
   status: Status | null = null;
+  /** Whether the mouse picks bodies up. */
+  onHand: (on: boolean) => void = () => {};
   private readonly strips: Strip[];
   private readonly rows: Row[];
   private readonly run: HTMLButtonElement;
@@ -40,13 +42,19 @@ export class Live {
     this.seat = el("button", { type: "button", class: "chip seat", onclick: () => this.take(this.status?.driver !== "you") }, "Take the controls");
     const speed = el("select", { "aria-label": "Speed", title: "Simulated over real time" }, ...SPEEDS.map((each) => el("option", { value: each, selected: each === 1 }, `${each}×`)));
     speed.addEventListener("change", () => this.say("speed", Number(speed.value)));
+    const hand = el("button", { type: "button", class: "chip", title: "Drag a body with the mouse; shift does it too", "aria-pressed": "false" }, "Pick up");
+    hand.addEventListener("click", () => {
+      const on = hand.getAttribute("aria-pressed") !== "true";
+      hand.setAttribute("aria-pressed", String(on));
+      this.onHand(on);
+    });
     this.bar = el(
       "footer",
       { class: "timeline live-bar", role: "group", "aria-label": "Live" },
       el("div", { class: "transport" }, this.run, iconButton("forward", "One tick", () => this.say("step")), iconButton("reset", "Back to the start", () => this.say("reset"))),
       el("div", { class: "clock" }, this.clock),
       this.load,
-      el("div", { class: "pace" }, el("button", { type: "button", class: "chip", onclick: () => this.say("save") }, "Save state"), el("button", { type: "button", class: "chip", onclick: () => this.say("restore") }, "Restore"), speed, this.seat),
+      el("div", { class: "pace" }, hand, el("button", { type: "button", class: "chip", onclick: () => this.say("save") }, "Save state"), el("button", { type: "button", class: "chip", onclick: () => this.say("restore") }, "Restore"), speed, this.seat),
     );
     this.hint = el("p", { class: "note" }, hintOf(controls));
     this.rows = controls.map((control, k) => this.row(control, k));

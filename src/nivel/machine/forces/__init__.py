@@ -14,6 +14,7 @@ from nivel.machine.forces.contact import Contact, Material
 from nivel.machine.forces.drives import DcMotor, ServoMotor, TorqueSpeed
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.forces.friction import Friction
+from nivel.machine.forces.hand import Hand
 from nivel.machine.forces.joint_spring_damper import JointSpringDamper
 from nivel.machine.forces.load import PointForce, Torque
 from nivel.machine.forces.motor import Motor
@@ -42,6 +43,7 @@ FORCES: list[type[ForceElement]] = [
     ThreeAxisSpring,
     Contact,
     Rope,
+    Hand,
 ]
 
 
@@ -80,6 +82,7 @@ __all__ = [
     "ForceTable",
     "Friction",
     "GlobalPoint",
+    "Hand",
     "JointSpringDamper",
     "Material",
     "Motor",

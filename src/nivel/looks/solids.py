@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 FACETS = 48  # of a cylinder: its silhouette is round to 0.2 % of the radius
 MOST_FACES = 4000  # of a mesh, to keep the picture small
-FEW_FACETS = 20  # in a machine of many bodies, to keep the picture small
+FEW_FACETS, FEWEST_FACETS = 20, 8  # in a machine of many bodies, to keep the picture small
 
 
 @dataclass

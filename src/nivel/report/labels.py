@@ -17,7 +17,7 @@ SAMPLES = 25  # of a line
 CROWDED = 3.0  # cost above which a name is left out: it would hide more than it says
 MANY = 40  # names; then only those that find room close by are shown
 CLOSE_BY = 0.5
-TRIED = 200  # names; of more, so many evenly taken
+TRIED = 100  # names; of more, so many evenly taken
 DISTANCES = (15.0, 25.0, 38.0, 56.0)  # pixels from the point to the label
 ANGLES = np.deg2rad([-40.0, 40.0, -140.0, 140.0, 0.0, 180.0, -90.0, 90.0, -65.0, 65.0, -115.0, 115.0])
 

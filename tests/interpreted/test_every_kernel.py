@@ -414,6 +414,17 @@ def test_live_ticks(paced):
 def test_circuits(integrator):
     """Every family of components, in a circuit with a cylinder, a telescope and a rotary actuator."""
     short(hydraulic_zoo.machine_with_circuits().record, integrator, steps=2, step=1e-4)
+    short(hydraulic_zoo.machine_with_gas().record, integrator, steps=2, step=1e-4)
+
+
+def test_circuits_with_derivatives_by_hand():
+    short(
+        hydraulic_zoo.machine_whose_commands_wait().record,
+        "extrapolated-euler",
+        steps=2,
+        step=1e-4,
+        coordinates="relative",
+    )
 
 
 # --- nothing is left out ---

@@ -5,7 +5,7 @@ import pytest
 
 from nivel.kernels.dense import factorise_pivoted, gather, solve_pivoted
 from nivel.kernels.record import Saddle
-from nivel.kernels.sparse import factorise, solve
+from nivel.kernels.sparse import DEPENDENT, factorise, solve
 from nivel.system.elimination import plan
 
 pytestmark = pytest.mark.compiles
@@ -76,7 +76,7 @@ def test_sparse_factor_solves_random_linkages(seed):
     saddle = saddle_of(C, blocks, groups)
     right = rng.standard_normal(len(C))
     saddle.b[:] = right
-    assert factorise(saddle) == -1
+    assert factorise(saddle, DEPENDENT, False) == -1
     solve(saddle)
     expected = np.linalg.solve(C @ C.T, right)
     np.testing.assert_allclose(saddle.b, expected, rtol=1e-8, atol=1e-8 * np.abs(expected).max())
@@ -88,7 +88,7 @@ def test_sparse_factor_names_a_dependent_row():
     C[5, 6:12] = C[4, 6:12]
     C[5, :6] = C[4, :6]
     saddle = saddle_of(C, blocks, groups)
-    failed = factorise(saddle)
+    failed = factorise(saddle, DEPENDENT, False)
     assert failed >= 0
     assert saddle.order[failed] in (4, 5)
 
@@ -99,9 +99,27 @@ def test_sparse_factor_names_a_row_that_moves_nothing():
     C, blocks, groups = random_rows(rng, 2, 2, 3)
     C[4] *= 1e-16
     saddle = saddle_of(C, blocks, groups)
-    assert factorise(saddle) == -1
+    assert factorise(saddle, DEPENDENT, False) == -1
     saddle.least[:] = 1e-22
-    assert saddle.order[factorise(saddle)] == 4
+    assert saddle.order[factorise(saddle, DEPENDENT, False)] == 4
+
+
+def test_rows_that_are_left_out_get_nothing_and_the_others_hold():
+    """Also after they were taken in, which fills their places in the factor."""
+    rng = np.random.default_rng(5)
+    C, blocks, groups = random_rows(rng, 6, 9, 3)
+    saddle = saddle_of(C, blocks, groups)
+    out = [2, 7, 11]
+    kept = np.setdiff1d(np.arange(len(C)), out)
+    assert factorise(saddle, DEPENDENT, True) == -1
+    saddle.least[np.isin(saddle.order, out)] = np.inf
+    right = rng.standard_normal(len(C))
+    saddle.b[:] = right
+    assert factorise(saddle, DEPENDENT, False) == -1
+    solve(saddle)
+    assert not saddle.b[out].any()
+    expected = np.linalg.solve(C[kept] @ C[kept].T, right[kept])
+    np.testing.assert_allclose(saddle.b[kept], expected, rtol=1e-8, atol=1e-8 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("seed", range(5))

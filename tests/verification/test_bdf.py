@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import machines
+from lanes import tail
 from nivel.errors import ModelError
 from references import four_bar, pendulum, slider_crank, stick_slip
 from running import run
@@ -14,7 +15,7 @@ from test_events import pendulum as bar
 from test_friction import MASS, sled
 from test_tolerance import closing_angle, loop_angles, machine_size, squeezed, squeezer, swinging
 
-ASKED = pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8, 1e-10])
+ASKED = pytest.mark.parametrize("tolerance", tail([1e-4, 1e-6, 1e-8, 1e-10], [1e-4, 1e-8]))
 
 
 @ASKED

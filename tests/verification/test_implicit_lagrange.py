@@ -7,6 +7,7 @@ from scipy.spatial.transform import Rotation
 
 import machines
 from assembled import TIME, random_states
+from lanes import tail
 from nivel.analysis.implicit import find_tangent
 from nivel.errors import ModelError
 from nivel.kernels.status import OK
@@ -156,7 +157,7 @@ def test_rotation_vectors_of_the_heavy_top_converge_with_order_two():
 
 @EACH
 @pytest.mark.parametrize("integrator", ["radau", "bdf"])
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8])
+@pytest.mark.parametrize("tolerance", tail([1e-4, 1e-6, 1e-8], [1e-6]))
 def test_tolerance_is_met(integrator, tolerance, rotations):
     common = {"integrator": integrator, "tolerance": tolerance, **lagrange(rotations)}
     r = run(machines.slider_crank(), duration=1.0, output_interval=0.05, **common)

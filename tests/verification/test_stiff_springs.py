@@ -5,7 +5,7 @@ promises as much for damped springs alone."""
 import numpy as np
 import pytest
 
-from lanes import FULL
+from lanes import FULL, tail
 from nivel.machine import Body, Joint, JointSpringDamper, MachineRecord, PointForce, SimulationSettings
 from running import run
 from stiff_machines import (
@@ -75,7 +75,7 @@ def test_alpha_methods_in_independent_coordinates(name, tolerance, integrator):
 
 @ON_EACH
 @COORDINATES
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-7])
+@pytest.mark.parametrize("tolerance", tail([1e-3, 1e-5, 1e-7], [1e-5]))
 def test_radau(name, coordinates, tolerance):
     assert_stiff_is_no_dearer(name, "radau", coordinates, tolerance)
 
@@ -148,7 +148,7 @@ def test_no_tolerance_is_dear(integrator, coordinates):
 
 @COORDINATES
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
-@pytest.mark.parametrize("ratio", [1.0, 1e2, 1e4])
+@pytest.mark.parametrize("ratio", tail([1.0, 1e2, 1e4], [1e4]))
 @pytest.mark.parametrize("integrator", ["generalised-alpha", "radau", "bdf"])
 def test_tolerance_is_met_whatever_the_stiffness(integrator, ratio, tolerance, coordinates):
     """The elastic pendulum, whose spring vibrates with 0.7 to 160 periods a second, against its own equations of motion."""

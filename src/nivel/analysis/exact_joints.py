@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from itertools import combinations
+from itertools import chain, combinations, islice
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -16,7 +16,8 @@ from nivel.machine.record import GROUND
 from nivel.system.system import Array
 
 MOST: Final = 4  # joints that are changed
-TRIED: Final = 3000  # combinations of changes
+TRIED: Final = 3000  # combinations of changes that are decomposed
+LISTED: Final = 100_000  # combinations of which the rows are counted
 # freer joints in place of one, and the rows of that one that they have, by what stands behind the joint's name; "s.axis" is what is left of
 # a point that may slide along the axis
 _FREER: Final[dict[str, dict[str, tuple[str, ...]]]] = {
@@ -53,16 +54,18 @@ def exact_joints(machine: MachineRecord, motion: MotionEquations, joints: Collec
 def _fewest(changes: Sequence[_Change], rows: dict[str, Array], surplus: int) -> Sequence[_Change]:
     """The first of the fewest changes that give up as many rows as are too many, with independent ones left."""
     looked_at = 0
-    for count in range(1, MOST + 1):
-        for chosen in combinations(changes, count):
-            if sum(each.less for each in chosen) != surplus or len({each.joint for each in chosen}) < count:
-                continue
-            looked_at += 1
-            if looked_at > TRIED:
-                return ()
-            kept = _stacked(rows, chosen)
-            if _rank(kept) == len(kept):
-                return chosen
+    most = max((change.less for change in changes), default=0)
+    enough = (count for count in range(1, MOST + 1) if count * most >= surplus)
+    listed = islice(chain.from_iterable(combinations(changes, count) for count in enough), LISTED)
+    for chosen in listed:
+        if sum(each.less for each in chosen) != surplus or len({each.joint for each in chosen}) < len(chosen):
+            continue
+        looked_at += 1
+        if looked_at > TRIED:
+            return ()
+        kept = _stacked(rows, chosen)
+        if _rank(kept) == len(kept):
+            return chosen
     return ()
 
 

@@ -38,6 +38,7 @@ def find(
         return Findings()
     settings, fixed = plan.settings, plan.settings.steps > 0
     turned, bending = finished.pace[TURNED], _bending(plan)
+    implicit = prepared.integrator.residual or prepared.integrator.circuit_tangent
     return Findings(
         unseen=_unseen(plan, prepared, finished, result),
         between=tuple(between_samples(plan.machine, float(result.time[-1]))),
@@ -47,7 +48,7 @@ def find(
         else None,
         rounding=rounding(result, int(finished.timing["steps"])),
         own=own_error(result, estimate) if estimate is not None else None,
-        damped=damped(result, verified.result) if verified is not None and prepared.integrator.residual else None,
+        damped=damped(result, verified.result) if verified is not None and implicit else None,
         growth=growth(result, verified.result, verified.refinement.left) if verified is not None else None,
         passages=tuple(passages(prepared, result)) if verified is not None else (),
         unstiffened=fastest_unstiffened(result, bending),

@@ -23,9 +23,11 @@ def mobility(motion: MotionEquations, y: Array) -> Array:
 def bound_pivots(motion: MotionEquations, y: Array) -> None:
     """Note in the record which pivots of S are nothing but round-off, judged by the mobility at the start y.
 
-    In relative coordinates a row may lose all its mobility: the bars of its loop are in line. Then its diagonal is no scale.
+    In relative coordinates a row may lose all its mobility: the bars of its loop are in line. Then its diagonal is no scale. Rows that are
+    left out stay so.
     """
     record = motion.system.record
     units = record.constraints.scale[record.saddle.row] ** 2
     largest = np.max(mobility(motion, y) / units, initial=0.0)
-    record.saddle.least[:] = IMMOVABLE * largest * units[record.saddle.order]
+    least = record.saddle.least
+    least[:] = np.where(np.isinf(least), np.inf, IMMOVABLE * largest * units[record.saddle.order])

@@ -14,6 +14,7 @@ from nivel.analysis.corners import corners
 from nivel.analysis.equations import MotionEquations, equations
 from nivel.analysis.ground import touches_ground
 from nivel.analysis.implicit import ResidualOptions, constraint_index, with_residual
+from nivel.analysis.left_out import leave_out, rows_everywhere
 from nivel.analysis.loads.ahead import allowed_steps
 from nivel.analysis.mobility import bound_pivots
 from nivel.analysis.modal_rows import modal_rows
@@ -32,6 +33,7 @@ from nivel.integrate.catalogue import IntegratorFacts
 from nivel.machine.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
+from nivel.system.hydraulics.tangent import with_circuit_tangent
 from nivel.system.system import Array, System
 
 if TYPE_CHECKING:
@@ -75,7 +77,11 @@ def prepare(methods: Methods) -> Prepared:
     absolute = replace(absolute, system=system)
     rank = motion.system.machine_rows - len(redundancy.redundant_rows)
     system, y = arranged(motion.system, assembly.y, rest, rank, methods)
+    if len(system.record.saddle.dense):
+        _leave_out_repeated(system, motion, assembly.y, methods)
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
+    if integrator.circuit_tangent:
+        prepared = replace(prepared, system=with_circuit_tangent(prepared.system))
     if integrator.residual:
         prepared = with_residual(prepared, y, methods.coordinates, _wanted(prepared, methods), path)
     return Prepared(
@@ -126,6 +132,18 @@ def _independent_rows(machine: MachineRecord, motion: MotionEquations, y: Array)
         raise ModelError(Fault("", 0, 0, "machine", message))
     known = motion.system.known_rank(motion.system.machine_rows - len(rigid.redundant_rows))
     return redundancy, MotionEquations(known, motion.kernels)
+
+
+def _leave_out_repeated(system: System, absolute: MotionEquations, assembled: Array, methods: Methods) -> None:
+    """Leave the rows that repeat others everywhere out of the factor of S. Rows of joints that carry bodies are there already.
+
+    absolute : the equations in absolute coordinates, which know of no redundancy; assembled : their state.
+    """
+    if methods.machine.is_flexible or methods.solves_residual or methods.penalised:
+        return
+    left = set(system.record.saddle.row.tolist())
+    carrying = [row for row in range(system.machine_rows) if row not in left]
+    leave_out(system, rows_everywhere(absolute, assembled, methods.machine.simulation.duration, carrying))
 
 
 def arranged(absolute: System, y: Array, rest: Settled | None, rank: int, methods: Methods) -> tuple[System, Array]:

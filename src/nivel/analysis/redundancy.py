@@ -25,10 +25,12 @@ class Redundancy:
     """Rank of the joint rows at the assembled position; bodies that bend may make rows independent that were not between rigid ones.
 
     redundant_rows : rows that add nothing to the rows named before them. non_unique_joints : joints with reactions that the equations
-    of rigid bodies do not determine. singular : rows lost at this position only, not nearby.
+    of rigid bodies do not determine. singular : rows lost at this position only, not nearby. degrees_of_freedom : of velocities;
+    position_freedoms : of positions, more of them where wheels roll without slip.
     """
 
     degrees_of_freedom: int
+    position_freedoms: int
     rank: int
     redundant_rows: tuple[str, ...]
     non_unique_joints: tuple[str, ...]
@@ -41,18 +43,21 @@ def analyse(motion: MotionEquations, t: float, y: Array, modes: ModalRows | None
     rows = system.machine_rows
     freedoms = system.freedoms + (modes.count if modes is not None else 0)
     if motion.evaluate(t, y)[0] == OK and _certainly_independent(motion):
-        return Redundancy(freedoms - rows, rows, (), (), ())
+        return Redundancy(freedoms - rows, freedoms - rows + len(system.velocity_rows), rows, (), (), ())
     J = scaled_jacobian(motion, modes)
-    rank, dependent = _dependent_rows(J)
+    dependent, N = dependent_rows(J)
+    rank = rows - len(dependent)
+    holding = np.delete(J, sorted(system.velocity_rows), axis=0)
+    positions = freedoms - (len(holding) - len(dependent_rows(holding)[0]) if len(holding) < len(J) else rank)
     if not dependent:
-        return Redundancy(freedoms - rows, rows, (), (), ())
+        return Redundancy(freedoms - rows, positions, rows, (), (), ())
     nearby = _rank_nearby(motion, t, y, rank, modes)
     names = tuple(system.rows[row] for row in dependent)
-    U, _, _ = np.linalg.svd(J)
-    loose = np.abs(U[:, rank:]).max(axis=1) > 1e-6
+    loose = np.abs(N).max(axis=1) > 1e-6
     joints = dict.fromkeys(system.row_owner[row] for row in np.flatnonzero(loose))
     return Redundancy(
         freedoms - rank,
+        positions,
         rank,
         names,
         tuple(joints),
@@ -78,42 +83,67 @@ def scaled_jacobian(motion: MotionEquations, modes: ModalRows | None = None) -> 
     return J / np.linalg.norm(J, axis=1, keepdims=True)
 
 
-def _dependent_rows(J: Array) -> tuple[int, list[int]]:
-    """Rank of J (unit rows), and the rows that depend on the rows before them."""
-    rank = int(np.sum(np.linalg.svd(J, compute_uv=False) > DEPENDENT))
-    basis = np.zeros((0, J.shape[1]))
-    left = np.zeros(len(J))
-    for k, row in enumerate(J):
-        rest = row - basis.T @ (basis @ row)
-        rest -= basis.T @ (basis @ rest)
+def dependent_rows(J: Array) -> tuple[list[int], Array]:
+    """Rows of J (unit rows) that depend on the rows before them, and N (rows, surplus) with Nᵀ J = 0, orthonormal.
+
+    The rows without the last of each combination that vanishes are the first independent ones: they are found from the end.
+    """
+    U, sizes, _ = np.linalg.svd(J)
+    N = U[:, int(np.sum(sizes > DEPENDENT)) :]
+    surplus = N.shape[1]
+    basis, count, left = np.zeros((surplus, surplus)), 0, np.zeros(len(J))
+    for k in range(len(J) - 1, -1, -1):
+        rest = N[k] - basis[:count].T @ (basis[:count] @ N[k])
+        rest -= basis[:count].T @ (basis[:count] @ rest)
         left[k] = np.linalg.norm(rest)
-        if left[k] > np.sqrt(DEPENDENT) and len(basis) < rank:
-            basis = np.vstack([basis, rest / left[k]])
-    missing = len(J) - rank
-    return rank, sorted(np.argsort(left, kind="stable")[:missing].tolist())
+        if left[k] > np.sqrt(DEPENDENT) and count < surplus:
+            basis[count] = rest / left[k]
+            left[k] = np.inf
+            count += 1
+    return sorted(np.argsort(-left, kind="stable")[:surplus].tolist()), N
 
 
 def _rank_nearby(motion: MotionEquations, t: float, y: Array, rank: int, modes: ModalRows | None) -> int:
     """Rank a little aside along a free motion of the rigid machine, joints closed again: larger than `rank` where only this position is
     singular."""
-    system = motion.system
-    _, sizes, Vt = np.linalg.svd(scaled_jacobian(motion))
-    free = Vt[int(np.sum(sizes > DEPENDENT)) :]
-    if not len(free):
+    if aside(motion, t, y, ASIDE, seed=0, closed=False) is None:
         return rank
-    share = np.random.default_rng(0).standard_normal(len(free))
-    share *= ASIDE / np.linalg.norm(share)
-    change = (free.T @ share).reshape(-1, 6)
-    change[:, :3] *= system.size
-    aside = y.copy()
-    aside[: system.positions] = moved(y[: system.positions], change.ravel())
-    opened = aside[: system.positions].copy()
-    # without closing, the open joints alone would make redundant rows look independent
-    closed = close_positions(motion, t, aside)
-    reached = change_between(y[: system.positions], aside[: system.positions])
-    reached[:, :3] /= system.size
-    if not closed or np.linalg.norm(free @ reached.ravel() - share) > 0.1 * ASIDE:
-        # a motion of the first order only, as of two links stretched out between two pins: closing leads back
-        aside[: system.positions] = opened
-        motion.evaluate(t, aside)
     return max(rank, int(np.sum(np.linalg.svd(scaled_jacobian(motion, modes), compute_uv=False) > ASIDE**2)))
+
+
+def aside(motion: MotionEquations, t: float, y: Array, far: float, *, seed: int, closed: bool = True) -> Array | None:
+    """A state aside from y, last evaluated, along a random free motion; `far` is its length, in radians and machine lengths; all joints are
+    closed at the time t. None where there is none. The record is left evaluated there.
+
+    closed : otherwise a state with open joints does too, where closing leads back.
+    """
+    system = motion.system
+    motion.evaluate(t, y)
+    J = scaled_jacobian(motion)
+    share = _free_part(J, np.random.default_rng(seed).standard_normal(J.shape[1]))
+    length = float(np.linalg.norm(share))
+    if not length > DEPENDENT * np.sqrt(J.shape[1]):
+        return None
+    share *= far / length
+    change = share.reshape(-1, 6).copy()
+    change[:, :3] *= system.size
+    found = y.copy()
+    found[: system.positions] = moved(y[: system.positions], change.ravel())
+    opened = found[: system.positions].copy()
+    # without closing, the open joints alone would make redundant rows look independent
+    is_closed = close_positions(motion, t, found)
+    reached = change_between(y[: system.positions], found[: system.positions])
+    reached[:, :3] /= system.size
+    way = np.linalg.norm(_free_part(J, reached.ravel()) - share)
+    if closed:
+        return found if is_closed and way < 0.5 * far else None
+    if not is_closed or way > 0.1 * far:
+        # a motion of the first order only, as of two links stretched out between two pins: closing leads back
+        found[: system.positions] = opened
+        motion.evaluate(t, found)
+    return found
+
+
+def _free_part(J: Array, change: Array) -> Array:
+    """The part of a change that no row of J feels."""
+    return change - np.linalg.lstsq(J, J @ change, rcond=DEPENDENT)[0]

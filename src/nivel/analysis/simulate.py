@@ -168,7 +168,8 @@ def _judged(result: Result, facts: Facts, plan: Plan, prepared: Prepared, finish
 
 def _guard(finished: RunOutcome, prepared: Prepared) -> Guard | None:
     """What the guard of steps over circuits did; None where there is none."""
-    if prepared.integrator is not INTEGRATORS[SECANT] or not prepared.motion.system.nodes:
+    guards = prepared.integrator.circuit_tangent or prepared.integrator is INTEGRATORS[SECANT]
+    if not (guards and prepared.motion.system.nodes):
         return None
     timing = finished.timing
     return Guard(int(timing["steps"]), int(timing["guarded"]), timing["pressure_difference"])

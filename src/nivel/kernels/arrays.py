@@ -6,7 +6,9 @@ compiled code does not either. Indices are uint32: signed ones cost a wrap-aroun
 
 from __future__ import annotations
 
-from typing import Annotated, Any, get_args, get_origin, get_type_hints
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Annotated, Any, Final, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,12 +31,26 @@ A1 = Annotated[NDArray[np.uint64], 1, "address"]
 
 def complex_twin(record: Any) -> Any:
     """The record with complex copies of what an evaluation leaves; everything else is shared."""
-    hints = get_type_hints(type(record), include_extras=True)
-    fields = {}
-    for name, hint in hints.items():
-        value = getattr(record, name)
-        if get_origin(hint) is not Annotated:
-            fields[name] = complex_twin(value)
-        else:
-            fields[name] = value.astype(np.complex128) if get_args(hint)[2] == "work" else value
-    return type(record)(**fields)
+    twins = (_TWIN[kind](value) for kind, value in zip(_kinds(type(record)), record, strict=True))
+    return type(record)(*twins)
+
+
+@cache
+def _kinds(record_class: type) -> tuple[str, ...]:
+    """What each field of a record is: its kind of array, or `record`."""
+    hints = get_type_hints(record_class, include_extras=True)
+    return tuple(
+        get_args(hints[name])[2] if get_origin(hints[name]) is Annotated else "record"
+        for name in record_class._fields  # type: ignore[attr-defined]
+    )
+
+
+def _same(array: Any) -> Any:
+    return array
+
+
+_TWIN: Final[Mapping[str, Callable[[Any], Any]]] = {
+    "record": complex_twin,
+    "work": lambda array: array.astype(np.complex128),
+    **dict.fromkeys(("real", "complex", "index", "count", "address"), _same),
+}

@@ -7,7 +7,6 @@ arrays that they name. So a call costs a nanosecond, a part of a record is an ad
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,19 +19,20 @@ class Handle:
 
     def __init__(self, record: Any) -> None:
         self.record = record
-        self._block = np.array(list(_descriptors(record)), dtype=np.int64)
+        self._block = np.array(_descriptors(record, []), dtype=np.int64)
         self.address = np.uint64(self._block.ctypes.data)
 
 
-def _descriptors(record: Any) -> Iterator[int]:
+def _descriptors(record: Any, words: list[int]) -> list[int]:
     """The words of Numba's array structures, field by field: owner and parent (none), items, item size, data, shape, strides."""
     for field in record:
         if isinstance(field, tuple):
-            yield from _descriptors(field)
+            _descriptors(field, words)
         else:
             if not field.flags.c_contiguous:
                 raise TypeError("arrays of a record must be C-contiguous")
-            yield from (0, 0, field.size, field.itemsize, field.ctypes.data, *field.shape, *field.strides)
+            words += (0, 0, field.size, field.itemsize, field.ctypes.data, *field.shape, *field.strides)
+    return words
 
 
 def reader(record_class: type) -> Intrinsic:

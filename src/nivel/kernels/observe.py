@@ -9,6 +9,7 @@ import numpy as np
 
 from nivel.kernels.energy import energies
 from nivel.kernels.hook import ACCEPTED, SHOWN, call_hook
+from nivel.kernels.least_multipliers import spread_multipliers
 from nivel.kernels.record import COMPLETE, MEASURE, NONE, OBSERVE, SENSE, record_at
 from nivel.native.entry import entry
 from nivel.native.function import leaf, stage
@@ -183,6 +184,7 @@ def _write_modes(machine, frame):
 @entry(OBSERVE)
 def observe(machine, t, y, frame):
     """Fill `frame[1:]` from the state last evaluated; the columns are those of `nivel.system.layout`."""
+    spread_multipliers(machine)
     call_hook(machine, COMPLETE, 0, t)
     _write_bodies(machine, frame)
     _write_reactions(machine, frame)

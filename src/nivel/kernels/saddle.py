@@ -11,10 +11,15 @@ import numpy as np
 from nivel.kernels.analytic import real
 from nivel.kernels.dense import factorise_pivoted, gather, solve_pivoted
 from nivel.kernels.record import record_at
-from nivel.kernels.sparse import factorise, solve
+from nivel.kernels.sparse import DEPENDENT, factorise, solve
 from nivel.kernels.status import MULTIPLIERS_NOT_FOUND, OK, SINGULAR
 from nivel.native.function import leaf, stage
 
+# places of control.rank: how many rows are independent; how many of a redundant machine are left out of the factor; whether the last
+# factor is the pivoted one
+RANK, LEFT_OUT, PIVOTED = 0, 1, 2
+# With pivots below this share of their diagonal, rows that are independent elsewhere are as good as dependent: others may be better.
+POOR = 1e-7
 CONTRADICTORY = 1e-3
 # The augmented Lagrangian has converged where what its last change does, squared, is below this share of what all forces do.
 SETTLED = 1e-24
@@ -28,7 +33,11 @@ MOST_UNSETTLED = 200
 
 @stage
 def factorise_rows(machine, width):
-    """Assemble and factorise S from W (blocks of `width` columns). Returns a status; on failure control.failure is the row."""
+    """Assemble and factorise S from W (blocks of `width` columns). Returns a status; on failure control.failure is the row.
+
+    Of a redundant machine the rows that repeat others everywhere are left out. Where they are not known, or those that stay come near to
+    depending on each other, rows are chosen by pivots.
+    """
     record = record_at(machine)
     saddle = record.saddle
     W, S = saddle.W, saddle.S
@@ -42,27 +51,37 @@ def factorise_rows(machine, width):
         S[saddle.pair[p, 2]] += total
     for k in range(saddle.order.shape[0]):
         S[saddle.S_start[k + 1] - 1] += saddle.shift[saddle.order[k]]
-    if saddle.dense.shape[0] > 0:
-        gather(saddle, record.constraints.scale)
-        failed = factorise_pivoted(saddle, np.int64(record.control.rank[0]))
-    else:
-        failed = factorise(saddle)
+    rank, redundant = record.control.rank, saddle.dense.shape[0] > 0
+    failed = 0
+    if rank[LEFT_OUT] > 0 or not redundant:
+        failed = factorise(saddle, POOR if redundant else DEPENDENT, False)
+    rank[PIVOTED] = 1 if redundant and (failed >= 0 or rank[LEFT_OUT] == 0) else 0
+    if rank[PIVOTED] == 1:
+        failed = factorise_by_pivots(record)
     if failed >= 0:
         record.control.failure[0] = saddle.row[saddle.order[failed]]
         return SINGULAR
     return OK
 
 
+@leaf
+def factorise_by_pivots(record):
+    """The pivoted factor of S, of all rows. Returns -1, or a place in the order of elimination where too few rows are independent."""
+    gather(record.saddle, record.constraints.scale)
+    return factorise_pivoted(record.saddle, np.int64(record.control.rank[RANK]))
+
+
 @stage
 def solve_rows(machine, forces):
-    """Overwrite b with the solution of S x = b, or of (S + 1/α) x = b for penalty methods. Returns a status.
+    """Overwrite b with the solution of S x = b, or of (S + 1/α) x = b for penalty methods. Returns a status. Rows that are left out get 0;
+    of pivoted rows it is the solution of least length.
 
     forces : zᵀ z of what b comes from, 0 where it comes from nothing else; round-off is judged by it.
     """
     record = record_at(machine)
     saddle = record.saddle
-    if saddle.dense.shape[0] > 0:
-        solve_pivoted(saddle, np.int64(record.control.rank[0]))
+    if record.control.rank[PIVOTED] == 1:
+        solve_pivoted(saddle, np.int64(record.control.rank[RANK]))
         return OK
     if record.control.iterations[0] <= 1:
         solve(saddle)

@@ -2,9 +2,14 @@
 
 The up-looking method (Davis 2005, "Algorithm 849", §2): row k of L solves a triangular system with the rows above it; its pattern
 is known, so there is no search and no allocation.
+
+Rows that repeat others in every position (`least` infinite) are left out: their rows and columns of L are zero, and so is 1/D, so the
+solution has zeros there and satisfies the other rows.
 """
 
 from __future__ import annotations
+
+import numpy as np
 
 from nivel.kernels.analytic import real
 from nivel.native.function import stage
@@ -14,10 +19,18 @@ DEPENDENT = 1e-13
 
 
 @stage
-def factorise(saddle):
-    """L and 1/D of S. Returns -1, or k where row `order[k]` depends on the rows eliminated before it."""
+def factorise(saddle, dependent, whole):
+    """L and 1/D of S. Returns -1, or k where row `order[k]` depends on the rows eliminated before it.
+
+    dependent : a pivot below this share of its diagonal says so. whole : rows that are left out are taken in as well.
+    """
     L, Dinv, y = saddle.L, saddle.Dinv, saddle.y
     for k in range(saddle.order.shape[0]):
+        if saddle.least[k] == np.inf and not whole:
+            for e in range(saddle.P_start[k], saddle.P_start[k + 1]):
+                L[saddle.P_entry[e]] = 0.0
+            Dinv[k] = 0.0
+            continue
         for p in range(saddle.S_start[k], saddle.S_start[k + 1]):
             y[saddle.S_row[p]] = saddle.S[p]
         diagonal = y[k]
@@ -28,12 +41,15 @@ def factorise(saddle):
             last = saddle.P_entry[e]
             yj = y[j]
             y[j] = 0.0
+            if real(Dinv[j]) == 0.0:
+                L[last] = 0.0
+                continue
             for p in range(saddle.L_start[j], last):
                 y[saddle.L_row[p]] -= L[p] * yj
             entry = yj * Dinv[j]
             pivot -= entry * yj
             L[last] = entry
-        if not (real(pivot) > DEPENDENT * real(diagonal) and real(pivot) > saddle.least[k]):
+        if not (real(pivot) > dependent * real(diagonal) and (whole or real(pivot) > saddle.least[k])):
             return k
         Dinv[k] = 1.0 / pivot
     return -1

@@ -77,7 +77,7 @@ UNITS: dict[str, Unit] = {
     "bar": Unit(1e5, _PRESSURE),
 }
 # known without pint, but free as names of parameters
-_VOLUMES: dict[str, Unit] = dict.fromkeys(("L", "l"), Unit(1e-3, dimension(m=3)))
+_FREE: dict[str, Unit] = {**dict.fromkeys(("L", "l"), Unit(1e-3, dimension(m=3))), "K": Unit(1.0, dimension(K=1))}
 
 LONGEST = 40  # letters of a unit
 
@@ -88,7 +88,7 @@ def unit(name: str) -> Unit:
 
     Raises UnknownUnitError, with the nearest known name in its message.
     """
-    found = UNITS.get(name) or _VOLUMES.get(name) or (_ask_pint(name) if _may_be_unit(name) else None)
+    found = UNITS.get(name) or _FREE.get(name) or (_ask_pint(name) if _may_be_unit(name) else None)
     if found is None and len(name) > LONGEST:
         raise UnknownUnitError(f"the unit `{name[:LONGEST]}…` is not known")
     if found is None:

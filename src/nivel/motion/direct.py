@@ -6,7 +6,7 @@ import numpy as np
 
 from nivel.kernels.analytic import real
 from nivel.kernels.record import record_at
-from nivel.kernels.saddle import CONTRADICTORY, correction, exceeds
+from nivel.kernels.saddle import CONTRADICTORY, PIVOTED, RANK, correction, exceeds
 from nivel.kernels.status import NOT_CLOSED, OK
 from nivel.native.function import shared, stage
 
@@ -32,8 +32,11 @@ def are_open(machine, limit):
     if saddle.dense.shape[0] == 0:
         least = limit if saddle.shift[0] == 0.0 else max(limit, CONTRADICTORY)
         return exceeds(saddle, constraints.C, constraints.scale, least)
-    for k in range(np.int64(record.control.rank[0])):
-        row = saddle.row[saddle.order[saddle.pivot[k]]]
+    rank, pivoted = record.control.rank, record.control.rank[PIVOTED] == 1
+    for k in range(np.int64(rank[RANK]) if pivoted else saddle.order.shape[0]):
+        if not pivoted and saddle.least[k] == np.inf:
+            continue
+        row = saddle.row[saddle.order[saddle.pivot[k] if pivoted else k]]
         if np.abs(real(constraints.C[row])) > limit * constraints.scale[row]:
             return True
     return False

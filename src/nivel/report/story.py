@@ -60,6 +60,7 @@ NAMES = {
     "vibrations": "Vibrations",
     "at_rest": "At rest",
     "potential": "Potential",
+    "rolling": "Rolling",
     "hydraulics": "Hydraulics",
     "fluid mass": "Fluid",
     "cavitation": "Cavitation",

@@ -100,6 +100,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         frictions=tuple(force.name for force in machine.forces if force.type == "friction"),
         rows=tuple(row_names),
         row_owner=tuple(rows.owner),
+        velocity_rows=frozenset(rows.velocity),
         row_units=tuple(units),
         coordinate_units=tuple(coordinate_units(name) for name in draft.joint_coordinates),
         point_masses=np.array([body.point_mass for body in machine.bodies], dtype=bool),
@@ -228,7 +229,7 @@ def _hooks(draft: SystemBuilder, *, sensors: bool, sampled: bool) -> Hooks:
 
 def _control(rows: int) -> Control:
     return Control(
-        rank=np.array([rows], dtype=np.uint32),
+        rank=np.array([rows, 0, 0], dtype=np.uint32),
         iterations=np.array([1, 0, 0], dtype=np.uint32),
         stabilise=np.zeros(4),
         energy=np.zeros(3),

@@ -5,13 +5,58 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
+from nivel.kernels.circuit_record import CircuitTangent
 from nivel.kernels.hydraulics.volume import VOLUME
 from nivel.kernels.record import NONE, Circuit
 from nivel.system.state_facts import Coupled
 from nivel.system.tables import Array, index_array
 
+Index = NDArray[np.uint32]
 ROOM = 5  # columns of `Circuit.room`
+FLUID = 10  # columns of `Circuit.fluid`
+
+
+def tangent_tables(
+    family: Index,
+    state: Index,
+    unknown: Index,
+    coordinate: Index,
+    number: Index,
+    signal: Index,
+    source: Index,
+    velocities: int,
+) -> CircuitTangent:
+    """Room for the derivatives of circuits. family … source : as in `CircuitTangent`."""
+    states, count, nodes = len(state), len(coordinate), len(signal)
+    size, width = states + count, states + 2 * count
+    return CircuitTangent(
+        family=family,
+        state=state,
+        unknown=unknown,
+        coordinate=coordinate,
+        number=number,
+        signal=signal,
+        source=source,
+        by_mass=np.zeros(nodes),
+        by_stroke=np.zeros((nodes, count)),
+        effort=np.zeros((count, width)),
+        slopes=np.zeros((size, width)),
+        direction=np.zeros((count, velocities)),
+        response=np.zeros((count, velocities)),
+        compliance=np.zeros((count, count)),
+        matrix=np.zeros((2, size, size)),
+        b=np.zeros(size),
+        load=np.zeros(count),
+        travel=np.zeros((2, count)),
+    )
+
+
+def no_tangent() -> CircuitTangent:
+    """For methods that do not need it: all arrays empty."""
+    none = index_array([], 1)
+    return tangent_tables(none, none, none, none, none, none, index_array([], 2), 0)
 
 
 @dataclass(frozen=True)
@@ -20,7 +65,8 @@ class Node:
 
     kind : VOLUME, GIVEN or SIGNAL of `nivel.kernels.hydraulics.volume`. state : of its mass or signal, or NONE. room : as `Circuit.room`.
     swept : volume that its pistons leave open at half their strokes [m³]. start : pressure at t = 0 that was given [Pa], or None.
-    owner : name of its component.
+    owner : name of its component. output : its pressure. gas : whether it holds gas. energy : state of the inner energy of gas, or NONE.
+    walls : heat through its walls [W/K]. quantity : its pressure among the results of its component.
     """
 
     name: str
@@ -32,11 +78,25 @@ class Node:
     start: float | None
     owner: str
     output: int
+    gas: bool = False
+    energy: int = NONE
+    walls: float = 0.0
+    quantity: str = "pressure"
 
     @property
     def is_volume(self) -> bool:
         """Whether its state is a mass."""
         return self.kind == VOLUME
+
+    @property
+    def variable(self) -> str:
+        """Result variable of its pressure."""
+        return f"hydraulics.{self.owner}.{self.quantity}"
+
+    @property
+    def states(self) -> frozenset[int]:
+        """Numbers of its states."""
+        return frozenset({self.state, self.energy} - {NONE})
 
 
 @dataclass
@@ -60,10 +120,10 @@ class CircuitTable:
         def work() -> Array:
             return np.zeros(count)
 
-        flowing = [(node.fluid, node.state if node.is_volume else NONE) for node in nodes]
+        flowing = [(node.fluid, node.state if node.is_volume else NONE, node.energy) for node in nodes]
         return Circuit(
-            node=index_array(flowing, 2),
-            fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), -1 if self.fluids else 6),
+            node=index_array(flowing, 3),
+            fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), FLUID),
             room=np.array([node.room for node in nodes], dtype=float).reshape(count, ROOM),
             secant=np.zeros(1, dtype=np.uint32),
             guard=np.zeros(2),
@@ -78,4 +138,5 @@ class CircuitTable:
             inflow=work(),
             power=np.zeros(4),
             stored=np.zeros(1),
+            tangent=no_tangent(),
         )

@@ -35,6 +35,7 @@ from nivel.analysis.statics.states import depends_on_samples, growing_motions, r
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
 from nivel.errors import SolveError
 from nivel.integrate.sink import Header
+from nivel.kernels.saddle import LEFT_OUT
 from nivel.machine.machine_record import MachineRecord
 from nivel.results.memory import Memory
 from nivel.results.occurrence import Occurrence, to_json
@@ -70,6 +71,8 @@ def prepare_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[
     prepared = prepare(methods_of(neutral, "newton-euler", coordinates))
     motion = with_residual(prepared.motion, prepared.start, coordinates, ResidualOptions(shifted=True))
     motion.system.record.coordinates.reference[:] = prepared.assembly.reference
+    # multipliers of equilibria are those of the residual, and S in the record is of another state
+    motion.system.record.control.rank[LEFT_OUT] = 0
     return replace(prepared, motion=motion), StaticEquations(motion, settings.duration or 1.0)
 
 

@@ -31,7 +31,7 @@ DERIVED = (
     pipe.apply,
 )
 # those whose derivatives are those of nodes, or none
-WITHOUT = (volume.apply, rotary.supply, ledger.apply)
+WITHOUT = (volume.apply, rotary.supply, ledger.begin, ledger.apply)
 Index = NDArray[np.uint32]
 
 

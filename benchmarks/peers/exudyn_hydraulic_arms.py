@@ -38,9 +38,7 @@ def build() -> tuple[Any, Any, list[Any]]:
         half = 0.5 * data.LENGTH[arm]
         x, y = data.on_arm(arm, (half, 0.0))
         node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[x, y, data.ANGLE[arm]]))
-        body = mbs.AddObject(
-            items.ObjectRigidBody2D(mass=data.MASS[arm], inertia=data.inertia(arm), nodeNumber=node)
-        )
+        body = mbs.AddObject(items.ObjectRigidBody2D(mass=data.MASS[arm], inertia=data.inertia(arm), nodeNumber=node))
 
         def marker(number: Any, point: tuple[float, float], middle: float) -> Any:
             return mbs.AddMarker(

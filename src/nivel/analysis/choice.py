@@ -50,7 +50,11 @@ def choose_coordinates(machine: MachineRecord) -> str:
     if settings.cut:
         return "relative"
     facts = INTEGRATORS[settings.integrator]
-    if settings.integrator in BY_CIRCUITS and settings.formulation == "newton-euler" and only_circuits_are_stiff(machine):
+    if (
+        settings.integrator in BY_CIRCUITS
+        and settings.formulation == "newton-euler"
+        and only_circuits_are_stiff(machine)
+    ):
         # there derivatives are found by hand
         return "relative"
     if machine.is_flexible:

@@ -37,7 +37,7 @@ STILL, NEAR = 1e-8, 0.05
 FIRST, LEAST = 0.5, 1.0 / 64.0
 # A machine that went this many lengths or radians is held by nothing.
 FAR = 50.0
-MOVES_ON = "the machine moves on for ever"
+MOVES_ON = "the machine keeps moving"
 
 
 def settle(equations: StaticEquations, start: Rest, iteration: Iteration) -> Found:

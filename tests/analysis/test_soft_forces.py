@@ -26,7 +26,9 @@ simulation: {{duration: 1, step: {STEP}}}
 
 
 def spring(coordinate, **given):
-    return f"type: joint-spring-damper, coordinate: turn.{coordinate}, " + ", ".join(f"{k}: {v}" for k, v in given.items())
+    return f"type: joint-spring-damper, coordinate: turn.{coordinate}, " + ", ".join(
+        f"{k}: {v}" for k, v in given.items()
+    )
 
 
 def contact(more):
@@ -40,7 +42,10 @@ def contact(more):
         (lambda d: spring("angle", damping=d), INERTIA * SOFT / STEP),
         (lambda k: spring("displacement", stiffness=k), MASS * (SOFT / STEP) ** 2),
         (lambda k: contact(f"stiffness: {k}, exponent: 1"), MASS / 4 * (SOFT / STEP) ** 2),
-        (lambda mu: contact(f"stiffness: 1, exponent: 1, friction: {mu}, friction_transition_speed: 0.1"), SOFT / STEP * 0.1 / 30),
+        (
+            lambda mu: contact(f"stiffness: 1, exponent: 1, friction: {mu}, friction_transition_speed: 0.1"),
+            SOFT / STEP * 0.1 / 30,
+        ),
     ],
     ids=["spring", "damper", "length", "contact", "friction"],
 )
@@ -53,7 +58,11 @@ def test_a_force_is_soft_up_to_its_limit(of, limit):
 
 @pytest.mark.parametrize(
     "force",
-    [contact("stiffness: 1"), contact("law: 1e3*depth").replace("restitution: 0.1, ", ""), spring("angle", law="value")],
+    [
+        contact("stiffness: 1"),
+        contact("law: 1e3*depth").replace("restitution: 0.1, ", ""),
+        spring("angle", law="value"),
+    ],
     ids=["exponent", "law of a contact", "law of a spring"],
 )
 def test_what_does_not_follow_from_a_few_numbers_is_not_soft(force):

@@ -1,14 +1,16 @@
 """The page of hydraulics: its machine works, and no component, key or signal is missing. The examples run green."""
 
 import re
+import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import nivel
 from nivel.api import Machine
 from nivel.files import parse_machine
-from nivel.machine.hydraulics import COMPONENTS, Cushion, Fluid, PistonFriction
+from nivel.machine.hydraulics import COMPONENTS, Cushion, Fluid, Gas, PistonFriction
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "hydraulics.md").read_text(encoding="utf-8")
@@ -23,7 +25,7 @@ def test_the_machine_of_the_page_runs():
     assert result.outcome == "done"
 
 
-@pytest.mark.parametrize("record", [*COMPONENTS, Fluid, PistonFriction, Cushion], ids=lambda each: each.__name__)
+@pytest.mark.parametrize("record", [*COMPONENTS, Fluid, Gas, PistonFriction, Cushion], ids=lambda each: each.__name__)
 def test_every_key_of_a_component_is_on_the_page(record):
     assert not set(record.model_fields) - KNOWN - WORDS
     if "type" in record.model_fields:
@@ -35,3 +37,21 @@ def test_an_example_runs_green(path):
     result = nivel.load(path).simulate()
     assert result.outcome == "done"
     assert [item for item in result.trust.items if item.verdict != "green"] == []
+
+
+def test_the_boom_of_the_crane_bends_by_one_word(tmp_path):
+    """Bent or rigid it stands on the same pressure, of nearly the same weight."""
+    from nivel.flexible.reduce import reduce
+
+    folder = tmp_path / "hydraulics"
+    shutil.copytree(ROOT / "examples" / "hydraulics", folder, ignore=shutil.ignore_patterns("*.nc"))
+    reduce(folder / "booms" / "boom.yaml").save(folder / "booms" / "boom.nc")
+    settings = {"coordinates": "relative", "integrator": "radau", "tolerance": 1e-4, "duration": 0.19}
+    stiff, bent = (
+        nivel.load(folder / "loader-crane.yaml", {"include": f"booms/{word}.yaml"}).simulate(**settings)
+        for word in ("rigid", "flexible")
+    )
+    assert bent.trust.verdict == "green"
+    pressures = [float(np.mean(each.array("hydraulics.lift.pressure_A"))) for each in (stiff, bent)]
+    assert pressures[1] == pytest.approx(pressures[0], rel=0.03)
+    assert np.ptp(bent.array("modal_coordinate")[:, 0]) > 0.0

@@ -8,7 +8,15 @@ import pytest
 import nivel
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
-MACHINES = ("double-wishbone", "excavator", "geneva-drive", "robot-arm", "stewart-platform", "washing-machine")
+MACHINES = (
+    "double-wishbone",
+    "excavator",
+    "geneva-drive",
+    "robot-arm",
+    "rope-crane",
+    "stewart-platform",
+    "washing-machine",
+)
 
 
 def simulated(name, **settings):
@@ -101,3 +109,17 @@ def test_the_wheel_rises_over_the_bump_and_its_camber_turns_inwards():
     assert 0.045 < rise[top] < 0.08
     assert camber[top] - camber[0] > 0.5  # of a left wheel: about +x, its top leans towards the car
     assert rise[-1] == pytest.approx(0.0, abs=1e-4)
+
+
+def test_the_rope_carries_the_load_and_shortens_by_what_the_winch_hauls_in():
+    """The tension is the force that the motion of the load needs, |m (a - g) + c v|, and equals m g at the start."""
+    result = simulated("rope-crane")
+    tension, across = result.array("force.rope.magnitude"), np.array([80.0, 80.0, 0.0])
+    needed = 800 * (result.array("load.acceleration") - np.array([0, 0, -9.81])) + across * result.array(
+        "load.velocity"
+    )
+    np.testing.assert_allclose(tension, np.linalg.norm(needed, axis=1), rtol=1e-9)
+    assert tension[0] == pytest.approx(800 * 9.81, rel=1e-9)
+    length = result.array("state.rope.length")
+    assert length[-1] - length[0] == pytest.approx(-2.0, abs=1e-9)
+    assert np.degrees(result.array("slewing.angle")[-1]) == pytest.approx(90, abs=0.1)

@@ -57,6 +57,7 @@ if TYPE_CHECKING:
     from nivel.machine import State as State
     from nivel.machine import Stop as Stop
     from nivel.machine import Table as Table
+    from nivel.machine import ThreeAxisSpring as ThreeAxisSpring
     from nivel.machine import Torque as Torque
     from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
     from nivel.results.comparison import Comparison as Comparison
@@ -103,6 +104,7 @@ _HOME = {
     "Stop": "nivel.machine",
     "Table": "nivel.machine",
     "Torque": "nivel.machine",
+    "ThreeAxisSpring": "nivel.machine",
     "TorsionalSpringDamper": "nivel.machine",
     "Comparison": "nivel.results.comparison",
     "Result": "nivel.results.result",
@@ -147,6 +149,7 @@ __all__ = [
     "State",
     "Stop",
     "Table",
+    "ThreeAxisSpring",
     "Torque",
     "TorsionalSpringDamper",
     "load",

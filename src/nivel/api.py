@@ -45,7 +45,7 @@ from nivel.machine import (
     State,
     Table,
 )
-from nivel.machine.hydraulics import Fluid, HydraulicComponent
+from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.model import Model
 from nivel.wording import shown
 
@@ -93,7 +93,7 @@ class Machine(Model):
         couplings: Sequence[Coupling] = (),
         drivers: Sequence[Driver] = (),
         forces: Sequence[Force] = (),
-        fluids: Sequence[Fluid] = (),
+        fluids: Sequence[AnyFluid] = (),
         hydraulics: Sequence[HydraulicComponent] = (),
         inputs: Sequence[Input] = (),
         states: Sequence[State] = (),

@@ -102,7 +102,7 @@ WITH_AXES = [
 
 def joint_of(kind, by):
     """A joint of a kind between a and b, by points or by markers."""
-    size = {"screw": {"pitch": 0.01}, "generic": {"locked": ("rx", "ry")}}.get(kind, {})
+    size = {"screw": {"pitch": 0.01}, "generic": {"locked": ("rx", "ry")}, "rolling": {"radius": 0.5}}.get(kind, {})
     if by == "markers":
         first = Marker(body="a", position=(0.1, 0.2, 0.3), axis=(1, 2, 0.5), x_axis=(0.3, 0, 1))
         second = Marker(body="b", position=(-0.1, 0.2, 0), orientation=Orientation(euler=(1, 2, 3), sequence="xyz"))
@@ -121,7 +121,7 @@ def ends(joint):
     points = joint.points or (joint.point, joint.point)
     if joint.axes is not None:
         first, second = joint.axes
-        frames = [frame_from_axes(first, second)] * 2
+        frames = [frame_from_axes(first, joint.x_axis if joint.type == "rolling" else second)] * 2
         if joint.axis is not None:
             frames[0] = frame_from_axes(joint.axis, first)
         if joint.type != "revolute-translational":
@@ -169,6 +169,7 @@ def test_joints_keep_the_meaning_of_their_coordinates(kind, by, placing, rng):
     of_image, its_rows = coordinates(made["joints"][0], made["bodies"], images)
     for name in JOINT_KINDS[kind].coordinates:
         opposite = placing.mirrored and kind in ("cylindrical", "screw", "generic") and name == "displacement"
+        opposite |= placing.mirrored and kind == "rolling" and name == "y"
         assert of_image[name] == pytest.approx(-values[name] if opposite else values[name], abs=1e-12), name
     if joint.axes is None:
         assert its_rows == pytest.approx(rows, abs=1e-12)
@@ -333,3 +334,29 @@ def test_a_part_that_is_not_placed_stays_as_it_is():
     machine = parse_machine(MIRRORED)
     part = {section: getattr(machine, section) for section in SECTIONS}
     assert placed(part, Placement.of((0, 0, 0), None, "none")) == part
+
+
+def test_the_looks_of_a_mirrored_body_are_mirrored():
+    """A point of a solid beside the body frame, and of an outline, is where the mirror image has it."""
+    corners = ((0.0, 0.0), (1.0, 0.0), (0.0, 2.0))
+    body = Body(
+        name="a",
+        mass=1,
+        inertia=INERTIA,
+        position=(0.3, 0.1, -0.2),
+        looks=(
+            {"type": "sphere", "radius": 0.1, "centre": (0.1, 0.2, 0.3), "colour": "red"},
+            {"type": "extrusion", "outline": corners, "length": 1, "along": "z"},
+        ),
+    )
+    placing = PLACEMENTS["y turned"]
+    (image,) = placed(elements(bodies=(body,)), placing)["bodies"]
+    position, parameters = placement(image)
+    A = matrix_from_euler_parameters(parameters)
+    for k, corner in enumerate(corners):
+        point = np.array([*image.looks[1].outline[k], 0.0])
+        np.testing.assert_allclose(
+            position + A @ point, placing.point((0.3 + corner[0], 0.1 + corner[1], -0.2)), atol=1e-12
+        )
+    np.testing.assert_allclose(position + A @ image.looks[0].centre, placing.point((0.4, 0.3, 0.1)), atol=1e-12)
+    assert image.looks[0].colour == "red"

@@ -84,3 +84,42 @@ def machine_with_circuits():
             "states": {"filter": {"rate": "ram.force*1e-6 + valve.flow_PA - filter.value"}},
         }
     )  # fmt: skip
+
+
+GAS_RATED = {"sonic_conductance": "2 dm^3/(s*bar)"}
+
+
+def machine_with_gas():
+    """A block on a slide, pushed by a cylinder with cushions between warm and isothermal chambers of valves, tanks and a line."""
+    cushion = {"length": "60 mm", **GAS_RATED}
+    return machine(
+        {
+            "bodies": {"block": solid(20.0, 2.0, position=[0.6, 0, 0], velocity=[0.2, 0, 0])},
+            "joints": {"rail": slide("ground", "block", point=[0.6, 0, 0])},
+            "fluids": {"air": {"type": "ideal-gas"}, "calm": {"type": "ideal-gas", "isothermal": True, "temperature": 310}},
+            "hydraulics": {
+                "supply": {"type": "tank", "pressure": "7 bar", "fluid": "air"},
+                "room": {"type": "tank", "fluid": "air"},
+                "line": {"type": "volume", "volume": "0.2 L", "start": "5 bar", "heat_conductance": 0.5, "fluid": "air"},
+                "valve": {
+                    "type": "directional-valve", "ways": "5/3", "centre": "float", "frequency": "20 Hz", "leakage": 1e-12,
+                    "ports": {"P": "line", "A": "ram.A", "B": "ram.B", "R": "room", "S": "room"},
+                    "command": "0.3 + 0.5*rail.displacement + 1e-7*line.pressure", **GAS_RATED,
+                },
+                "regulator": {"type": "reducing-valve", "ports": {"P": "supply", "A": "line"}, "pressure": "6 bar", **GAS_RATED},
+                "safety": {
+                    "type": "relief-valve", "ports": {"P": "ram.A", "T": "room"}, "opens_at": "1 bar", "opening_range": "2 bar",
+                    "lag": "5 ms", **GAS_RATED,
+                },
+                "leak": {"type": "orifice", "ports": {"A": "ram.B", "B": "room"}, "diameter": "1 mm", "opening": "0.5 + time"},
+                "ram": {
+                    "type": "cylinder", "bodies": ["ground", "block"], "points": [[0, 0, 0], [0.6, 0, 0]], "piston": "50 mm",
+                    "rod": "20 mm", "stroke": 0.4, "retracted_length": 0.57, "cushion_A": cushion, "cushion_B": cushion,
+                    "heat_conductance": 1, "start_A": "4 bar", "start_B": "3 bar", "fluid": "air",
+                },
+                "box": {"type": "volume", "volume": "0.3 L", "start": "2 bar", "fluid": "calm"},
+                "outside": {"type": "tank", "fluid": "calm"},
+                "check": {"type": "check-valve", "ports": {"A": "box", "B": "outside"}, **GAS_RATED},
+            },
+        }
+    )  # fmt: skip

@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from circuits import history
-from hydraulic_zoo import machine_with_circuits
+from hydraulic_zoo import machine_with_circuits, machine_with_gas
 
 
+@pytest.mark.parametrize("zoo", [machine_with_circuits, machine_with_gas])
 @pytest.mark.parametrize("coordinates", ["relative", "absolute"])
-def test_all_components_together_move_alike_by_all_methods(coordinates):
+def test_all_components_together_move_alike_by_all_methods(coordinates, zoo):
     """A tangent that lacks a dependence makes implicit methods fail or slow, and linearly implicit ones lose their order."""
-    built = machine_with_circuits()
+    built = zoo()
     exact = built.simulate(integrator="dopri5", tolerance=1e-8, duration=0.02, output_interval=1e-3)
     implicit = built.simulate(
         integrator="radau", tolerance=1e-7, duration=0.02, output_interval=1e-3, coordinates=coordinates
@@ -23,8 +24,9 @@ def test_all_components_together_move_alike_by_all_methods(coordinates):
     assert items["hydraulics"].fraction < 1e-6
 
 
-def test_the_extrapolated_method_is_of_order_two():
-    built = machine_with_circuits()
+@pytest.mark.parametrize("zoo", [machine_with_circuits, machine_with_gas])
+def test_the_extrapolated_method_is_of_order_two(zoo):
+    built = zoo()
     exact = built.simulate(integrator="dopri5", tolerance=1e-9, duration=0.02, output_interval=1e-3)
 
     def error(step):

@@ -414,6 +414,7 @@ def test_live_ticks(paced):
 def test_circuits(integrator):
     """Every family of components, in a circuit with a cylinder, a telescope and a rotary actuator."""
     short(hydraulic_zoo.machine_with_circuits().record, integrator, steps=2, step=1e-4)
+    short(hydraulic_zoo.machine_with_gas().record, integrator, steps=2, step=1e-4)
 
 
 # --- nothing is left out ---

@@ -110,3 +110,29 @@ def name_of(process):
             return file.read()
     except OSError:
         return ""
+
+
+def test_a_body_is_pulled_by_the_mouse(live, browser):
+    """With shift a drag pulls the cart along its rail, and the camera stays; after it the hand has let go."""
+    session, viewing = live
+    with watched(browser) as seen:
+        page = seen.open(viewing.address.url)
+        until(page, "!!nivel.app.live.status")
+        session.command("reset")
+        session.command("run")
+        camera = page.evaluate("nivel.app.world.camera.position.toArray()")
+        x, y = page.evaluate(
+            "(() => { const { world, actor } = nivel.app, p = actor.bodies[0].position.clone().project(world.camera),"
+            "box = world.renderer.domElement.getBoundingClientRect();"
+            "return [box.left + (p.x + 1) / 2 * box.width, box.top + (1 - p.y) / 2 * box.height]; })()"
+        )
+        page.keyboard.down("Shift")
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + 60, y, steps=3)
+        until(page, lambda: session.live.value[-8] == 1.0)
+        until(page, lambda: abs(session.newest[1]) > 0.05)  # x of the cart
+        page.mouse.up()
+        page.keyboard.up("Shift")
+        until(page, lambda: session.live.value[-8] == 0.0)
+        assert page.evaluate("nivel.app.world.camera.position.toArray()") == camera

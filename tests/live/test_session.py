@@ -10,8 +10,9 @@ import cart
 from cart import DAMPING, FORCE, MASS, operate, running, until
 from nivel.errors import ModelError
 from nivel.integrate.paced import DONE, SAVED
+from nivel.live.hand import grip
 from nivel.live.preparation import live_plan, pace_of
-from nivel.live.recorder import read_recording, write_recording
+from nivel.live.recorder import Recording, read_recording, write_recording
 from nivel.live.replay import machine_of, replay, rerun
 
 
@@ -75,7 +76,7 @@ def test_a_live_run_is_the_motion_of_its_recorded_inputs(driven):
     """m v̇ = F u - d b v by RK4 with ten steps a tick, u and b straight from tick to tick."""
     stored, take = longest(driven[1])
     h = stored.pace.tick / 10
-    tape = np.vstack([[0.0, 1.0], np.concatenate(take.tape)])
+    tape = np.vstack([[0.0, 1.0], np.concatenate(take.tape)[:, :2]])
     places, y = [0.0], np.zeros(2)
     for before, after in pairwise(tape):
 
@@ -171,3 +172,52 @@ def test_slow_motion_goes_at_its_speed():
         time.sleep(1.0)
         share = (int(session.live.control[DONE]) - ticks) * 1e-3 / (time.monotonic() - begin)
     assert share == pytest.approx(0.1, rel=0.2)
+
+
+def test_a_body_that_is_picked_up_moves_as_the_spring_says_and_its_replay_is_the_same():
+    """The cart alone on its rail, drag off: x = d (1 - e^(-ζωt) (cos ω't + ζω/ω' sin ω't)), pulled by d along the rail; the hand's
+    work is what the cart has."""
+    omega, zeta, far = 2 * np.pi * 1.5, 0.7, 0.3
+    with running() as session:
+        session.live.target[1] = 0.0  # the brake
+        session.command("run")
+        end = time.monotonic() + 0.6
+        while time.monotonic() < end:
+            session.operate([0.0, 0.0])
+            session.hold(0, [0.0, 0.1, 0.0], [far, 0.2, 0.0])
+            time.sleep(0.02)
+        session.let_go()
+        until(lambda: session.live.value[-8] == 0.0, "let go")
+        session.command("pause")
+    take = session.recorder.take
+    stored = Recording(session.plan.machine, "", {}, session.pace, (take,))
+    again = replay(stored, take)
+    assert again.is_identical
+    result = again.result
+    tape = np.concatenate(take.tape)
+    held = tape[:, 2] == 1.0
+    begin = (1 + np.argmax(held)) * 1e-3
+    assert held.sum() > 200
+    assert np.all(tape[held][:, 4:] == [0, 0.1, 0, far, 0.2, 0.0])
+    t = result.time - begin
+    inside = (t > 0) & (result.time < (1 + np.flatnonzero(held)[-1]) * 1e-3)
+    swing = omega * np.sqrt(1 - zeta**2)
+    t = t[inside] + 0.5e-3  # the pull rises within the tick before
+    exact = far * (1 - np.exp(-zeta * omega * t) * (np.cos(swing * t) + zeta * omega / swing * np.sin(swing * t)))
+    np.testing.assert_allclose(result.array("rail.displacement")[inside], exact, atol=1e-4 * far)
+    assert result.trust.verdict == "green"
+    assert result.array("external_work")[inside][-1] == pytest.approx(
+        result.array("kinetic_energy")[inside][-1], rel=1e-3
+    )
+
+
+def test_the_hand_lets_go_before_it_takes_another_point():
+    """A hand that rests, holds point 1 of body 3, is sent to body 5, and holds that."""
+    rest, far = [0.0] * 8, [7.0, 8.0, 9.0]
+    taken = grip(rest, 3, [1.0, 0.0, 0.0], far)
+    assert taken == [0.0, 3.0, 1.0, 0.0, 0.0, *far]
+    holding = grip(taken, 3, [1.0, 0.0, 0.0], far)
+    assert holding == [1.0, *taken[1:]]
+    loose = grip(holding, 5, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
+    assert loose == [0.0, *holding[1:]]
+    assert grip(loose, 5, [0.0, 0.0, 0.0], far) == [0.0, 5.0, 0.0, 0.0, 0.0, *far]

@@ -19,6 +19,8 @@ KEYS = {
     "locked": ("x", "ry"),
     "pitch": "5 mm",
     "distance": 2,
+    "radius": 0.5,
+    "rim_radius": 0.1,
     "x_axis": (1, 0, 0),
 }
 TYPES = get_args(JointType)

@@ -160,3 +160,16 @@ def test_a_capsule_between_two_points_reaches_them_with_the_centres_of_its_balls
     assert mass_properties(body).mass == pytest.approx(1000 * np.pi * 0.01 * (5 + 0.4 / 3))
     cylinder = Cylinder(from_=(0, 0, 0), to=(0, 3, 4), radius=0.1)
     assert volume(body.shape) > volume(cylinder)
+
+
+def test_looks_are_solids_of_the_body_frame_without_mass():
+    plain = Body(name="a", mass=2, shape={"type": "sphere", "radius": 0.1})
+    looks = [{"type": "box", "size": (1, 2, 3), "centre": (5, 0, 0), "colour": "orange"}]
+    seen = plain.replace(looks=looks)
+    np.testing.assert_array_equal(mass_properties(seen).inertia, mass_properties(plain).inertia)
+    with pytest.raises(ModelError, match="`from` and `to` are global"):
+        plain.replace(looks=[{"type": "capsule", "radius": 0.1, "from": (0, 0, 0), "to": (1, 0, 0)}])
+    with pytest.raises(ModelError, match="a mesh is a `shape`"):
+        plain.replace(looks=[mesh(*box_mesh(1, 1, 1))])
+    with pytest.raises(ModelError, match="a colour was expected, one of yellow"):
+        plain.replace(looks=[{**looks[0], "colour": "pink"}])

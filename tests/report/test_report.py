@@ -12,7 +12,7 @@ from nivel.errors import ModelError
 from nivel.report.panels import panels
 from nivel.report.peaks import peak_reactions
 from nivel.report.thinning import Thinning
-from nivel.report.write import number, report_html
+from nivel.report.write import number, quantity, report_html
 from nivel.results import Memory
 from nivel.results.trust import Facts, assess
 
@@ -298,3 +298,24 @@ def test_the_report_is_written_and_replaced(tmp_path):
 )
 def test_numbers_read_well(value, text):
     assert number(value) == text
+
+
+def test_passed_checks_are_one_line_and_what_is_not_green_stands_open():
+    good = report_html(run())
+    assert re.search(r"All \d checks passed", words(good))
+    assert '<li class="green">' not in good.split('<details class="passed">')[0]
+    assert not re.search(r"All \d", words(report_html(run(outcome="failed"))))
+    huge = {name: values * 1e300 for name, values in pendulum.histories(TIME).items() if name != "orientation"}
+    bad = report_html(run(**huge))
+    shown, folded = bad.split('<details class="passed">')
+    assert '<li class="red">' in shown
+    assert '<li class="red">' not in folded.split("</details>")[0]
+    assert not re.search(r"All \d", words(bad))
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [(49_720.0, "N", "49.72 kN"), (1.223e5, "N m", "122.3 kN m"), (840.4, "N", "840.4 N"), (3.2e6, "N", "3.2 MN")],
+)
+def test_quantities_have_the_prefix_that_people_read(value, unit, text):
+    assert quantity(value, unit) == text

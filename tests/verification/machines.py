@@ -52,9 +52,11 @@ def joint_at(name, kind, first, second, rng, point=None):
         options = {"points": (point, tuple(point + rng.uniform(0.3, 1, 3)))}
     if "axes" in facts.place:
         skew = z if kind == PARALLEL_LINK else rng.standard_normal(3)
-        options["axes"] = (tuple(z), tuple(skew if joint_type == "revolute-cylindrical" else x))
+        options["axes"] = (tuple(z), tuple(skew if joint_type in ("revolute-cylindrical", "rolling") else x))
     if "axis" in facts.place:
         options["axis"] = tuple(np.cross(z, x) if "axes" in facts.place else z)
+    if joint_type == "rolling":
+        options |= wheel(options["points"], options["axes"])
     if "locked" in facts.size:
         options["locked"] = LOCKED
     if "x_axis" in facts.may:
@@ -62,6 +64,14 @@ def joint_at(name, kind, first, second, rng, point=None):
     if "pitch" in facts.size:
         options["pitch"] = 0.7
     return Joint(name=name, type=joint_type, bodies=(first, second), **options)
+
+
+def wheel(points, axes):
+    """A wheel with these points and axes that touches the plane: which side of it is outside, and the radii."""
+    n, a = (np.array(axis) / np.linalg.norm(axis) for axis in axes)
+    height = n @ (np.array(points[1]) - points[0])
+    radius = abs(height) / (0.7 * np.sqrt(1 - (a @ n) ** 2) + 0.3)
+    return {"axes": (tuple(np.sign(height) * n), tuple(a)), "radius": radius, "rim_radius": 0.3 * radius}
 
 
 def pair(kind, rng, *, ground=False):

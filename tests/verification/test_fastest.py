@@ -49,7 +49,7 @@ def test_rate_of_a_spring_is_its_frequency():
     record = machine(cart(spring=spring)).record
     prepared = prepare(record, "newton-euler", "relative")
     found = fastest(prepared.motion, 0.0, prepared.start)
-    assert found.force == "spring"
+    assert found.part == "spring"
     assert found.rate == pytest.approx((1e5 / inertia()) ** 0.5, rel=1e-4)
 
 
@@ -58,3 +58,57 @@ def test_a_run_that_fails_for_another_reason_names_no_force():
     with pytest.raises(SolveError) as caught:
         machine(cart(broken=broken)).simulate()
     assert "fastest rate" not in caught.value.advice
+
+
+@pytest.mark.parametrize(
+    ("sections", "part", "rate"),
+    [
+        # ẋ = (u - x)/T
+        ({"control": {"filter": {"type": "low-pass", "input": "rail.displacement_rate", "time_constant": 2e-5}}}, "filter", 5e4),
+        # dp/dt = -(β/V)(dQ/dp)(p - p₀) with Q = √2 K √(p - p₀), half open
+        (
+            {
+                "fluids": {"oil": {"density": 870.0}},
+                "hydraulics": {
+                    "supply": {"type": "tank", "pressure": 100e5},
+                    "tank": {"type": "tank", "pressure": 1e5},
+                    "block": {"type": "volume", "volume": 1e-6},
+                    "inlet": {"type": "orifice", "ports": {"A": "supply", "B": "block"}, "flow": 1e-4, "pressure_drop": 1e6},
+                    "outlet": {"type": "orifice", "ports": {"A": "block", "B": "tank"}, "flow": 1e-4, "pressure_drop": 1e6},
+                },
+            },
+            "block",
+            1.5e9 / 1e-6 * 2 * 1e-4 / (2 * (1e6 * 49.5e5) ** 0.5),
+        ),
+        (
+            {"hydraulics": {}, "forces": {"servo": {"type": "force", "body": "cart", "vector": ["-1e8*rail.displacement", 0, 0]}}},
+            "servo",
+            (1e8 / 3.0) ** 0.5,
+        ),
+    ],
+    ids=["block of the control", "volume of a circuit", "force that a law gives"],
+)  # fmt: skip
+def test_states_of_circuits_and_controls_are_named(sections, part, rate):
+    """The arm lies along the rail: cart and arm move as one of 3 kg. The modulus of oil at 50 bar is a little more."""
+    record = machine({**cart(), **{key: value for key, value in sections.items() if value}}).record
+    prepared = prepare(record, "newton-euler", "relative")
+    found = fastest(prepared.motion, 0.0, prepared.start)
+    assert found.part == part
+    assert found.rate == pytest.approx(rate, rel=0.1)
+
+
+def test_a_red_run_names_what_is_too_fast_for_its_steps():
+    """A spring of 30 rad/s, 30.3 on a cart that gives way, in steps of 0.05 s is held by rk4, and not followed: 0.3/30.3 s."""
+    spring = {
+        "type": "joint-spring-damper",
+        "coordinate": "wrist.angle",
+        "stiffness": 900.0 * inertia(),
+        "free_value": 0.5,
+    }
+    result = machine(cart(spring=spring)).simulate(
+        step=0.05, output_interval=0.05, integrator="rk4", coordinates="relative"
+    )
+    assert result.trust.verdict == "red"
+    (item,) = [item for item in result.trust.items if item.name == "steps"]
+    assert (item.verdict, item.row) == ("amber", "spring")
+    assert "rk4 follows it with steps below 0.00991 s, not 0.05 s" in item.text

@@ -12,6 +12,7 @@ from nivel.kernels.constraint import combine, constraint_rows
 from nivel.kernels.coordinate import measure
 from nivel.kernels.marker import move_markers, place_markers
 from nivel.kernels.rigid import place_body
+from nivel.kernels.rolling import CONTACT, rolling
 from nivel.kernels.spatial import multiply
 from nivel.machine import Body, Joint, MachineRecord
 from nivel.machine.joint import JOINT_COORDINATES, JOINT_KINDS
@@ -50,7 +51,8 @@ def complex_rows(motion, q, velocity, angular_velocity_b):
     move_markers(bodies, markers)
     constraint_rows(bodies, markers, rows)
     for k in range(len(record.coordinates.value)):
-        found = measure(bodies, markers, record.coordinates, k)
+        kernel = rolling if record.coordinates.what[k, 0] >= CONTACT else measure
+        found = kernel(bodies, markers, record.coordinates, k)
         record.coordinates.value[k], record.coordinates.rate[k], record.coordinates.bias[k] = found
     combine.py_func(None, rows, record.coordinates, record.friction, 0.0)
     return rows.C, rows.Cdot

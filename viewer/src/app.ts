@@ -12,6 +12,7 @@ import { cloudNow, cloudOf } from "./stage/cloud";
 import type { Extra } from "./stage/extras";
 import { Labels } from "./stage/labels";
 import { Follower } from "./stage/follower";
+import { Hand } from "./stage/hand";
 import { Handled } from "./stage/handled";
 import { listenToPicks } from "./stage/picking";
 import { Traces } from "./stage/traces";
@@ -56,6 +57,7 @@ export class App {
   private readonly coordinates: Coordinates | null = null;
   readonly live: Live | null = null;
   private trails: Trails | null = null;
+  private hand: Hand | null = null;
   private shownTime = 0;
   private readonly panels: Panels;
   private readonly dialog = helpDialog();
@@ -95,7 +97,7 @@ export class App {
     this.traces = new Traces(this.actor, this.motion, this.world.look);
     this.violations = new Violations(this.actor, this.world.look);
     this.labels = new Labels(this.actor, names);
-    this.labels.shown.body = stage.bodies.length <= FEW_NAMES;
+    this.labels.shown.body = stage.bodies.length <= FEW_NAMES && content.mode !== "live";
     this.follower = new Follower(this.world, this.actor);
     this.handled = new Handled(this.world, this.actor);
     this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
@@ -131,7 +133,15 @@ export class App {
       this.trails = new Trails(this.actor);
       this.world.scene.add(this.trails.root);
       this.actor.show("signs", false);
-      this.live = new Live(content.controls, content.gauges, (message) => connection.send(message));
+      const live = new Live(content.controls, content.gauges, (message) => connection.send(message));
+      const hand = new Hand(this.world, this.actor, (message) => {
+        if (message.on && !live.operator.driving) live.take(true);
+        connection.send(message);
+      });
+      live.onHand = (on) => (hand.isOut = on);
+      this.actor.root.add(hand.object);
+      this.live = live;
+      this.hand = hand;
     }
     const data = el("div", {}, this.live?.panel ?? null, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;
@@ -147,7 +157,8 @@ export class App {
     if (this.player) this.showTime();
     else if (this.motion) this.motion.sample(this.motion.start, this.actor.frame);
     this.refreshFrame();
-    if (content.mode === "machine") this.world.around = () => cloudNow(this.actor);
+    if (this.live) this.handled.watchAll();
+    if (content.mode === "machine" || this.live) this.world.around = () => cloudNow(this.actor);
     const first = columns.list().find((column) => /\.(angle|displacement)$/.test(column.name));
     if (first && this.player) void this.plots.show([first.name]);
   }
@@ -207,6 +218,7 @@ export class App {
       this.latest = null;
       this.refreshFrame();
       this.trails?.add();
+      this.hand?.update();
       this.handled.keepInSight();
     }
     const { clientWidth, clientHeight } = this.world.holder;

@@ -25,6 +25,7 @@ from nivel.analysis.named_freedoms import Freedom, named_freedoms
 from nivel.analysis.plan import Methods, Plan
 from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import RunSettings
+from nivel.analysis.unique_reactions import ReactionFacts, unique_reactions
 from nivel.machine.joint import JOINT_KINDS, Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import bending_bodies
@@ -79,6 +80,7 @@ class Check:
     drivers: tuple[str, ...]
     forces: tuple[str, ...]
     hydraulics: tuple[str, ...]
+    pressures: dict[str, float]  # [Pa] of nodes of circuits at the start, by the name of their result variable
     inputs: tuple[str, ...]
     states: tuple[str, ...]
     control: tuple[str, ...]
@@ -86,12 +88,14 @@ class Check:
     sensors: tuple[str, ...]
     events: tuple[str, ...]
     degrees_of_freedom: int
+    position_freedoms: int  # more than those of velocities where wheels roll without slip
     freedoms: tuple[Freedom, ...]  # each in words; empty where they are not named
     exact: tuple[str, ...]  # changes of joints after which no constraint repeats another and every freedom stays
     modes: int  # of flexible bodies, whose coordinates are freedoms too
     constraint_rows: int
     redundant_rows: tuple[str, ...]
     non_unique_joints: tuple[str, ...]
+    reactions: tuple[ReactionFacts, ...]  # which components of theirs are unique
     gap: float
     gap_row: str
     moved: tuple[tuple[str, float, float], ...]
@@ -110,7 +114,8 @@ class Check:
 def _freedoms(facts: Check) -> str:
     count = facts.degrees_of_freedom
     modes = f", with {facts.modes} modes of flexible bodies" if facts.modes else ""
-    return f"{count} degree{'' if count == 1 else 's'} of freedom{modes}"
+    more = f", {facts.position_freedoms} of positions" if facts.position_freedoms != count else ""
+    return f"{count} degree{'' if count == 1 else 's'} of freedom{more}{modes}"
 
 
 def _lines(facts: Check) -> Iterator[str]:
@@ -204,6 +209,9 @@ def _redundancy_lines(facts: Check) -> Iterator[str]:
     if facts.redundant_rows:
         yield f"constraints: {facts.constraint_rows} rows, redundant: {', '.join(facts.redundant_rows)}"
         yield f"  the motion is unique; reactions are not in: {', '.join(facts.non_unique_joints)}"
+        if any(each.unique for each in facts.reactions):
+            yield "  along the axes of their first markers"
+            yield from (f"    {each}" for each in facts.reactions)
         if facts.exact:
             yield f"  exactly constrained, with the same freedoms: {'; '.join(facts.exact)}"
     else:
@@ -254,6 +262,7 @@ def check(plan: Plan) -> Check:
         drivers=tuple(driver_in_words(driver) for driver in machine.drivers),
         forces=tuple(force_in_words(machine, force) for force in machine.forces),
         hydraulics=_hydraulics(machine, system),
+        pressures=_pressures(system),
         inputs=tuple(input_in_words(each) for each in machine.inputs),
         states=tuple(state_in_words(state) for state in machine.states),
         control=tuple(block_in_words(block) for block in machine.control),
@@ -261,12 +270,14 @@ def check(plan: Plan) -> Check:
         sensors=tuple(sensor_in_words(sensor) for sensor in machine.sensors),
         events=tuple(event_in_words(event) for event in machine.events),
         degrees_of_freedom=redundancy.degrees_of_freedom,
+        position_freedoms=redundancy.position_freedoms,
         freedoms=named_freedoms(machine, measured),
         exact=exact_joints(machine, measured, redundancy.non_unique_joints) if redundancy.redundant_rows else (),
         modes=len(prepared.motion.system.modes),
         constraint_rows=system.machine_rows,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
+        reactions=unique_reactions(measured) if redundancy.redundant_rows else (),
         gap=assembly.gap,
         gap_row=assembly.gap_row,
         moved=assembly.moved,
@@ -289,6 +300,11 @@ def _hydraulics(machine: MachineRecord, system: System) -> tuple[str, ...]:
         f"start: {', '.join(pressures)}",
         f"{count} states of components",
     )
+
+
+def _pressures(system: System) -> dict[str, float]:
+    """Pressures of nodes at the start [Pa], by the name of the result variable."""
+    return {node.variable: float(system.record.circuit.pressure[k]) for k, node in enumerate(system.nodes)}
 
 
 def _cut(methods: Methods) -> tuple[str, ...]:

@@ -12,8 +12,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 
+from nivel.analysis.circuit_stiffness import only_circuits_are_stiff
 from nivel.analysis.modal_stiffness import only_modes_are_stiff
-from nivel.integrate.catalogue import BY_MODES, INTEGRATORS
+from nivel.integrate.catalogue import BY_CIRCUITS, BY_MODES, INTEGRATORS
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.machine.joint import JOINT_KINDS
@@ -49,6 +50,9 @@ def choose_coordinates(machine: MachineRecord) -> str:
     if settings.cut:
         return "relative"
     facts = INTEGRATORS[settings.integrator]
+    if settings.integrator in BY_CIRCUITS and settings.formulation == "newton-euler" and only_circuits_are_stiff(machine):
+        # there derivatives are found by hand
+        return "relative"
     if machine.is_flexible:
         # there ROS2 needs no matrix of all modes
         return "relative" if settings.integrator in BY_MODES and only_modes_are_stiff(machine) else "absolute"

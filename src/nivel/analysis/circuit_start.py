@@ -1,7 +1,8 @@
 """Where hydraulic circuits start: the pressures that carry the loads of the machine as assembled, and a steady circuit around them.
 
 1. The effort of every actuator at rest follows from accelerations, which are linear in the pressures: those that vanish are asked for.
-   The chamber that cannot carry its load has the pressure of the lowest tank, the other one what the load asks for.
+   The chamber that cannot carry its load has the pressure of the lowest tank, the other one what the load asks for. A piston without load
+   at the end of its stroke is held there by its stop.
 2. With these held, all other states of the circuits go to rest by steps of Euler's implicit method that become longer and longer
    (pseudo-transient continuation, Kelley and Keyes 1998). A volume that is closed keeps the pressure of the lowest tank.
 
@@ -10,6 +11,7 @@ Pressures that are given stay as they are.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,8 +20,10 @@ from numpy.typing import NDArray
 from nivel.analysis.equations import MotionEquations
 from nivel.errors import Fault, ModelError
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
+from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, SURROUNDINGS
 from nivel.kernels.hydraulics.piston import ORIGIN, guide
 from nivel.kernels.hydraulics.volume import VOLUME
+from nivel.kernels.record import NONE
 from nivel.kernels.status import OK
 from nivel.machine.hydraulics import Actuator, HydraulicMotor, RotaryActuator
 from nivel.machine.machine_record import MachineRecord
@@ -43,10 +47,14 @@ BEYOND = 1e-3
 
 @dataclass(frozen=True)
 class _Pair:
-    """The nodes on both sides of actuators, in which they have their loads: B None where it is the open air."""
+    """The nodes on both sides of actuators, in which they have their loads: B None where it is the open air.
+
+    at_end : whether a piston between them is at the end of its stroke, where a stop can hold it.
+    """
 
     a: int
     b: int | None
+    at_end: bool = False
 
 
 def circuit_start(machine: MachineRecord, motion: MotionEquations, y: Array) -> tuple[System, Array]:
@@ -69,17 +77,31 @@ def circuit_start(machine: MachineRecord, motion: MotionEquations, y: Array) -> 
     return replace(system, states=states), start.y
 
 
-def _refuse_strokes(machine: MachineRecord, system: System) -> None:
-    """Actuators that are too long or too short for where they are, in the state last evaluated."""
+def _values_of(machine: MachineRecord, system: System) -> Iterator[tuple[Actuator, float, float]]:
+    """Every actuator with its length or angle in the state last evaluated, and that at the start of its stroke."""
     elements = system.record.elements
     row = int(np.flatnonzero(elements.address == guide.address)[0]) if guide.address in elements.address else None
-    actuators = [each for each in machine.hydraulics if isinstance(each, Actuator)]
-    faults = []
-    for k, actuator in enumerate(actuators):
+    for k, actuator in enumerate(each for each in machine.hydraulics if isinstance(each, Actuator)):
         assert row is not None
         e = int(elements.span[row, 0]) + k
-        value = float(system.record.coordinates.value[elements.columns[e, 2]])
-        origin, stroke = float(elements.number[e, ORIGIN]), stroke_of(actuator)
+        yield (
+            actuator,
+            float(system.record.coordinates.value[elements.columns[e, 2]]),
+            float(elements.number[e, ORIGIN]),
+        )
+
+
+def _shares_of_strokes(machine: MachineRecord, system: System) -> Iterator[tuple[Actuator, float]]:
+    """Every actuator with the share of its stroke in the state last evaluated."""
+    for actuator, value, origin in _values_of(machine, system):
+        yield actuator, (value - origin) / stroke_of(actuator)
+
+
+def _refuse_strokes(machine: MachineRecord, system: System) -> None:
+    """Actuators that are too long or too short for where they are, in the state last evaluated."""
+    faults = []
+    for actuator, value, origin in _values_of(machine, system):
+        stroke = stroke_of(actuator)
         if -BEYOND * stroke <= value - origin <= (1.0 + BEYOND) * stroke:
             continue
         turns = isinstance(actuator, RotaryActuator)
@@ -102,9 +124,6 @@ class _Start:
         self.velocities = slice(system.positions, self.first)
         self.moving = y[self.velocities].copy()
         self.y[self.velocities] = 0.0
-        self.tank = min(
-            (self._given(k) for k, node in enumerate(self.nodes) if not _has_state(node)), default=ATMOSPHERE
-        )
         self.pressure = np.array([self._at_first(k, node) for k, node in enumerate(self.nodes)])
         self.held = {k for k, node in enumerate(self.nodes) if node.start is not None}
 
@@ -114,7 +133,12 @@ class _Start:
     def _at_first(self, k: int, node: Node) -> float:
         if node.start is not None:
             return node.start
-        return self.tank if _has_state(node) else self._given(k)
+        return self._lowest(node.fluid) if _has_state(node) else self._given(k)
+
+    def _lowest(self, fluid: int) -> float:
+        """[Pa] of the lowest tank of a fluid."""
+        tanks = [self._given(k) for k, node in enumerate(self.nodes) if not _has_state(node) and node.fluid == fluid]
+        return min(tanks, default=ATMOSPHERE)
 
     def _put(self, pressure: Array) -> None:
         """Give the volumes these pressures, and signals theirs."""
@@ -122,8 +146,16 @@ class _Start:
             if node.kind == VOLUME:
                 fluid, room = self.circuit.fluid[node.fluid], self.circuit.room[k]
                 self.y[self.first + node.state] = mass_at(fluid, room, float(self.circuit.volume[k]), pressure[k])
+                self._warm(node)
             elif _has_state(node):
                 self.y[self.first + node.state] = pressure[k]
+
+    def _warm(self, node: Node) -> None:
+        """Give gas the temperature of its surroundings."""
+        if node.energy != NONE:
+            f = self.circuit.fluid[node.fluid]
+            inner = f[GAS_CONSTANT] / (f[RATIO] - 1.0) * f[SURROUNDINGS]
+            self.y[self.first + node.energy] = self.y[self.first + node.state] * inner
 
     def _accelerations(self, pressure: Array) -> Array:
         self._put(pressure)
@@ -136,7 +168,9 @@ class _Start:
         """Nodes between which actuators and motors carry loads, each pair once."""
         index = {node.name: k for k, node in enumerate(self.nodes)}
         out: dict[tuple[int, int | None], _Pair] = {}
+        strokes = {each.name: share for each, share in _shares_of_strokes(self.machine, self.system)}
         for each in self.machine.hydraulics:
+            at_end = each.name in strokes and min(strokes[each.name], 1.0 - strokes[each.name]) <= BEYOND
             if isinstance(each, Actuator):
                 ends = [index[chamber_node(each, chamber)] for chamber in each.chambers]
             elif isinstance(each, HydraulicMotor):
@@ -144,7 +178,7 @@ class _Start:
             else:
                 continue
             if all(self.nodes[k].kind == VOLUME for k in ends):
-                pair = _Pair(ends[0], ends[1] if len(ends) > 1 else None)
+                pair = _Pair(ends[0], ends[1] if len(ends) > 1 else None, at_end)
                 out[pair.a, pair.b] = pair
         return list(out.values())
 
@@ -191,7 +225,7 @@ class _Start:
 
     def _share(self, pair: _Pair, load: float, effect: dict[int, Array]) -> None:
         """Pressures for a load that A alone would carry with `load` above the air."""
-        back = self.tank
+        back = self._lowest(self.nodes[pair.a].fluid)
         if pair.b is None:
             self.pressure[pair.a] = max(ATMOSPHERE + load, back) if load > NO_LOAD else back
             self.held.add(pair.a)
@@ -199,7 +233,7 @@ class _Start:
         a, b = effect[pair.a], effect[pair.b]
         square = float(a @ a)
         ratio = -float(b @ a) / square if square > 0.0 else 1.0  # area of B over that of A
-        if abs(load) <= NO_LOAD and isinstance(self._motor_between(pair), HydraulicMotor):
+        if abs(load) <= NO_LOAD and (self._motor_between(pair) is not None or pair.at_end):
             return
         over = back - ATMOSPHERE
         if load + over * ratio >= over:
@@ -229,6 +263,7 @@ class _Start:
     def come_to_rest(self) -> None:
         """Let all states that are not held go where they stay."""
         fixed = {self.nodes[k].state for k in self.held}
+        fixed |= {node.energy for node in self.nodes}
         fixed |= {k for k, fact in enumerate(self.system.states) if fact.sampled or fact.name.startswith("hydraulics.")}
         own = _states_of_circuits(self.system)
         free = np.array([k for k in own if k not in fixed], dtype=int)
@@ -242,6 +277,8 @@ class _Start:
             step *= FACTOR if self._step(free, scale, step) else 1.0 / FACTOR**2
 
     def _rates(self, free: NDArray[np.intp]) -> Array | None:
+        for node in self.nodes:
+            self._warm(node)
         status, rate = self.motion.evaluate(0.0, self.y)
         found = rate[self.first + free]
         return found if status == OK and np.isfinite(found).all() else None

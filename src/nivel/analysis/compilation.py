@@ -10,7 +10,7 @@ from time import perf_counter
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Methods, Plan
 from nivel.errors import NivelError
-from nivel.integrate.catalogue import BY_MODES, INTEGRATORS
+from nivel.integrate.catalogue import BY_CIRCUITS, BY_FLEXIBLE_CIRCUITS, BY_MODES, INTEGRATORS
 from nivel.kernels.control import apply as compute
 from nivel.kernels.forces.held_beam import apply as hold
 from nivel.kernels.forces.state_rate import apply as state_rate
@@ -167,7 +167,8 @@ def linear_entries(methods: Methods) -> list[Entry]:
 def all_entries() -> list[Entry]:
     """Every entry that any run may need, those that take longest to compile first."""
     paths, integrators = (*PATHS.values(), *FLEXIBLE.values()), INTEGRATORS.values()
-    modules = [facts.module for facts in integrators] + [facts.module for facts in BY_MODES.values()]
+    special = (*BY_MODES.values(), *BY_CIRCUITS.values(), *BY_FLEXIBLE_CIRCUITS.values())
+    modules = [facts.module for facts in (*integrators, *special)]
     modules += [
         module for facts in paths for module in (facts.module, facts.correction, facts.residual, facts.dependent)
     ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
+from typing import TypeGuard
 
 import numpy as np
 from scipy.optimize import root_scalar
@@ -24,8 +25,9 @@ from nivel.machine.arithmetic import (
     signals,
 )
 from nivel.machine.expression import Expression
+from nivel.machine.functions import functions_of
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.record import Record
+from nivel.machine.python_law import PythonLaw
 from nivel.machine.table import Table
 
 # Sides of an expression are looked at so many times in a run.
@@ -38,8 +40,9 @@ def corners(machine: MachineRecord, *, with_values: bool = False) -> tuple[float
     """Corners within the run [s], ascending. with_values : only those at which the function has a value, so that a step can end there."""
     end = machine.simulation.duration
     found: set[float] = set()
-    for part in (*machine.drivers, *machine.forces, *machine.states):
-        for function in _functions(part):
+    for each in functions_of(machine):
+        function = each.function
+        if each.sampling is None and _knows_corners(function):
             found |= {
                 time
                 for time in corners_of(function, end)
@@ -54,13 +57,9 @@ def corners_of(function: Table | Expression, end: float) -> list[float]:
     return [time for time in times if 0.0 < time <= end * (1.0 + NEAR)]
 
 
-def _functions(part: Record) -> Iterator[Table | Expression]:
-    """The functions among the fields of a record."""
-    for name in type(part).model_fields:
-        value = getattr(part, name)
-        for each in value if isinstance(value, tuple) else (value,):
-            if isinstance(each, Expression) or (isinstance(each, Table) and each.of == TIME):
-                yield each
+def _knows_corners(function: Table | Expression | PythonLaw) -> TypeGuard[Table | Expression]:
+    """Whether the corners of a function can be told; those of Python laws and of tables of a signal cannot."""
+    return isinstance(function, Expression) or (isinstance(function, Table) and function.of == TIME)
 
 
 def _of_table(table: Table) -> Iterator[float]:
@@ -96,7 +95,9 @@ def _found(expression: Expression, end: float) -> Iterator[float]:
             root_scalar(difference, bracket=(times[k], times[k + 1]), xtol=1e-15 * end, rtol=1e-14).root
             for k in np.flatnonzero(values[:-1] * values[1:] < 0.0)
         ]
-        yield from (*roots, *map(float, times[values == 0.0]))
+        # where it is zero all along, as between two equal functions, only the ends are corners
+        zero = np.concatenate([[False], values == 0.0, [False]])
+        yield from (*roots, *map(float, times[zero[1:-1] & ~(zero[:-2] & zero[2:])]))
 
 
 def _holds(expression: Expression, time: float) -> bool:
@@ -130,9 +131,19 @@ def _sides(node: Node) -> Iterator[tuple[Node, Node | None]]:
             alone = [argument for argument in arguments if not signals(argument)]
             if function == "abs":
                 yield from ((argument, None) for argument in alone)
-            elif function in ("if", "not", "sign") and not signals(arguments[0]):
+            elif function in ("if", "not", "sign") and not signals(arguments[0]) and not _is_truth(arguments[0]):
                 yield arguments[0], None
             elif function in ("step", "ramp", "step_rate", "step_acceleration") and not signals(node):
                 yield from ((arguments[0], arguments[k]) for k in (1, 3))
             elif function in ("min", "max"):
                 yield from ((first, second) for k, first in enumerate(alone) for second in alone[:k])
+
+
+def _is_truth(node: Node) -> bool:
+    """Whether a node is a condition, 1 or 0, whose own sides say where it changes."""
+    match node:
+        case Operation(symbol, _, _):
+            return symbol in (*COMPARISONS, "and", "or")
+        case Call(function, _):
+            return function == "not"
+    return False

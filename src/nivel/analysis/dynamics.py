@@ -75,7 +75,7 @@ class RunOutcome:
     """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s]).
 
     events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
-    steps were made, so that the run itself is done. pace : of `nivel.integrate.run.Run`.
+    steps were made, so that the run itself is done. pace : of `nivel.integrate.run.Run`. last : (time [s], y) at the end.
     """
 
     outcome: str
@@ -85,6 +85,7 @@ class RunOutcome:
     timing: dict[str, float] = field(default_factory=dict)
     failure: tuple[str, str, float] | None = None
     pace: Array | None = None
+    last: tuple[float, Array] | None = None
 
 
 class Loop(NamedTuple):
@@ -142,7 +143,7 @@ def march(
         finished.failure = failure_of(prepared, settings, run, status, jam)
         if status != CONTRADICTION:
             keep_last(prepared.motion, run, sinks)
-    finished.pace = run.pace
+    finished.pace, finished.last = run.pace, (float(run.clock[TIME]), run.y.copy())
     finished.timing = {
         **counts_of(system, run),
         "loop_seconds": loop_seconds,
@@ -251,11 +252,11 @@ def failure_of(
 
 
 def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, advice: str) -> str:
-    """The advice, led by the force that is too fast for the step where there is one."""
+    """The advice, led by the part that is too fast for the step where there is one."""
     found = fastest_beyond(prepared, settings.integrator, settings.step, float(run.clock[ACCEPTED]), run.previous)
     if found is None:
         return advice
-    of = f", of {found.force}" if found.force else ""
+    of = f", of {found.part}" if found.part else ""
     step = held_step(settings.integrator, found.rate)
     return (
         f"The fastest rate here is {found.rate:.2g}/s{of}: {settings.integrator} holds it with steps below {step:.2g} s, "

@@ -7,6 +7,7 @@ import numpy as np
 from nivel.analysis.corners import corners
 from nivel.analysis.dynamics import RunOutcome
 from nivel.analysis.loads.path import steps_of
+from nivel.analysis.loads.sampled import between_samples
 from nivel.analysis.loads.seen import unseen_loads
 from nivel.analysis.passages import passages
 from nivel.analysis.plan import Plan
@@ -37,15 +38,17 @@ def find(
         return Findings()
     settings, fixed = plan.settings, plan.settings.steps > 0
     turned, bending = finished.pace[TURNED], _bending(plan)
+    implicit = prepared.integrator.residual or prepared.integrator.circuit_tangent
     return Findings(
         unseen=_unseen(plan, prepared, finished, result),
+        between=tuple(between_samples(plan.machine, float(result.time[-1]))),
         # where steps are chosen no body turns too far
         turn=largest_turn(result, turned, settings.duration, counted=settings.coordinates == "relative")
         if fixed
         else None,
         rounding=rounding(result, int(finished.timing["steps"])),
         own=own_error(result, estimate) if estimate is not None else None,
-        damped=damped(result, verified.result) if verified is not None and prepared.integrator.residual else None,
+        damped=damped(result, verified.result) if verified is not None and implicit else None,
         growth=growth(result, verified.result, verified.refinement.left) if verified is not None else None,
         passages=tuple(passages(prepared, result)) if verified is not None else (),
         unstiffened=fastest_unstiffened(result, bending),

@@ -49,7 +49,8 @@ class Slopes:
 class Instant:
     """The equations of `motion`, which has a residual and its complex twin, at time t [s] in the state y.
 
-    n : velocities. free : those that mean something (points do not turn). v̇ (n,) and λ (K,) are those of the motion.
+    n : velocities. free : those that mean something (points do not turn). velocity_rows : rows that hold
+    velocities alone. v̇ (n,) and λ (K,) are those of the motion.
     """
 
     def __init__(self, motion: MotionEquations, t: float, y: Array) -> None:
@@ -59,6 +60,7 @@ class Instant:
         self.t, self.y = t, y.copy()
         residual = self.record.residual
         self.n, self.rows, self.state_count = len(residual.vdot), len(residual.lam), len(self.system.states)
+        self.velocity_rows = np.flatnonzero(np.isin(residual.row, list(self.system.velocity_rows)))
         self.positions = self.system.positions
         self.first_state = self.positions + self.n
         self.place = self.record.newton.place.astype(np.int64)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from nivel.integrate.catalogue import BY_MODES, INTEGRATORS, IntegratorFacts
+from nivel.analysis.circuit_stiffness import only_circuits_are_stiff
+from nivel.integrate.catalogue import BY_CIRCUITS, BY_FLEXIBLE_CIRCUITS, BY_MODES, INTEGRATORS, IntegratorFacts
 from nivel.machine.forces import PointForce, Torque
 from nivel.machine.machine_record import MachineRecord
 
@@ -19,7 +20,15 @@ def only_modes_are_stiff(machine: MachineRecord) -> bool:
 def integrator_of(machine: MachineRecord, coordinates: str) -> IntegratorFacts:
     """The integrator of a run of `machine` in these coordinates."""
     name = machine.simulation.integrator
+    if name in BY_CIRCUITS and goes_by_circuits(machine, coordinates):
+        return (BY_FLEXIBLE_CIRCUITS if machine.is_flexible else BY_CIRCUITS)[name]
     return BY_MODES[name] if name in BY_MODES and goes_by_modes(machine, coordinates) else INTEGRATORS[name]
+
+
+def goes_by_circuits(machine: MachineRecord, coordinates: str) -> bool:
+    """Whether a machine is one for the integrators of BY_CIRCUITS."""
+    formulation = machine.simulation.formulation
+    return coordinates == "relative" and formulation == "newton-euler" and only_circuits_are_stiff(machine)
 
 
 def goes_by_modes(machine: MachineRecord, coordinates: str) -> bool:

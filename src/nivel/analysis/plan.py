@@ -18,6 +18,7 @@ from nivel.analysis.refusals import (
     refuse_samples_between_steps,
     refuse_stiction_over_steps,
 )
+from nivel.analysis.rolling import refuse_rolling_by_positions
 from nivel.analysis.settings import RunSettings, complete
 from nivel.analysis.unused_settings import unused_settings
 from nivel.errors import Fault, ModelError
@@ -95,6 +96,7 @@ def plan_run(machine: MachineRecord, given: Collection[str] = ()) -> Plan:
         lambda: refuse_conserved_drivers(machine),
         lambda: refuse_stiction_over_steps(machine),
         lambda: refuse_rough_motions(machine),
+        lambda: refuse_rolling_by_positions(machine, coordinates),
         lambda: refuse_friction_at_jumps(machine),
     ]
     faults: list[Fault] = [*unused_settings(given, machine.simulation, coordinates)]

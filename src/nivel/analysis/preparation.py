@@ -33,6 +33,7 @@ from nivel.integrate.catalogue import IntegratorFacts
 from nivel.machine.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
+from nivel.system.hydraulics.tangent import with_circuit_tangent
 from nivel.system.system import Array, System
 
 if TYPE_CHECKING:
@@ -79,6 +80,8 @@ def prepare(methods: Methods) -> Prepared:
     if len(system.record.saddle.dense):
         _leave_out_repeated(system, motion, assembly.y, methods)
     prepared = _formulated(MotionEquations(system, import_module(path.module)), y, methods)
+    if integrator.circuit_tangent:
+        prepared = replace(prepared, system=with_circuit_tangent(prepared.system))
     if integrator.residual:
         prepared = with_residual(prepared, y, methods.coordinates, _wanted(prepared, methods), path)
     return Prepared(

@@ -25,10 +25,12 @@ class Redundancy:
     """Rank of the joint rows at the assembled position; bodies that bend may make rows independent that were not between rigid ones.
 
     redundant_rows : rows that add nothing to the rows named before them. non_unique_joints : joints with reactions that the equations
-    of rigid bodies do not determine. singular : rows lost at this position only, not nearby.
+    of rigid bodies do not determine. singular : rows lost at this position only, not nearby. degrees_of_freedom : of velocities;
+    position_freedoms : of positions, more of them where wheels roll without slip.
     """
 
     degrees_of_freedom: int
+    position_freedoms: int
     rank: int
     redundant_rows: tuple[str, ...]
     non_unique_joints: tuple[str, ...]
@@ -41,18 +43,21 @@ def analyse(motion: MotionEquations, t: float, y: Array, modes: ModalRows | None
     rows = system.machine_rows
     freedoms = system.freedoms + (modes.count if modes is not None else 0)
     if motion.evaluate(t, y)[0] == OK and _certainly_independent(motion):
-        return Redundancy(freedoms - rows, rows, (), (), ())
+        return Redundancy(freedoms - rows, freedoms - rows + len(system.velocity_rows), rows, (), (), ())
     J = scaled_jacobian(motion, modes)
     dependent, N = dependent_rows(J)
-    if not dependent:
-        return Redundancy(freedoms - rows, rows, (), (), ())
     rank = rows - len(dependent)
+    holding = np.delete(J, sorted(system.velocity_rows), axis=0)
+    positions = freedoms - (len(holding) - len(dependent_rows(holding)[0]) if len(holding) < len(J) else rank)
+    if not dependent:
+        return Redundancy(freedoms - rows, positions, rows, (), (), ())
     nearby = _rank_nearby(motion, t, y, rank, modes)
     names = tuple(system.rows[row] for row in dependent)
     loose = np.abs(N).max(axis=1) > 1e-6
     joints = dict.fromkeys(system.row_owner[row] for row in np.flatnonzero(loose))
     return Redundancy(
         freedoms - rank,
+        positions,
         rank,
         names,
         tuple(joints),

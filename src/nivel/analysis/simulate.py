@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import time
+from dataclasses import replace
 from os import PathLike
 
 from nivel.analysis.attributes import run_attributes
 from nivel.analysis.dynamics import RunOutcome, march
+from nivel.analysis.fastest import too_long
 from nivel.analysis.findings import find
 from nivel.analysis.held_friction import resting_frictions
 from nivel.analysis.history import SECANT
@@ -24,7 +26,7 @@ from nivel.results.accuracy import error_from_finer, factor
 from nivel.results.circuits import Guard
 from nivel.results.estimate import ATTRIBUTE as ESTIMATES
 from nivel.results.estimate import estimate_errors
-from nivel.results.findings import finding_items
+from nivel.results.findings import finding_items, steps_item
 from nivel.results.held import Held, shared_loads
 from nivel.results.held_together import Sticking, loads_held_together
 from nivel.results.memory import Memory
@@ -33,6 +35,7 @@ from nivel.results.occurrence import to_json
 from nivel.results.result import Result
 from nivel.results.store import Store
 from nivel.results.trust import Facts, SmallState, assess, peak
+from nivel.results.verdicts import CHECKS, Trust
 from nivel.system.flexible import bending_bodies
 
 # A state whose values stay below this share of its scale is not followed to the tolerance.
@@ -141,7 +144,7 @@ def close_run(
         "advice": advice,
         "events": to_json(finished.events),
         "stopped_by": finished.stopped_by,
-        "trust": assess(sink.result(), facts).to_json(),
+        "trust": _judged(sink.result(), facts, plan, prepared, finished).to_json(),
         "timing": json.dumps({**finished.timing, **timing}),
     }
     if estimate is not None:
@@ -152,9 +155,21 @@ def close_run(
     return result
 
 
+def _judged(result: Result, facts: Facts, plan: Plan, prepared: Prepared, finished: RunOutcome) -> Trust:
+    """The trust report; of a red run with the part that is too fast for its steps, where there is one."""
+    trust = assess(result, facts)
+    if trust.verdict != "red" or finished.outcome == "failed":  # its advice has told
+        return trust
+    fast = too_long(prepared, plan.settings, finished.last)
+    if fast is None or fast.step * fast.rate < CHECKS["steps"].green:
+        return trust
+    return assess(result, replace(facts, further=(*facts.further, steps_item(fast))))
+
+
 def _guard(finished: RunOutcome, prepared: Prepared) -> Guard | None:
     """What the guard of steps over circuits did; None where there is none."""
-    if prepared.integrator is not INTEGRATORS[SECANT] or not prepared.motion.system.nodes:
+    guards = prepared.integrator.circuit_tangent or prepared.integrator is INTEGRATORS[SECANT]
+    if not (guards and prepared.motion.system.nodes):
         return None
     timing = finished.timing
     return Guard(int(timing["steps"]), int(timing["guarded"]), timing["pressure_difference"])

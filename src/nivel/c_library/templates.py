@@ -33,7 +33,7 @@ int ${name}_step(void *machine);
 double ${name}_time(const void *machine);
 /* Outputs at this time, ${NAME}_OUTPUTS of them. */
 const double *${name}_outputs(const void *machine);
-/* Copies the whole state into another block of the same size, and back again. */
+${inputs_declared}/* Copies the whole state, inputs among it, into another block of the same size, and back again. */
 void ${name}_save(const void *machine, void *copy);
 void ${name}_restore(void *machine, const void *copy);
 
@@ -41,6 +41,72 @@ void ${name}_restore(void *machine, const void *copy);
 }
 #endif
 #endif
+""")
+
+# of a machine that has inputs
+INPUTS_DECLARED = Template("""/* places of the inputs */
+enum {
+$input_enumeration,
+${NAME}_INPUTS
+};
+extern const char *const ${name}_input_names[${NAME}_INPUTS];
+/* least and greatest value of each */
+extern const double ${name}_input_ranges[${NAME}_INPUTS][2];
+/* The place of the input of this name, or -1. */
+int ${name}_find_input(const char *name);
+/* Sets an input from the next step on, until it is set again; without that it is as in the machine file.
+   0, or -1 where there is no such input, or the value is not within its range: then nothing changes. */
+int ${name}_set_input(void *machine, int input, double value);
+/* The value that was set; NaN where none was, or there is no such input. */
+double ${name}_input(const void *machine, int input);
+""")
+
+INPUTS = Template("""
+const char *const ${name}_input_names[${NAME}_INPUTS] = {
+$input_names};
+const double ${name}_input_ranges[${NAME}_INPUTS][2] = {
+$input_ranges};
+/* bytes of the kind and of the value of the function of each input */
+static const uint32_t input_places[${NAME}_INPUTS][2] = {
+$input_places};
+
+int ${name}_find_input(const char *name) {
+  for (int k = 0; k < ${NAME}_INPUTS; ++k)
+    if (!strcmp(name, ${name}_input_names[k])) return k;
+  return -1;
+}
+
+static int is_set(const void *machine, int input) {
+  return input >= 0 && input < ${NAME}_INPUTS && *(const uint32_t *)((const char *)machine + input_places[input][0]) == $constant &&
+         *count((void *)machine, $touched + 8 * (1 + (size_t)input));
+}
+
+double ${name}_input(const void *machine, int input) {
+  return is_set(machine, input) ? *(const double *)((const char *)machine + input_places[input][1]) : 0.0 / 0.0;
+}
+
+int ${name}_set_input(void *machine, int input, double value) {
+  if (input < 0 || input >= ${NAME}_INPUTS) return -1;
+  if (!(value >= ${name}_input_ranges[input][0] && value <= ${name}_input_ranges[input][1])) return -1;
+  uint32_t *kind = (uint32_t *)((char *)machine + input_places[input][0]);
+  double *kept = (double *)((char *)machine + input_places[input][1]);
+  if (*kind != $constant || *kept != value) *count(machine, $touched) = 1;
+  *kind = $constant;
+  *kept = value;
+  *count(machine, $touched + 8 * (1 + (size_t)input)) = 1;
+  return 0;
+}
+
+/* What depends on inputs that were changed since the last step. */
+static int read_inputs(void *machine) {
+  typedef int64_t evaluation(uint64_t, double, void *, int64_t, void *, int64_t);
+  if (!*count(machine, $touched)) return 0;
+  *count(machine, $touched) = 0;
+  *count(machine, $restart) = 1;
+  evaluation *evaluate = (evaluation *)(uintptr_t)address($evaluate);
+  return (int)evaluate(address((char *)machine + $machine), *(double *)((char *)machine + $time), (char *)machine + $y, $y_size,
+                       (char *)machine + $rate, $y_size);
+}
 """)
 
 SOURCE = Template("""#include "$name.h"
@@ -68,6 +134,7 @@ $output_names};
 static uint64_t address(const void *pointer) { return (uint64_t)(uintptr_t)pointer; }
 static int64_t *count(void *machine, size_t byte) { return (int64_t *)((char *)machine + byte); }
 
+${inputs_defined}
 static int go_on(void *machine, int64_t steps) {
   *count(machine, $budget) = steps;
   *count(machine, $frame_count) = 0;
@@ -88,7 +155,7 @@ int ${name}_start(void *machine) {
   return go_on(machine, 0);
 }
 
-int ${name}_step(void *machine) { return go_on(machine, 1); }
+int ${name}_step(void *machine) { $step_body }
 
 double ${name}_time(const void *machine) { return *(const double *)((const char *)machine + $time); }
 

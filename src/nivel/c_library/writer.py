@@ -7,6 +7,7 @@ import shutil
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from nivel.analysis.attributes import run_attributes
 from nivel.analysis.compilation import run_entries
@@ -14,13 +15,15 @@ from nivel.analysis.dynamics import Loop, start_loop
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
 from nivel.c_library.image import WORD, Image, UnknownAddressError
-from nivel.c_library.templates import EXAMPLE, HEADER, MAKEFILE, SOURCE
+from nivel.c_library.templates import EXAMPLE, HEADER, INPUTS, INPUTS_DECLARED, MAKEFILE, SOURCE
 from nivel.errors import Fault, ModelError
 from nivel.integrate.loop import advance
-from nivel.integrate.run import ALL_STEPS, BUDGET, END, EVENTS, EVERY, FRAMES, TIME
+from nivel.integrate.run import ALL_STEPS, BUDGET, END, EVENTS, EVERY, FRAMES, RESTART, TIME
 from nivel.integrate.sink import Header
+from nivel.kernels.function import CONSTANT
 from nivel.kernels.handle import Handle
 from nivel.kernels.status import BUDGET_SPENT
+from nivel.machine import Input
 from nivel.native import library
 from nivel.native.entry import Entry
 from nivel.native.workers import CompilationError
@@ -35,11 +38,14 @@ ENDLESS = 2**52
 
 @dataclass(frozen=True)
 class Files:
-    """What was written. outputs : names of the numbers that the library gives after each step. size : bytes of one machine."""
+    """What was written. outputs : names of the numbers that the library gives after each step. inputs : names of what can be set.
+    size : bytes of one machine.
+    """
 
     folder: Path
     name: str
     outputs: tuple[str, ...]
+    inputs: tuple[str, ...]
     size: int
 
 
@@ -64,9 +70,11 @@ def write_c_library(plan: Plan, folder: Path) -> Files:
         raise _fault("Python laws cannot go into a C library; write them as expressions") from None
     name = re.sub(r"\W", "_", plan.machine.name.lower())
     outputs = output_names(plan, prepared)
-    _write(folder, name, image, loop, outputs, plan.settings.step)
+    inputs = [*zip(plan.machine.inputs, prepared.motion.system.input_functions, strict=True)]
+    _write(folder, name, image, loop, outputs, inputs, plan.settings.step)
     _write_machine_code(folder / "kernels", [each for each in entries if each.symbol in _used(image, loop)])
-    return Files(folder, name, outputs, image.words.nbytes)
+    names = tuple(each.name for each in plan.machine.inputs)
+    return Files(folder, name, outputs, names, image.words.nbytes + WORD * (1 + len(inputs)))
 
 
 def _fault(message: str) -> ModelError:
@@ -94,17 +102,26 @@ def _used(image: Image, loop: Loop) -> set[str]:
     return {*image.outer.values(), advance.symbol, loop.evaluate.symbol, loop.correct.symbol, loop.step.symbol}
 
 
-def _write(folder: Path, name: str, image: Image, loop: Loop, outputs: Sequence[str], step: float) -> None:
+def _write(
+    folder: Path,
+    name: str,
+    image: Image,
+    loop: Loop,
+    outputs: Sequence[str],
+    inputs: Sequence[tuple[Input, int]],
+    step: float,
+) -> None:
+    """inputs : each with the number of its function."""
     try:
         folder.mkdir(parents=True)
     except FileExistsError:
         raise _fault(f"{folder} is there already; name another folder") from None
     run = loop.history.record
     words = image.words.nonzero()[0]
-    values = {
+    values: dict[str, Any] = {
         "name": name,
         "NAME": name.upper(),
-        "size": image.words.nbytes,
+        "size": image.words.nbytes + WORD * (1 + len(inputs)),
         "step": repr(step),
         "width": len(outputs),
         "count": len(words),
@@ -131,7 +148,15 @@ def _write(folder: Path, name: str, image: Image, loop: Loop, outputs: Sequence[
         "time": image.byte_of(run.clock.ctypes.data) + WORD * TIME,
         "frames": image.byte_of(run.frames.ctypes.data),
         "spent": BUDGET_SPENT,
+        "step_body": "return go_on(machine, 1);",
+        "inputs_declared": "",
+        "inputs_defined": "",
     }
+    if inputs:
+        values |= _input_values(name, image, loop, inputs)
+        values["inputs_declared"] = INPUTS_DECLARED.substitute(values)
+        values["inputs_defined"] = INPUTS.substitute(values)
+        values["step_body"] = "int failure = read_inputs(machine); return failure ? failure : go_on(machine, 1);"
     for file, template in (
         (f"{name}.h", HEADER),
         (f"{name}.c", SOURCE),
@@ -139,6 +164,28 @@ def _write(folder: Path, name: str, image: Image, loop: Loop, outputs: Sequence[
         ("Makefile", MAKEFILE),
     ):
         (folder / file).write_text(template.substitute(values), encoding="utf-8")
+
+
+def _input_values(name: str, image: Image, loop: Loop, inputs: Sequence[tuple[Input, int]]) -> dict[str, Any]:
+    """What the templates say of inputs. The words behind the image: whether any was changed since the last step, and which were set."""
+    run, functions = loop.history.record, loop.machine.record.functions
+    kinds, numbers = (image.byte_of(each.ctypes.data) for each in (functions.kind, functions.value))
+    places = [(kinds + functions.kind.itemsize * k, numbers + WORD * k) for _, k in inputs]
+    ranges = [each.range for each, _ in inputs]
+    return {
+        "input_enumeration": _lines(
+            f"{name.upper()}_INPUT_{re.sub(r'[^A-Za-z0-9]', '_', each.name).upper()}" for each, _ in inputs
+        ),
+        "input_names": _lines(f'"{each.name}"' for each, _ in inputs),
+        "input_ranges": _lines(f"{{{low!r}, {high!r}}}" for low, high in ranges),
+        "input_places": _lines(f"{{{kind}, {number}}}" for kind, number in places),
+        "touched": image.words.nbytes,
+        "constant": CONSTANT,
+        "restart": image.byte_of(run.counter.ctypes.data) + WORD * RESTART,
+        "y": image.byte_of(run.y.ctypes.data),
+        "rate": image.byte_of(run.rate.ctypes.data),
+        "y_size": len(run.y),
+    }
 
 
 def _lines(parts: Iterable[str], wide: int = 12) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+from pathlib import Path
 
 import click
 
@@ -14,8 +15,9 @@ from nivel.cli.options import allow_code_option, file_argument, override_option
 @file_argument("machine")
 @override_option
 @allow_code_option
+@click.option("--circuit", type=click.Path(dir_okay=False), help="Draw the hydraulic circuit into this SVG file.")
 @click.option("--json", "as_json", is_flag=True, help="Print the facts as JSON on standard output.")
-def command(machine: str, overrides: dict[str, str], allow_code: bool, as_json: bool) -> None:
+def command(machine: str, overrides: dict[str, str], allow_code: bool, circuit: str | None, as_json: bool) -> None:
     """Check MACHINE: read it, assemble it, count its freedoms.
 
     Shows every joint with its first and second body, its zero and its positive direction. Exit code 2 with every fault that was found.
@@ -23,9 +25,15 @@ def command(machine: str, overrides: dict[str, str], allow_code: bool, as_json: 
     from nivel.analysis.listener import Listener
     from nivel.api import load
 
-    facts = load(machine, overrides, allow_code=allow_code).check(
-        listener=Listener(lambda text, _total: click.echo(text, err=True))
-    )
+    loaded = load(machine, overrides, allow_code=allow_code)
+    facts = loaded.check(listener=Listener(lambda text, _total: click.echo(text, err=True)))
+    if circuit is not None:
+        from nivel.report.circuit.drawing import circuit_diagram
+
+        drawn = circuit_diagram(loaded.record.model_dump(mode="json"), facts.pressures)
+        if not drawn:
+            raise click.UsageError("the machine has no `hydraulics` that could be drawn with --circuit")
+        Path(circuit).write_text(drawn, encoding="utf-8")
     if as_json:
         out = dataclasses.asdict(facts) | {"settings": facts.settings.as_dict()}
         click.echo(json.dumps(out, indent=2))

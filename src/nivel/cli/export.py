@@ -53,9 +53,9 @@ def _write_c_library(machine: str, folder: str, overrides: dict[str, str]) -> No
     from nivel.api import load
 
     written = load(machine, overrides).export_c(folder)
+    sizes = f"{len(written.inputs)} inputs, {len(written.outputs)} outputs, {written.size / 1000:.0f} kB a machine"
     click.echo(
-        f"C library: {written.folder}/{written.name}.h, {len(written.outputs)} outputs, {written.size / 1000:.0f} kB a machine; "
-        f"`make -C {written.folder}` builds it",
+        f"C library: {written.folder}/{written.name}.h, {sizes}; `make -C {written.folder}` builds it",
         err=True,
     )
 

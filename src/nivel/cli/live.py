@@ -117,6 +117,6 @@ def introduction(session: Session) -> Iterator[str]:
     pace = session.pace
     steps = "one step" if pace.substeps == 1 else f"{pace.substeps} steps"
     yield f"{session.plan.machine.name}: ticks of {1e3 * pace.tick:g} ms, each of {steps}; {', '.join(session.said)}"
-    for each in session.plan.machine.inputs:
+    for each in session.inputs:
         if each.keys is not None:
             yield f"  {each.name}: {each.keys.raise_ or '–'} raises, {each.keys.lower or '–'} lowers"

@@ -34,7 +34,11 @@ _SLIDING = (
     "point-on-line",
     "translational-universal",
 )  # joints whose axis is a direction of motion, not an axis of turning
-KEPT = {"universal": AXIAL, "skew-universal": AXIAL, **dict.fromkeys(_SLIDING, POLAR_Z)}  # others keep AXIAL_Z
+KEPT = {
+    "universal": AXIAL,
+    "skew-universal": AXIAL,
+    **dict.fromkeys((*_SLIDING, "rolling"), POLAR_Z),
+}  # others keep AXIAL_Z
 
 
 def placed_body(body: Body, placing: Placement) -> Body:
@@ -53,6 +57,8 @@ def placed_body(body: Body, placing: Placement) -> Body:
     }
     if body.shape is not None:
         changes["shape"] = _placed_shape(body.shape, placing)
+    if body.looks:
+        changes["looks"] = tuple(_placed_shape(each, placing) for each in body.looks)
     if not body.point_mass:
         changes["orientation"] = placing.body_frame(matrix_from_euler_parameters(parameters))
     if body.angular_velocity is not None:
@@ -115,15 +121,16 @@ def _placed_shape(shape: Shape, placing: Placement) -> Shape:
         return shape if shape.centre is None else shape.replace(centre=placing.in_body(shape.centre))
     match shape:
         case Box():
-            return Box(size=box_size(shape))
+            return Box(size=box_size(shape), colour=shape.colour)
         case Cylinder():
-            return Cylinder(radius=shape.radius, length=length(shape))
+            return Cylinder(radius=shape.radius, length=length(shape), colour=shape.colour)
         case Capsule():
-            return Capsule(radius=shape.radius, length=length(shape))
+            return Capsule(radius=shape.radius, length=length(shape), colour=shape.colour)
         case Tube():
-            return Tube(outer_radius=shape.outer_radius, inner_radius=shape.inner_radius, length=length(shape))
+            radii = {"outer_radius": shape.outer_radius, "inner_radius": shape.inner_radius}
+            return Tube(**radii, length=length(shape), colour=shape.colour)
         case Extrusion():
-            return Extrusion(outline=shape.outline, length=length(shape))
+            return Extrusion(outline=shape.outline, length=length(shape), colour=shape.colour)
 
 
 def _mirrored_outline(shape: Extrusion, placing: Placement) -> tuple[tuple[float, float], ...]:
@@ -138,7 +145,8 @@ def _placed_mesh(mesh: Mesh, placing: Placement) -> Mesh:
     if not placing.mirrored:
         return mesh
     vertices, triangles = mesh_surface(mesh)
-    return Mesh(file=mesh.file, surface=surface_text(vertices * placing.reflection, triangles[:, ::-1]))
+    surface = surface_text(vertices * placing.reflection, triangles[:, ::-1])
+    return Mesh(file=mesh.file, surface=surface, colour=mesh.colour)
 
 
 def _mirrored_inertia(inertia: Inertia, placing: Placement) -> Inertia:
@@ -165,8 +173,10 @@ def placed_joint(joint: Joint, scene: Scene) -> Joint:
         changes["pitch"] = -joint.pitch
     for field in ("start", "start_rates"):
         values = getattr(joint, field)
-        if values is not None and values.displacement is not None and scene.is_opposite(joint.name):
-            changes[field] = values.replace(displacement=-values.displacement)
+        given = values.given if values is not None else {}
+        opposite = {name: -value for name, value in given.items() if scene.is_opposite(f"{joint.name}.{name}")}
+        if opposite:
+            changes[field] = values.replace(**opposite)
     return joint.replace(**changes)
 
 
@@ -182,5 +192,8 @@ def _placed_axes(joint: Joint, placing: Placement) -> dict[str, Any]:
         first, second = joint.axes
         slides = joint.type == "revolute-translational"
         turned = placing.direction if slides else placing.turning
-        changes["axes"] = (placing.turning(first), turned(second))
+        normal = placing.direction if joint.type == "rolling" else placing.turning
+        changes["axes"] = (normal(first), turned(second))
+        if joint.type == "rolling":
+            changes["x_axis"] = placing.direction(triple(frame_from_axes(first, joint.x_axis)[:, 0]))
     return changes

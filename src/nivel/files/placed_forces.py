@@ -25,6 +25,7 @@ from nivel.machine import (
     Servo,
     SpringDamper,
     Stop,
+    ThreeAxisSpring,
     TimeFunction,
     Torque,
     TorsionalSpringDamper,
@@ -33,6 +34,7 @@ from nivel.machine.forces import Between, Ends, ForceElement
 
 Changes = dict[str, Any]
 _FUNCTIONS = (Expression, PythonLaw)
+ROUND_OFF = 1e-12
 
 
 def placed_force(force: Any, scene: Scene) -> Any:
@@ -123,12 +125,30 @@ def _bushing(force: Bushing, scene: Scene) -> Changes:
     return changes
 
 
+def _three_axis_spring(force: ThreeAxisSpring, scene: Scene) -> Changes:
+    """Its axes stay the global ones, so a part that is turned has it only where its axes become global ones again."""
+    matrix = scene.placement.polar
+    changes = placed_ends(force, scene, with_axes=False)
+    for name in ("stiffness", "damping"):
+        turned = matrix @ np.diag(getattr(force, name)) @ matrix.T
+        along = np.diagonal(turned)
+        if np.abs(turned - np.diag(along)).max() > ROUND_OFF * np.abs(along).max():
+            raise NotRepresentableError(f"its `{name}` would be along other axes than the global ones; take a bushing")
+        changes[name] = tuple(float(each) for each in along)
+    for name in ("free_displacement", "preload"):
+        changes[name] = tuple(float(each) for each in matrix @ np.array(getattr(force, name)) + 0.0)
+    return changes
+
+
 def _contact(force: Contact, scene: Scene) -> Changes:
     return {} if force.plane is None else {"plane": scene.end(force.plane, POLAR_Z)}
 
 
 def _rope(force: Rope, scene: Scene) -> Changes:
-    return {"markers": tuple(scene.end(each) for each in force.markers), **_varied(force, scene, "speed")}
+    changes = _varied(force, scene, "speed")
+    if force.markers is not None:
+        return {"markers": tuple(scene.end(each) for each in force.markers), **changes}
+    return {"points": tuple(scene.placement.point(point) for point in force.points or ()), **changes}
 
 
 def _on_coordinate(force: JointSpringDamper | Motor | Servo | Stop | Friction, scene: Scene) -> Changes:
@@ -184,6 +204,7 @@ _RULES: dict[type[Record], Callable[[Any, Scene], Changes]] = {
     Friction: _on_coordinate,
     PairForce: _pair_force,
     Bushing: _bushing,
+    ThreeAxisSpring: _three_axis_spring,
     Contact: _contact,
     Rope: _rope,
 }

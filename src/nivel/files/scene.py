@@ -27,11 +27,8 @@ from nivel.machine import (
 from nivel.machine.orientation import matrix_from_euler_parameters
 
 _QUANTITIES = {f"{kind}{axis}": (kind, at) for kind in ("", "v", "w") for at, axis in enumerate("xyz")}
-_OPPOSITE = (
-    "cylindrical",
-    "screw",
-    "generic",
-)  # joints that turn and slide along one axis: their mirror image slides backwards
+# coordinates that count the other way in a mirror image: of joints that turn and slide along one axis, and across what a wheel rolls on
+_OPPOSITE = {"cylindrical": "displacement", "screw": "displacement", "generic": "displacement", "rolling": "y"}
 
 
 @dataclass
@@ -59,7 +56,8 @@ class Scene:
         joint, _, coordinate = reference.partition(".")
         if not self.placement.mirrored or joint not in self.joints or self.joints[joint].type not in _OPPOSITE:
             return False
-        return coordinate.removesuffix("_rate") == "displacement" if coordinate else kind == "length"
+        opposite = _OPPOSITE[self.joints[joint].type]
+        return coordinate.removesuffix("_rate") == opposite if coordinate else kind == "length"
 
     def signal(self, path: str) -> Linear:
         """A signal of the part in terms of those of the placed part."""

@@ -17,7 +17,8 @@ class IntegratorFacts:
     motion as a residual, with exact tangents, and iterates by Newton's method alone; it solves them for accelerations and multipliers, or
     with `first_order` for the rates of the state; complex_shift : it also solves systems with complex shares of a step. step_residual :
     module of its residual, one over a whole step in absolute coordinates; empty: that at a time; step_residual_flexible : the same for
-    machines with flexible bodies. velocity_jumps : it ends its steps where speeds of drivers jump, and lets them.
+    machines with flexible bodies. velocity_jumps : it ends its steps where speeds of drivers jump, and lets them. circuit_tangent : it needs
+    the derivatives of circuits by hand.
     """
 
     module: str
@@ -34,6 +35,7 @@ class IntegratorFacts:
     step_residual: str = ""
     step_residual_flexible: str = ""
     velocity_jumps: bool = False
+    circuit_tangent: bool = False
 
     def over_step(self, flexible: bool) -> str:
         """Module of its residual over a whole step for machines with or without flexible bodies; empty: none."""
@@ -133,6 +135,17 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
 
 # in place of those of the same name for machines whose only stiffness is that of modes, in relative coordinates: without tangents
 BY_MODES: dict[str, IntegratorFacts] = {"ros2": IntegratorFacts("nivel.integrate.modal_rosenbrock", "ros2", 2, 2)}
+# the same for machines whose only stiffness is that of circuits, with rigid bodies and with flexible ones: with tangents by hand
+BY_CIRCUITS: dict[str, IntegratorFacts] = {
+    "extrapolated-euler": IntegratorFacts(
+        "nivel.integrate.circuit_euler", "circuit_euler", 4, 2, implicit=True, circuit_tangent=True
+    )
+}
+BY_FLEXIBLE_CIRCUITS: dict[str, IntegratorFacts] = {
+    "extrapolated-euler": IntegratorFacts(
+        "nivel.integrate.flexible_circuit_euler", "flexible_circuit_euler", 4, 2, implicit=True, circuit_tangent=True
+    )
+}
 
 
 def chooses(integrator: str, step_control: str) -> bool:

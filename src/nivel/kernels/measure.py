@@ -10,6 +10,7 @@ from nivel.kernels.coordinate import ALONG
 from nivel.kernels.coordinate import measure as measure_one
 from nivel.kernels.hook import ACCEPTED, ACTIVE, SHOWN, call_hook, family
 from nivel.kernels.record import RAIL, record_at
+from nivel.kernels.rolling import CONTACT, rolling
 from nivel.kernels.status import OK
 
 
@@ -26,7 +27,10 @@ def measure(machine, job, t):
     count = coordinates.reference.shape[0] if job == SHOWN else listed.shape[0]
     for n in range(count):
         k = n if job == SHOWN else np.int64(listed[n])
-        if coordinates.what[k, 0] >= ALONG:
+        if coordinates.what[k, 0] >= CONTACT:
+            value, rate, bias = rolling(record.bodies, record.markers, coordinates, k)
+            coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
+        elif coordinates.what[k, 0] >= ALONG:
             status = call_hook(machine, RAIL, k, t)
             if status != OK:
                 return status

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from nivel.kernels.arrays import A1, F1, F2, F3, U1, U2, W1, W2, W3
 from nivel.kernels.beam_record import BeamTangent, PointInertia, SharedMass
+from nivel.kernels.circuit_record import CircuitTangent
 from nivel.kernels.flexible_record import Flexible, ModalTree
 from nivel.kernels.handle import reader
 from nivel.kernels.implicit_record import Newton, Residual
@@ -202,6 +203,7 @@ class Circuit(NamedTuple):
     inflow: W1  # (N,) [W] enthalpy that flows into gas
     power: W1  # (4,) supplied to the fluid, given to bodies, dissipated [W]; taken from tanks [kg/s]
     stored: W1  # (1,) [J] in the fluid, in elastic walls and in accumulators
+    tangent: CircuitTangent
 
 
 class Outputs(NamedTuple):

@@ -110,7 +110,7 @@ class Datagrams:
         if not self._allowance.spend():
             counts.excessive += 1
             return
-        size = len(self._session.live.target)
+        size = len(self._session.inputs)
         if len(content) != HEAD.size + 8 * size:
             counts.malformed += 1
             return

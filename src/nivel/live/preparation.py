@@ -18,6 +18,7 @@ from nivel.integrate.loop import advance
 from nivel.integrate.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
 from nivel.integrate.run import Run
 from nivel.kernels.handle import Handle
+from nivel.live.hand import COUNT, PULL, with_hand
 from nivel.live.shared import Sizes
 from nivel.machine import MachineRecord, Table
 from nivel.machine.changes import changed
@@ -58,12 +59,13 @@ def pace_of(step: float, tick: float | None) -> Pace:
 
 
 def live_plan(machine: MachineRecord, settings: Mapping[str, Any], tick: float | None) -> tuple[Plan, Pace]:
-    """The run of a live machine: inputs that an operator sets, fixed steps, a frame every sixtieth of a second.
+    """The run of a live machine: inputs that an operator sets, a hand, fixed steps, a frame every sixtieth of a second.
 
     Raises ModelError where the machine has no inputs to drive it, or its integrator chooses its steps.
     """
     if not sys.platform.startswith("linux"):
         raise ModelError("live operation needs the absolute deadlines of Linux, which this system does not have")
+    machine = with_hand(machine)
     driven = [each.replace(signal=Table((0.0, 1.0), (each.rest_value, each.rest_value))) for each in machine.inputs]
     # limits hold for what an operator does; this table is at rest
     simulation = changed(machine.simulation, {**settings, "duration": LONGEST})
@@ -105,6 +107,8 @@ class LiveRun:
         for k, each in enumerate(self.plan.machine.inputs):
             live.limit[k, [LOW, HIGH, RATE, REST]] = *each.range, each.rate or np.inf, each.rest_value
             live.target[k] = live.value[k] = each.rest_value
+        # a hand that lets go stays where it is
+        live.limit[PULL + 1 - COUNT :, REST] = np.nan
         loop, session = self.loop, Handle(live)
         codes = [entry.address for entry in (advance, loop.evaluate, loop.correct, loop.step)]
 

@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 from nivel.analysis.plan import Plan
 from nivel.errors import Fault, ModelError
 from nivel.integrate.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
-from nivel.live import shared
+from nivel.live import hand, shared
 from nivel.live.preparation import Pace
 from nivel.live.recorder import Recorder
 from nivel.live.shared import Sizes, bytes_of, copy_of, live_in
 from nivel.live.solver import Told, main
 from nivel.live.timing import Timing, timing_of
+from nivel.machine import Input
 
 Array = NDArray[np.float64]
 POLL: Final = 0.004  # s between two looks for a new frame
@@ -145,11 +146,26 @@ class Session:
 
     # --- what it is told ---
 
+    @property
+    def inputs(self) -> tuple[Input, ...]:
+        """Those of the machine; the hand has further ones."""
+        return self.plan.machine.inputs[: -hand.COUNT]
+
     def operate(self, values: Sequence[float]) -> None:
-        """The operator wants these values, in the order of the machine's inputs."""
-        if len(values) == len(self.live.target):
-            self.live.target[:] = values
+        """The operator wants these values, in the order of `inputs`."""
+        if len(values) == len(self.inputs):
+            self.live.target[: len(values)] = values
             self.live.control[HEARD] = time.clock_gettime_ns(time.CLOCK_MONOTONIC)
+
+    def hold(self, body: int, point: Sequence[float], towards: Sequence[float]) -> None:
+        """The hand pulls a point of a body, in its frame, towards a point in space [m]; said again and again, as `operate`."""
+        if 0 <= body < len(self.plan.machine.bodies):
+            own = slice(-hand.COUNT, None)
+            self.live.target[own] = hand.grip(self.live.value[own].tolist(), body, point, towards)
+
+    def let_go(self) -> None:
+        """The hand pulls no more."""
+        self.live.target[hand.PULL - hand.COUNT] = 0.0
 
     def set_speed(self, speed: float) -> None:
         """Simulated over real time, at most 1."""
@@ -200,4 +216,4 @@ class Session:
 
     def values(self) -> Mapping[str, float]:
         """The inputs as they are now."""
-        return dict(zip((each.name for each in self.plan.machine.inputs), self.live.value.tolist(), strict=True))
+        return dict(zip((each.name for each in self.inputs), self.live.value.tolist(), strict=False))

@@ -15,7 +15,7 @@ from nivel.machine import Input
 from nivel.system.layout import FrameLayout, Variable
 from nivel.view import frames
 from nivel.view.package import Block, to_bytes
-from nivel.view.records import PROTOCOL, Command, Control, Drive, Gauge, Note, Package, Status, Take
+from nivel.view.records import PROTOCOL, Command, Control, Drive, Gauge, Hold, Note, Package, Status, Take
 from nivel.view.sources import Still, machine_stage
 
 Array = NDArray[np.float64]
@@ -50,7 +50,7 @@ class LiveSource(Still):
             str(attributes["machine"]), _Pose(scene, self._places, self._session.newest), record, block
         )
         self._origin = np.array(stage.origin)
-        controls = [control(each) for each in self._session.plan.machine.inputs]
+        controls = [control(each) for each in self._session.inputs]
         shown = [Gauge(name, variable.units) for name, variable in self._gauges]
         return to_bytes(Package(PROTOCOL, "live", [stage], controls, shown), block)
 
@@ -66,11 +66,13 @@ class LiveSource(Still):
         if newest is None:
             return None
         row = self._places.row(newest, self._origin)
-        return float(newest[0]), np.concatenate([row, newest[self._columns], self._session.live.value])
+        return float(newest[0]), np.concatenate(
+            [row, newest[self._columns], self._session.live.value[: len(self._session.inputs)]]
+        )
 
     # --- operators ---
 
-    def hear(self, page: object, said: Drive | Take | Command) -> Note | None:
+    def hear(self, page: object, said: Drive | Hold | Take | Command) -> Note | None:
         match said:
             case Take(on=on):
                 return self._take(page, on != 0)
@@ -78,6 +80,13 @@ class LiveSource(Still):
                 if page is self._driver:
                     self._heard = time.monotonic()
                     self._session.operate(values)
+                return None
+            case Hold(body=body, point=point, towards=towards, on=on):
+                if page is self._driver and len(point) == len(towards) == 3:
+                    if on:
+                        self._session.hold(body, point, (np.array(towards) + self._origin).tolist())
+                    else:
+                        self._session.let_go()
                 return None
             case Command(word=word, number=number):
                 return self._command(page, word, number)
@@ -91,6 +100,7 @@ class LiveSource(Still):
                 self._driver, self._heard = page, time.monotonic()
             elif page is self._driver:
                 self._driver = None
+                self._session.let_go()
         return None
 
     def _command(self, page: object, word: str, number: float) -> Note | None:
@@ -106,6 +116,7 @@ class LiveSource(Still):
         with self._lock:
             if page is self._driver:
                 self._driver = None
+                self._session.let_go()
 
     def status(self, page: object, dropped: int) -> Status | None:
         session = self._session

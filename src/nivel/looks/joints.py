@@ -9,7 +9,12 @@ import numpy as np
 from nivel.looks.poses import Array, Pose
 
 ON_RAIL = ("translational", "cylindrical", "screw")  # drawn where the moving body is
-ON_FIRST = ("planar", "point-on-line", "point-on-plane")  # a point of the second body on a line or plane of the first
+ON_FIRST = (
+    "planar",
+    "point-on-line",
+    "point-on-plane",
+    "rolling",
+)  # a point of the second body on a line or plane of the first
 # along a beam, whose node in the joint is only where it began
 SLIDING_ON_BEAMS = ("point-on-beam", "keyed-on-beam", "cylindrical-on-beam", "translational-on-beam")
 # massless links between two bodies, and the joints at their ends

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.looks.solids import reach
+from nivel.looks.solids import reach_of, shapes_of
 
 Array = NDArray[np.float64]
 
@@ -31,12 +31,11 @@ def attached(scene: dict[str, Any], body: str) -> list[list[float]]:
 
 def link_ends(body: dict[str, Any], held: Array) -> Array:
     """(m, 3) [m] those of the points `held` (n, 3) to which links lead: all without a shape, else those that lie outside of it."""
-    return held[_outside(body["shape"], held)] if body.get("shape") else held
+    return held[_outside(reach_of(body), held)] if shapes_of(body) else held
 
 
-def _outside(shape: dict[str, Any], points: Array) -> NDArray[np.bool_]:
-    """Which points (n, 3) of the body frame lie outside the box around the shape."""
-    extent = reach(shape)
+def _outside(extent: Array, points: Array) -> NDArray[np.bool_]:
+    """Which points (n, 3) of the body frame lie outside the box around others."""
     slack = 1e-3 * np.ptp(extent, axis=0).max()
     low, high = extent.min(axis=0) - slack, extent.max(axis=0) + slack
     return np.any((points < low) | (points > high), axis=1)

@@ -64,6 +64,16 @@ def solid(shape: dict[str, Any], facets: int = FACETS) -> list[Face] | Ball:
     return faces
 
 
+def shapes_of(body: dict[str, Any]) -> list[dict[str, Any]]:
+    """All shapes by which a body of the scene is drawn: its own, and its further looks."""
+    return [*([body["shape"]] if body.get("shape") else []), *body.get("looks", ())]
+
+
+def reach_of(body: dict[str, Any]) -> Array:
+    """(n, 3) [m] as `reach`, of all shapes of a body; none where it has none."""
+    return np.concatenate([np.empty((0, 3)), *(reach(each) for each in shapes_of(body))])
+
+
 def reach(shape: dict[str, Any]) -> Array:
     """(n, 3) [m] points in the body frame whose extent is that of the shape."""
     if shape["type"] == "mesh":

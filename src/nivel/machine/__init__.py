@@ -24,6 +24,7 @@ from nivel.machine.forces import (
     Servo,
     SpringDamper,
     Stop,
+    ThreeAxisSpring,
     Torque,
     TorsionalSpringDamper,
 )
@@ -96,6 +97,7 @@ __all__ = [
     "State",
     "Stop",
     "Table",
+    "ThreeAxisSpring",
     "TimeFunction",
     "Torque",
     "TorsionalSpringDamper",

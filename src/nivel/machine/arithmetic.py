@@ -179,7 +179,7 @@ COMPARISONS: Final = ("<", "<=", ">", ">=")
 LOGICAL: Final = ("and", "or")
 TIME: Final = "time"
 RESERVED: Final = frozenset({TIME, LOOKUP, *LOGICAL, *CONSTANTS, *FUNCTIONS})
-LOCAL_SYMBOLS: Final = ("length", "angle", "value", "rate")  # where a spring's law may use them they are signals
+LOCAL_SYMBOLS: Final = ("length", "angle", "value", "depth", "rate")  # where a law may use them they are signals
 
 
 def finite(value: SupportsFloat) -> float:

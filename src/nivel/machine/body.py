@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import PositiveNumber, Truth
 from nivel.machine.flexibility import FlexibleBody
 from nivel.machine.inertia import InertiaTensor, impossible, mass_properties
 from nivel.machine.orientation import Orientation
-from nivel.machine.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector
+from nivel.machine.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector, listed
 from nivel.machine.record import GROUND, Name
 from nivel.machine.shape import Mesh, Shape, Sphere
 from nivel.machine.solids import volume, why_not_solid
@@ -39,7 +39,7 @@ class Body(Checked):
     """
 
     collection: ClassVar[str] = "bodies"
-    tagged = {"shape": 1}  # noqa: RUF012
+    tagged = {"shape": 1, "looks": 2}  # noqa: RUF012
 
     name: Name
     mass: Mass | None = None
@@ -58,6 +58,9 @@ class Body(Checked):
     angular_velocity: AngularVelocityVector | None = Field(default=None, description="global axes")
     angular_velocity_body: AngularVelocityVector | None = Field(default=None, description="body axes")
     shape: Shape | None = None
+    looks: Annotated[tuple[Shape, ...], BeforeValidator(listed)] = Field(
+        default=(), description="further solids that are drawn, in the body frame; they have no mass and touch nothing"
+    )
     density: Density | None = None
     flexible: FlexibleBody | None = Field(
         default=None, description="modes by which it bends; its mass is in their file"
@@ -69,6 +72,7 @@ class Body(Checked):
     def problems(self) -> Iterator[Problem]:
         if self.name == GROUND:
             yield Problem((), f"`{GROUND}` is the fixed world and cannot be a body")
+        yield from self._problems_of_looks()
         if self.point_mass:
             yield from self._problems_of_point_mass()
             return
@@ -83,6 +87,15 @@ class Body(Checked):
                 if getattr(self, name) is not None:
                     yield superfluous(name, "follows from the shape's `from` and `to` and must not be given")
         yield from self._problems_of_density()
+
+    def _problems_of_looks(self) -> Iterator[Problem]:
+        for k, each in enumerate(self.looks):
+            if isinstance(each, Mesh):
+                yield Problem(("looks", k), "a mesh is a `shape`; `looks` are solids of a few numbers")
+            elif not isinstance(each, Sphere) and each.from_ is not None:
+                yield Problem(
+                    ("looks", k), "`looks` stand in the body frame, at their `centre`: `from` and `to` are global"
+                )
 
     def _problems_of_point_mass(self) -> Iterator[Problem]:
         if self.mass is None:

@@ -89,6 +89,8 @@ KINDS: Final[dict[str, tuple[str, str, Dimension]]] = {
     "second moment of area": ("a second moment of area", "m^4", dimension(m=4)),
     "pressure": ("a pressure", "Pa", dimension(kg=1, m=-1, s=-2)),
     "volume flow": ("a volume flow", "m^3/s", dimension(m=3, s=-1)),
+    "temperature": ("a temperature", "K", dimension(K=1)),
+    "thermal conductance": ("a thermal conductance", "W/K", dimension(kg=1, m=2, s=-3, K=-1)),
     "displacement": ("a volume per angle", "m^3/rad", dimension(m=3, rad=-1)),
     "leakage": ("a leakage", "m^3/(s*Pa)", dimension(m=4, s=1, kg=-1)),
     "kinematic viscosity": ("a kinematic viscosity", "m^2/s", dimension(m=2, s=-1)),

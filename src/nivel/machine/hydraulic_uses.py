@@ -7,6 +7,7 @@ from typing import Any, Final
 
 from nivel.machine.arithmetic import Parameters
 from nivel.machine.coordinate_reference import UnknownCoordinateError, find, unknown_name
+from nivel.machine.hydraulic_fluids import fluid_faults
 from nivel.machine.hydraulics import COMPONENT_OF
 from nivel.machine.index import Index, Place, as_list, elements
 from nivel.machine.record import entry
@@ -38,6 +39,7 @@ def hydraulic_faults(machine: Any, index: Index, parameters: Parameters) -> Faul
     for at, component in enumerate(components):
         yield from _unconnected(component, used, ("hydraulics", at))
     yield from _unrelieved(components, nodes)
+    yield from fluid_faults(machine, makers(components))
 
 
 def node_types(components: Any) -> dict[str, str]:
@@ -54,6 +56,11 @@ def node_types(components: Any) -> dict[str, str]:
             if not attached and not (single and node == ".B"):
                 out[f"{name}{node}"] = type_
     return out
+
+
+def makers(components: Any) -> dict[str, Any]:
+    """The component that makes each node."""
+    return {node: component for component in components for node in node_types([component])}
 
 
 def ports_of(component: Any) -> Mapping[str, str]:

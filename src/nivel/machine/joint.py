@@ -40,6 +40,7 @@ JointType = Literal[
     "revolute-spherical",
     "revolute-cylindrical",
     "revolute-translational",
+    "rolling",
     "point-on-beam",
     "keyed-on-beam",
     "cylindrical-on-beam",
@@ -96,6 +97,7 @@ JOINT_KINDS: Final[dict[str, JointKind]] = {
     "revolute-spherical": JointKind(("points", "axis"), ("angle",), may=("x_axis",)),
     "revolute-cylindrical": JointKind(("points", "axes")),
     "revolute-translational": JointKind(("point", "axes"), ("angle", "displacement"), axes="not parallel"),
+    "rolling": JointKind(("points", "axes"), ("x", "y"), may=("x_axis",), size=("radius",), may_size=("rim_radius",)),
     "point-on-beam": _ON_BEAM,
     "keyed-on-beam": _ON_BEAM,
     "cylindrical-on-beam": _ON_BEAM,
@@ -104,13 +106,14 @@ JOINT_KINDS: Final[dict[str, JointKind]] = {
 JOINT_COORDINATES: Final = {name: kind.coordinates for name, kind in JOINT_KINDS.items()}
 
 _PLACE: Final = ("point", "interface", "points", "axis", "axes", "x_axis")
-_SIZE: Final = ("pitch", "distance", "locked")
+_SIZE: Final = ("pitch", "distance", "locked", "radius", "rim_radius")
 _INSTEAD: Final = {"point": "points", "points": "point", "axis": "axes", "axes": "axis"}
 _WANTED: Final = {
     "point": "one",
     "points": "two, one on each body",
     "axis": "one, e.g. [0, 0, 1]",
     "axes": "two, e.g. [[0, 1, 0], [0, 0, 1]]",
+    "radius": "one: from the axle to the outermost points of the rim",
     "pitch": "one: the advance per turn, e.g. 5 mm",
     "locked": "a list of the motions that it does not allow, e.g. [x, y, rx, ry]",
 }
@@ -182,6 +185,11 @@ class Joint(Checked):
     )
     pitch: Length | None = Field(default=None, description="of a screw, advance per turn; negative: left-handed")
     distance: PositiveLength | None = Field(default=None, description="held between the points; default as placed")
+    radius: PositiveLength | None = Field(default=None, description="of a wheel that rolls, at its outermost points")
+    rim_radius: Length | None = Field(
+        default=None,
+        description="of its rim where it touches, in a section through the axle; default 0, a sharp edge; as large as `radius`: a ball",
+    )
     locked: tuple[Motion, ...] | None = Field(
         default=None,
         description="of a generic joint: motions that it does not allow, x y z along and rx ry rz about the axes of its first marker",
@@ -202,7 +210,7 @@ class Joint(Checked):
     @property
     def x_direction(self) -> Triple | None:
         """Where the joint's x axis points, global: as given, or to the second of two points; None: as for any axis."""
-        if self.x_axis is not None or self.points is None:
+        if self.x_axis is not None or self.points is None or self.type == "rolling":
             return self.x_axis
         return _line(self.points)
 
@@ -223,7 +231,28 @@ class Joint(Checked):
             yield Problem(("pitch",), "`pitch` is zero: a joint that only turns is revolute")
         if self.locked is not None:
             yield from self._problems_of_locked(self.locked)
+        yield from self._problems_of_rim()
+        if self.type == "rolling":
+            yield from self._problems_of_plane()
         yield from self._problems_of_start(kind)
+
+    def _problems_of_rim(self) -> Iterator[Problem]:
+        radius, rim = self.radius, self.rim_radius
+        if rim is not None and rim < 0.0:
+            yield Problem(("rim_radius",), f"`rim_radius` is {rim:.6g} m, less than zero; zero is a sharp edge")
+        if rim is not None and radius is not None and rim > radius:
+            message = f"`rim_radius` is {rim:.6g} m, more than the `radius` of the wheel, {radius:.6g} m"
+            yield Problem(("rim_radius",), message)
+
+    def _problems_of_plane(self) -> Iterator[Problem]:
+        if self.x_axis is None or self.axes is None or not any(self.axes[0]):
+            return
+        zero = list(no_direction("x_axis", self.x_axis))
+        yield from zero
+        if not zero and parallel(self.axes[0], self.x_axis):
+            yield Problem(
+                ("x_axis",), "`x_axis` is parallel to the plane's normal, the first of `axes`; it must point elsewhere"
+            )
 
     def _problems_of_locked(self, locked: tuple[str, ...]) -> Iterator[Problem]:
         twice = [name for name, count in Counter(locked).items() if count > 1]
@@ -278,7 +307,14 @@ class Joint(Checked):
         same = points[0] == points[1]
         if self.axis is not None and any(self.axis) and not same and _along(self.axis, points):
             yield Problem(("points",), "the second of the `points` lies on the `axis`: nothing turns about it")
-        if self.axes is not None and all(map(any, self.axes)) and parallel(*self.axes) and _along(self.axes[0], points):
+        if self.axes is None or not all(map(any, self.axes)) or not parallel(*self.axes):
+            return
+        if self.type == "rolling":
+            if self.rim_radius != self.radius:
+                yield Problem(
+                    ("axes",), "the two `axes`, the plane's normal and the axle, are parallel: the wheel lies flat"
+                )
+        elif _along(self.axes[0], points):
             yield Problem(("axes",), "the two `axes` are one line: that is a cylindrical joint, without a link")
 
     def _problems_of_axes(self, kind: JointKind) -> Iterator[Problem]:

@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import Annotated, Any, Final, Self
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import (
     BeforeValidator,
     ModelWrapValidatorHandler,
@@ -27,11 +29,13 @@ from nivel.machine.coupling import Coupling
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
 from nivel.machine.forces import Force
-from nivel.machine.hydraulics import Fluid, HydraulicComponent
+from nivel.machine.hydraulics import AnyFluid, HydraulicComponent
 from nivel.machine.input import Input
 from nivel.machine.interface_uses import problems_of_interfaces
 from nivel.machine.joint import Joint
 from nivel.machine.marker import Marker
+from nivel.machine.orientation import matrix_from_euler_parameters
+from nivel.machine.placement import placement
 from nivel.machine.point_masses import problems_of_points
 from nivel.machine.quantity import AccelerationVector, fault, parameters_of, shown
 from nivel.machine.record import entry, restated
@@ -67,7 +71,7 @@ Title = Annotated[str, BeforeValidator(_title), WithJsonSchema({"type": "string"
 class MachineRecord(Checked):
     """Everything nivel is told about a machine. SI, angles in radians."""
 
-    tagged = {"couplings": 2, "forces": 2, "hydraulics": 2, "control": 2}  # noqa: RUF012
+    tagged = {"couplings": 2, "forces": 2, "fluids": 2, "hydraulics": 2, "control": 2}  # noqa: RUF012
 
     name: Title
     description: str = ""
@@ -79,7 +83,7 @@ class MachineRecord(Checked):
     couplings: tuple[Coupling, ...] = ()
     drivers: tuple[Driver, ...] = ()
     forces: tuple[Force, ...] = ()
-    fluids: tuple[Fluid, ...] = ()
+    fluids: tuple[AnyFluid, ...] = ()
     hydraulics: tuple[HydraulicComponent, ...] = ()
     inputs: tuple[Input, ...] = ()
     states: tuple[State, ...] = ()
@@ -93,6 +97,12 @@ class MachineRecord(Checked):
     def body_named(self) -> Mapping[str, Body]:
         """The bodies by name."""
         return {body.name: body for body in self.bodies}
+
+    @cached_property
+    def placed(self) -> Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Position (3,) [m] and rotation matrix (3, 3) of the frame of every body, global, as given (before assembly)."""
+        frames = {name: placement(body) for name, body in self.body_named.items()}
+        return {name: (position, matrix_from_euler_parameters(theta)) for name, (position, theta) in frames.items()}
 
     @cached_property
     def marker_named(self) -> Mapping[str, Marker]:

@@ -45,7 +45,7 @@ def signal_dimensions(path: str) -> tuple[Dimension, ...]:
     """What the signal `path` may measure, by its last name; empty where that name does not tell."""
     last = path.rpartition(".")[2]
     match last:
-        case "displacement" | "distance" | "length" | "bristle" | "x" | "y" | "z":
+        case "displacement" | "distance" | "length" | "depth" | "bristle" | "x" | "y" | "z":
             return (_METRE,)
         case "vx" | "vy" | "vz":
             return (_SPEED,)

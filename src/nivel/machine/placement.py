@@ -46,8 +46,9 @@ def initial_velocity(body: Body) -> tuple[Array, Array]:
     velocity = np.array(body.velocity)
     if body.angular_velocity_body is not None:
         return velocity, np.array(body.angular_velocity_body)
-    to_global = matrix_from_euler_parameters(placement(body)[1])
-    return velocity, to_global.T @ np.array(body.angular_velocity or (0.0, 0.0, 0.0))
+    if body.angular_velocity is None:
+        return velocity, np.zeros(3)
+    return velocity, matrix_from_euler_parameters(placement(body)[1]).T @ np.array(body.angular_velocity)
 
 
 def marker_frame(marker: Marker) -> tuple[Array, Array]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from nivel.machine.checked import Problem
-from nivel.machine.forces import FORCES, Between, PointForce
+from nivel.machine.forces import FORCES, Between, PointForce, Rope
 from nivel.machine.index import Index, Place, as_list, elements
 from nivel.machine.marker import Marker
 from nivel.machine.record import entry
@@ -97,12 +97,14 @@ def problems_of_points(machine: MachineRecord) -> Iterator[Problem]:
     for at, marker in enumerate(machine.markers):
         yield from _off(marker.body, marker.position, origins, ("markers", at, "position"))
     for at, joint in enumerate(machine.joints):
-        yield from _off_pair(joint.markers, joint.bodies, joint.points or _twice(joint.point), origins, ("joints", at))
+        yield from _off_points(
+            joint.markers, joint.bodies, joint.points or _twice(joint.point), origins, ("joints", at)
+        )
     for at, force in enumerate(machine.forces):
         if isinstance(force, PointForce) and force.body is not None:
             yield from _off(force.body, force.position or (0.0, 0.0, 0.0), origins, ("forces", at, "position"))
-        if isinstance(force, Between):
-            yield from _off_pair(force.markers, force.bodies, force.points, origins, ("forces", at))
+        if isinstance(force, Between | Rope):
+            yield from _off_points(force.markers, force.bodies, force.points, origins, ("forces", at))
     for at, sensor in enumerate(machine.sensors):
         for form in ("distance", "angle"):
             for end, marker in enumerate(getattr(sensor, form) or ()):
@@ -114,8 +116,8 @@ def _twice(point: Triple | None) -> tuple[Triple, Triple] | None:
     return None if point is None else (point, point)
 
 
-def _off_pair(
-    markers: Any, bodies: tuple[str, str] | None, points: tuple[Triple, Triple] | None, origins: Any, place: Place
+def _off_points(
+    markers: Any, bodies: tuple[str, ...] | None, points: tuple[Triple, ...] | None, origins: Any, place: Place
 ) -> Iterator[Problem]:
     for at, marker in enumerate(markers or ()):
         if isinstance(marker, Marker):

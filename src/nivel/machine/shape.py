@@ -13,6 +13,7 @@ from typing import Annotated, Any, Final, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
+from nivel.machine.colour import Colour
 from nivel.machine.orientation import Orientation
 from nivel.machine.polygon import bad_outline
 from nivel.machine.quantity import Length, Position, PositiveLength, fault, listed
@@ -29,7 +30,15 @@ _TO = Field(default=None, description="global point to which the body x axis poi
 _CENTRE = Field(default=None, description="centre of the shape in the body frame; default the origin")
 
 
-class _Between(Record):
+class _Coloured(Record):
+    """What is drawn."""
+
+    colour: Colour | None = Field(
+        default=None, description="a name or '#rrggbb'; default follows from the body's number"
+    )
+
+
+class _Between(_Coloured):
     """A shape that may be laid between two points."""
 
     from_: Position | None = _FROM
@@ -170,7 +179,7 @@ class Extrusion(_Between):
         return self
 
 
-class Mesh(Record):
+class Mesh(_Coloured):
     """A surface of triangles from a `file`: STL, OBJ or glTF. With a density or mass it must be closed.
 
     `surface` holds the triangles (surface.py) in the axes and the unit of the file; it is filled when the machine file is read, in
@@ -204,7 +213,7 @@ class Mesh(Record):
         return [(name, value) for name, value in super().__repr_args__() if name != "surface"]
 
 
-class Sphere(Record):
+class Sphere(_Coloured):
     """A solid ball: `radius`."""
 
     type: Literal["sphere"] = "sphere"

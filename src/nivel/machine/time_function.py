@@ -208,3 +208,5 @@ Measured = Annotated[TimeFunction, varying(ANY)]
 # Laws of springs: what the spring measures has a name of its own.
 SpringForce = Annotated[TimeFunction, varying("force", local=("length", "rate"))]
 SpringTorque = Annotated[TimeFunction, varying("torque", local=("angle", "rate"))]
+# Laws of contacts: overlap and its rate at each point that touches.
+ContactForce = Annotated[TimeFunction, varying("force", local=("depth", "rate"))]

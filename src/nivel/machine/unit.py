@@ -77,7 +77,7 @@ UNITS: dict[str, Unit] = {
     "bar": Unit(1e5, _PRESSURE),
 }
 # known without pint, but free as names of parameters
-_VOLUMES: dict[str, Unit] = dict.fromkeys(("L", "l"), Unit(1e-3, dimension(m=3)))
+_FREE: dict[str, Unit] = {**dict.fromkeys(("L", "l"), Unit(1e-3, dimension(m=3))), "K": Unit(1.0, dimension(K=1))}
 
 
 @cache
@@ -86,7 +86,7 @@ def unit(name: str) -> Unit:
 
     Raises UnknownUnitError, with the nearest known name in its message.
     """
-    found = UNITS.get(name) or _VOLUMES.get(name) or _ask_pint(name)
+    found = UNITS.get(name) or _FREE.get(name) or _ask_pint(name)
     if found is None:
         near = get_close_matches(name, UNITS, n=1, cutoff=0.5)
         hint = f"; did you mean `{near[0]}`?" if near else ""

@@ -8,7 +8,7 @@ import numpy as np
 
 from nivel.looks.links import link_ends
 from nivel.looks.poses import Array, Pose, in_space
-from nivel.looks.solids import Ball, Face, solid
+from nivel.looks.solids import Ball, Face, shapes_of, solid
 from nivel.looks.sweeps import sweep_faces
 from nivel.report.drawing import Drawing
 from nivel.report.frame import Frame
@@ -26,8 +26,10 @@ def draw_body(
     drawing.labels.append(Label(body["name"], x, y, "body"))
     joints = held
     width = 6.6 * frame.sign
-    if body.get("shape"):
-        _draw_solid(drawing, frame, solid(body["shape"], facets), pose, colour)
+    shapes = shapes_of(body)
+    for shape in shapes:
+        _draw_solid(drawing, frame, solid(shape, facets), pose, shape.get("colour", colour))
+    if shapes:
         drawing.lines += [frame.pixels(np.stack([centre, joint])) for joint in in_space(pose, joints)]
         joints, width = link_ends(body, joints), 3.4 * frame.sign  # a shape need not reach its joints
     else:
@@ -38,7 +40,7 @@ def draw_body(
         (x1, y1), (x2, y2) = frame.pixels(ends)
         line = f'x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke-linecap="round"'
         depths = frame.view.depth(ends)
-        dark, depth = mixed(colour, 0.0, 0.35), float(depths.min() if body.get("shape") else depths.mean())
+        dark, depth = mixed(colour, 0.0, 0.35), float(depths.min() if shapes else depths.mean())
         drawing.parts.append((depth - 1e-9, f'<line {line} stroke="{dark}" stroke-width="{width + 2.4:.1f}"/>'))
         drawing.parts.append((depth, f'<line {line} stroke="{colour}" stroke-width="{width:.1f}"/>'))
         drawing.lines.append(frame.pixels(ends))

@@ -11,7 +11,7 @@ from nivel.looks.poses import Array, Pose, ends_in_space
 from nivel.report.drawing import Drawing
 from nivel.report.frame import Frame
 from nivel.report.labels import Label
-from nivel.report.strokes import coil_sign, dashed_sign, ground_sign, plane_sign, spring_sign
+from nivel.report.strokes import coil_sign, cylinder_sign, dashed_sign, ground_sign, plane_sign, rope_sign, spring_sign
 from nivel.report.symbols import END_ON
 
 FAR = 20.0  # a plane further away than this many lengths of the machine is left out
@@ -40,6 +40,11 @@ def draw_force(drawing: Drawing, frame: Frame, force: dict[str, Any], poses: dic
             sign = spring_sign((x1, y1), (x2, y2), frame.sign)
         case "torsional-spring-damper":
             sign = coil_sign(x1, y1, frame.sign)
+        case "cylinder":
+            barrel, rod, long = (float(each) * frame.scale for each in force["sizes"])
+            sign = cylinder_sign((x1, y1), (x2, y2), long, 2.0 * barrel, 2.0 * rod)
+        case "rope":
+            sign = rope_sign((x1, y1), (x2, y2))
         case _:
             sign = dashed_sign((x1, y1), (x2, y2))
     title = f"{force['name']}: {force['type']}, {force['bodies'][0]} – {force['bodies'][1]}"

@@ -116,6 +116,17 @@
     ctx.restore();
   }
 
+  // pressures in the diagram of a circuit: of the frame at the cursor, at first and without a cursor those of the first one
+  const shown = [...document.querySelectorAll("[data-pressure]")].map((place) => {
+    const curves = data.panels.flatMap((panel) => panel.groups.filter((group) => group.unit === "bar").flatMap((group) => group.curves));
+    return { place, curve: curves.find((curve) => curve.label === place.dataset.pressure) };
+  });
+  function showPressures(index) {
+    for (const { place, curve } of shown) {
+      if (curve) place.textContent = `${+(values(curve, false)[index ?? 0] ?? 0).toPrecision(4)} bar`;
+    }
+  }
+
   const plots = new Map();
 
   function setRange(min, max, from) {
@@ -149,24 +160,56 @@
           stroke: () => colour(`tone-${/\d/.test(curve.tone) ? Number(curve.tone) % 8 : curve.tone}`),
           dash: Number(curve.tone) >= 8 ? [6, 4] : undefined,
           width: 1.6,
+          pxAlign: 0,
           points: { show: false },
-          value: (u, v) => (v == null ? "" : `${short(v)} ${group.unit === "1" ? "" : group.unit}`),
+          value: (u, v) => (v == null ? "" : quantity(v, group.unit)),
         })),
       ],
       hooks: {
         draw: [limitLines(group.limits), eventMarks],
         setScale: [(u, key) => key === "x" && u.ready && setRange(u.scales.x.min, u.scales.x.max, u)],
         ready: [(u) => { u.ready = true; }],
+        setCursor: [(u) => showPressures(u.cursor.idx)],
       },
     };
   }
 
+  // the value that a curve keeps, or null where it changes or has gaps
+  function constant(curve, floor) {
+    const all = values(curve, false);
+    let low = Infinity, high = -Infinity;
+    for (const v of all) {
+      if (v === null) return null;
+      low = Math.min(low, v);
+      high = Math.max(high, v);
+    }
+    return high - low <= Math.max(floor, 1e-7 * Math.max(Math.abs(low), Math.abs(high))) ? 0.5 * (low + high) : null;
+  }
+
+  // what is constant in a plot is said, and what changes is drawn
+  function parted(panel, group) {
+    if (panel.log || time.length < 2) return [group, ""];
+    const kept = group.curves.map((curve) => constant(curve, group.floor));
+    const said = group.curves
+      .map((curve, k) => [curve.label, kept[k]])
+      .filter(([, value]) => value !== null)
+      .map(([label, value]) => `${label} = ${quantity(Math.abs(value) <= group.floor ? 0 : value, group.unit)}`);
+    const moving = group.curves.filter((curve, k) => kept[k] === null);
+    return [{ ...group, curves: moving.length ? moving : group.curves }, said.length ? `Constant: ${said.join(", ")}.` : ""];
+  }
+
+  function quantity(v, unit) {
+    if (unit === "1") return short(v);
+    return unit === "rad" ? `${short(v)} rad (${short(+((v * 180) / Math.PI).toPrecision(4))}°)` : `${short(v)} ${unit}`;
+  }
+
   function build(card) {
     const panel = data.panels[card.dataset.panel];
-    const group = panel.groups[card.querySelector("select")?.value ?? 0];
+    const [group, said] = parted(panel, panel.groups[card.querySelector("select")?.value ?? 0]);
     const place = card.querySelector(".canvas");
     plots.get(card)?.destroy();
     card.querySelector(".unit").textContent = group.unit === "1" ? "" : `[${group.unit}]`;
+    card.querySelector(".constant").textContent = said;
     const lines = [time, ...group.curves.map((curve) => values(curve, panel.log))];
     const plot = new uPlot(options(panel, group, place.clientWidth || 400), lines, place);
     plots.set(card, plot);

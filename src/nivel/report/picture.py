@@ -11,7 +11,7 @@ from nivel.looks.colours import colour_of
 from nivel.looks.joints import ON_RAIL, sliding_axes, turning_axes
 from nivel.looks.links import held_points
 from nivel.looks.poses import Array, Pose, body_poses, in_space
-from nivel.looks.solids import FACETS, FEW_FACETS, FEWEST_FACETS, reach
+from nivel.looks.solids import FACETS, FEW_FACETS, FEWEST_FACETS, reach_of, shapes_of
 from nivel.looks.sweeps import rings, swept_bodies
 from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
@@ -40,6 +40,7 @@ STYLE = """
 .machine .spring path{fill:none;stroke:var(--ink);stroke-width:1.5;stroke-linejoin:round;stroke-linecap:round}
 .machine .spring .halo{stroke:var(--paper);stroke-width:4.2}
 .machine .pair-force{fill:none;stroke:var(--ink);stroke-width:1.2;stroke-dasharray:5 4}
+.machine .rope{fill:none;stroke:var(--ink);stroke-width:1.6;stroke-linecap:round}
 .machine .rod{stroke:var(--ink);stroke-linecap:round}.machine .rod.core{stroke:var(--rod)}
 .machine .leader{stroke:var(--soft);stroke-width:.8;fill:none}
 .machine .aid{fill:var(--soft);font-size:11px;font-weight:500}
@@ -100,7 +101,7 @@ def _skeleton(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
 
 def _shapes(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
     """(n, 3) points around the shapes."""
-    shapes = [in_space(poses[b["name"]], reach(b["shape"])) for b in scene["bodies"] if b.get("shape")]
+    shapes = [in_space(poses[b["name"]], reach_of(b)) for b in scene["bodies"] if shapes_of(b)]
     swept = [rings(sweep, poses, sweep["section"]).reshape(-1, 3) for sweep in scene.get("sweeps", [])]
     return np.concatenate([np.empty((0, 3)), *shapes, *swept])
 

@@ -74,6 +74,25 @@ def dashed_sign(first: Point, second: Point) -> str:
     return f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" class="pair-force"/>'
 
 
+def rope_sign(first: Point, second: Point) -> str:
+    """A line from point to point."""
+    (x1, y1), (x2, y2) = first, second
+    return f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" class="rope"/>'
+
+
+def cylinder_sign(first: Point, second: Point, barrel: float, wide: float, thin: float) -> str:
+    """A barrel of this length from the first point on, and a rod to the second one. wide, thin : their thickness; all in pixels."""
+    (x1, y1), (x2, y2) = first, second
+    share = min(barrel / max(math.hypot(x2 - x1, y2 - y1), 1e-9), 0.92)
+    x, y = x1 + share * (x2 - x1), y1 + share * (y2 - y1)
+    wide, thin = max(wide, 5.0), max(thin, 2.6)
+    return (
+        f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" class="rod" style="stroke-width:{thin:.1f}"/>'
+        f'<path d="M{x1:.1f} {y1:.1f}L{x:.1f} {y:.1f}" class="rod" style="stroke-width:{wide:.1f};stroke-linecap:butt"/>'
+        f'<path d="M{x1:.1f} {y1:.1f}L{x:.1f} {y:.1f}" class="rod core" style="stroke-width:{0.6 * wide:.1f};stroke-linecap:butt"/>'
+    )
+
+
 def rod_sign(first: Point, second: Point, scale: float = 1.0) -> str:
     """A massless link from point to point."""
     path = f"M{first[0]:.1f} {first[1]:.1f}L{second[0]:.1f} {second[1]:.1f}"

@@ -75,6 +75,12 @@ def _point_on_plane(seen: bool) -> str:
     return f'<path d="M{-PLANE_GAP} -15V15" class="axis"/><circle r="4.2" class="solid"/>'
 
 
+def _rolling(seen: bool) -> str:
+    if not seen:
+        return '<circle r="9"/><circle r="1.6" class="dot"/>'
+    return '<path d="M-9 -15V15" class="axis"/><circle r="9"/><circle r="1.6" class="dot"/>'
+
+
 def _screw(seen: bool) -> str:
     if not seen:
         return f'<circle r="{RADIUS}"/><path d="M3.4 0A3.4 3.4 0 1 1 0 -3.4" class="axis"/>'
@@ -128,6 +134,7 @@ SIGNS: dict[str, Callable[[bool], str]] = {
     "planar": _planar,
     "point-on-line": _point_on_line,
     "point-on-plane": _point_on_plane,
+    "rolling": _rolling,
     "screw": _screw,
     "distance": _rod(_BALL, _BALL),
     "spherical-spherical": _rod(_BALL, _BALL),
@@ -143,7 +150,7 @@ SIGNS: dict[str, Callable[[bool], str]] = {
     "cylindrical-on-beam": _on_beam('<rect x="-8" y="-5" width="16" height="10" rx="2.5"/>'),
     "translational-on-beam": _on_beam('<rect x="-8" y="-5" width="16" height="10" class="solid"/>'),
 }
-_ICON_AXES = {"planar": (0.0, -1.0), "point-on-plane": (0.0, -1.0)}  # on a level plane
+_ICON_AXES = {"planar": (0.0, -1.0), "point-on-plane": (0.0, -1.0), "rolling": (0.0, -1.0)}  # on a level plane
 _ICON_END_ON = ("revolute", "spherical", "universal", "fixed")
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from nivel.errors import ModelError
 from nivel.looks.poses import upwards
 from nivel.report.beam_shapes import beam_shapes
+from nivel.report.circuit.drawing import circuit_diagram
 from nivel.report.control_diagram import control_diagram
 from nivel.report.load_path import load_paths, vibration_table
 from nivel.report.panel import Group, Panel
@@ -58,6 +59,7 @@ def report_html(result: Result) -> str:
 
     environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters["number"] = number
+    environment.filters["quantity"] = quantity
     record = json.loads(str(result.attributes.get("machine_record", "{}")))
     shown = panels(result)
     motion, motion_left_out = _motion(result)
@@ -82,6 +84,7 @@ def report_html(result: Result) -> str:
         shapes=beam_shapes(result),
         peaks=peak_reactions(result),
         diagram=control_diagram(record),
+        circuit=circuit_diagram(record, _pressures(result)),
         icon=joint_icon,
         panels=shown,
         data=_data(result, shown),
@@ -102,6 +105,14 @@ def number(value: float, digits: int = 4) -> str:
     return f"{float(mantissa):g}e{int(exponent)}"
 
 
+def quantity(value: float, unit: str) -> str:
+    """A number with its unit for people: 32.5 kN, 122 kN m, 840 N."""
+    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if abs(value) >= factor and np.isfinite(value) and abs(value) < 1e12:
+            return f"{value / factor:.4g} {prefix}{unit}"
+    return f"{number(value)} {unit}"
+
+
 def _picture(result: Result, record: dict[str, Any]) -> str:
     """The machine in its first frame; up is against gravity, along the nearest axis."""
     if not len(result.time) or "position" not in result.variables:
@@ -109,6 +120,12 @@ def _picture(result: Result, record: dict[str, Any]) -> str:
     first = slice(0, 1)
     position, orientation = result.array("position", first)[0], result.array("orientation", first)[0]
     return machine_picture(result.scene, position, orientation, upwards(record.get("gravity")))
+
+
+def _pressures(result: Result) -> dict[str, float]:
+    """Pressures of circuits [Pa] in the first frame."""
+    names = [name for name in result.variables if name.startswith("hydraulics.") and ".pressure" in name]
+    return {name: float(result.array(name, slice(0, 1))[0]) for name in names} if len(result.time) else {}
 
 
 def _motion(result: Result) -> tuple[str, str]:

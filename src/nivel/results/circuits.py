@@ -104,6 +104,8 @@ def _cavitation_items(result: Readable) -> Iterator[Item]:
     for name in result.variables:
         if not name.startswith(START) or not name.rpartition(".")[2].startswith("pressure"):
             continue
+        if name.replace(".pressure", ".temperature") in result.variables:
+            continue  # gas may be thin
         pressure = _history(result, name)
         low = pressure < CAVITATES
         if np.any(low):

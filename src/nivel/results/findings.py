@@ -25,10 +25,24 @@ class Passage:
 
 
 @dataclass(frozen=True)
+class Fast:
+    """The fastest rate [1/s] of a machine and the part that it is of, the step [s] of a run, and the longest with which `method` holds
+    that rate [s]."""
+
+    part: str
+    rate: float
+    step: float
+    held: float
+    method: str
+
+
+@dataclass(frozen=True)
 class Findings:
-    """Each None, or empty, where it was not looked at; see the modules of their types. method : the integrator."""
+    """Each None, or empty, where it was not looked at; see the modules of their types. unseen : by steps. between : samples, of functions
+    that are sampled. method : the integrator."""
 
     unseen: Sequence[Unseen] = ()
+    between: Sequence[Unseen] = ()
     turn: Turn | None = None
     rounding: Rounding | None = None
     own: OwnError | None = None
@@ -43,6 +57,7 @@ class Findings:
 def finding_items(found: Findings) -> Iterator[Item]:
     """The lines of what is not green."""
     yield from _unseen_items(found.unseen)
+    yield from _sampling_items(found.between)
     if found.turn is not None:
         yield from _told(_turn_item(found.turn))
     if found.rounding is not None:
@@ -79,10 +94,28 @@ def _unseen_items(unseen: Sequence[Unseen]) -> Iterator[Item]:
     for each in told[:SHOWN]:
         by = "" if each.of == "time" else f" along {each.of}"
         said = f"the steps miss {number(min(each.share, 1.0))} of {each.name} at t = {each.time:.6g} s, where it changes{by} within"
-        advice = (
-            f"{number(each.scale)} s, in steps of {number(each.step)} s; take steps of {number(each.scale / 10.0)} s"
-        )
+        advice = f"{number(each.scale)} s, in steps of {number(each.step)} s; take steps of {number(min(each.scale, each.step) / 10.0)} s"
         yield _measured("loads", f"Loads: {said} {advice}", each.share, each.time, each.name)
+
+
+def _sampling_items(between: Sequence[Unseen]) -> Iterator[Item]:
+    told = sorted((each for each in between if not each.share < CHECKS["sampling"].green), key=lambda each: -each.share)
+    for each in told[:SHOWN]:
+        said = f"after t = {each.time:.6g} s {each.name} changes by {number(each.share)} of its range and back between two samples"
+        advice = (
+            f"{number(each.step)} s apart, as fast as in {number(each.scale)} s; sample faster if that is to be seen"
+        )
+        yield _measured("sampling", f"Sampling: {said} {advice}", each.share, each.time, each.name)
+
+
+def steps_item(fast: Fast) -> Item:
+    """Why a run with steps of fixed size is wrong, where its steps are too long for what is fastest."""
+    of = f", of {fast.part}" if fast.part else ""
+    step = fast.held if fast.step > fast.held else CHECKS["steps"].green / fast.rate
+    does = "holds" if fast.step > fast.held else "follows"
+    said = f"the fastest rate of the machine is {number(fast.rate)}/s{of}, and {fast.method} {does} it with steps below {number(step)} s"
+    text = f"Steps: {said}, not {number(fast.step)} s; take those, or `integrator: radau`"
+    return _measured("steps", text, fast.step * fast.rate, None, fast.part)
 
 
 def _turn_item(turn: Turn) -> Item:

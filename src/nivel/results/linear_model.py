@@ -204,7 +204,8 @@ class LinearModel:
             "structural": (("eigenvalue",), self.structural, {}),
             "participation": (("state", "eigenvalue"), self.participation, {}),
         }
-        free = list(self.states[: len(self.M)])
+        rates = (name.removesuffix(".rate") for name in self.states if name.endswith(".rate"))
+        free = list(rates)[: len(self.M)]
         coordinates = {
             "state": list(self.states),
             "state_": list(self.states),

@@ -12,6 +12,7 @@ import numpy as np
 from nivel.results.circuits import Guard, circuit_items, guard_items
 from nivel.results.held import Shared
 from nivel.results.neglected import Cost
+from nivel.results.rolling import rolling_items
 from nivel.results.scales import Readable, blocks, largest_energy, largest_speed, machine_size, speed_of_rest
 from nivel.results.statements import number, statements
 from nivel.results.unresolved import unresolved_force
@@ -142,6 +143,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         *facts.further,
         *(_small_state(each) for each in facts.small_states),
         *(_saturated(name) for name in facts.saturated),
+        *rolling_items(result),
         *circuit_items(result),
         *guard_items(facts.guard),
     )

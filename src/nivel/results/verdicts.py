@@ -25,7 +25,8 @@ class Threshold:
         return "amber" if number < self.amber else "red"
 
     def __str__(self) -> str:
-        return f"green below {self.green:.0e}, amber below {self.amber:.0e}".replace("e-0", "e-")
+        beyond = f"amber below {self.amber:.0e}" if math.isfinite(self.amber) else "amber otherwise"
+        return f"green below {self.green:.0e}, {beyond}".replace("e-0", "e-")
 
 
 # Every threshold there is. Each number is a fraction, so the table holds for a watch and for a crane.
@@ -68,6 +69,18 @@ CHECKS = {
         1e-1,
         "A hundredth of an impulse that the steps do not see is as much as loads of real machines are known to; a tenth is seen in every "
         "curve.",
+    ),
+    "sampling": Threshold(
+        0.3,
+        math.inf,
+        "By this share of its range a function goes beyond two samples between them: a sine with less than three samples a period, or a "
+        "pulse that they do not see. The model samples, so its motion is as exact as ever.",
+    ),
+    "steps": Threshold(
+        0.3,
+        math.inf,
+        "The fastest rate of the machine times the step, told where a run is red: beyond 0.3 an explicit method does not follow what is "
+        "that fast, beyond 1 to 3 it goes astray.",
     ),
     "turn": Threshold(
         0.5,

@@ -100,6 +100,7 @@ def build(machine: MachineRecord, equations: Equations, *, measured: bool = Fals
         frictions=tuple(force.name for force in machine.forces if force.type == "friction"),
         rows=tuple(row_names),
         row_owner=tuple(rows.owner),
+        velocity_rows=frozenset(rows.velocity),
         row_units=tuple(units),
         coordinate_units=tuple(coordinate_units(name) for name in draft.joint_coordinates),
         point_masses=np.array([body.point_mass for body in machine.bodies], dtype=bool),

@@ -3,15 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import get_args, get_type_hints
 
 import numpy as np
 
+from nivel.kernels.circuit_record import CircuitTangent
 from nivel.kernels.hydraulics.volume import VOLUME
 from nivel.kernels.record import NONE, Circuit
 from nivel.system.state_facts import Coupled
 from nivel.system.tables import Array, index_array
 
 ROOM = 5  # columns of `Circuit.room`
+FLUID = 10  # columns of `Circuit.fluid`
+
+
+def no_tangent() -> CircuitTangent:
+    """For methods that do not need it: all arrays empty."""
+    shapes = {1: (0,), 2: (0, 0), 3: (0, 0, 0)}
+    kinds = {"index": np.uint32, "real": float}
+    hints = get_type_hints(CircuitTangent, include_extras=True)
+    return CircuitTangent(
+        **{name: np.zeros(shapes[get_args(hint)[1]], kinds[get_args(hint)[2]]) for name, hint in hints.items()}
+    )
 
 
 @dataclass(frozen=True)
@@ -20,7 +33,8 @@ class Node:
 
     kind : VOLUME, GIVEN or SIGNAL of `nivel.kernels.hydraulics.volume`. state : of its mass or signal, or NONE. room : as `Circuit.room`.
     swept : volume that its pistons leave open at half their strokes [m³]. start : pressure at t = 0 that was given [Pa], or None.
-    owner : name of its component.
+    owner : name of its component. output : its pressure. gas : whether it holds gas. energy : state of the inner energy of gas, or NONE.
+    walls : heat through its walls [W/K]. quantity : its pressure among the results of its component.
     """
 
     name: str
@@ -32,11 +46,25 @@ class Node:
     start: float | None
     owner: str
     output: int
+    gas: bool = False
+    energy: int = NONE
+    walls: float = 0.0
+    quantity: str = "pressure"
 
     @property
     def is_volume(self) -> bool:
         """Whether its state is a mass."""
         return self.kind == VOLUME
+
+    @property
+    def variable(self) -> str:
+        """Result variable of its pressure."""
+        return f"hydraulics.{self.owner}.{self.quantity}"
+
+    @property
+    def states(self) -> frozenset[int]:
+        """Numbers of its states."""
+        return frozenset({self.state, self.energy} - {NONE})
 
 
 @dataclass
@@ -60,10 +88,10 @@ class CircuitTable:
         def work() -> Array:
             return np.zeros(count)
 
-        flowing = [(node.fluid, node.state if node.is_volume else NONE) for node in nodes]
+        flowing = [(node.fluid, node.state if node.is_volume else NONE, node.energy) for node in nodes]
         return Circuit(
-            node=index_array(flowing, 2),
-            fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), -1 if self.fluids else 6),
+            node=index_array(flowing, 3),
+            fluid=np.array(self.fluids, dtype=float).reshape(len(self.fluids), FLUID),
             room=np.array([node.room for node in nodes], dtype=float).reshape(count, ROOM),
             secant=np.zeros(1, dtype=np.uint32),
             guard=np.zeros(2),
@@ -78,4 +106,5 @@ class CircuitTable:
             inflow=work(),
             power=np.zeros(4),
             stored=np.zeros(1),
+            tangent=no_tangent(),
         )

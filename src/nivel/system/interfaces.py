@@ -14,8 +14,7 @@ from nivel.machine.interface_uses import markers_of
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
-from nivel.machine.orientation import matrix_from_euler_parameters
-from nivel.machine.placement import marker_frame, placement
+from nivel.machine.placement import marker_frame
 from nivel.system.flexible import reduced_body
 from nivel.system.located import located
 from nivel.system.tables import Array
@@ -83,8 +82,8 @@ def joint_point(machine: MachineRecord, joint: Joint) -> Array:
         if body in machine.body_named and machine.body_named[body].flexible is not None:
             with _gathered(faults, ""):
                 interface = interface_of(machine, body, joint.interface)
-                position, theta = placement(machine.body_named[body])
-                points.append(position + matrix_from_euler_parameters(theta) @ interface.position)
+                position, axes = machine.placed[body]
+                points.append(position + axes @ interface.position)
     if not points:
         raise ModelError(faults)
     if np.linalg.norm(points[0] - points[-1]) > SAME * (1.0 + np.abs(points).max()):

@@ -6,8 +6,7 @@ import numpy as np
 
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.orientation import matrix_from_euler_parameters
-from nivel.machine.placement import frame_from_axes, placement
+from nivel.machine.placement import frame_from_axes
 from nivel.system.interfaces import joint_point, marker_place
 from nivel.system.tables import Array
 
@@ -49,6 +48,8 @@ def _global_axes(joint: Joint) -> tuple[Array, Array]:
             case "revolute-translational":
                 axes = frame_from_axes(first)
                 return axes, axes
+            case "rolling":
+                return frame_from_axes(first, joint.x_axis), frame_from_axes(second)
             case "revolute-cylindrical":
                 return frame_from_axes(first), frame_from_axes(second)
             case "translational-universal":
@@ -65,8 +66,7 @@ def seen_from(machine: MachineRecord, name: str, point: Array, axes: Array) -> P
     """A global point (3,) and axes (3, 3) in the frame of the body `name` as it is placed in the file."""
     if name == "ground":
         return name, point, axes
-    position, theta = placement(machine.body_named[name])
-    A = matrix_from_euler_parameters(theta)
+    position, A = machine.placed[name]
     return name, A.T @ (point - position), A.T @ axes
 
 
@@ -74,8 +74,6 @@ def cosine_as_placed(machine: MachineRecord, first: Placed, second: Placed) -> f
     """Cosine of the angle between the z axes of two markers as the file places their bodies."""
     axes = []
     for body, _, frame in (first, second):
-        A = np.eye(3)
-        if body != "ground":
-            A = matrix_from_euler_parameters(placement(machine.body_named[body])[1])
+        A = np.eye(3) if body == "ground" else machine.placed[body][1]
         axes.append(A @ frame[:, 2])
     return float(axes[0] @ axes[1])

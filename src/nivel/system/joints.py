@@ -27,12 +27,13 @@ from nivel.kernels.coordinate import (
     TRANSLATION,
     TWIST,
 )
+from nivel.kernels.rolling import CONTACT, SLIP
 from nivel.machine.joint import Joint
 
 AXES: Final = {"x": 0, "y": 1, "z": 2}
-# From which marker to which: first to second, second to first, from the slot, a third marker, on the second body, to the first, or from
-# the first to the nodes of a beam.
-View = Literal["first", "second", "slot", "rail"]
+# From which marker to which: first to second, second to first, from the slot, a third marker, on the second body, to the first, from
+# the first to the nodes of a beam, or from the plane to the wheel.
+View = Literal["first", "second", "slot", "rail", "wheel"]
 
 
 @dataclass(frozen=True)
@@ -84,13 +85,18 @@ Factor = (
 
 @dataclass(frozen=True)
 class Combination:
-    """Σ factor coordinate is constant: what it is as placed, the number that the joint's field `given` holds, or, with `zero`, nothing."""
+    """Σ factor coordinate is constant: what it is as placed, the number that the joint's field `given` holds, or, with `zero`, nothing.
+
+    velocity : the coordinate has a rate alone, which is held at zero. effort : name of the force on it in results, and its long name.
+    """
 
     name: str
     terms: tuple[tuple[Measured, Factor], ...]
     units: str = "m"
     given: str = ""
     zero: bool = False
+    velocity: bool = False
+    effort: tuple[str, str] | None = None
 
     @property
     def rows(self) -> tuple[str, ...]:
@@ -156,6 +162,23 @@ ON_LINE = (on_rail("across.y", ACROSS_Y), on_rail("across.z", ACROSS_Z))
 WITH_LINE = (on_rail("lean.x", LEAN_X, "1"), on_rail("lean.y", LEAN_Y, "1"))
 KEY = on_rail("twist", TWIST, "1")
 PLACE_ON_BEAM = JointCoordinate("displacement", Measured(ALONG, seen_from="rail"), "m")
+
+
+def slip(axis: int) -> Combination:
+    """The row that lets a wheel not slip along an axis of the plane's marker."""
+    name = "xy"[axis]
+    effort = f"friction_{name}", f"force of the plane on the wheel along {name} of the plane's marker"
+    measured = Measured(SLIP, axis, seen_from="wheel")
+    return Combination(f"slip.{name}", ((measured, 1.0),), zero=True, velocity=True, effort=effort)
+
+
+ON_PLANE = Combination(
+    "contact",
+    ((Measured(CONTACT, seen_from="wheel"), 1.0),),
+    zero=True,
+    effort=("normal_force", "force of the plane on the wheel along its normal"),
+)
+ROLLING = "x, y: of the wheel's centre along the x and y axes of the plane's marker; normal force and friction act on the wheel"
 
 ROD = Composition(
     (Combination("distance", ((Measured(DISTANCE), 1.0),), given="distance"),),
@@ -284,6 +307,7 @@ JOINTS: Final[dict[str, Composition]] = {
         True,
         f"{TURN}; displacement: of the first marker's point from the second's along the slot in the second body",
     ),
+    "rolling": Composition((ON_PLANE, slip(0), slip(1)), (X, Y), 3, False, ROLLING),
     "point-on-beam": Composition(ON_LINE, (PLACE_ON_BEAM,), 4, False, RAIL),
     "keyed-on-beam": Composition((*ON_LINE, KEY), (PLACE_ON_BEAM,), 3, False, RAIL),
     "cylindrical-on-beam": Composition((*ON_LINE, *WITH_LINE), (PLACE_ON_BEAM,), 2, False, RAIL),

@@ -27,24 +27,25 @@ from nivel.system.joints import (
 )
 from nivel.system.located import located
 from nivel.system.rails import OnBeam
-from nivel.system.tables import Rail, index_array
+from nivel.system.tables import Rail, Wheel, index_array
 
 # cosines of axes that count as parallel differ from ±1 by less than this: 0.001 rad
 PARALLEL = 5e-7
-Views = dict[str, tuple[int, int | Rail]]  # from which marker to which, or to a beam
+Views = dict[str, tuple[int, int | Rail | Wheel]]  # from which marker to which, or to a beam or wheel
 
 
 @dataclass
 class RowTable:
     """Rows of the machine, each with the parts of C_q that it has.
 
-    owner : name of the joint, coupling or driver of each row. spans : rows of each joint. part_marker, part_row : of each part.
+    owner : name of the joint, coupling or driver of each row. velocity : rows that hold velocities alone. spans : rows of each joint. part_marker, part_row : of each part.
     first_part : of each joint row, the part of the joint's first marker. given : offset of each combination, None: as placed.
     """
 
     names: list[str] = field(default_factory=list)
     units: list[str] = field(default_factory=list)
     owner: list[str] = field(default_factory=list)
+    velocity: set[int] = field(default_factory=set)
     spans: list[tuple[int, int]] = field(default_factory=list)
     first_marker: list[tuple[int, int]] = field(default_factory=list)
     first_part: list[int] = field(default_factory=list)
@@ -139,6 +140,10 @@ def add_joint(draft: SystemBuilder, rows: RowTable, joint: Joint) -> None:
     views: Views = {"first": (first, second), "second": (second, first)}
     if isinstance(joint, OnBeam):
         views["rail"] = first, Rail(tuple(draft.frame(node) for node in joint.nodes), joint.stations, joint.place)
+    if joint.type == "rolling":
+        assert joint.radius is not None  # the record was checked
+        crown = joint.rim_radius or 0.0
+        views["wheel"] = first, Wheel(second, joint.radius - crown, crown)
     if joint.type == "revolute-translational":
         views["slot"] = (draft.place(slot_frame(draft.machine, joint)), first)
     cosine = cosine_as_placed(draft.machine, *placed)
@@ -163,12 +168,14 @@ def _measured(draft: SystemBuilder, measured: Measured, views: Views) -> int:
     first, second = views[measured.seen_from]
     if isinstance(second, Rail):
         return draft.coordinates.on_rail(measured.kind, first, second)
+    if isinstance(second, Wheel):
+        return draft.coordinates.on_plane(measured.kind, first, second, measured.axis)
     return draft.coordinates.add(measured.kind, first, second, measured.axis)
 
 
 def _add_basic(draft: SystemBuilder, rows: RowTable, joint: Joint, basic: Basic, views: Views, cosine: float) -> None:
     first, second = views["first"]
-    assert not isinstance(second, Rail)
+    assert isinstance(second, int)
     markers = first, second
     units = basic.units if isinstance(basic, Combination) else "1" if isinstance(basic, PerpendicularAxes) else "m"
     new = [rows.row(joint.name, name, units) for name in basic.rows]
@@ -180,11 +187,17 @@ def _add_basic(draft: SystemBuilder, rows: RowTable, joint: Joint, basic: Basic,
         ]
         given = getattr(joint, basic.given) if basic.given else 0.0 if basic.zero else None
         ends = () if isinstance(joint, OnBeam) else markers
-        rows.first_part.append(rows.combine(draft, row, terms, markers=ends, offset=given))
+        report = (NONE, 0)
+        if basic.effort is not None:
+            name, words = basic.effort
+            report = (draft.outputs.add((f"joint.{joint.name}.{name}", "N", words)), 0)
+        if basic.velocity:
+            rows.velocity.add(row)
+        rows.first_part.append(rows.combine(draft, row, terms, markers=ends, offset=given, report=report))
         return
     if isinstance(basic, PerpendicularDistance):
         first, second = views[basic.seen_from]
-        assert not isinstance(second, Rail)
+        assert isinstance(second, int)
     part = len(rows.part_row)
     for each in new:
         rows.part(each, first)

@@ -4,7 +4,8 @@ The scene is stored as JSON in the result; the report and the viewer read it. Le
 a body (`ground` among them) is in that body's frame, which `position` and `orientation` of the result place in space.
 
 =================  ====================================================================================================
-``bodies``         list of ``name``, ``shape`` (null without one), ``centre_of_mass``, ``points`` (where joints hold it), ``mass``,
+``bodies``         list of ``name``, ``shape`` (null without one), ``looks`` (further shapes), ``centre_of_mass``, ``points`` (where joints
+                   hold it), ``mass``,
                    ``radius_of_gyration`` about the centre of mass, the largest, 0 of a point mass;
                    of a flexible one ``flexible``: ``surface`` packed, ``modes`` (modes, vertices, 3) as packed 32-bit numbers,
                    ``first`` of them among the modal coordinates
@@ -21,7 +22,8 @@ a body (`ground` among them) is in that body's frame, which `position` and `orie
 =================  ====================================================================================================
 
 Of the forces those are here that have two ends: spring-dampers, torsional ones, pair-forces, bushings, contacts, and ropes, which
-have a point for every marker. A torsional
+have a point for every marker; hydraulic cylinders too, as ``cylinder``, with ``sizes``: radii of barrel and rod, length of the barrel.
+A torsional
 spring acts about ``axis``, in the first body. A contact is between the centres of two spheres, or between the centre of a
 shape and a point of a plane; then ``axis`` is the plane's normal, in the second body, outwards.
 """
@@ -31,17 +33,19 @@ from __future__ import annotations
 import base64
 import zlib
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from nivel.flexible.picture import moving_surface
 from nivel.machine.beam import Beam
 from nivel.machine.body import Body
+from nivel.machine.colour import digits_of
 from nivel.machine.forces import Between, BetweenMarkers, Contact, Force, Rope, TorsionalSpringDamper
+from nivel.machine.hydraulics.actuators import HydraulicCylinder, TelescopicCylinder
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
-from nivel.machine.shape import Box, Extrusion, Mesh, Sphere, Tube
+from nivel.machine.shape import Box, Extrusion, Mesh, Shape, Sphere, Tube
 from nivel.machine.solids import box_size, length, mesh_surface
 from nivel.machine.surface import surface_text
 from nivel.system.builder import SystemBuilder
@@ -50,6 +54,9 @@ from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import slot_frame
 from nivel.system.section_outline import outline
 from nivel.system.system import System
+
+WALL: Final = 0.2  # of a cylinder, of its inner radius
+BARREL: Final = 0.92  # length of a barrel, of that of the retracted cylinder
 
 
 def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
@@ -62,7 +69,7 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
     bodies = [
         {
             "name": body.name,
-            "shape": _shape(body),
+            "shape": None if body.shape is None else _shape(body.shape),
             "centre_of_mass": system.record.bodies.centre_b[k].tolist(),
             "points": held[body.name],
             "mass": float(system.record.bodies.mass[k]),
@@ -70,6 +77,9 @@ def scene(machine: MachineRecord, system: System) -> dict[str, Any]:
         }
         for k, body in enumerate(machine.bodies)
     ]
+    for drawn, body in zip(bodies, machine.bodies, strict=True):
+        if body.looks:
+            drawn["looks"] = [_shape(each) for each in body.looks]
     for body, looks in _flexible(machine):
         bodies[body]["flexible"] = looks
     markers = [
@@ -165,6 +175,23 @@ def _forces(machine: MachineRecord) -> Iterator[dict[str, Any]]:
             case Contact() if force.plane is not None:
                 out["axis"] = markers.frame[second][:, 2].tolist()
         yield out
+    for cylinder in machine.hydraulics:
+        if isinstance(cylinder, HydraulicCylinder | TelescopicCylinder):
+            ends = draft.ends(cylinder.ends)
+            yield {
+                "name": cylinder.name,
+                "type": "cylinder",
+                "bodies": [names[draft.markers.body[m]] for m in ends],
+                "points": [draft.markers.position[m].tolist() for m in ends],
+                "sizes": _sizes(cylinder),
+            }
+
+
+def _sizes(cylinder: HydraulicCylinder | TelescopicCylinder) -> list[float]:
+    """Radii of barrel and rod, and length of the barrel [m], as they are drawn."""
+    diameters = cylinder.stages if isinstance(cylinder, TelescopicCylinder) else (cylinder.piston, cylinder.rod)
+    thin = diameters[-1] if 0.0 < diameters[-1] < diameters[0] else 0.5 * diameters[0]
+    return [0.5 * (1.0 + WALL) * diameters[0], 0.5 * thin, BARREL * cylinder.retracted_length]
 
 
 def _ends(draft: SystemBuilder, force: Force) -> tuple[int, ...] | None:
@@ -189,18 +216,19 @@ def _centre(draft: SystemBuilder, name: str) -> int:
     return draft.place((name, np.array(centre or (0.0, 0.0, 0.0)), np.eye(3)))
 
 
-def _shape(body: Body) -> dict[str, Any] | None:
+def _shape(shape: Shape) -> dict[str, Any]:
     """The shape in body axes: a shape between two points lies along x about the origin, as long as they are apart.
 
-    type, `centre` and sizes by their words in the machine file; of a mesh its `surface`, in the body's frame (`machine.surface`).
+    type, `centre` and sizes by their words in the machine file, `colour` as `#rrggbb` where one is given; of a mesh its `surface`, in the
+    body's frame (`machine.surface`).
     """
-    shape = body.shape
-    if shape is None:
-        return None
-    if isinstance(shape, Mesh):
-        return {"type": shape.type, "centre": [0.0, 0.0, 0.0], "surface": surface_text(*mesh_surface(shape))}
-    out: dict[str, Any] = {"type": shape.type, "centre": list(shape.centre or (0.0, 0.0, 0.0))}
+    centre = [0.0, 0.0, 0.0] if isinstance(shape, Mesh) else list(shape.centre or (0.0, 0.0, 0.0))
+    out: dict[str, Any] = {"type": shape.type, "centre": centre}
+    if shape.colour is not None:
+        out["colour"] = digits_of(shape.colour)
     match shape:
+        case Mesh():
+            return out | {"surface": surface_text(*mesh_surface(shape))}
         case Sphere():
             return out | {"radius": shape.radius}
         case Box():

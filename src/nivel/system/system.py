@@ -41,7 +41,8 @@ class System:
     """The numbers of one machine for one formulation.
 
     rows : name of every constraint row of the formulation, e.g. ``hinge.s.x``; the first `machine_rows` belong to joints, couplings
-    and drivers. row_owner : name of the joint, coupling or driver of each of these. point_masses : (B,) bodies that do not turn.
+    and drivers. row_owner : name of the joint, coupling or driver of each of these. velocity_rows : those of
+    them that hold velocities alone, as of wheels that do not slip. point_masses : (B,) bodies that do not turn.
     coupled : what each element acts on or depends on. states : first-order states of elements, in the order of `Elements.state`.
     nodes : of hydraulic circuits.
     frame_markers : markers that are frames of bodies. marker_owners : `joints.hinge`, …: what each marker belongs to.
@@ -64,6 +65,7 @@ class System:
     events: tuple[str, ...]
     rows: tuple[str, ...]
     row_owner: tuple[str, ...]
+    velocity_rows: frozenset[int]
     row_units: tuple[str, ...]
     coordinate_units: tuple[str, ...]
     point_masses: NDArray[np.bool_]

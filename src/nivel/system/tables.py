@@ -69,12 +69,22 @@ class Rail:
     place: float
 
 
+@dataclass(frozen=True)
+class Wheel:
+    """A wheel that rolls on a plane: its marker, radius of the circle in its rim and of the crown about that [m]."""
+
+    marker: int
+    circle: float
+    crown: float
+
+
 @dataclass
 class CoordinateTable:
     """Scalars measured between two markers, or a slider and the nodes of its rail; the same one is measured once."""
 
     what: list[tuple[int, int, int, int]] = field(default_factory=list)  # kind, first marker, second marker, axis
     rails: dict[int, Rail] = field(default_factory=dict)  # of sliders
+    wheels: dict[int, Wheel] = field(default_factory=dict)  # of what rolls
     active: set[int] = field(default_factory=set)
     _index: dict[tuple[int, int, int, int], int] = field(default_factory=dict)
 
@@ -93,6 +103,12 @@ class CoordinateTable:
         self.rails[index] = rail
         return index
 
+    def on_plane(self, kind: int, plane: int, wheel: Wheel, axis: int) -> int:
+        """The same for a kind of wheel on a plane."""
+        index = self.add(kind, plane, wheel.marker, axis)
+        self.wheels[index] = wheel
+        return index
+
     def markers(self, coordinate: int) -> tuple[int, ...]:
         """Markers that a coordinate looks at, one for each of its parts."""
         _, first, second, _ = self.what[coordinate]
@@ -106,8 +122,7 @@ class CoordinateTable:
     def arrays(self) -> Coordinates:
         count = len(self.what)
         markers = [self.markers(k) for k in range(count)]
-        nothing = (0.0, 0.0)
-        stations = [(0.0, *self.rails[k].stations) if k in self.rails else nothing for k in range(count)]
+        stations = [self._numbers(k) for k in range(count)]
         parts = sum(map(len, markers))
         followed = [k for k, entry in enumerate(self.what) if entry[0] <= LAST_ANGLE or entry[0] == ALONG]
         return Coordinates(
@@ -123,6 +138,13 @@ class CoordinateTable:
             bias=np.zeros(count),
             J=np.zeros((parts + 2, 6)),
         )
+
+    def _numbers(self, coordinate: int) -> tuple[float, ...]:
+        """A number for each part: stations of the nodes of a rail, radii of a wheel."""
+        if coordinate in self.rails:
+            return 0.0, *self.rails[coordinate].stations
+        wheel = self.wheels.get(coordinate)
+        return (wheel.circle, wheel.crown) if wheel is not None else (0.0, 0.0)
 
 
 @dataclass

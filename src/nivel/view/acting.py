@@ -65,7 +65,8 @@ def _between(force: dict[str, Any], known: dict[str, Any], places: dict[str, int
     facts = [("type", kind), ("first body", ends[0]), ("second body", ends[1])]
     axis = triple(force["axis"]) if "axis" in force else None
     points = [triple(point) for point in force["points"]]
-    return Force(force["name"], kind, [places[body] for body in ends], points, axis, _look(force, known), facts)
+    sizes = [float(each) for each in force.get("sizes", ())]
+    return Force(force["name"], kind, [places[body] for body in ends], points, axis, _look(force, known), facts, sizes)
 
 
 def _elsewhere(
@@ -99,11 +100,11 @@ def _look(force: dict[str, Any], record: dict[str, Any]) -> ForceLook:
             return "spring-damper" if damped and sprung else "damper" if damped else "spring"
         case "torsional-spring-damper":
             return "coil"
-        case "pair-force":
+        case "pair-force" | "cylinder":
             return "cylinder"
         case "rope":
             return "rope"
-        case "bushing":
+        case "bushing" | "three-axis-spring":
             return "bushing"
         case "contact":
             return "plane" if "axis" in force else "nothing"

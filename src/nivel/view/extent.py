@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from nivel.looks.joints import sliding_axes, turning_axes
 from nivel.looks.links import attached, held_points
 from nivel.looks.poses import Pose, body_poses, in_space, rotation, upwards
-from nivel.looks.solids import reach
+from nivel.looks.solids import reach_of, shapes_of
 from nivel.looks.viewpoint import choose_view, is_planar
 from nivel.machine.surface import surface_arrays
 from nivel.view.records import Triple, Viewpoint
@@ -94,7 +94,7 @@ def _box(body: dict[str, Any]) -> Array:
     """(8, 3) corners of the box around what a body looks like, undeformed; of one without a shape none."""
     if body.get("flexible"):
         return _corners(surface_arrays(body["flexible"]["surface"])[0])
-    return _corners(reach(body["shape"])) if body.get("shape") else NOTHING
+    return _corners(reach_of(body)) if shapes_of(body) else NOTHING
 
 
 def _corners(points: Array) -> Array:

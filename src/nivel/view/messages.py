@@ -7,7 +7,7 @@ import math
 from dataclasses import asdict, fields
 from typing import Any, Final, get_args, get_origin, get_type_hints
 
-from nivel.view.records import FROM_PAGE, FROM_SERVER, Command, Drive, Move, Reset, Shown, Take, Want
+from nivel.view.records import FROM_PAGE, FROM_SERVER, Command, Drive, Hold, Move, Reset, Shown, Take, Want
 
 LARGEST: Final = 2048  # bytes of a message
 LARGEST_NUMBER: Final = 2**32 - 1
@@ -20,7 +20,7 @@ class NotUnderstoodError(Exception):
     """The message is none that a page sends."""
 
 
-def read_message(content: str | bytes) -> Shown | Want | Move | Reset | Drive | Take | Command:
+def read_message(content: str | bytes) -> Shown | Want | Move | Reset | Drive | Hold | Take | Command:
     """The record in a message.
 
     Raises NotUnderstoodError.

@@ -62,7 +62,7 @@ class Part:
 
     size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; extrusion: length;
     a capsule's length is that of its straight part. along : the axis of round bars and extrusions. outline : of an extrusion,
-    corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh.
+    corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh. colour : empty, that of the body.
     """
 
     kind: Literal["box", "cylinder", "tube", "sphere", "capsule", "extrusion", "mesh"]
@@ -72,6 +72,7 @@ class Part:
     outline: list[tuple[float, float]] = field(default_factory=list)
     vertices: Packed | None = None
     triangles: Packed | None = None
+    colour: str = ""
 
 
 @dataclass(frozen=True)
@@ -158,6 +159,8 @@ class Force:
 
     look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring`
     holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two.
+
+    sizes : of a hydraulic cylinder: radii of its barrel and rod, length of its barrel [m].
     """
 
     name: str
@@ -167,6 +170,7 @@ class Force:
     axis: Triple | None = None
     look: ForceLook = "nothing"
     facts: list[tuple[str, str]] = field(default_factory=list)
+    sizes: list[float] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -540,6 +544,18 @@ class Drive:
 
 
 @dataclass(frozen=True)
+class Hold:
+    """From the page that operates, again and again while it holds a body (on 1): the point of it, in its frame, and where that is
+    pulled, counted from the origin of the stage [m]. Once when it lets go (on 0)."""
+
+    type: Literal["hold"]
+    body: int
+    point: list[float]
+    towards: list[float]
+    on: int
+
+
+@dataclass(frozen=True)
 class Take:
     """From the page: it wants to operate the machine (on 1), or lets go of it (0)."""
 
@@ -557,4 +573,4 @@ class Command:
 
 
 FROM_SERVER: Final = (Note, Moved, Refused, Status)
-FROM_PAGE: Final = (Shown, Want, Move, Reset, Drive, Take, Command)
+FROM_PAGE: Final = (Shown, Want, Move, Reset, Drive, Hold, Take, Command)

@@ -16,7 +16,20 @@ from nivel.view.couplings import couplings
 from nivel.view.extent import extent
 from nivel.view.package import Block, to_bytes
 from nivel.view.playback import SERVED, Budget, playback, played_frames
-from nivel.view.records import PROTOCOL, Command, Coordinate, Drive, Motion, Moved, Note, Package, Stage, Status, Take
+from nivel.view.records import (
+    PROTOCOL,
+    Command,
+    Coordinate,
+    Drive,
+    Hold,
+    Motion,
+    Moved,
+    Note,
+    Package,
+    Stage,
+    Status,
+    Take,
+)
 from nivel.view.stage import cast, flexible
 
 Array = NDArray[np.float64]
@@ -51,7 +64,7 @@ class Source(Protocol):
         """Put the machine back."""
         ...
 
-    def hear(self, page: object, said: Drive | Take | Command) -> Note | None:
+    def hear(self, page: object, said: Drive | Hold | Take | Command) -> Note | None:
         """What a page that operates a live machine says."""
         ...
 
@@ -83,7 +96,7 @@ class Still:
     def reset(self) -> Moved | None:
         return None
 
-    def hear(self, page: object, said: Drive | Take | Command) -> Note | None:
+    def hear(self, page: object, said: Drive | Hold | Take | Command) -> Note | None:
         return None
 
     def status(self, page: object, dropped: int) -> Status | None:

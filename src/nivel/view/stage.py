@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from nivel.looks.colours import colour_of
 from nivel.looks.joints import LINKS, ON_FIRST, ON_RAIL, SLIDING_ON_BEAMS
 from nivel.looks.links import held_points, link_ends
+from nivel.looks.solids import shapes_of
 from nivel.machine.surface import surface_arrays
 from nivel.view.acting import drivers, forces
 from nivel.view.package import Block
@@ -112,12 +113,11 @@ def _largest(modes: Array, modal: Array) -> float:
 
 def _body(scene: dict[str, Any], body: dict[str, Any], colour: str, block: Block, *, automatic: bool) -> Body:
     held = held_points(scene, body)
-    shape = body.get("shape")
     return Body(
         body["name"],
         colour,
         triple(body["centre_of_mass"]),
-        [part(shape, block)] if shape else [],
+        [part(shape, block) for shape in shapes_of(body)],
         [triple(point) for point in _apart(link_ends(body, held))] if automatic else [],
         [triple(point) for point in held],
         automatic,
@@ -149,6 +149,11 @@ def _apart(points: Array) -> Array:
 
 def part(shape: dict[str, Any], block: Block) -> Part:
     """A shape of the scene as a part."""
+    drawn = _uncoloured(shape, block)
+    return replace(drawn, colour=shape["colour"]) if "colour" in shape else drawn
+
+
+def _uncoloured(shape: dict[str, Any], block: Block) -> Part:
     centre, along = triple(shape.get("centre") or (0.0, 0.0, 0.0)), shape.get("along") or "x"
     match shape["type"]:
         case "box":

@@ -11,7 +11,7 @@ from typing import Any, Final
 from nivel.errors import ModelError
 from nivel.view.frames import message
 from nivel.view.messages import NotUnderstoodError, read_message, said
-from nivel.view.records import COLUMN, PACKAGE, Command, Drive, Move, Refused, Reset, Shown, Take, Want
+from nivel.view.records import COLUMN, PACKAGE, Command, Drive, Hold, Move, Refused, Reset, Shown, Take, Want
 from nivel.view.sources import Source
 
 RATE: Final = 200.0  # messages a second that a page may send for long
@@ -37,7 +37,7 @@ class Allowance:
         return self._left >= 0.0
 
 
-def within(allowance: Allowance, content: str | bytes) -> Shown | Want | Move | Reset | Drive | Take | Command:
+def within(allowance: Allowance, content: str | bytes) -> Shown | Want | Move | Reset | Drive | Hold | Take | Command:
     """The record in a message, as long as there are not too many.
 
     Raises NotUnderstoodError.
@@ -120,7 +120,7 @@ class Stream:
                 case Move() | Reset():
                     self._wish = wanted
                     self._wished.set()
-                case Drive():
+                case Drive() | Hold():
                     self._source.hear(self, wanted)
                 case Take() | Command():
                     note = await asyncio.to_thread(self._source.hear, self, wanted)

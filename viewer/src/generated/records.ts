@@ -19,7 +19,7 @@ export interface Steps {
   step: number[];
 }
 
-/** A solid in the body frame with its centre at `centre`. size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; extrusion: length; a capsule's length is that of its straight part. along : the axis of round bars and extrusions. outline : of an extrusion, corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh. */
+/** A solid in the body frame with its centre at `centre`. size : box: along x, y, z; cylinder, capsule: radius, length; tube: outer, inner radius, length; sphere: radius; extrusion: length; a capsule's length is that of its straight part. along : the axis of round bars and extrusions. outline : of an extrusion, corners in the two axes that follow `along`. vertices (n, 3), triangles (m, 3) : of a mesh. colour : empty, that of the body. */
 export interface Part {
   kind: "box" | "cylinder" | "tube" | "sphere" | "capsule" | "extrusion" | "mesh";
   centre: [number, number, number];
@@ -28,6 +28,7 @@ export interface Part {
   outline: [number, number][];
   vertices: Packed | null;
   triangles: Packed | null;
+  colour: string;
 }
 
 /** A body. links : points of its frame to which automatic links lead from the centre of mass. held : where joints hold it. automatic : it is drawn as a ball with links where it has no parts; not so where it deforms or is part of a sweep. */
@@ -80,7 +81,7 @@ export interface Joint {
   facts: [string, string][];
 }
 
-/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two. */
+/** A force element, or a driver. points : of the two ends, or the one where it acts, or of the joint that it works on; none where that is not known. axis : of a coil or of what works on a joint, or normal of a contact's plane; in the first body's frame, a normal in the second's. look : what is drawn between the ends, or at the first of them: `turn` and `slide` drive a joint about and along its axis, a `ring` holds it, a `dot` is where something acts on one body, a `rope` goes from point to point, of which it may have more than two. sizes : of a hydraulic cylinder: radii of its barrel and rod, length of its barrel [m]. */
 export interface Force {
   name: string;
   kind: string;
@@ -89,6 +90,7 @@ export interface Force {
   axis: [number, number, number] | null;
   look: "nothing" | "spring" | "damper" | "spring-damper" | "cylinder" | "coil" | "bushing" | "plane" | "turn" | "slide" | "ring" | "dot" | "rope";
   facts: [string, string][];
+  sizes: number[];
 }
 
 /** A pitch circle on a body, in its frame. */
@@ -364,6 +366,15 @@ export interface Drive {
   values: number[];
 }
 
+/** From the page that operates, again and again while it holds a body (on 1): the point of it, in its frame, and where that is pulled, counted from the origin of the stage [m]. Once when it lets go (on 0). */
+export interface Hold {
+  type: "hold";
+  body: number;
+  point: number[];
+  towards: number[];
+  on: number;
+}
+
 /** From the page: it wants to operate the machine (on 1), or lets go of it (0). */
 export interface Take {
   type: "take";
@@ -379,4 +390,4 @@ export interface Command {
 
 export type FromServer = Note | Moved | Refused | Status;
 
-export type FromPage = Shown | Want | Move | Reset | Drive | Take | Command;
+export type FromPage = Shown | Want | Move | Reset | Drive | Hold | Take | Command;

@@ -247,12 +247,13 @@ export class Actor {
     const holder = this.bodies[k]!;
     const said: Picked = { kind: "body", name: body.name };
     const colour = this.isGhost ? undefined : body.colour;
-    const add = (made: (facets: number) => THREE.BufferGeometry, facets: number, thin: boolean) => {
+    const add = (made: (facets: number) => THREE.BufferGeometry, facets: number, thin: boolean, own = "") => {
+      const painted = own && !this.isGhost ? own : colour;
       const coarse = this.isLarge && facets > ROUGH ? { coarse: made(ROUGH) } : {};
-      this.solids.push({ geometry: made(facets), ...coarse, thin, body: k, holder, said, ...(colour ? { colour } : {}) });
+      this.solids.push({ geometry: made(facets), ...coarse, thin, body: k, holder, said, ...(painted ? { colour: painted } : {}) });
     };
     for (const part of body.parts) {
-      add((facets) => partGeometry(part, arrays, 2 * facets), part.kind === "mesh" ? ROUGH : ROUND, false);
+      add((facets) => partGeometry(part, arrays, 2 * facets), part.kind === "mesh" ? ROUGH : ROUND, false, part.colour);
       const edges = edgesOf(part, partGeometry(part, arrays));
       if (edges) {
         const lines = new THREE.LineSegments(edges, this.palette.edge);

@@ -2,8 +2,12 @@
 import type { Actor } from "./actor";
 import type { World } from "./world";
 
+const SOMETIMES = 400; // ms
+
 export class Handled {
   private body = -1; // that is moved
+  private patience = 0; // ms between two looks
+  private looked = 0;
 
   constructor(
     private readonly world: World,
@@ -19,10 +23,20 @@ export class Handled {
     else this.body = stage.bodies.findIndex((each) => each.name === owner);
   }
 
+  /** Whatever moves is watched. */
+  watchAll(): void {
+    this.body = 0;
+    this.patience = SOMETIMES;
+  }
+
   /** See all of the machine again where some of it left the picture; if the user looks closer, where the body that moves did. */
   keepInSight(): void {
+    const now = performance.now();
+    if (now - this.looked < this.patience) return;
+    this.looked = now;
     const body = this.actor.bodies[this.body];
     if (!this.world.around || !body || this.actor.isBad[this.body]) return;
+    if (this.patience && !this.world.isFitted) return;
     if (!this.world.holds(this.world.isFitted ? this.world.around() : [body.position])) this.world.fit();
   }
 }

@@ -123,16 +123,16 @@ function between(actor: Actor, force: Force, out: Stretched): void {
   const sprung = force.look === "spring" || force.look === "spring-damper";
   const hydraulic = force.look === "cylinder";
   const many = actor.stage.forces.length > MANY;
+  const [barrelRadius = (hydraulic ? 1.35 : 0.8) * BARREL * size, rodRadius = 0.55 * ROD * size * (hydraulic ? 1.5 : 1), barrelLength = 0.58 * natural] = force.sizes;
   const spring = sprung ? part(group, "wire", helix(COIL * size, WIRE * size, natural, many), said, out) : null;
-  const barrel = force.look === "spring" ? null : part(group, "foot", unit((hydraulic ? 1.35 : 0.8) * BARREL * size), said, out);
-  const piston = barrel ? part(group, "sign", unit(0.55 * ROD * size * (hydraulic ? 1.5 : 1)), said, out) : null;
-  const pins = [0, 1].map(() => part(group, "signDark", new THREE.SphereGeometry(0.008 * size, 14, 10), said, out));
-  const least = 0.58 * natural;
+  const barrel = force.look === "spring" ? null : part(group, "foot", unit(barrelRadius), said, out);
+  const piston = barrel ? part(group, "sign", unit(rodRadius), said, out) : null;
+  const pins = [0, 1].map(() => part(group, "signDark", new THREE.SphereGeometry(force.sizes.length ? 1.1 * rodRadius : 0.008 * size, 14, 10), said, out));
   out.moving.push(
     laid(actor, force.bodies, force.points, group, (length) => {
       if (spring) spring.scale.z = length;
       if (barrel && piston) {
-        barrel.scale.z = Math.min(least, 0.92 * length);
+        barrel.scale.z = Math.min(barrelLength, 0.92 * length);
         piston.scale.z = length;
       }
       pins[1]!.position.z = length;

@@ -45,7 +45,7 @@ export class Display {
       toggle("Names of bodies", app.labels.shown.body, (on) => app.name("body", on)),
       toggle("Names of joints", app.labels.shown.joint, (on) => app.name("joint", on)),
       ...(stage.forces.length + stage.drivers.length + stage.couplings.length ? [toggle(stage.couplings.length ? "Names of forces and couplings" : "Names of forces", app.labels.shown.force, (on) => app.name("force", on))] : []),
-      toggle("Joint symbols", true, (on) => app.show("signs", on)),
+      toggle("Joint symbols", !app.live, (on) => app.show("signs", on)),
       ...(stage.joints.length ? [toggle("Joint axes", false, (on) => app.show("axes", on)), toggle("Joint frames", false, (on) => app.show("joints", on))] : []),
       ...(stage.markers.length ? [toggle("Marker frames", false, (on) => app.show("markers", on))] : []),
       toggle("Body frames", false, (on) => app.show("triads", on)),

@@ -25,7 +25,7 @@ export function helpDialog(): HTMLDialogElement {
     { class: "help", "aria-label": "Keys and mouse" },
     el("header", {}, el("h2", {}, "Keys and mouse"), iconButton("close", "Close", () => dialog.close())),
     el("dl", {}, ...SAID.flatMap(([key, what]) => [el("dt", {}, key), el("dd", {}, what)])),
-    el("p", { class: "note" }, "Drag to turn, right button or two fingers to move, wheel or pinch to zoom, click a part to choose it, click a plot to go to its time."),
+    el("p", { class: "note" }, "Drag to turn, right button or two fingers to move, wheel or pinch to zoom, click a part to choose it, click a plot to go to its time. Of a live machine, shift and drag pulls a body."),
   );
   return dialog;
 }

@@ -19,6 +19,8 @@ export class Live {
   readonly panel: HTMLElement;
   readonly operator: Operator;
   status: Status | null = null;
+  /** Whether the mouse picks bodies up. */
+  onHand: (on: boolean) => void = () => {};
   private readonly strips: Strip[];
   private readonly rows: Row[];
   private readonly run: HTMLButtonElement;
@@ -26,6 +28,7 @@ export class Live {
   private readonly clock = el("output", { class: "time", "aria-live": "off" });
   private readonly load = el("span", { class: "of load" });
   private readonly problem = el("p", { class: "problem", role: "status" });
+  private readonly hint: HTMLElement;
   private drawn = 0;
 
   constructor(
@@ -39,14 +42,21 @@ export class Live {
     this.seat = el("button", { type: "button", class: "chip seat", onclick: () => this.take(this.status?.driver !== "you") }, "Take the controls");
     const speed = el("select", { "aria-label": "Speed", title: "Simulated over real time" }, ...SPEEDS.map((each) => el("option", { value: each, selected: each === 1 }, `${each}×`)));
     speed.addEventListener("change", () => this.say("speed", Number(speed.value)));
+    const hand = el("button", { type: "button", class: "chip", title: "Drag a body with the mouse; shift does it too", "aria-pressed": "false" }, "Pick up");
+    hand.addEventListener("click", () => {
+      const on = hand.getAttribute("aria-pressed") !== "true";
+      hand.setAttribute("aria-pressed", String(on));
+      this.onHand(on);
+    });
     this.bar = el(
       "footer",
       { class: "timeline live-bar", role: "group", "aria-label": "Live" },
       el("div", { class: "transport" }, this.run, iconButton("forward", "One tick", () => this.say("step")), iconButton("reset", "Back to the start", () => this.say("reset"))),
       el("div", { class: "clock" }, this.clock),
       this.load,
-      el("div", { class: "pace" }, el("button", { type: "button", class: "chip", onclick: () => this.say("save") }, "Save state"), el("button", { type: "button", class: "chip", onclick: () => this.say("restore") }, "Restore"), speed, this.seat),
+      el("div", { class: "pace" }, hand, el("button", { type: "button", class: "chip", onclick: () => this.say("save") }, "Save state"), el("button", { type: "button", class: "chip", onclick: () => this.say("restore") }, "Restore"), speed, this.seat),
     );
+    this.hint = el("p", { class: "note" }, hintOf(controls));
     this.rows = controls.map((control, k) => this.row(control, k));
     this.strips = gauges.map((gauge) => new Strip(gauge.name, gauge.unit));
     const sticks = (["left", "right"] as const).filter((side) => controls.some((each) => each.stick.startsWith(side)));
@@ -55,6 +65,7 @@ export class Live {
       { class: "live" },
       this.problem,
       controls.length ? el("h3", {}, "Controls") : null,
+      controls.length ? this.hint : null,
       sticks.length ? el("div", { class: "sticks" }, ...sticks.map((side) => new Stick(side, stickInWords(side, controls), (stick, value) => this.operator.deflect(stick, value)).element)) : null,
       el("ul", { class: "controls" }, ...this.rows.map((row) => row.output.closest("li")!)),
       gauges.length ? el("h3", {}, "Gauges") : null,
@@ -94,6 +105,7 @@ export class Live {
     const share = (100 * status.computing) / status.tick;
     this.load.textContent = `${running ? "" : `${status.mode} · `}${short(+status.computing.toPrecision(2))} µs a tick, ${share.toPrecision(2)} %${status.overruns ? `, ${status.overruns} late` : ""}`;
     this.problem.textContent = status.text;
+    this.hint.hidden = status.driver === "you";
   }
 
   /** Numbers behind a frame: gauges, then the values of the controls. */
@@ -114,7 +126,8 @@ export class Live {
   private row(control: Control, k: number): Row {
     const output = el("output", {}, short(control.rest));
     const keys = [control.lowers, control.raises].filter(Boolean).map((key) => el("kbd", {}, keyInWords(key)));
-    const name = el("span", { class: "name", title: control.description }, ...breakable(control.name), ...keys);
+    const meant = control.description ? el("small", {}, control.description) : null;
+    const name = el("span", { class: "name" }, ...breakable(control.name), ...keys, meant);
     if (control.look === "button") {
       const button = el("button", { type: "button", class: "chip" }, "Press");
       button.addEventListener("pointerdown", () => this.operator.move(k, control.high));
@@ -140,6 +153,18 @@ const ARROWS: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", Ar
 
 function keyInWords(key: string): string {
   return ARROWS[key] ?? key.toUpperCase();
+}
+
+/** How a machine that nobody operates is taken. */
+function hintOf(controls: Control[]): string {
+  const ways = [
+    ...(controls.some((each) => each.raises || each.lowers) ? ["hold a key"] : []),
+    "move a slider",
+    ...(controls.some((each) => each.stick) ? ["a stick"] : []),
+    ...(controls.some((each) => each.axis >= 0 || each.button >= 0) ? ["a gamepad"] : []),
+  ];
+  const said = ways.length > 1 ? `${ways.slice(0, -1).join(", ")} or ${ways.at(-1)}` : ways[0]!;
+  return `To operate the machine, ${said}.`;
 }
 
 function stickInWords(side: string, controls: Control[]): string {

@@ -2,6 +2,7 @@
 import { el, measured } from "./dom";
 
 const SPAN = 15; // s that are shown
+const NOISE = 1e-6; // share of the largest number, and a number, below which a change is round-off
 const WIDTH = 284;
 const HEIGHT = 40;
 
@@ -23,7 +24,7 @@ export class Strip {
     const last = this.times.at(-1);
     if (last !== undefined && time < last) this.clear(); // put back to an earlier moment
     this.times.push(time);
-    this.numbers.push(value);
+    this.numbers.push(Math.abs(value) < 1e-3 * NOISE ? 0 : value);
     while (this.times[0]! < time - SPAN) {
       this.times.shift();
       this.numbers.shift();
@@ -45,7 +46,8 @@ export class Strip {
     if (!context) return;
     const { width, height } = this.canvas;
     const low = Math.min(...this.numbers);
-    const span = Math.max(Math.max(...this.numbers) - low, 1e-9 * Math.abs(value), 1e-300);
+    const high = Math.max(...this.numbers);
+    const span = Math.max(high - low, NOISE * Math.max(Math.abs(low), Math.abs(high), 1));
     context.clearRect(0, 0, width, height);
     context.strokeStyle = getComputedStyle(this.element).getPropertyValue("--accent");
     context.lineWidth = 2.5;

@@ -64,7 +64,8 @@ class Mechanics:
     def _reduction(self) -> Reduction:
         own = self._instant
         ports = Ports(np.zeros((own.n, 0)), np.zeros((own.rows, 0)), np.zeros(0, dtype=np.intp))
-        return Reduction(own, ports, _nothing, getattr(self, "_selected", None))
+        chosen = getattr(self, "_selected", None)
+        return Reduction(own, ports, _nothing, None if chosen is None else (chosen, chosen))
 
     # --- states ---
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nivel.analysis.rolling import refuse_rolling
 from nivel.errors import Fault, ModelError
 from nivel.machine.forces import Friction
 from nivel.machine.machine_record import MachineRecord
@@ -9,6 +10,7 @@ from nivel.machine.machine_record import MachineRecord
 
 def refuse_for_inverse(machine: MachineRecord) -> None:
     """Raises ModelError with everything that has no part in inverse dynamics."""
+    refuse_rolling(machine, "drive the wheels with `nivel run` and read the efforts of the drivers")
     faults = [
         Fault(
             "",

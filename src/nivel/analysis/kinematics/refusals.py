@@ -7,13 +7,15 @@ import numpy as np
 from nivel.analysis.equations import equations
 from nivel.analysis.freedoms import coordinate_derivatives, freedoms
 from nivel.analysis.preparation import Prepared
+from nivel.analysis.rolling import refuse_rolling
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beam_nodes import with_nodes
 
 
 def refuse_what_bends(machine: MachineRecord) -> None:
-    """Raises ModelError for bodies whose form, and states whose values, drivers do not determine."""
+    """Raises ModelError for bodies whose form, wheels whose way, and states whose values drivers do not determine."""
+    refuse_rolling(machine, "use `nivel run`")
     faults = [
         Fault(
             "", 0, 0, f"bodies.{body.name}.flexible", "a body that bends is not moved by drivers alone: use `nivel run`"

@@ -2,11 +2,12 @@
 
 With small changes δq of positions, δv of velocities, δx of first-order states and inputs u,
 
-    δq̇ = δv + E δq        C_q δq = 0        C_q δv + W δq = 0
+    δq̇ = δv + E δq        C_h δq = 0        C_q δv + W δq = 0
     [M C_qᵀ; C_q 0] [δv̇; δλ] = [F u - D δv - K δq - r_x δx;  G u - G_v δv - G_q δq]
 
-E is -ω̃̄ on the turns of bodies, W = ∂Ċ/∂q, G_v and G_q the derivatives of C̈. States are s = S δq, w = S δv and δx, where S selects
-independent coordinates; then δq = Z s, δv = Y s + Z w with constant S, so that no derivative of Z enters (Peterson, Gede, Hubbard 2015).
+E is -ω̃̄ on the turns of bodies, W = ∂Ċ/∂q, G_v and G_q the derivatives of C̈; C_h are the rows of C_q that hold positions: all but those of
+wheels that do not slip. States are s = S_q δq, w = S_v δv and δx, where S select independent coordinates; then δq = Z_q s,
+δv = Y s + Z w with constant S, so that no derivative of Z enters (Peterson, Gede, Hubbard 2015). Without wheels S_q = S_v, Z_q = Z.
 The matrix K holds ∂(C_qᵀ λ)/∂q, the stiffness of the reactions.
 """
 
@@ -29,6 +30,9 @@ RANK = 1e-9
 ROUND_OFF = 1e-14
 
 
+Index = NDArray[np.intp]
+
+
 @dataclass(frozen=True)
 class Ports:
     """Inputs of a machine: force (n, p) generalised forces of each, held (K, p) what it adds to C̈, opened : rows that inputs prescribe."""
@@ -49,13 +53,13 @@ class StateSpace:
 
 
 class Reduction:
-    """The linear equations of a machine at an instant; reader : of its outputs. selected : places of the independent coordinates; None:
-    chosen here."""
+    """The linear equations of a machine at an instant; reader : of its outputs. chosen : places of the independent coordinates and of the
+    independent velocities; None: chosen here."""
 
     def __init__(
-        self, instant: Instant, ports: Ports, reader: Reader, selected: NDArray[np.intp] | None = None
+        self, instant: Instant, ports: Ports, reader: Reader, chosen: tuple[Index, Index] | None = None
     ) -> None:
-        self.instant, self.ports, self._selected, self._reader = instant, ports, selected, reader
+        self.instant, self.ports, self._chosen, self._reader = instant, ports, chosen, reader
 
     @cached_property
     def by_q(self) -> Slopes:
@@ -93,23 +97,44 @@ class Reduction:
         return np.setdiff1d(np.arange(self.instant.rows), self.ports.opened)
 
     @cached_property
-    def selected(self) -> NDArray[np.intp]:
-        """Places among the free unknowns of the independent coordinates: those that move most in the motions that are left."""
-        return self._chosen_for(self.kept) if self._selected is None else self._selected
+    def holding(self) -> NDArray[np.intp]:
+        """Those of them that hold positions."""
+        return np.setdiff1d(self.kept, self.instant.velocity_rows)
 
-    def _chosen_for(self, kept: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Independent coordinates of the motions that these rows leave."""
+    @cached_property
+    def chosen(self) -> tuple[Index, Index]:
+        """Places among the free unknowns of the independent coordinates: those that move most in the motions that are left; and of them
+        those whose velocities are independent."""
+        if self._chosen is not None:
+            return self._chosen
+        positions = self._chosen_for(self.holding, np.arange(len(self.instant.free)))
+        if len(self.holding) == len(self.kept):
+            return positions, positions
+        return positions, self._chosen_for(self.kept, positions)
+
+    @property
+    def selected(self) -> Index:
+        """Of independent coordinates."""
+        return self.chosen[0]
+
+    @property
+    def moving(self) -> Index:
+        """Of independent velocities."""
+        return self.chosen[1]
+
+    def _chosen_for(self, kept: Index, among: Index) -> Index:
+        """Independent coordinates of the motions that these rows leave, `among` those."""
         length = self.instant.length[self.instant.free]
         N = _null_space(self.J[kept] * length / self.instant.row_scale[kept, None])
         if not N.shape[1]:
             return np.zeros(0, dtype=np.intp)
-        pivoted: Any = qr(N.T, mode="economic", pivoting=True)
-        return np.sort(pivoted[2][: N.shape[1]])
+        pivoted: Any = qr(N[among].T, mode="economic", pivoting=True)
+        return np.sort(among[pivoted[2][: N.shape[1]]])
 
     @cached_property
     def inverse(self) -> Array:
-        """[C_q; S]⁻¹ (f, K + m), least norm where rows repeat each other."""
-        return self._inverse_with(self.kept, self.selected)
+        """[C_q; S_v]⁻¹ (f, K + m), least norm where rows repeat each other."""
+        return self._inverse_with(self.kept, self.moving)
 
     def _inverse_with(self, kept: NDArray[np.intp], selected: NDArray[np.intp]) -> Array:
         f, m = len(self.instant.free), len(selected)
@@ -129,9 +154,16 @@ class Reduction:
         return self.inverse[:, len(self.kept) :]
 
     @cached_property
+    def Zq(self) -> Array:
+        """(f, m) change of all positions for a unit of each independent one."""
+        if len(self.holding) == len(self.kept):
+            return self.Z
+        return self._inverse_with(self.holding, self.selected)[:, len(self.holding) :]
+
+    @cached_property
     def Y(self) -> Array:
         """(f, m) velocities that displaced independent coordinates ask for at rest."""
-        return -self.inverse[:, : len(self.kept)] @ (self.by_q.Cdot[self.kept] @ self.Z)
+        return -self.inverse[:, : len(self.kept)] @ (self.by_q.Cdot[self.kept] @ self.Zq)
 
     @cached_property
     def E(self) -> Array:
@@ -145,17 +177,17 @@ class Reduction:
     def state_space(self) -> StateSpace:
         """A, B, C, D for the states (s, w, x)."""
         own, free = self.instant, self.instant.free
-        Z, Y, m, S, p = self.Z, self.Y, len(self.selected), own.state_count, self.ports.force.shape[1]
-        q = np.hstack([Z, np.zeros((len(free), m + S + p))])
-        v = np.hstack([Y, Z, np.zeros((len(free), S + p))])
-        x = np.hstack([np.zeros((S, 2 * m)), np.eye(S), np.zeros((S, p))])
-        u = np.hstack([np.zeros((p, 2 * m + S)), np.eye(p)])
+        m, w, S, p = len(self.selected), len(self.moving), own.state_count, self.ports.force.shape[1]
+        q = np.hstack([self.Zq, np.zeros((len(free), w + S + p))])
+        v = np.hstack([self.Y, self.Z, np.zeros((len(free), S + p))])
+        x = np.hstack([np.zeros((S, m + w)), np.eye(S), np.zeros((S, p))])
+        u = np.hstack([np.zeros((p, m + w + S)), np.eye(p)])
         rate, lam = self._accelerations(q, v, x, u)
         qdot = v + self.E @ q
         xdot = self._combined("g", q, v, x, rate, lam)
         seen = self._combined("seen", q, v, x, rate, lam)
-        whole = np.vstack([qdot[self.selected], rate[self.selected], xdot])
-        count = 2 * m + S
+        whole = np.vstack([qdot[self.selected], rate[self.moving], xdot])
+        count = m + w + S
         return StateSpace(whole[:, :count], whole[:, count:], seen[:, :count], seen[:, count:])
 
     @cached_property
@@ -172,7 +204,8 @@ class Reduction:
         """(f + K, f + K) its inverse, in the null space of all rows: where these leave no motion, forces make none, exactly."""
         free, K = self.instant.free, self.instant.rows
         M, every = self.by_rate.r[free], np.arange(K)
-        inner = self._inverse_with(every, self._chosen_for(every) if len(self.ports.opened) else self.selected)
+        places = np.arange(len(free))
+        inner = self._inverse_with(every, self._chosen_for(every, places) if len(self.ports.opened) else self.moving)
         P, Z = inner[:, :K], inner[:, K:]
         reduced = Z.T @ M @ Z
         by_force = Z @ np.linalg.solve(reduced, Z.T) if Z.shape[1] else np.zeros((len(free), len(free)))
@@ -190,10 +223,10 @@ class Reduction:
     def noise(self) -> Array:
         """(n, n) what round-off may leave of entries of A in which larger terms cancel."""
         own, free = self.instant, self.instant.free
-        Z, Y, m, S = np.abs(self.Z), np.abs(self.Y), len(self.selected), own.state_count
-        q = np.hstack([Z, np.zeros((len(free), m + S))])
-        v = np.hstack([Y, Z, np.zeros((len(free), S))])
-        x = np.hstack([np.zeros((S, 2 * m)), np.eye(S)])
+        m, w, S = len(self.selected), len(self.moving), own.state_count
+        q = np.hstack([np.abs(self.Zq), np.zeros((len(free), w + S))])
+        v = np.hstack([np.abs(self.Y), np.abs(self.Z), np.zeros((len(free), S))])
+        x = np.hstack([np.zeros((S, m + w)), np.eye(S)])
 
         def moved(part: str) -> Array:
             terms = ((self.by_q, q), (self.by_v, v), (self.by_x, x))
@@ -206,7 +239,7 @@ class Reduction:
         rate, lam = unknown[: len(free)], unknown[len(free) :]
         xdot = moved("g") + np.abs(self.by_rate.g) @ rate + np.abs(self.by_force.g) @ lam
         qdot = v + np.abs(self.E) @ q
-        return ROUND_OFF * np.vstack([qdot[self.selected], rate[self.selected], xdot])
+        return ROUND_OFF * np.vstack([qdot[self.selected], rate[self.moving], xdot])
 
     def _moved(self, part: str, q: Array, v: Array, x: Array) -> Array:
         return getattr(self.by_q, part) @ q + getattr(self.by_v, part) @ v + getattr(self.by_x, part) @ x

@@ -65,17 +65,18 @@ def linearise(
     catalogue = Catalogue(machine, instant)
     inputs, outputs = catalogue.chosen(settings.inputs, settings.outputs)
     reduction = Reduction(instant, catalogue.ports(inputs), catalogue.reader(outputs))
-    signs = _signs(catalogue, instant)[reduction.selected]
+    places, rates = (_signs(catalogue, instant)[each] for each in reduction.chosen)
+    signs = np.concatenate([places, rates])
     whole = _signed(reduction.state_space(), signs)
     states = _states(instant, reduction)
-    space, states, inputs, kept = _opened(whole, states, inputs, instant, len(signs))
+    space, states, inputs, kept = _opened(whole, states, inputs, len(signs))
     noise = reduction.noise()[np.ix_(kept, kept)]
-    found = eigenvalues(space.A, _timed(states.scale, space.A, len(signs)), noise)
-    if len(space.A) == 2 * len(signs) == len(whole.A) and is_at_rest(instant):
+    found = eigenvalues(space.A, _timed(states.scale, space.A, len(places), len(signs)), noise)
+    if len(space.A) == 2 * len(rates) == len(whole.A) and is_at_rest(instant):
         found = _undamped(found, *_held(instant, reduction).second_order())
-    shift, turn = _shapes(instant, reduction, found, signs, states, whole.A)
+    shift, turn = _shapes(instant, reduction, found, places)
     steady, notes = _judged(catalogue, moment, instant, reduction, inputs, whole.A, signs)
-    second = [signs[:, None] * each * signs for each in reduction.second_order()]
+    second = [rates[:, None] * each * rates for each in reduction.second_order()]
     posed = _posed(machine, source, moment, instant, settings)
     return LinearModel(
         name=machine.name,
@@ -130,31 +131,28 @@ def _signs(catalogue: Catalogue, instant: Instant) -> Array:
 
 
 def _signed(space: StateSpace, signs: Array) -> StateSpace:
-    m = len(signs)
     more = np.ones(len(space.A))
-    more[:m], more[m : 2 * m] = signs, signs
+    more[: len(signs)] = signs
     return StateSpace(more[:, None] * space.A * more, more[:, None] * space.B, space.C * more, space.D)
 
 
 def _states(instant: Instant, reduction: Reduction) -> _States:
     names = velocity_names(instant.system)
-    chosen = [names[instant.free[k]] for k in reduction.selected]
-    length = instant.length[instant.free][reduction.selected]
+    places, rates = ([names[instant.free[k]] for k in each] for each in reduction.chosen)
+    length = instant.length[instant.free]
     facts = instant.system.states
     return _States(
-        [name for name, _ in chosen]
-        + [f"{name}.rate" for name, _ in chosen]
-        + [f"state.{fact.name}" for fact in facts],
-        [unit for _, unit in chosen] + [f"{unit}/s" for _, unit in chosen] + [fact.units for fact in facts],
-        np.concatenate([length, length, [fact.scale or 1.0 for fact in facts]]),
+        [name for name, _ in places] + [f"{name}.rate" for name, _ in rates] + [f"state.{fact.name}" for fact in facts],
+        [unit for _, unit in places] + [f"{unit}/s" for _, unit in rates] + [fact.units for fact in facts],
+        np.concatenate([length[reduction.selected], length[reduction.moving], [fact.scale or 1.0 for fact in facts]]),
     )
 
 
 def _opened(
-    space: StateSpace, states: _States, inputs: Sequence[Input], instant: Instant, m: int
+    space: StateSpace, states: _States, inputs: Sequence[Input], moving: int
 ) -> tuple[StateSpace, _States, list[Input], NDArray[np.intp]]:
-    """States of elements that are inputs become columns of B; also which states are left."""
-    taken = {2 * m + each.place[0]: k for k, each in enumerate(inputs) if each.kind == "state"}
+    """States of elements that are inputs become columns of B; also which states are left. moving : states before them."""
+    taken = {moving + each.place[0]: k for k, each in enumerate(inputs) if each.kind == "state"}
     kept = np.array([k for k in range(len(space.A)) if k not in taken], dtype=np.intp)
     B, D = space.B.copy(), space.D.copy()
     for column, k in taken.items():
@@ -180,17 +178,15 @@ def _undamped(found: Eigen, M: Array, D: Array, K: Array) -> Eigen:
     return with_squares(found, symmetric_modes(symmetric(K), symmetric(M))[0])
 
 
-def _timed(scale: Array, A: Array, m: int) -> Array:
-    """Sizes of the states, those of rates by the fastest vibration that stiffness alone would make."""
-    stiffness = np.abs(A[m : 2 * m, :m] * scale[:m] / scale[m : 2 * m, None])
+def _timed(scale: Array, A: Array, m: int, moving: int) -> Array:
+    """Sizes of the states, those of rates (from m to `moving`) by the fastest vibration that stiffness alone would make."""
+    stiffness = np.abs(A[m:moving, :m] * scale[:m] / scale[m:moving, None])
     out = scale.copy()
-    out[m : 2 * m] *= np.sqrt(float(np.max(stiffness, initial=0.0))) or 1.0
+    out[m:moving] *= np.sqrt(float(np.max(stiffness, initial=0.0))) or 1.0
     return out
 
 
-def _shapes(
-    instant: Instant, reduction: Reduction, found: Eigen, signs: Array, states: _States, A: Array
-) -> tuple[Complex, Complex]:
+def _shapes(instant: Instant, reduction: Reduction, found: Eigen, signs: Array) -> tuple[Complex, Complex]:
     """(shift, turn), each (n, B, 3): what body frames do in each eigenvector."""
     count, m = instant.system.body_count, len(signs)
 
@@ -201,7 +197,7 @@ def _shapes(
 
     if not count or not m or len(found.values) == 0:
         return np.zeros((len(found.values), count, 3), complex), np.zeros((len(found.values), count, 3), complex)
-    seen = instant.along("q", read).seen @ (reduction.Z * signs)
+    seen = instant.along("q", read).seen @ (reduction.Zq * signs)
     axes = instant.read(read)[3 * count :].reshape(count, 3, 3)
     spins = np.einsum("bijk,blj->bilk", seen[3 * count :].reshape(count, 3, 3, m), axes)
     turns = 0.5 * np.stack(
@@ -245,7 +241,7 @@ def _judged(
         if t == instant.t:
             return A
         own = Instant(moment.motion, t, y)
-        later = Reduction(own, catalogue.ports(inputs), _nothing, reduction.selected)
+        later = Reduction(own, catalogue.ports(inputs), _nothing, reduction.chosen)
         return _signed(later.state_space(), signs).A
 
     if keeps_its_equations(moment.prepared.motion, instant, find):
@@ -273,9 +269,9 @@ def _judged_at_rest(moment: Moment, instant: Instant, reduction: Reduction, A: A
             "linearise about equilibrium"
         )
     g = instant.value()[instant.n :][: instant.state_count]
-    facts = instant.system.states
+    facts, moving = instant.system.states, len(reduction.selected) + len(reduction.moving)
     for k, fact in enumerate(facts):
-        if abs(g[k]) > BALANCE * (fact.scale or 1.0) * max(1.0, abs(A[2 * len(reduction.selected) + k]).max()):
+        if abs(g[k]) > BALANCE * (fact.scale or 1.0) * max(1.0, abs(A[moving + k]).max()):
             notes.append(
                 f"the state {fact.name} changes at a rate of {g[k]:.4g} per second: linearise about equilibrium"
             )

@@ -17,8 +17,8 @@ from nivel.system.system import Array
 
 # shares of scales below which a machine is at rest, and in equilibrium
 REST, BALANCE = 1e-9, 1e-6
-# A may change by this share of its entries
-SAME = 1e-7
+# A may change by this share of the largest entry of a row, and round-off changes it by this share of the largest of all
+SAME, ROUND_OFF = 1e-7, 1e-12
 # the machine is looked at again after turns and ways of so many radians and lengths, by steps of this size
 LATER, STEP = (0.7, 1.9), 4e-3
 
@@ -50,14 +50,14 @@ def keeps_its_equations(
     t, y = own.t, own.y.copy()
     if first is None or speed == 0.0:
         return False
-    scale = np.maximum(np.abs(first).max(axis=1, keepdims=True), 1e-300)
+    allowed = SAME * np.abs(first).max(axis=1, keepdims=True) + ROUND_OFF * np.abs(first).max(initial=0.0)
     for until in LATER:
         moved = _advanced(motion, t, y, own.t + until / speed, STEP / speed)
         if moved is None:
             return False
         t, y = moved
         later = find(t, y)
-        if later is None or later.shape != first.shape or np.any(np.abs(later - first) > SAME * scale):
+        if later is None or later.shape != first.shape or np.any(np.abs(later - first) > allowed):
             return False
     return True
 

@@ -25,12 +25,16 @@ def allowed_steps(machine: MachineRecord, duration: float) -> Array:
     time = np.linspace(0.0, duration, PARTS * SAMPLES + 1)
     for function in varying(machine):
         curve = function.curve
-        if curve.signals or (isinstance(curve, TableCurve) and curve.table.interpolation == "linear"):
+        if (
+            function.sampling is not None
+            or curve.signals
+            or (isinstance(curve, TableCurve) and curve.table.interpolation == "linear")
+        ):
             continue  # steps end at the points of tables of straight lines
         values = curve.values({TIME: time})
         if not np.isfinite(values).any():
             continue
-        at, seen = _features(curve, time, np.nan_to_num(values))
+        at, seen = with_features(curve, time, np.nan_to_num(values))
         with np.errstate(over="ignore"):  # a jump has no slope that is a number
             slope = np.abs(np.diff(seen)) / np.maximum(np.diff(at), 1e-300)
         part = np.minimum((0.5 * (at[:-1] + at[1:]) / duration * PARTS).astype(int), PARTS - 1)
@@ -42,7 +46,7 @@ def allowed_steps(machine: MachineRecord, duration: float) -> Array:
     return _ending_before(allowed, duration / PARTS)
 
 
-def _features(curve: Curve, time: Array, values: Array) -> tuple[Array, Array]:
+def with_features(curve: Curve, time: Array, values: Array) -> tuple[Array, Array]:
     """Times and values with more of them where the function has more than was sampled."""
     begin, width = time[:-1], np.diff(time)
     low, high = np.minimum(values[:-1], values[1:]), np.maximum(values[:-1], values[1:])

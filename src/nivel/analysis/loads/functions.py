@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from nivel.machine.arithmetic import LOCAL_SYMBOLS, TIME
 from nivel.machine.bounds import Interval, bounds_of, values_of
 from nivel.machine.expression import Expression
+from nivel.machine.functions import Sampling, functions_of
+from nivel.machine.linear_function import linear_function
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
-from nivel.machine.record import Record
 from nivel.machine.table import Table
 from nivel.native.signature import LAW
 from nivel.system.laws import law_address
@@ -23,6 +24,8 @@ from nivel.system.laws import law_address
 Array = NDArray[np.float64]
 # straight pieces that stand for one of a smooth table
 PIECES = 16
+# what results call a part of a section, where it is another word
+OF = {"drivers": "driver", "forces": "force", "states": "state"}
 
 
 class Curve(Protocol):
@@ -44,11 +47,15 @@ class Curve(Protocol):
 
 @dataclass(frozen=True)
 class Varying:
-    """A function of a part of a machine. name : as users know it, `push.vector.x`. of : name of the part in results, `force.push`."""
+    """A function of a part of a machine.
+
+    name : as users know it, `push.vector.x`. of : name of the part in results, `force.push`. sampling : as of `MachineFunction`.
+    """
 
     name: str
     of: str
     curve: Curve
+    sampling: Sampling | None = None
 
 
 @dataclass(frozen=True)
@@ -136,16 +143,19 @@ class LawCurve:
 
 
 def varying(machine: MachineRecord) -> Iterator[Varying]:
-    """All functions of drivers, forces and states that vary."""
-    for section, parts in (("driver", machine.drivers), ("force", machine.forces), ("state", machine.states)):
-        for part in parts:
-            for field, function in _functions(part):
-                curve = _curve(function, motion=section == "driver")
-                if curve is not None:
-                    yield Varying(f"{part.name}.{field}", f"{section}.{part.name}", curve)
+    """All functions of a machine that may do something by themselves: what is linear only passes on what it depends on."""
+    for each in functions_of(machine):
+        function = each.function
+        if not (isinstance(function, Expression) and linear_function(function.tree) is not None):
+            yield Varying(
+                each.name,
+                f"{OF.get(each.section, each.section)}.{each.part}",
+                _curve(function, each.motion),
+                each.sampling,
+            )
 
 
-def _curve(function: object, *, motion: bool) -> Curve | None:
+def _curve(function: Expression | Table | PythonLaw, motion: bool) -> Curve:
     match function:
         case Expression():
             return ExpressionCurve(function)
@@ -153,17 +163,6 @@ def _curve(function: object, *, motion: bool) -> Curve | None:
             return TableCurve(function)
         case PythonLaw():
             return LawCurve(function, motion)
-    return None
-
-
-def _functions(part: Record) -> Iterator[tuple[str, object]]:
-    """The fields of a record, those of vectors apart."""
-    for name in type(part).model_fields:
-        value = getattr(part, name)
-        if isinstance(value, tuple) and len(value) == 3:
-            yield from ((f"{name}.{axis}", each) for axis, each in zip("xyz", value, strict=True))
-        else:
-            yield name, value
 
 
 def is_local(symbol: str) -> bool:

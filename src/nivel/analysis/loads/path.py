@@ -12,6 +12,7 @@ from nivel.analysis.loads.functions import Varying, is_local
 from nivel.errors import ModelError
 from nivel.integrate.run import LEAST, PARTS
 from nivel.machine.arithmetic import TIME
+from nivel.machine.control.part import VALUE
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.symbols import Symbol, UnknownSymbolError, find_symbol
 from nivel.results.result import Result
@@ -101,6 +102,10 @@ def _signal(name: str, function: Varying, machine: MachineRecord, result: Result
         case "forces":
             is_state = f"state.{name}" in result.variables
             return result.array(f"state.{name}" if is_state else f"force.{name}")
+        case "hydraulics":
+            return result.array(f"hydraulics.{name}")
+        case "control":
+            return result.array(f"control.{symbol.name}" if symbol.quantity == VALUE else f"control.{name}")
         case "sensors":
             return result.array(f"sensor.{symbol.name}")
         case "markers":

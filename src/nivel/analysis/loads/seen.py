@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 # Parts of a step between samples, and how many parts of the run are judged by themselves.
 SAMPLES, WINDOWS = 16, 20
 # A part of the run where a function is below this share of its largest mean magnitude counts as if it had that.
-QUIET = 1e-3
+QUIET = 1e-2
 # Bounds that allow this share of the largest magnitude beyond what was sampled are looked into, by so many halvings, so many at once.
 BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 14, 20_000
 # A found feature is sampled by so many points; at most so many are.
@@ -37,8 +37,10 @@ ENDS = np.array([0.5, 0.5])
 
 
 def unseen_loads(machine: MachineRecord, result: Result, steps: Steps, facts: IntegratorFacts) -> Iterator[Unseen]:
-    """What the steps of a run have missed of each function whose signals are known."""
+    """What the steps of a run have missed of each function that is looked at in every step and whose signals are known."""
     for function in varying(machine):
+        if function.sampling is not None:
+            continue
         path = path_of(function, machine, result)
         if path is not None and len(path.time) > 1:
             found = missed(function, path, steps, weights_of(facts))

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import bmat, csc_matrix, diags
+from scipy.sparse import bmat, csc_matrix
 
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.statics.pattern import Block
@@ -87,8 +87,13 @@ class Tangent:
 
     def saddle(self, shift: float = 0.0) -> Sparse:
         """[K + shift, Cᵀ; C, 0]."""
-        K = self.K if shift == 0.0 else self.K + diags(np.full(self.K.shape[0], shift))
-        return csc_matrix(bmat([[K, self.C.T], [self.C, None]])) if self.C.shape[0] else csc_matrix(K)
+        K, C = self.K.tocoo(), self.C.tocoo()
+        free = K.shape[0]
+        size, every = free + C.shape[0], np.arange(free if shift else 0)
+        value = np.concatenate([K.data, C.data, C.data, np.full(len(every), shift)])
+        row = np.concatenate([K.row, C.row + free, C.col, every])
+        column = np.concatenate([K.col, C.col, C.row + free, every])
+        return csc_matrix((value, (row, column)), shape=(size, size))
 
     def rigid(self) -> Tangent:
         """The same constraints without any stiffness."""

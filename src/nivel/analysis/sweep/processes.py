@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 from queue import SimpleQueue
 from typing import Any
 
-from nivel.analysis.sweep.variant import FAILED, VariantRun
+from nivel.analysis.sweep.variant import FAILED, VariantRun, run_variant
 from nivel.model import Model
 
 START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from nivel.analysis.sweep.worker import main; main()"
@@ -23,17 +23,22 @@ Job = tuple[int, Model, Any]
 
 
 def run_in_processes(jobs: Iterable[Job], save: tuple[str, ...], count: int) -> Iterator[tuple[int, VariantRun]]:
-    """Number and run of each variant, as they are finished, by `count` processes. Those left are ended where the caller stops.
+    """Number and run of each variant, as they are finished, by `count` processes: this one, which goes on while the others start, and
+    workers. Those are ended where the caller stops.
 
     Raises what a worker could not do for a fault of nivel.
     """
     left, finished = deque(jobs), SimpleQueue[tuple[int, Any] | None]()
-    workers = [_Worker() for _ in range(min(count, len(left)))]
+    workers = [_Worker() for _ in range(min(count - 1, len(left)))]
     for worker in workers:
         threading.Thread(target=_serve, args=(worker, left, save, finished), daemon=True).start()
     working = len(workers)
     try:
-        while working:
+        while working or left:
+            if finished.empty() and (job := _next(left)) is not None:
+                number, machine, values = job
+                yield number, run_variant(machine, values, save)
+                continue
             match finished.get():
                 case None:
                     working -= 1
@@ -47,13 +52,17 @@ def run_in_processes(jobs: Iterable[Job], save: tuple[str, ...], count: int) -> 
             worker.end()
 
 
+def _next(left: deque[Job]) -> Job | None:
+    try:
+        return left.popleft()
+    except IndexError:
+        return None
+
+
 def _serve(worker: _Worker, left: deque[Job], save: tuple[str, ...], finished: SimpleQueue[Any]) -> None:
     try:
-        while left:
-            try:
-                number, machine, values = left.popleft()
-            except IndexError:
-                break
+        while (job := _next(left)) is not None:
+            number, machine, values = job
             finished.put((number, worker.run(machine, values, save)))
     except BaseException as problem:  # whatever it is, nobody may wait for it
         finished.put((-1, problem))

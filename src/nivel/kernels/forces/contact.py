@@ -1,8 +1,8 @@
 """Contact of spheres, boxes and cylinders with planes, and of spheres with each other.
 
 A box touches with its corners. A cylinder touches with four points of each rim, the lowest one and those a quarter turn on, so it
-rolls on exact circles and stands on four feet. Normal force: `nivel.kernels.forces.impact`. Friction: μ N tanh(v/v_s) against
-the sliding velocity of the bodies at the point.
+rolls on exact circles and stands on four feet. Normal force: `nivel.kernels.forces.impact`, or a law of the user, which works from
+outside and never pulls. Friction: μ N tanh(v/v_s) against the sliding velocity of the bodies at the point.
 """
 
 from __future__ import annotations
@@ -12,14 +12,17 @@ import numpy as np
 from nivel.kernels.analytic import maximum, real, tanh
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.wrench import add_force_at
+from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
+from nivel.kernels.record import NONE, record_at
 from nivel.kernels.status import OK
 from nivel.native.function import stage
 
-# columns of `columns`; MARKER: centre and axes of the shape (a cylinder's is z); OTHER: the plane (z outwards), or the other sphere
-# outputs: magnitude, power, deepest overlap, normal force
-OUTPUT, KIND, MARKER, OTHER = 0, 1, 2, 3
+# columns of `columns`; MARKER: centre and axes of the shape (a cylinder's is z); OTHER: the plane (z outwards), or the other sphere;
+# LAW: of the normal force, or NONE
+OUTPUT, KIND, MARKER, OTHER, LAW = 0, 1, 2, 3, 4
+# outputs: magnitude, power, deepest overlap, normal force, rate of the deepest overlap; a law reads overlap and rate of its point there
+DEPTH, FORCE, RATE = 2, 3, 4
 SPHERE, BOX, CYLINDER, SPHERES = 0, 1, 2, 3
 POINTS = 8  # most points of a shape
 # columns of `number`; SIZE: radius; half lengths; radius and half length; the two radii. Then a point and a normal of work.
@@ -62,7 +65,19 @@ def rim_point(A, r, size, n, normal, p):
 
 
 @stage
-def touch(machine, k, n, depth):
+def law_force(machine, k, depth, rate, t):
+    """The user's normal force at an overlap and its rate; none where the surfaces are apart, or where it would pull."""
+    record = record_at(machine)
+    out, first = record.outputs.value, record.elements.columns[k, OUTPUT]
+    force = 0.0 * depth
+    if real(depth) > 0.0:
+        out[first + DEPTH], out[first + RATE] = depth, rate
+        force = maximum(evaluate_function(machine, record.elements.columns[k, LAW], t), force)
+    return force
+
+
+@stage
+def touch(machine, k, n, depth, t):
     """Forces at the point of number[POINT:], normal number[NORMAL:] from the other body to this one; returns (N, friction, power)."""
     record = record_at(machine)
     bodies, markers, elements, control = record.bodies, record.markers, record.elements, record.control
@@ -73,17 +88,22 @@ def touch(machine, k, n, depth):
     u0, u1, u2 = velocity_at(bodies, other, p)
     v0, v1, v2 = v0 - u0, v1 - u1, v2 - u2
     out = v0 * normal[0] + v1 * normal[1] + v2 * normal[2]
-    force, stored, loss, elements.proposal[k, n] = impact(
-        depth,
-        -out,
-        numbers[STIFFNESS],
-        numbers[EXPONENT],
-        numbers[LOSS],
-        elements.memory[k, n],
-        record.watched.followed[0],
-    )
-    control.stored[0] += stored
-    control.power[1] += loss
+    if elements.columns[k, LAW] != NONE:
+        force = law_force(machine, k, depth, -out, t)
+        elements.proposal[k, n] = 0.0 * force + (1.0 if real(depth) > 0.0 else 0.0)
+        control.power[0] += force * out
+    else:
+        force, stored, loss, elements.proposal[k, n] = impact(
+            depth,
+            -out,
+            numbers[STIFFNESS],
+            numbers[EXPONENT],
+            numbers[LOSS],
+            elements.memory[k, n],
+            record.watched.followed[0],
+        )
+        control.stored[0] += stored
+        control.power[1] += loss
     s0, s1, s2 = v0 - out * normal[0], v1 - out * normal[1], v2 - out * normal[2]
     speed = np.sqrt(s0 * s0 + s1 * s1 + s2 * s2)
     friction = 0.0 * force
@@ -162,15 +182,18 @@ def apply(machine, number, t):
         kind = elements.columns[k, KIND]
         count = POINTS if kind in (BOX, CYLINDER) else 1
         nothing = 0.0 * elements.number[k, STIFFNESS]
-        normal_force, friction_force, deepest, power = nothing, nothing, nothing - np.inf, nothing
+        normal_force, friction_force, power = nothing, nothing, nothing
+        deepest, its_rate = nothing - np.inf, nothing
         for n in range(count):
             depth = find_point(machine, k, n)
-            deepest = maximum(deepest, depth)
+            rate = approach(machine, k)
+            if real(depth) > real(deepest):
+                deepest, its_rate = depth, rate
             elements.depth[k, n] = depth
             if followed == 1:
-                elements.depth_rate[k, n] = approach(machine, k)
+                elements.depth_rate[k, n] = rate
             if real(depth) > 0.0 or (followed == 1 and elements.memory[k, n] > 0.0):
-                force, friction, gained = touch(machine, k, n, depth)
+                force, friction, gained = touch(machine, k, n, depth, t)
                 normal_force += force
                 friction_force += friction
                 power += gained
@@ -179,5 +202,10 @@ def apply(machine, number, t):
         out = record.outputs.value
         first = elements.columns[k, OUTPUT]
         out[first] = np.sqrt(normal_force * normal_force + friction_force * friction_force)
-        out[first + 1], out[first + 2], out[first + 3] = power, deepest, normal_force
+        out[first + 1], out[first + DEPTH], out[first + FORCE], out[first + RATE] = (
+            power,
+            deepest,
+            normal_force,
+            its_rate,
+        )
     return OK

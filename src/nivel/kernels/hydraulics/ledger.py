@@ -12,6 +12,16 @@ OUTPUT, STATE = 0, 1
 
 
 @family
+def begin(machine, number, t):
+    """Nothing is stored and no power flows before nodes and components add theirs."""
+    circuit = record_at(machine).circuit
+    circuit.stored[0] = 0.0
+    for i in range(circuit.power.shape[0]):
+        circuit.power[i] = 0.0
+    return OK
+
+
+@family
 def apply(machine, number, t):
     """Rates of these; at rest they are none, since only the state of the machine is asked for."""
     record = record_at(machine)

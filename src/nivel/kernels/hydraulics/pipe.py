@@ -11,6 +11,7 @@ import numpy as np
 
 from nivel.kernels.analytic import real
 from nivel.kernels.hook import family
+from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.transfer import lose, transfer
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.status import OK
@@ -75,3 +76,27 @@ def apply(machine, number, t):
             lose(machine, transfer(machine, a, b, mass_flow) - mass_flow * driving / n[DENSITY])
         record.outputs.value[index[OUTPUT]] = flow
     return OK
+
+
+@leaf
+def add_slopes(machine, number):
+    """Slopes of flows through pipes, those with pressures as secants."""
+    record = record_at(machine)
+    elements, circuit, value = record.elements, record.circuit, record.outputs.value
+    tangent = circuit.tangent
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b = index[FROM], index[TO]
+        density = 0.5 * (circuit.density[a] + circuit.density[b])
+        sixth = (value[index[OUTPUT]] / n[CRITICAL]) ** 6
+        secant = n[RESISTANCE] * density * (1.0 + sixth) ** 0.125
+        if index[STATE] == NONE:
+            add_flow_by_pressure(circuit, a, b, a, density / secant)
+            add_flow_by_pressure(circuit, a, b, b, -density / secant)
+        else:
+            own = tangent.unknown[index[STATE]]
+            row = tangent.slopes[own]
+            add_by_pressure(circuit, row, a, n[SLENDER])
+            add_by_pressure(circuit, row, b, -n[SLENDER])
+            row[own] -= n[SLENDER] * secant * (1.0 + 0.75 * sixth / (1.0 + sixth)) / density
+            add_flow_by_column(circuit, a, b, own, 1.0)

@@ -13,6 +13,7 @@ from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.hook import family
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
+from nivel.kernels.hydraulics.slopes import add_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, step
 from nivel.kernels.hydraulics.transfer import DELIVERED
 from nivel.kernels.record import NONE, record_at
@@ -119,3 +120,55 @@ def press(machine, number, t):
         record.outputs.value[out + FORCE] += effort
         record.outputs.value[out + POWER] += power
     return OK
+
+
+@leaf
+def add_slopes_of_rooms(machine, number):
+    """Slopes of the pressures of chambers with the strokes of their pistons, where `by_stroke` is -∂p/∂V of the node."""
+    record = record_at(machine)
+    elements, coordinates, tangent = record.elements, record.coordinates, record.circuit.tangent
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        q = index[COORDINATE]
+        _, area = swept(n, coordinates.value[q] - n[ORIGIN])
+        tangent.by_stroke[index[NODE], tangent.number[q]] += area
+
+
+@leaf
+def add_slopes_of_pressing(machine, number):
+    """Slopes of the forces of pressures on pistons."""
+    record = record_at(machine)
+    elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
+    tangent = circuit.tangent
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        q = index[COORDINATE]
+        _, area = swept(n, coordinates.value[q] - n[ORIGIN])
+        add_by_pressure(circuit, tangent.effort[tangent.number[q]], index[NODE], area)
+
+
+@leaf
+def add_slopes_of_guides(machine, number):
+    """Slopes of the friction of pistons, and of the elastic part of their end stops."""
+    record = record_at(machine)
+    elements, circuit, coordinates = record.elements, record.circuit, record.coordinates
+    tangent = circuit.tangent
+    states, count = tangent.state.shape[0], tangent.coordinate.shape[0]
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        q = index[COORDINATE]
+        c, v = np.int64(tangent.number[q]), coordinates.rate[q]
+        row = tangent.effort[c]
+        other = circuit.pressure[index[NODE_B]] if index[NODE_B] != NONE else ATMOSPHERE
+        difference = circuit.pressure[index[NODE_A]] - other
+        size, ratio, sign = magnitude_within(difference, ROUNDED), v / n[STRIBECK], tanh(v / n[TRANSITION])
+        extra = (n[STATIC] - 1.0) * np.exp(-ratio * ratio)
+        sliding = n[COULOMB] + n[SEAL] * size
+        turning = (1.0 + extra) * (1.0 - sign * sign) / n[TRANSITION] - 2.0 * extra * ratio / n[STRIBECK] * sign
+        row[states + count + c] -= sliding * turning + n[VISCOUS]
+        by_pressure = n[SEAL] * difference / size * (1.0 + extra) * sign
+        add_by_pressure(circuit, row, index[NODE_A], -by_pressure)
+        if index[NODE_B] != NONE:
+            add_by_pressure(circuit, row, index[NODE_B], by_pressure)
+        if elements.depth[k, 0] > 0.0 or elements.depth[k, 1] > 0.0:
+            row[states + c] -= n[STIFFNESS]

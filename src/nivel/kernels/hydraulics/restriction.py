@@ -8,15 +8,18 @@ their overlap.
 
 from __future__ import annotations
 
+import numpy as np
+
 from nivel.kernels.analytic import real
 from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
-from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, root_flow, step
-from nivel.kernels.hydraulics.spool import clipped
+from nivel.kernels.hydraulics.slopes import add_flow_by_column, add_flow_by_pressure
+from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, root_flow, slope_of_step, step
+from nivel.kernels.hydraulics.spool import FIRST_FACTOR, FIRST_NODE, NODES, clipped, slope_of_poppet
 from nivel.kernels.hydraulics.transfer import lose, transfer
-from nivel.kernels.record import record_at
+from nivel.kernels.record import NONE, record_at
 from nivel.kernels.status import OK
-from nivel.native.function import stage
+from nivel.native.function import leaf, stage
 
 # columns of `columns`; POSITION: output of the valve, or a function. Output: flow [m³/s]
 OUTPUT, FROM, TO, KIND, POSITION = 0, 1, 2, 3, 4
@@ -63,3 +66,48 @@ def apply(machine, number, t):
         lose(machine, transfer(machine, a, b, 0.5 * (circuit.density[a] + circuit.density[b]) * flow))
         record.outputs.value[index[OUTPUT]] = flow
     return OK
+
+
+@leaf
+def slope_of_opening(index, n, u):
+    """Slope of the opening of a restriction with the position u of its valve."""
+    kind = index[KIND]
+    if kind == DIRECT:
+        return 1.0 if 0.0 <= u <= 1.0 else 0.0
+    if not -1.0 <= u <= 1.0:
+        return 0.0
+    if kind == EDGE:
+        return n[FACTOR] * step((n[FACTOR] * u + n[SHIFT]) / n[WIDTH]) * n[SCALE]
+    size = magnitude_within(u, 1e-6)
+    return -slope_of_step(size / n[WIDTH]) / n[WIDTH] * u / size
+
+
+@leaf
+def add_slopes(machine, number, t):
+    """Slopes of all flows, those with pressures as secants."""
+    record = record_at(machine)
+    elements, circuit, value = record.elements, record.circuit, record.outputs.value
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b, kind = index[FROM], index[TO], index[KIND]
+        difference = circuit.pressure[a] - circuit.pressure[b]
+        density = 0.5 * (circuit.density[a] + circuit.density[b])
+        through = n[FLOW] / np.sqrt(np.sqrt(difference * difference + n[CORNER] * n[CORNER]))
+        conductance = density * (through * opening_of(machine, index, n, t) + n[LEAK])
+        if conductance != 0.0:
+            add_flow_by_pressure(circuit, a, b, a, conductance)
+            add_flow_by_pressure(circuit, a, b, b, -conductance)
+        if kind != DIRECT and kind != EDGE and kind != MIDDLE:
+            continue
+        slope = density * through * difference * slope_of_opening(index, n, value[index[POSITION]])
+        if slope == 0.0:
+            continue
+        state, poppet = circuit.tangent.source[index[POSITION], 0], circuit.tangent.source[index[POSITION], 1]
+        if state != NONE:
+            add_flow_by_column(circuit, a, b, state, slope)
+        elif poppet != NONE:
+            valve, factors = elements.columns[poppet], elements.number[poppet]
+            slope *= slope_of_poppet(machine, valve, factors, t)
+            for i in range(NODES):
+                if slope != 0.0 and valve[FIRST_NODE + i] != NONE:
+                    add_flow_by_pressure(circuit, a, b, valve[FIRST_NODE + i], slope * factors[FIRST_FACTOR + i])

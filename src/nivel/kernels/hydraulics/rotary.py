@@ -16,11 +16,13 @@ from nivel.kernels.analytic import real
 from nivel.kernels.forces.wrench import add_coordinate_force
 from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
-from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within, step
+from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
+from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within, slope_of_step, step
 from nivel.kernels.hydraulics.spool import clipped
 from nivel.kernels.hydraulics.transfer import DELIVERED, SUPPLIED, lose, transfer
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.status import OK
+from nivel.native.function import leaf, stage
 
 # machines: columns of `columns`; SPEED: function, or NONE; outputs: flow, torque, power, setting
 OUTPUT, FROM, TO, SPEED, COORDINATE = 0, 1, 2, 3, 4
@@ -64,22 +66,26 @@ def set_displacement(machine, number, t):
     return OK
 
 
+@stage
+def turning(machine, index, n, t):
+    """(speed [rad/s], angle [rad]) of a shaft."""
+    coordinates = record_at(machine).coordinates
+    if index[SPEED] == NONE:
+        q = index[COORDINATE]
+        return n[RATIO] * coordinates.rate[q], n[RATIO] * coordinates.value[q]
+    omega = evaluate_function(machine, index[SPEED], t)
+    return omega, omega * t
+
+
 @family
 def turn(machine, number, t):
     """Flows and torques of pumps and motors."""
     record = record_at(machine)
-    elements, circuit, coordinates, value = record.elements, record.circuit, record.coordinates, record.outputs.value
+    elements, circuit, value = record.elements, record.circuit, record.outputs.value
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, n = elements.columns[k], elements.number[k]
         a, b, out = index[FROM], index[TO], index[OUTPUT]
-        if index[SPEED] == NONE:
-            omega, angle = (
-                n[RATIO] * coordinates.rate[index[COORDINATE]],
-                n[RATIO] * coordinates.value[index[COORDINATE]],
-            )
-        else:
-            omega = evaluate_function(machine, index[SPEED], t)
-            angle = omega * t
+        omega, angle = turning(machine, index, n, t)
         swept = n[DISPLACEMENT] * value[out + SETTING] * (1.0 + n[RIPPLE] * np.cos(n[PERIODS] * angle))
         displaced = swept * omega
         mean = 0.5 * (circuit.density[a] + circuit.density[b])
@@ -118,3 +124,59 @@ def supply(machine, number, t):
         circuit.power[SUPPLIED] += power
         value[index[OUTPUT]], value[index[OUTPUT] + 1] = flow, power
     return OK
+
+
+@leaf
+def add_slopes_of_settings(machine, number):
+    """Slopes of the displacements that are states."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    tangent = circuit.tangent
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        if index[STATE] == NONE:
+            continue
+        own, unknown = elements.state[index[STATE]], tangent.unknown[index[STATE]]
+        lacking = circuit.pressure[index[SENSED]] + n[MARGIN] - circuit.pressure[index[HIGH]]
+        spare = n[CUT_OFF] - circuit.pressure[index[HIGH]]
+        g = min(lacking, spare) / n[RANGE]
+        root = np.sqrt(1.0 + g * g)
+        room, sign = (1.0 - own, -1.0) if g > 0.0 else (own, 1.0)
+        row = tangent.slopes[unknown]
+        row[unknown] += g / root / n[TIME] * slope_of_step(room / END) * sign / END
+        slope = step(room / END) / (root * root * root * n[TIME] * n[RANGE])
+        add_by_pressure(circuit, row, index[HIGH], -slope)
+        if lacking <= spare:
+            add_by_pressure(circuit, row, index[SENSED], slope)
+
+
+@leaf
+def add_slopes(machine, number, t):
+    """Slopes of the flows and torques of pumps and motors."""
+    record = record_at(machine)
+    elements, circuit, value = record.elements, record.circuit, record.outputs.value
+    tangent = circuit.tangent
+    states, coordinates = tangent.state.shape[0], tangent.coordinate.shape[0]
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        a, b, setting = index[FROM], index[TO], index[OUTPUT] + SETTING
+        omega, angle = turning(machine, index, n, t)
+        full = n[DISPLACEMENT] * (1.0 + n[RIPPLE] * np.cos(n[PERIODS] * angle))
+        swept = full * value[setting]
+        mean = 0.5 * (circuit.density[a] + circuit.density[b])
+        taken = sign_within(omega * value[setting], SLOW)
+        density = mean + 0.5 * (circuit.density[a] - circuit.density[b]) * taken
+        add_flow_by_pressure(circuit, a, b, a, mean * n[LEAK])
+        add_flow_by_pressure(circuit, a, b, b, -mean * n[LEAK])
+        if tangent.source[setting, 0] != NONE:
+            add_flow_by_column(circuit, a, b, tangent.source[setting, 0], density * full * omega)
+        if index[SPEED] != NONE:
+            continue
+        c, ratio = np.int64(tangent.number[index[COORDINATE]]), n[RATIO]
+        rate, row = states + coordinates + c, tangent.effort[c]
+        add_flow_by_column(circuit, a, b, rate, density * swept * ratio)
+        difference = circuit.pressure[b] - circuit.pressure[a]
+        dry = n[DRY] * n[DISPLACEMENT] * magnitude_within(difference, SMALL)
+        row[rate] -= ratio * ratio * (n[VISCOUS] + dry * SLOW * SLOW / (omega * omega + SLOW * SLOW) ** 1.5)
+        add_by_pressure(circuit, row, b, -ratio * swept)
+        add_by_pressure(circuit, row, a, ratio * swept)

@@ -61,3 +61,9 @@ def root_flow(difference, corner, secant):
     # of complex numbers the first derivative: that of (Δp² + c²)^(-1/4) is -½ Δp (Δp² + c²)^(-5/4)
     change = difference - real(difference)
     return slope * (difference - 0.5 * real(difference) * real(difference) / size * change)
+
+
+@leaf
+def slope_of_step(t):
+    """That of `step` at a real t."""
+    return 6.0 * t * (1.0 - t) if 0.0 < t < 1.0 else 0.0

@@ -5,10 +5,11 @@ from __future__ import annotations
 from nivel.kernels.analytic import real, tanh
 from nivel.kernels.function import evaluate_function
 from nivel.kernels.hook import family
-from nivel.kernels.hydraulics.smooth import step
+from nivel.kernels.hydraulics.slopes import add_by_pressure
+from nivel.kernels.hydraulics.smooth import slope_of_step, step
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.status import OK
-from nivel.native.function import leaf
+from nivel.native.function import leaf, stage
 
 # columns of `columns`; output: position
 OUTPUT, STATE, SPEED, COMMAND = 0, 1, 2, 3
@@ -55,21 +56,72 @@ def move(machine, number, t):
     return OK
 
 
+@stage
+def opening_pressure(machine, index, n, t):
+    """Σ factor p + setting + offset of a poppet."""
+    circuit = record_at(machine).circuit
+    pressure = n[OFFSET] + n[SETTING] * evaluate_function(machine, index[COMMAND], t)
+    for i in range(NODES):
+        if index[FIRST_NODE + i] != NONE:
+            pressure = pressure + n[FIRST_FACTOR + i] * circuit.pressure[index[FIRST_NODE + i]]
+    return pressure
+
+
 @family
 def lift(machine, number, t):
     """Poppets: the opening S((Σ factor p + setting + offset)/range), or a state that follows it, τ ẋ = S - x."""
     record = record_at(machine)
-    elements, circuit = record.elements, record.circuit
+    elements = record.elements
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, n = elements.columns[k], elements.number[k]
-        pressure = n[OFFSET] + n[SETTING] * evaluate_function(machine, index[COMMAND], t)
-        for i in range(NODES):
-            if index[FIRST_NODE + i] != NONE:
-                pressure = pressure + n[FIRST_FACTOR + i] * circuit.pressure[index[FIRST_NODE + i]]
-        opening = step(pressure * (1.0 / real(n[RANGE])))
+        opening = step(opening_pressure(machine, index, n, t) * (1.0 / real(n[RANGE])))
         if index[STATE] != NONE:
             own = index[STATE]
             elements.state_rate[own] += (opening - elements.state[own]) * (1.0 / real(n[LAG]))
             opening = elements.state[own]
         record.outputs.value[index[OUTPUT]] = opening
     return OK
+
+
+@leaf
+def add_slopes_of_spools(machine, number):
+    """Slopes of the positions and speeds of spools, for commands that do not depend on the state."""
+    record = record_at(machine)
+    elements, tangent = record.elements, record.circuit.tangent
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        if index[STATE] == NONE:
+            continue
+        own, omega = tangent.unknown[index[STATE]], n[FREQUENCY]
+        if index[SPEED] == NONE:
+            share = elements.state_rate[index[STATE]] / n[RATE]
+            tangent.slopes[own, own] -= omega * (1.0 - share * share)
+        else:
+            speed = tangent.unknown[index[SPEED]]
+            tangent.slopes[own, speed] += 1.0
+            tangent.slopes[speed, own] -= omega * omega
+            tangent.slopes[speed, speed] -= 2.0 * n[DAMPING] * omega
+
+
+@leaf
+def slope_of_poppet(machine, index, n, t):
+    """Slope of the opening S with Σ factor p + … [1/Pa]."""
+    return slope_of_step(opening_pressure(machine, index, n, t) / n[RANGE]) / n[RANGE]
+
+
+@leaf
+def add_slopes_of_poppets(machine, number, t):
+    """Slopes of the positions of poppets that are states."""
+    record = record_at(machine)
+    elements, circuit = record.elements, record.circuit
+    tangent = circuit.tangent
+    for k in range(elements.span[number, 0], elements.span[number, 1]):
+        index, n = elements.columns[k], elements.number[k]
+        if index[STATE] == NONE:
+            continue
+        own = tangent.unknown[index[STATE]]
+        tangent.slopes[own, own] -= 1.0 / n[LAG]
+        slope = slope_of_poppet(machine, index, n, t) / n[LAG]
+        for i in range(NODES):
+            if slope != 0.0 and index[FIRST_NODE + i] != NONE:
+                add_by_pressure(circuit, tangent.slopes[own], index[FIRST_NODE + i], slope * n[FIRST_FACTOR + i])

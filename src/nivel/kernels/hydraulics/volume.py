@@ -146,9 +146,6 @@ def apply(machine, number, t):
     """The state of every node."""
     record = record_at(machine)
     elements, circuit = record.elements, record.circuit
-    circuit.stored[0] = 0.0
-    for i in range(4):
-        circuit.power[i] = 0.0
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index = elements.columns[k]
         node = index[NODE]

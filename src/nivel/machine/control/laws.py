@@ -86,25 +86,3 @@ def trapezoid(time: float, start: float, first: float, way: float, speed: float,
     if way < 0.0:
         return first - gone
     return first + gone
-
-
-def trapezoid_rate(time: float, start: float, first: float, way: float, speed: float, acceleration: float) -> float:
-    """Speed along the same way."""
-    length = abs(way)
-    if length == 0.0 or time <= start:
-        return 0.0 * time
-    top = min(speed, (length * acceleration) ** 0.5)
-    rise = top / acceleration
-    since = time - start
-    left = length / top + rise - since
-    if left <= 0.0:
-        rate = 0.0 * time
-    elif since < rise:
-        rate = acceleration * since
-    elif left < rise:
-        rate = acceleration * left
-    else:
-        rate = top + 0.0 * time
-    if way < 0.0:
-        return -rate
-    return rate

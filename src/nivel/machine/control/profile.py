@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from itertools import pairwise
 from typing import Annotated, Literal
@@ -10,12 +11,16 @@ from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
-from nivel.machine.control.laws import trapezoid, trapezoid_rate
+from nivel.machine.control.laws import trapezoid
 from nivel.machine.control.part import Part, PartFunction, law
 from nivel.machine.expression import Expression
 from nivel.machine.quantity import Quantity, listed
+from nivel.machine.table import Table
 
 Times = Annotated[tuple[Annotated[float, Quantity("time")], ...], BeforeValidator(listed)]
+
+# A top speed held for less than this share of speeding up is not held at all.
+ROUND_OFF = 1e-9
 
 
 class Trapezoid(Block):
@@ -34,8 +39,20 @@ class Trapezoid(Block):
         numbers = (self.begin, self.first, self.last - self.first, self.speed, self.acceleration)
         return (
             self.present(self.output, law(trapezoid, "time", *numbers), start=self.first),
-            self.present("rate", law(trapezoid_rate, "time", *numbers)),
+            self.present("rate", self._rate()),
         )
+
+    def _rate(self) -> PartFunction:
+        """Speed along the way: straight lines up to the top speed and down again."""
+        way = self.last - self.first
+        if way == 0.0:
+            return 0.0
+        top = min(self.speed, math.sqrt(abs(way) * self.acceleration))
+        rise, whole = top / self.acceleration, abs(way) / top
+        signed = math.copysign(top, way)
+        level = {whole: signed} if whole > rise * (1.0 + ROUND_OFF) else {}
+        corners = {0.0: 0.0, rise: signed, **level, whole + rise: 0.0}
+        return Table(tuple(self.begin + each for each in corners), tuple(corners.values()))
 
 
 class Waypoints(Block):

@@ -14,6 +14,7 @@ from nivel.machine.forces.contact import Contact, Material
 from nivel.machine.forces.drives import DcMotor, ServoMotor, TorqueSpeed
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.forces.friction import Friction
+from nivel.machine.forces.hand import Hand
 from nivel.machine.forces.joint_spring_damper import JointSpringDamper
 from nivel.machine.forces.load import PointForce, Torque
 from nivel.machine.forces.motor import Motor
@@ -22,6 +23,7 @@ from nivel.machine.forces.rope import Rope
 from nivel.machine.forces.servo import Servo
 from nivel.machine.forces.spring_damper import SpringDamper
 from nivel.machine.forces.stop import Stop
+from nivel.machine.forces.three_axis_spring import ThreeAxisSpring
 from nivel.machine.forces.torsional_spring_damper import TorsionalSpringDamper
 
 FORCES: list[type[ForceElement]] = [
@@ -38,8 +40,10 @@ FORCES: list[type[ForceElement]] = [
     Servo,
     PairForce,
     Bushing,
+    ThreeAxisSpring,
     Contact,
     Rope,
+    Hand,
 ]
 
 
@@ -78,6 +82,7 @@ __all__ = [
     "ForceTable",
     "Friction",
     "GlobalPoint",
+    "Hand",
     "JointSpringDamper",
     "Material",
     "Motor",
@@ -88,6 +93,7 @@ __all__ = [
     "ServoMotor",
     "SpringDamper",
     "Stop",
+    "ThreeAxisSpring",
     "Torque",
     "TorqueSpeed",
     "TorqueTable",

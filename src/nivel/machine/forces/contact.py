@@ -13,6 +13,7 @@ from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.marker import MarkerPlace
 from nivel.machine.power_stiffness import PowerStiffness
 from nivel.machine.record import GROUND, BodyName, Record
+from nivel.machine.time_function import ContactForce
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
 SHAPES_ON_PLANE: Final = ("sphere", "box", "cylinder")
@@ -26,12 +27,12 @@ class Material(Record):
 
 
 class Contact(ForceElement):
-    """Bodies that touch are pushed apart: force stiffness · depth ** exponent, damped, with Coulomb friction.
+    """Bodies that touch are pushed apart: force stiffness · depth ** exponent, damped, or by a `law`; with Coulomb friction.
 
     A `body` with the shape sphere, box or cylinder on a `plane`, or two `bodies`, both spheres.
     """
 
-    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth", "normal_force")
+    outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth", "normal_force", "rate")
 
     type: Literal["contact"] = "contact"
     body: BodyName | None = Field(
@@ -48,7 +49,13 @@ class Contact(ForceElement):
     materials: tuple[Material, Material] | None = Field(
         default=None, description="of the first body and the second or the plane; for spheres, in place of `stiffness`"
     )
-    restitution: Restitution = Field(description="speed after the impact by the speed before it; 1 loses no energy")
+    restitution: Restitution | None = Field(
+        default=None, description="speed after the impact by the speed before it; 1 loses no energy"
+    )
+    law: ContactForce | None = Field(
+        default=None,
+        description="the normal force at a point that touches, in place of `stiffness` and `restitution`; may use `depth` and `rate`",
+    )
     friction: NotNegativeNumber = Field(default=0.0, description="coefficient of Coulomb friction")
     friction_transition_speed: PositiveSpeed | None = Field(
         default=None, description="friction goes as tanh(sliding speed / friction_transition_speed)"
@@ -56,14 +63,30 @@ class Contact(ForceElement):
 
     def problems(self) -> Iterator[Problem]:
         yield from self._problems_of_partners()
+        if self.friction > 0 and self.friction_transition_speed is None:
+            yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
+        yield from self._problems_of_law() if self.law is not None else self._problems_of_stiffness()
+
+    def _problems_of_law(self) -> Iterator[Problem]:
+        for name in ("stiffness", "materials", "restitution"):
+            if getattr(self, name) is not None:
+                yield superfluous(name, "must not be given with a `law`, which is the whole normal force")
+        if self.exponent != HERTZ:
+            yield superfluous("exponent", "must not be given with a `law`, which is the whole normal force")
+
+    def _problems_of_stiffness(self) -> Iterator[Problem]:
+        if self.restitution is None:
+            yield Problem(
+                (), "`restitution` is missing: a number above 0 and up to 1, which is 1 where no energy is lost"
+            )
         if self.stiffness is None and self.materials is None:
-            yield Problem((), "`stiffness` is missing: a contact needs a `stiffness` or, of spheres, two `materials`")
+            yield Problem(
+                (), "`stiffness` is missing: a contact needs a `stiffness`, a `law` or, of spheres, two `materials`"
+            )
         if self.stiffness is not None and self.materials is not None:
             yield superfluous("materials", "stands in place of `stiffness`; give one of them")
         if self.materials is not None and self.exponent != HERTZ:
             yield superfluous("exponent", f"is {HERTZ:g} with `materials` (Hertz) and must not be given")
-        if self.friction > 0 and self.friction_transition_speed is None:
-            yield Problem((), "`friction_transition_speed` is missing: below it friction lets the bodies creep")
 
     def _problems_of_partners(self) -> Iterator[Problem]:
         if self.bodies is not None:

@@ -7,21 +7,22 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
-from nivel.machine.checked import Problem
+from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Damping, Stiffness
-from nivel.machine.forces.between import End
+from nivel.machine.forces.between import End, GlobalPoint
 from nivel.machine.forces.element import OUTPUTS, ForceElement
-from nivel.machine.marker import MarkerPlace
-from nivel.machine.quantity import PositiveLength, listed
+from nivel.machine.marker import Marker, MarkerPlace
+from nivel.machine.quantity import Position, PositiveLength, listed
+from nivel.machine.record import BodyName
 from nivel.machine.time_function import TimeFunction, varying
 
 Speed = Annotated[TimeFunction, varying("velocity")]
 
 
 class Rope(ForceElement):
-    """A massless rope from the first marker over pulleys at those between to the last, straight from one to the next.
+    """A massless rope from the first point over pulleys at those between to the last, straight from one to the next.
 
-    Its tension is stiffness · (s - length) + damping · (ṡ - speed), s being the way along the markers; it never pushes. With a `speed`
+    Its tension is stiffness · (s - length) + damping · (ṡ - speed), s being the way along the points; it never pushes. With a `speed`
     its first end is on a winch: the unstressed length is a state, which begins at `length` and changes by the speed.
     Pulleys have no friction and no radius.
     """
@@ -29,8 +30,15 @@ class Rope(ForceElement):
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "stretch")
 
     type: Literal["rope"] = "rope"
-    markers: Annotated[tuple[MarkerPlace, ...], BeforeValidator(listed)] = Field(
-        description="ends, and pulleys between them, in order: names or markers; a marker may stand there again"
+    markers: Annotated[tuple[MarkerPlace, ...], BeforeValidator(listed)] | None = Field(
+        default=None,
+        description="ends, and pulleys between them, in order: names or markers; a marker may stand there again",
+    )
+    bodies: Annotated[tuple[BodyName, ...], BeforeValidator(listed)] | None = Field(
+        default=None, description="one for each point, in place of `markers`; a body may stand there again"
+    )
+    points: Annotated[tuple[Position, ...], BeforeValidator(listed)] | None = Field(
+        default=None, description="ends, and pulleys between them, in order: global, as placed"
     )
     stiffness: Stiffness = Field(description="of the whole rope")
     damping: Damping = Field(default=0.0, description="of the whole rope")
@@ -39,14 +47,35 @@ class Rope(ForceElement):
 
     @property
     def ends(self) -> tuple[End, ...]:
-        """The markers."""
-        return self.markers
+        """The ends, and the pulleys between them, in order."""
+        if self.markers is not None:
+            return self.markers
+        assert self.bodies is not None  # the record was checked
+        assert self.points is not None
+        return tuple(GlobalPoint(body, point) for body, point in zip(self.bodies, self.points, strict=True))
 
     def problems(self) -> Iterator[Problem]:
-        if len(self.markers) < 2:
-            yield Problem(("markers",), f"a rope needs two markers at least, got {len(self.markers)}")
-        for k in range(1, len(self.markers)):
-            if isinstance(self.markers[k], str) and self.markers[k] == self.markers[k - 1]:
-                yield Problem(
-                    ("markers", k), f"the marker `{self.markers[k]}` follows itself; the rope goes from one to another"
-                )
+        if self.markers is not None:
+            for name in ("bodies", "points"):
+                if getattr(self, name) is not None:
+                    yield superfluous(name, "must not be given with `markers`, which say where the rope goes")
+            yield from self._problems_of_way("markers", self.markers)
+        elif self.bodies is None or self.points is None:
+            yield Problem(
+                (), "`markers`, or `bodies` and one of `points` for each, are needed to say where the rope goes"
+            )
+        elif len(self.bodies) != len(self.points):
+            message = (
+                f"one point for each body is needed; there are {len(self.bodies)} bodies, {len(self.points)} points"
+            )
+            yield Problem(("points",), message)
+        else:
+            yield from self._problems_of_way("points", tuple(zip(self.bodies, self.points, strict=True)))
+
+    def _problems_of_way(self, name: str, way: tuple[object, ...]) -> Iterator[Problem]:
+        if len(way) < 2:
+            yield Problem((name,), f"a rope needs two {name} at least, got {len(way)}")
+        for k in range(1, len(way)):
+            if way[k] == way[k - 1] and not isinstance(way[k], Marker):
+                said = f"the marker `{way[k]}`" if name == "markers" else "this point"
+                yield Problem((name, k), f"{said} follows itself; the rope goes from one to another")

@@ -17,7 +17,7 @@ from nivel.machine.hydraulics.actuators import (
 )
 from nivel.machine.hydraulics.component import Component
 from nivel.machine.hydraulics.directional import DirectionalValve
-from nivel.machine.hydraulics.fluid import Fluid
+from nivel.machine.hydraulics.fluid import AnyFluid, Fluid, Gas
 from nivel.machine.hydraulics.machines import FlowSource, HydraulicMotor, Pump
 from nivel.machine.hydraulics.nodes import Accumulator, LoadSensing, Tank, Volume
 from nivel.machine.hydraulics.restrictions import Orifice, Pipe
@@ -70,6 +70,7 @@ __all__ = [
     "COMPONENT_OF",
     "Accumulator",
     "Actuator",
+    "AnyFluid",
     "CheckValve",
     "Compensator",
     "Component",
@@ -78,6 +79,7 @@ __all__ = [
     "DirectionalValve",
     "FlowSource",
     "Fluid",
+    "Gas",
     "HydraulicComponent",
     "HydraulicCylinder",
     "HydraulicMotor",

@@ -18,12 +18,12 @@ from nivel.machine.coefficient import (
     Pressure,
     Restitution,
     Share,
+    ThermalConductance,
     Volume,
-    VolumeFlow,
 )
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.between import Ends
-from nivel.machine.hydraulics.component import Component
+from nivel.machine.hydraulics.component import Component, Rating
 from nivel.machine.quantity import Angle, PositiveLength, Quantity, listed
 from nivel.machine.record import Name
 
@@ -47,14 +47,15 @@ class PistonFriction(Checked):
             yield Problem(("static",), f"static friction is at least the sliding one: 1 or more, got {self.static:g}")
 
 
-class Cushion(Checked):
+class Cushion(Rating):
     """The outlet of a chamber is throttled on the last part of the stroke; a check valve beside it lets fluid in."""
 
     length: PositiveLength = Field(description="of the part of the stroke that is cushioned")
     least_opening: Share = Field(default=0.02, description="share of the opening that is left at the end")
-    flow: VolumeFlow = Field(description="through the open port at `pressure_drop`")
-    pressure_drop: Pressure = Field(description="at which `flow` is measured")
     port_volume: Volume = Field(default=1e-4, description="of the fluid between the cushion and what is connected")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from self.problems_of_rating()
 
 
 class Actuator(Component):
@@ -62,6 +63,7 @@ class Actuator(Component):
 
     early: ClassVar[tuple[str, ...]] = ("pressure_A", "pressure_B", "position", "speed")
     late: ClassVar[tuple[str, ...]] = ("force", "power", "friction")
+    gases: ClassVar[bool] = True
 
     dead_volume_A: Volume | None = Field(
         default=None, description="of A, with its hose, at the start of the stroke; default 2 % of what is swept"
@@ -70,6 +72,9 @@ class Actuator(Component):
         default=None, description="of B, with its hose, at the end of the stroke; default 2 % of what is swept"
     )
     wall_modulus: Pressure | None = Field(default=None, description="as of a volume, of dead volumes with their hoses")
+    heat_conductance: ThermalConductance | None = Field(
+        default=None, description="of gases: of the walls of each chamber; default: none"
+    )
     start_A: Pressure | None = Field(
         default=None, description="pressure in A at the start; default: what carries the load"
     )

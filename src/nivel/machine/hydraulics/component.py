@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from nivel.machine.checked import Checked, Problem
-from nivel.machine.coefficient import Pressure, VolumeFlow
+from nivel.machine.checked import Checked, Problem, superfluous
+from nivel.machine.coefficient import Pressure, Share, SonicConductance, VolumeFlow
 from nivel.machine.quantity import fault, shown
 from nivel.machine.record import Name, unknown_word
 
@@ -33,7 +33,8 @@ class Component(Checked):
     """A named part of a circuit.
 
     needs : ports that must be connected; may : those that may be. nodes : what of it others connect to, "" for itself, ".A" for its
-    chamber A. functions : fields that may vary. early : signals known before flows are; late : the others.
+    chamber A. functions : fields that may vary. early : signals known before flows are; late : the others. gases : whether gas may flow
+    through it.
     """
 
     collection: ClassVar[str] = "hydraulics"
@@ -43,6 +44,7 @@ class Component(Checked):
     functions: ClassVar[tuple[str, ...]] = ()
     early: ClassVar[tuple[str, ...]] = ()
     late: ClassVar[tuple[str, ...]] = ()
+    gases: ClassVar[bool] = False
 
     name: Name
     if TYPE_CHECKING:  # the word of every kind
@@ -72,14 +74,50 @@ def problem_of_share(key: str, value: object, least: float) -> Iterator[Problem]
         yield Problem((key,), f"a share from {least:g} to 1 was expected, got {value:g}")
 
 
-class Rated(Component):
-    """A component with a flow from a catalogue: `flow` at `pressure_drop`, fully open."""
+class Rating(Checked):
+    """What a catalogue states of a restriction: of liquids `flow` at `pressure_drop`, of gases the numbers of ISO 6358."""
 
-    flow: VolumeFlow = Field(description="through one edge, fully open, at `pressure_drop`")
-    pressure_drop: Pressure = Field(description="at which `flow` is measured")
-    transition: Pressure = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
+    flow: VolumeFlow | None = Field(default=None, description="through one edge, fully open, at `pressure_drop`")
+    pressure_drop: Pressure | None = Field(default=None, description="at which `flow` is measured")
+    sonic_conductance: SonicConductance | None = Field(default=None, description="of gases: C of ISO 6358")
+    critical_ratio: Share | None = Field(default=None, description="of gases: b of ISO 6358; default 0.3")
+
+    @property
+    def is_of_gas(self) -> bool:
+        """Whether it is rated for gases."""
+        return self.sonic_conductance is not None
 
     @property
     def conductance(self) -> float:
-        """K [m³/s/√Pa] of Q = K √Δp."""
-        return self.flow / self.pressure_drop**0.5
+        """K [m³/s/√Pa] of Q = K √Δp; 0 where no flow is given."""
+        return self.flow / self.pressure_drop**0.5 if self.flow and self.pressure_drop else 0.0
+
+    def problems_of_rating(self) -> Iterator[Problem]:
+        """One of both ratings, and all of it."""
+        missing = [name for name in ("flow", "pressure_drop") if getattr(self, name) is None]
+        if self.sonic_conductance is None:
+            if missing:
+                yield Problem((), f"{_listed(missing)} missing: a catalogue states a flow at a difference of pressure")
+            if self.critical_ratio is not None:
+                yield superfluous("critical_ratio", "belongs to a `sonic_conductance`, of gases")
+        else:
+            for name in ("flow", "pressure_drop"):
+                if name not in missing:
+                    yield superfluous(name, "is of liquids, and `sonic_conductance` of gases; give one of them")
+            if self.critical_ratio == 1.0:
+                yield Problem(("critical_ratio",), "a ratio of pressures below 1 was expected, got 1")
+
+
+def _listed(names: list[str]) -> str:
+    quoted = [f"`{name}`" for name in names]
+    return f"{' and '.join(quoted)} {'is' if len(quoted) == 1 else 'are'}"
+
+
+class Rated(Rating, Component):
+    """A component with a flow from a catalogue, fully open."""
+
+    transition: Pressure = Field(default=0.5e5, description="difference of pressure below which the root is rounded")
+
+    def problems(self) -> Iterator[Problem]:
+        yield from Component.problems(self)
+        yield from self.problems_of_rating()

@@ -13,20 +13,26 @@ from nivel.machine.hydraulics.component import Rated, problem_of_share
 from nivel.machine.quantity import Quantity, Rate, fault
 from nivel.machine.time_function import TimeFunction, varying
 
-Ways = Literal["2/2", "3/2", "4/2", "4/3"]
+Ways = Literal["2/2", "3/2", "4/2", "4/3", "5/2", "5/3"]
 Centre = Literal["closed", "tandem", "open", "float"]
 PORTS: Final[dict[str, tuple[str, ...]]] = {
     "2/2": ("P", "A"),
     "3/2": ("P", "T", "A"),
     "4/2": ("P", "T", "A", "B"),
     "4/3": ("P", "T", "A", "B"),
+    "5/2": ("P", "A", "B", "R", "S"),
+    "5/3": ("P", "A", "B", "R", "S"),
 }
-# edges that open with a position from 0 to 1 (of 4/3 valves), with one from 0 to -1 (of others: that close towards 1)
+# valves with a centre, whose positions go from -1 to 1
+CENTRED: Final = ("4/3", "5/3")
+# edges that open with a position from 0 to 1 (of centred valves), with one from 0 to -1 (of others: that close towards 1)
 EDGES: Final[dict[str, tuple[tuple[str, ...], tuple[str, ...]]]] = {
     "2/2": (("PA",), ()),
     "3/2": (("PA",), ("AT",)),
     "4/2": (("PA", "BT"), ("PB", "AT")),
     "4/3": (("PA", "BT"), ("PB", "AT")),
+    "5/2": (("PA", "BS"), ("PB", "AR")),
+    "5/3": (("PA", "BS"), ("PB", "AR")),
 }
 CENTRES: Final[dict[str, tuple[str, ...]]] = {
     "closed": (),
@@ -34,6 +40,13 @@ CENTRES: Final[dict[str, tuple[str, ...]]] = {
     "open": ("PT", "AT", "BT"),
     "float": ("AT", "BT"),
 }
+OF_FIVE: Final = {"AT": "AR", "BT": "BS"}  # outlets of A and B in valves with five ports
+
+
+def centre_pairs(ways: str, centre: str) -> tuple[str, ...]:
+    """Pairs of ports that are joined at the centre."""
+    pairs = CENTRES.get(centre, ())
+    return tuple(OF_FIVE.get(pair, pair) for pair in pairs) if ways == "5/3" else pairs
 
 
 def _overlap(value: float) -> float:
@@ -43,23 +56,25 @@ def _overlap(value: float) -> float:
 
 
 class DirectionalValve(Rated):
-    """A spool that joins P and T with A and B. `command` is its position: -1 to 1 of 4/3 valves, 0 to 1 of others.
+    """A spool that joins P and T with A and B; with five ways R is the outlet of A, S that of B. `command` is its position: -1 to 1 of
+    valves with a centre, 4/3 and 5/3, 0 to 1 of others.
 
     `flow` at `pressure_drop` is that of one edge at a full stroke; a sheet that states a drop over the whole valve means two edges.
     """
 
     functions: ClassVar[tuple[str, ...]] = ("command",)
+    gases: ClassVar[bool] = True
     early: ClassVar[tuple[str, ...]] = ()
-    late: ClassVar[tuple[str, ...]] = ("position", "flow_PA", "flow_PB", "flow_AT", "flow_BT")
+    late: ClassVar[tuple[str, ...]] = ("position", "flow_PA", "flow_PB", "flow_AT", "flow_BT", "flow_AR", "flow_BS")
 
     type: Literal["directional-valve"] = "directional-valve"
-    ways: Ways = Field(description="ports and positions: 2/2, 3/2, 4/2 or 4/3, in quotes")
+    ways: Ways = Field(description="ports and positions: 2/2, 3/2, 4/2, 4/3, 5/2 or 5/3")
     command: Annotated[TimeFunction, varying("number")] = Field(description="position asked for")
     overlap: Annotated[float, Quantity("number"), AfterValidator(_overlap)] = Field(
         default=0.0, description="share of the stroke before an edge opens; negative: edges are open at the centre"
     )
     rounding: Share = Field(default=0.02, description="share of the stroke over which an edge begins to open")
-    centre: Centre = Field(default="closed", description="what is joined at the centre of a 4/3 valve")
+    centre: Centre = Field(default="closed", description="what is joined at the centre of a 4/3 or 5/3 valve")
     frequency: Frequency | None = Field(default=None, description="natural frequency of the spool; default: no lag")
     damping_ratio: PositiveNumber = Field(default=0.8, description="of the spool")
     rate_limit: Rate | None = Field(default=None, description="greatest speed of the spool, full strokes per second")
@@ -72,9 +87,12 @@ class DirectionalValve(Rated):
 
     def problems(self) -> Iterator[Problem]:
         yield from self.problems_of_ports(PORTS[self.ways])
-        yield from problem_of_share("command", self.command, -1.0 if self.ways == "4/3" else 0.0)
-        if self.centre != "closed" and self.ways != "4/3":
-            yield superfluous("centre", f"belongs to a 4/3 valve, not to {self.ways}")
+        yield from self.problems_of_rating()
+        yield from problem_of_share("command", self.command, -1.0 if self.ways in CENTRED else 0.0)
+        if self.centre != "closed" and self.ways not in CENTRED:
+            yield superfluous("centre", f"belongs to a 4/3 or 5/3 valve, not to {self.ways}")
+        if self.ways == "5/3" and self.centre in ("tandem", "open"):
+            yield Problem(("centre",), f"a 5/3 valve has the centre `closed` or `float`, got `{self.centre}`")
         if self.overlap + self.rounding > 1.0:
             yield Problem(
                 ("rounding",), "an edge would not open within the stroke: overlap and rounding are more than 1"

@@ -1,19 +1,22 @@
-"""A fluid in words: a liquid with some air in it."""
+"""Fluids in words: a liquid with some air in it, an ideal gas."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, GetCoreSchemaHandler, Tag
+from pydantic_core import CoreSchema
 
 from nivel.machine.checked import Checked, Problem
-from nivel.machine.coefficient import Exponent, NotNegativeNumber, Pressure, Viscosity
+from nivel.machine.coefficient import Exponent, NotNegativeNumber, Pressure, Temperature, Truth, Viscosity
 from nivel.machine.quantity import Density, Quantity
-from nivel.machine.record import Name
+from nivel.machine.record import Name, entry
 
 AIR_DENSITY = 1.2  # kg/m³ at atmospheric pressure
 LEAST_AIR, MOST_AIR = 1e-4, 0.2
+REFERENCE_PRESSURE, REFERENCE_TEMPERATURE = 1e5, 293.15  # Pa, K: of ISO 8778, to which sonic conductances refer
+MOST_RATIO = 5.0 / 3.0  # of c_p over c_v, of gases of one atom
 
 
 class Fluid(Checked):
@@ -22,6 +25,7 @@ class Fluid(Checked):
     collection: ClassVar[str] = "fluids"
 
     name: Name
+    type: Literal["liquid"] = "liquid"
     density: Density = Field(default=870.0, description="of the liquid at atmospheric pressure")
     bulk_modulus: Pressure = Field(default=1.5e9, description="of the liquid at atmospheric pressure")
     bulk_modulus_slope: NotNegativeNumber = Field(default=10.0, description="what it grows by with the pressure")
@@ -45,5 +49,51 @@ class Fluid(Checked):
                 ("bulk_modulus",), f"a liquid has a bulk modulus of about 1.5 GPa, got {self.bulk_modulus:g} Pa"
             )
 
+
+class Gas(Checked):
+    """An ideal gas. The defaults are those of air at the reference of ISO 8778: 1.185 kg/m³ at 20 °C and 1 bar."""
+
+    collection: ClassVar[str] = "fluids"
+
+    name: Name
+    type: Literal["ideal-gas"] = "ideal-gas"
+    density: Density = Field(default=1.185, description="at 20 °C and 1 bar")
+    heat_capacity_ratio: Annotated[float, Quantity("number")] = Field(
+        default=1.4, description="c_p over c_v, of gas whose temperature is a state"
+    )
+    temperature: Temperature = Field(default=293.15, description="of tanks, of walls, and of all gas at the start")
+    isothermal: Truth = Field(default=False, description="whether the gas keeps that temperature")
+
+    @property
+    def gas_constant(self) -> float:
+        """R [J/(kg K)]."""
+        return REFERENCE_PRESSURE / (self.density * REFERENCE_TEMPERATURE)
+
+    def problems(self) -> Iterator[Problem]:
+        if not 1.0 < self.heat_capacity_ratio <= MOST_RATIO:
+            yield Problem(
+                ("heat_capacity_ratio",),
+                f"a ratio above 1 and up to 5/3 was expected, got {self.heat_capacity_ratio:g}; air has 1.4. "
+                "What keeps its temperature is `isothermal: true`",
+            )
+
+
+def _kind(fluid: Any) -> str:
+    return str(entry(fluid, "type") or "liquid")
+
+
+class _AnyFluid:
+    """A liquid or a gas, told apart by `type`; a liquid without one."""
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, _: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        kinds = Annotated[Fluid, Tag("liquid")] | Annotated[Gas, Tag("ideal-gas")]
+        return handler.generate_schema(Annotated[kinds, Discriminator(_kind)])
+
+
+if TYPE_CHECKING:
+    AnyFluid = Fluid | Gas
+else:
+    AnyFluid = _AnyFluid
 
 OIL = Fluid(name="oil")

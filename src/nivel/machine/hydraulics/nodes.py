@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem
-from nivel.machine.coefficient import Exponent, Pressure, Share, VolumeFlow
+from nivel.machine.coefficient import Exponent, Pressure, Share, ThermalConductance, VolumeFlow
 from nivel.machine.coefficient import Volume as VolumeSize
 from nivel.machine.hydraulics.component import Component
 from nivel.machine.quantity import Duration, listed
@@ -24,11 +24,15 @@ class Volume(Component):
 
     nodes: ClassVar[tuple[str, ...]] = ("",)
     early: ClassVar[tuple[str, ...]] = ("pressure",)
+    gases: ClassVar[bool] = True
 
     type: Literal["volume"] = "volume"
     volume: VolumeSize
     wall_modulus: Pressure | None = Field(
         default=None, description="pressure over the relative growth of the volume; default: rigid walls"
+    )
+    heat_conductance: ThermalConductance | None = Field(
+        default=None, description="of gases: heat through the walls over the difference of temperature; default: none"
     )
     start: Pressure | None = Field(default=None, description="pressure at the start; default: that of a steady circuit")
     fluid: Name | None = Field(default=None, description="default: the only one")
@@ -40,6 +44,7 @@ class Tank(Component):
     nodes: ClassVar[tuple[str, ...]] = ("",)
     functions: ClassVar[tuple[str, ...]] = ("pressure",)
     early: ClassVar[tuple[str, ...]] = ("pressure",)
+    gases: ClassVar[bool] = True
 
     type: Literal["tank"] = "tank"
     pressure: VaryingPressure = Field(default=ATMOSPHERE, description="absolute")

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from nivel.machine.hydraulics import COMPONENT_OF
-from nivel.machine.hydraulics.directional import CENTRES, EDGES
+from nivel.machine.hydraulics.directional import EDGES, centre_pairs
 from nivel.machine.record import entry
 
 
@@ -18,7 +18,7 @@ def signals_of(component: Any) -> tuple[str, ...]:
     if entry(component, "type") == "directional-valve":
         ways, centre = str(entry(component, "ways")), str(entry(component, "centre") or "closed")
         pairs = [edge for edges in EDGES.get(ways, ()) for edge in edges]
-        pairs += [edge for edge in CENTRES.get(centre, ()) if edge not in pairs]
+        pairs += [edge for edge in centre_pairs(ways, centre) if edge not in pairs]
         return ("position", *(f"flow_{pair}" for pair in pairs))
     ports = entry(component, "ports")
     if entry(component, "type") == "reducing-valve" and not (isinstance(ports, Mapping) and "T" in ports):

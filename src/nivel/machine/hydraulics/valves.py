@@ -26,6 +26,7 @@ VaryingPressure = Annotated[TimeFunction, varying("pressure")]
 class CheckValve(Rated):
     """Lets fluid pass from A to B; with a port X it is opened the other way by a pilot, control pressure p_A - p_B + ratio p_X."""
 
+    gases: ClassVar[bool] = True
     needs: ClassVar[tuple[str, ...]] = ("A", "B")
     may: ClassVar[tuple[str, ...]] = ("X",)
     late: ClassVar[tuple[str, ...]] = ("flow", "position")
@@ -49,6 +50,7 @@ class CheckValve(Rated):
 class ReliefValve(Rated):
     """Opens from P to T where the difference of pressure exceeds `opens_at`."""
 
+    gases: ClassVar[bool] = True
     needs: ClassVar[tuple[str, ...]] = ("P", "T")
     functions: ClassVar[tuple[str, ...]] = ("opens_at",)
     late: ClassVar[tuple[str, ...]] = ("flow", "position")
@@ -87,12 +89,14 @@ class CounterbalanceValve(Rated):
     @property
     def check_conductance(self) -> float:
         """K [m³/s/√Pa] of the check valve."""
-        return (self.check_flow or self.flow) / (self.check_pressure_drop or self.pressure_drop) ** 0.5
+        flow, drop = self.check_flow or self.flow, self.check_pressure_drop or self.pressure_drop
+        return flow / drop**0.5 if flow and drop else 0.0
 
 
 class ReducingValve(Rated):
     """Closes from P to A as the pressure at A comes to `pressure`; with a port T it relieves A above that."""
 
+    gases: ClassVar[bool] = True
     needs: ClassVar[tuple[str, ...]] = ("P", "A")
     may: ClassVar[tuple[str, ...]] = ("T",)
     functions: ClassVar[tuple[str, ...]] = ("pressure",)

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from nivel.kernels.forces import bushing, contact
+from nivel.kernels.function import OUTPUT
+from nivel.kernels.record import NONE
 from nivel.machine.body import Body
 from nivel.machine.forces import Bushing, Contact
 from nivel.machine.placement import frame_from_axes
@@ -41,6 +43,7 @@ def add_contact(draft: SystemBuilder, force: Contact) -> None:
         *magnitude_and_power("N"),
         ("depth", "m", "deepest overlap"),
         ("normal_force", "N", "normal force"),
+        ("rate", "m/s", "rate of the deepest overlap"),
     )
     if force.bodies is not None:
         bodies = [draft.machine.body_named[name] for name in force.bodies]
@@ -60,12 +63,17 @@ def add_contact(draft: SystemBuilder, force: Contact) -> None:
         # Hertz: K = 4/3 E* √R, 1/E* = Σ (1 - ν²)/E, 1/R = Σ 1/r
         compliance = sum((1.0 - each.poisson_ratio**2) / each.young_modulus for each in force.materials)
         stiffness = 4.0 / 3.0 / compliance / math.sqrt(curvature)
-    assert stiffness is not None  # the record was checked
-    numbers = [stiffness, force.exponent, damping_of_restitution(force.restitution), force.friction]
+    law = NONE
+    if force.law is not None:
+        law = draft.function(
+            force.law, {"depth": (OUTPUT, first + contact.DEPTH, 0), "rate": (OUTPUT, first + contact.RATE, 0)}
+        )
+    loss = damping_of_restitution(force.restitution) if force.restitution is not None else 0.0
+    numbers = [stiffness or 0.0, force.exponent, loss, force.friction]
     numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
     numbers += [0.0] * (contact.NUMBERS - len(numbers))
     points = contact.POINTS if kind in (contact.BOX, contact.CYLINDER) else 1
-    draft.elements.add(contact.apply, [first, kind, *markers], numbers, contact.POINTS, tuple(range(points)))
+    draft.elements.add(contact.apply, [first, kind, *markers, law], numbers, contact.POINTS, tuple(range(points)))
 
 
 def _radius(body: Body) -> float:

@@ -16,7 +16,7 @@ from nivel.system.state_facts import StateFact
 
 def add(draft: SystemBuilder, rope: Rope) -> None:
     """A rope."""
-    markers = [draft.end(end) for end in rope.markers]
+    markers = [draft.end(end) for end in rope.ends]
     distances = [draft.coordinates.use(draft.coordinates.add(DISTANCE, i, j)) for i, j in itertools.pairwise(markers)]
     first = force_outputs(draft, rope.name, *magnitude_and_power("N", "tension"), ("stretch", "m", "stretch"))
     length = speed = NONE

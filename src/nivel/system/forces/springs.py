@@ -6,12 +6,13 @@ import numpy as np
 
 from nivel.kernels.coordinate import DISTANCE, ROTATION
 from nivel.kernels.forces.spring import apply as spring
+from nivel.kernels.forces.three_axis_spring import apply as three_axis_spring
 from nivel.kernels.function import COORDINATE, RATE
 from nivel.kernels.record import NONE
-from nivel.machine.forces import Characteristic, JointSpringDamper, SpringDamper, TorsionalSpringDamper
+from nivel.machine.forces import Characteristic, JointSpringDamper, SpringDamper, ThreeAxisSpring, TorsionalSpringDamper
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
-from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
+from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle, magnitude_and_power
 
 
 def add_spring_damper(draft: SystemBuilder, force: SpringDamper) -> None:
@@ -70,8 +71,17 @@ def _characteristic(draft: SystemBuilder, table: Characteristic) -> tuple[int, i
     return force, stored
 
 
+def add_three_axis_spring(draft: SystemBuilder, force: ThreeAxisSpring) -> None:
+    """Springs and dampers along the global axes."""
+    components = ((f"force_{axis}", "N", f"force on the second body along global {axis}") for axis in "xyz")
+    first = force_outputs(draft, force.name, *magnitude_and_power("N"), *components)
+    numbers = [*force.stiffness, *force.damping, *force.free_displacement, *force.preload]
+    draft.elements.add(three_axis_spring, [first, *draft.ends(force.ends)], numbers)
+
+
 KINDS = (
     ForceKind(SpringDamper, add_spring_damper, (spring,)),
     ForceKind(TorsionalSpringDamper, add_torsional_spring_damper, (spring,)),
     ForceKind(JointSpringDamper, add_joint_spring_damper, (spring,)),
+    ForceKind(ThreeAxisSpring, add_three_axis_spring, (three_axis_spring,)),
 )

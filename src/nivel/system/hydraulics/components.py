@@ -6,7 +6,18 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from nivel.kernels.hook import Family
-from nivel.kernels.hydraulics import ledger, load_signal, pipe, piston, restriction, rotary, spool, volume
+from nivel.kernels.hydraulics import (
+    gas,
+    gas_flow,
+    ledger,
+    load_signal,
+    pipe,
+    piston,
+    restriction,
+    rotary,
+    spool,
+    volume,
+)
 from nivel.machine.hydraulics import (
     Accumulator,
     Actuator,
@@ -16,6 +27,7 @@ from nivel.machine.hydraulics import (
     CounterbalanceValve,
     DirectionalValve,
     FlowSource,
+    Gas,
     HydraulicCylinder,
     HydraulicMotor,
     LoadSensing,
@@ -44,7 +56,7 @@ from nivel.system.located import located
 from nivel.system.state_facts import StateFact
 
 # in the order of an evaluation: what a control may read at once, and what it acts on
-SENSED: Final[tuple[Family, ...]] = (piston.displace, volume.apply, piston.guide)
+SENSED: Final[tuple[Family, ...]] = (ledger.begin, piston.displace, volume.apply, gas.apply, piston.guide)
 ACTING: Final[tuple[Family, ...]] = (
     piston.press,
     spool.move,
@@ -54,6 +66,7 @@ ACTING: Final[tuple[Family, ...]] = (
     rotary.turn,
     rotary.supply,
     restriction.apply,
+    gas_flow.apply,
     pipe.apply,
     ledger.apply,
 )
@@ -102,7 +115,9 @@ def families_of(machine: MachineRecord) -> list[Family]:
     """The kernels that the circuits of a machine need."""
     if not machine.hydraulics:
         return []
-    needed = {volume.apply, ledger.apply}
+    needed = {ledger.begin, volume.apply, ledger.apply}
+    if any(isinstance(fluid, Gas) for fluid in machine.fluids):
+        needed.update((gas.apply, gas_flow.apply))
     for component in machine.hydraulics:
         kind = next(kind for kind in type(component).__mro__ if kind in _NEEDED)
         needed.update(_NEEDED[kind])
@@ -135,13 +150,17 @@ def add_components(draft: SystemBuilder) -> None:
 
 def _add_pressures(draft: SystemBuilder) -> None:
     """One row for each node."""
+    draft.elements.add(ledger.begin, [])
     given = {each.name: each for each in draft.machine.hydraulics if isinstance(each, Tank)}
     for k, node in enumerate(draft.circuit.nodes.values()):
         function = 0
         if node.kind == volume.GIVEN:
             with located(f"hydraulics.{node.owner}.pressure"), draft.noting():
                 function = draft.function(given[node.owner].pressure)
-        draft.elements.add(volume.apply, [node.output, k, node.kind, node.state, function])
+        if node.gas:
+            draft.elements.add(gas.apply, [node.output, k, node.kind, node.state, function, node.energy], [node.walls])
+        else:
+            draft.elements.add(volume.apply, [node.output, k, node.kind, node.state, function])
 
 
 def _know_late(draft: SystemBuilder, component: Component) -> None:

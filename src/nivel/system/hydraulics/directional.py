@@ -7,7 +7,7 @@ import math
 from nivel.kernels.hydraulics import load_signal, restriction, spool
 from nivel.kernels.record import NONE
 from nivel.machine.hydraulics import DirectionalValve, LoadSensing
-from nivel.machine.hydraulics.directional import CENTRES, EDGES
+from nivel.machine.hydraulics.directional import CENTRED, EDGES, centre_pairs
 from nivel.system.builder import SystemBuilder
 from nivel.system.hydraulics.restrictions import add_flow, rated
 from nivel.system.state_facts import StateFact
@@ -20,7 +20,7 @@ def add_directional(draft: SystemBuilder, component: DirectionalValve) -> None:
     for pairs, sign in ((forward, 1.0), (back, -1.0)):
         for pair in pairs:
             _add_edge(draft, component, pair, position, _slope(component.ways, sign, component.overlap))
-    for pair in CENTRES[component.centre]:
+    for pair in centre_pairs(component.ways, component.centre):
         quantity = f"flow_{pair}" if pair not in component.edges else f"centre_flow_{pair}"
         width = max(component.overlap, component.rounding)
         numbers = [*rated(component, 0.0), 0.0, 0.0, width]
@@ -29,7 +29,7 @@ def add_directional(draft: SystemBuilder, component: DirectionalValve) -> None:
 
 def _slope(ways: str, sign: float, overlap: float) -> tuple[float, float]:
     """(factor, shift) of z = factor u + shift, which opens an edge where it is positive."""
-    if ways in ("4/3", "2/2"):
+    if ways in (*CENTRED, "2/2"):
         return sign, -overlap
     return 2.0 * sign, -sign - overlap
 
@@ -57,7 +57,7 @@ def _add_spool(draft: SystemBuilder, component: DirectionalValve) -> int:
             speed = draft.own_state(
                 StateFact(f"{name}.spool_speed", "1/s", f"speed of {name}", 0.0, frequency(component))
             )
-    least = -1.0 if component.ways == "4/3" else 0.0
+    least = -1.0 if component.ways in CENTRED else 0.0
     columns = [output, state, speed, draft.function(component.command)]
     draft.elements.add(
         spool.move, columns, [least, frequency(component), component.damping_ratio, component.rate_limit or 0.0]

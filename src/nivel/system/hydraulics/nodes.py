@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from nivel.kernels.coordinate import DISTANCE
@@ -15,6 +16,7 @@ from nivel.machine.hydraulics import (
     Actuator,
     Component,
     Fluid,
+    Gas,
     HydraulicCylinder,
     LoadSensing,
     RotaryActuator,
@@ -23,9 +25,9 @@ from nivel.machine.hydraulics import (
     Volume,
 )
 from nivel.machine.hydraulics.actuators import DEAD_SHARE, PistonFriction
-from nivel.machine.hydraulics.fluid import OIL
+from nivel.machine.hydraulics.fluid import OIL, REFERENCE_PRESSURE, REFERENCE_TEMPERATURE
 from nivel.system.builder import SystemBuilder
-from nivel.system.circuit import Node
+from nivel.system.circuit import FLUID, Node
 from nivel.system.forces.restitution import damping_of_restitution
 from nivel.system.hydraulics.fluid_law import density_and_modulus
 from nivel.system.located import located
@@ -33,6 +35,7 @@ from nivel.system.state_facts import Coupled, StateFact
 
 # pressure that the tolerance is a share of [Pa], and that masses start from until the circuit is at rest
 TYPICAL = 1e7
+TYPICAL_OF_GAS = 5e5
 RIGID = (0.0, 0.0, 0.0, 1.0, 1.0)  # of `Circuit.room`: no volume, no wall, no gas
 
 
@@ -42,10 +45,16 @@ def add_fluids(draft: SystemBuilder) -> None:
         draft.circuit.fluids.append(fluid_constants(fluid))
 
 
-def fluid_constants(fluid: Fluid) -> tuple[float, ...]:
-    """A row of `Circuit.fluid`."""
+def fluid_constants(fluid: Fluid | Gas) -> tuple[float, ...]:
+    """A row of `Circuit.fluid`: constants of liquids, then of gases. A gas at T₀ is as a liquid that is all air."""
+    if isinstance(fluid, Gas):
+        density = ATMOSPHERE / (fluid.gas_constant * fluid.temperature)
+        reference = REFERENCE_PRESSURE / (fluid.gas_constant * math.sqrt(REFERENCE_TEMPERATURE))
+        of_gas = (fluid.gas_constant, fluid.heat_capacity_ratio, fluid.temperature, reference)
+        return (1.0, ATMOSPHERE, 0.0, 1.0, density, 0.0, *of_gas)
     modulus, slope = fluid.bulk_modulus, fluid.bulk_modulus_slope
-    return (fluid.air, modulus, slope, fluid.gas_exponent, fluid.mixed_density, fluid.viscosity)
+    of_liquid = (fluid.air, modulus, slope, fluid.gas_exponent, fluid.mixed_density, fluid.viscosity)
+    return (*of_liquid, *[0.0] * (FLUID - len(of_liquid)))
 
 
 def add_nodes(draft: SystemBuilder) -> None:
@@ -69,7 +78,7 @@ def _know_pressures(draft: SystemBuilder, component: Component) -> None:
     circuit = draft.circuit
     for node in circuit.nodes.values():
         if node.owner == component.name and not isinstance(component, Actuator):
-            circuit.depends.setdefault(node.name, _states(node.state))
+            circuit.depends.setdefault(node.name, Coupled(frozenset(), node.states))
             circuit.signals[f"{component.name}.pressure"] = (node.output, circuit.depends[node.name])
     if isinstance(component, Actuator):
         with draft.noting():
@@ -82,11 +91,7 @@ def _know_pressures(draft: SystemBuilder, component: Component) -> None:
                 )
         for node in circuit.nodes.values():
             if node.owner == component.name:
-                circuit.depends.setdefault(node.name, _states(node.state))
-
-
-def _states(state: int) -> Coupled:
-    return Coupled(frozenset(), frozenset() if state == NONE else frozenset((state,)))
+                circuit.depends.setdefault(node.name, Coupled(frozenset(), node.states))
 
 
 def _own_nodes(draft: SystemBuilder, component: Component, swept: dict[str, float]) -> Iterator[Node]:
@@ -100,10 +105,10 @@ def _own_nodes(draft: SystemBuilder, component: Component, swept: dict[str, floa
             room = (dead, 0.0, component.volume, component.precharge, component.gas_exponent)
             yield _volume(draft, component, component.name, "", room, component.start, swept)
         case Tank():
-            output = _pressure_output(draft, component.name, "pressure")
-            yield Node(
-                component.name, volume.GIVEN, _fluid(draft, component), NONE, RIGID, 0.0, None, component.name, output
-            )
+            fluid, name = _fluid(draft, component), component.name
+            gas = _gas(draft, fluid) is not None
+            output = _pressure_output(draft, name, "pressure", gas)
+            yield Node(name, volume.GIVEN, fluid, NONE, RIGID, 0.0, None, name, output, gas)
         case LoadSensing():
             output = _pressure_output(draft, component.name, "pressure")
             fact = StateFact(
@@ -147,8 +152,10 @@ def _volume(
     fluid = _fluid(draft, component)
     constants = draft.circuit.fluids[fluid]
     size = room[0] + swept.get(name, 0.0)
-    density, modulus = density_and_modulus(constants, TYPICAL)
-    scale = density * size / modulus * TYPICAL
+    gas = _gas(draft, fluid)
+    typical = TYPICAL if gas is None else TYPICAL_OF_GAS
+    density, modulus = density_and_modulus(constants, typical)
+    scale = density * size / modulus * typical
     fact = StateFact(
         f"{component.name}.mass{ending}",
         "kg",
@@ -157,14 +164,45 @@ def _volume(
         scale=scale,
         relative=False,
     )
-    output = _pressure_output(draft, component.name, f"pressure{ending}")
-    return Node(name, volume.VOLUME, fluid, draft.own_state(fact), room, size - room[0], start, component.name, output)
-
-
-def _pressure_output(draft: SystemBuilder, name: str, quantity: str) -> int:
-    return draft.outputs.add(
-        (f"hydraulics.{name}.{quantity}", "Pa", f"{quantity.replace('_', ' in ', 1)} of {name}, absolute")
+    output = _pressure_output(draft, component.name, f"pressure{ending}", gas is not None)
+    state, energy, walls = draft.own_state(fact), NONE, getattr(component, "heat_conductance", None) or 0.0
+    if gas is not None and not gas.isothermal:
+        inner = scale * gas.temperature * gas.gas_constant / (gas.heat_capacity_ratio - 1.0)
+        words = f"inner energy of the gas in {name}"
+        energy = draft.own_state(
+            StateFact(f"{component.name}.energy{ending}", "J", words, inner, inner, relative=False)
+        )
+    return Node(
+        name,
+        volume.VOLUME,
+        fluid,
+        state,
+        room,
+        size - room[0],
+        start,
+        component.name,
+        output,
+        gas=gas is not None,
+        energy=energy,
+        walls=walls,
+        quantity=f"pressure{ending}",
     )
+
+
+def _pressure_output(draft: SystemBuilder, name: str, quantity: str, gas: bool = False) -> int:
+    """Index of the pressure of a node, and of a gas of its temperature behind it."""
+    words = quantity.replace("_", " in ", 1)
+    first = (f"hydraulics.{name}.{quantity}", "Pa", f"{words} of {name}, absolute")
+    if not gas:
+        return draft.outputs.add(first)
+    second = f"hydraulics.{name}.{quantity.replace('pressure', 'temperature')}"
+    return draft.outputs.add(first, (second, "K", f"{words.replace('pressure', 'temperature')} of {name}"))
+
+
+def _gas(draft: SystemBuilder, fluid: int) -> Gas | None:
+    """The gas of this number; None where it is a liquid."""
+    found = (draft.machine.fluids or (OIL,))[fluid]
+    return found if isinstance(found, Gas) else None
 
 
 def _fluid(draft: SystemBuilder, component: Component) -> int:
@@ -237,15 +275,15 @@ def _add_actuator(draft: SystemBuilder, component: Actuator) -> None:
             columns = [first, draft.circuit.index(node.name), coordinate]
             draft.elements.add(displace, columns, numbers)
             draft.elements.add(press, columns, numbers)
-            draft.touch_state(node.state)
+            draft.note(Coupled(frozenset(), node.states))
         ends = [draft.circuit.index(nodes[c]) if c in nodes else NONE for c in ("A", "B")]
         numbers = [origin, *_friction(component), stroke, component.stop_stiffness]
         numbers.append(damping_of_restitution(component.stop_restitution))
         draft.elements.add(guide, [first, ends[0], coordinate, ends[1]], numbers, 2, (0, 1))
     moved = draft.noted[-1]
     for node in nodes.values():
-        own = draft.circuit.nodes[node].state
-        known = draft.circuit.depends.get(node, _states(own))
+        own = Coupled(frozenset(), draft.circuit.nodes[node].states)
+        known = draft.circuit.depends.get(node, own)
         draft.circuit.depends[node] = Coupled(known.bodies | moved.bodies, known.states)
     for k, quantity in enumerate(("force", "power", "position", "speed", "friction")):
         draft.circuit.signals[f"{component.name}.{quantity}"] = (first + k, moved)

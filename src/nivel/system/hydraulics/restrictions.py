@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 
-from nivel.kernels.hydraulics import pipe, restriction, spool
+from nivel.kernels.hydraulics import gas_flow, pipe, restriction, spool
+from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, REFERENCE
 from nivel.kernels.record import NONE
 from nivel.machine.hydraulics import Accumulator, HydraulicCylinder, Orifice, Pipe
-from nivel.machine.hydraulics.component import Rated
+from nivel.machine.hydraulics.component import Rating
 from nivel.machine.time_function import TimeFunction
 from nivel.system.builder import SystemBuilder
 from nivel.system.circuit import Node
@@ -15,6 +16,7 @@ from nivel.system.hydraulics.nodes import chamber_node
 from nivel.system.state_facts import StateFact
 
 TRANSITION = 0.5e5  # Pa, of restrictions that do not say
+CRITICAL_RATIO = 0.3  # of pneumatic valves that do not say
 CRITICAL_REYNOLDS = (0.3164 / 64.0) ** (-4.0 / 3.0)  # where 64/Re is 0.3164 Re^(-1/4)
 
 
@@ -26,33 +28,45 @@ def add_flow(
     numbers: list[float],
     opening: tuple[int, int] = (restriction.FIXED, 0),
 ) -> None:
-    """A restriction between two nodes. opening : its kind, and the output or function that it follows."""
+    """A restriction between two nodes, of the family of their fluid. opening : its kind, and the output or function that it follows."""
     first = draft.outputs.add(
         (f"hydraulics.{component}.{quantity}", "m^3/s", f"{quantity.replace('_', ' ')} of {component}")
     )
-    draft.elements.add(restriction.apply, [first, draft.node(ends[0]), draft.node(ends[1]), *opening], numbers)
+    family = gas_flow.apply if draft.circuit.nodes[ends[0]].gas else restriction.apply
+    draft.elements.add(family, [first, draft.node(ends[0]), draft.node(ends[1]), *opening], numbers)
 
 
-def rated(component: Rated, leakage: float) -> list[float]:
-    """FLOW, CORNER, LEAK of a component from a catalogue."""
-    return [component.conductance, component.transition, leakage]
+def rated(component: Rating, leakage: float) -> list[float]:
+    """FLOW, CORNER, LEAK of a component from a catalogue, or SONIC, CRITICAL, LEAK of one for gases."""
+    if component.sonic_conductance is not None:
+        return [component.sonic_conductance, component.critical_ratio or CRITICAL_RATIO, leakage]
+    return [component.conductance, getattr(component, "transition", TRANSITION), leakage]
 
 
 def add_orifice(draft: SystemBuilder, component: Orifice) -> None:
     """A restriction, fixed or with an opening that varies."""
     ends = component.ports["A"], component.ports["B"]
-    conductance = 0.0
-    if component.flow is not None:
-        assert component.pressure_drop is not None  # the record was checked
-        conductance = component.flow / math.sqrt(component.pressure_drop)
-    elif component.diameter is not None:
-        area = 0.25 * math.pi * component.diameter**2
-        density = draft.circuit.fluids[_flowing(draft, ends).fluid][4]
-        conductance = component.discharge_coefficient * area * math.sqrt(2.0 / density)
+    numbers = rated(component, component.leakage)
+    if component.diameter is not None:
+        area = 0.25 * math.pi * component.diameter**2 * component.discharge_coefficient
+        fluid = draft.circuit.fluids[_flowing(draft, ends).fluid]
+        numbers[:2] = (
+            _nozzle(area, fluid)
+            if _flowing(draft, ends).gas
+            else (area * math.sqrt(2.0 / fluid[4]), component.transition)
+        )
     opening = (restriction.FIXED, 0)
     if component.opening != 1.0:
         opening = (restriction.GIVEN, draft.function(component.opening))
-    add_flow(draft, component.name, "flow", ends, [conductance, component.transition, component.leakage], opening)
+    add_flow(draft, component.name, "flow", ends, numbers, opening)
+
+
+def _nozzle(area: float, gas: tuple[float, ...]) -> tuple[float, float]:
+    """(C [m³/s/Pa], b) of a gas that expands without loss into an area [m²]: the sonic flow (Saint-Venant and Wantzel 1839)."""
+    ratio = gas[RATIO]
+    critical = (2.0 / (ratio + 1.0)) ** (ratio / (ratio - 1.0))
+    sonic = math.sqrt(ratio / gas[GAS_CONSTANT]) * (2.0 / (ratio + 1.0)) ** (0.5 * (ratio + 1.0) / (ratio - 1.0))
+    return area * sonic / gas[REFERENCE], critical
 
 
 def _flowing(draft: SystemBuilder, ends: tuple[str, str]) -> Node:
@@ -89,18 +103,18 @@ def add_cushions(draft: SystemBuilder, component: HydraulicCylinder) -> None:
         if cushion is None:
             continue
         inner, port = chamber_node(component, chamber), f"{component.name}.{chamber}"
-        conductance = cushion.flow / math.sqrt(cushion.pressure_drop)
+        head = rated(cushion, 0.0)
         end, sign = (0.0, 1.0) if chamber == "A" else (component.stroke, -1.0)
         position, coupled = draft.circuit.signals[f"{component.name}.position"]
         draft.note(coupled)
-        numbers = [conductance, TRANSITION, 0.0, sign, end, cushion.length, 1.0, cushion.least_opening]
+        numbers = [*head, sign, end, cushion.length, 1.0, cushion.least_opening]
         add_flow(
             draft, component.name, f"cushion_flow_{chamber}", (inner, port), numbers, (restriction.CUSHION, position)
         )
         opening = add_poppet(
             draft, component.name, f"check_{chamber}", {port: 1.0, inner: -1.0}, (3e5, 0.0, -1.0, 0.0), 0.5e5
         )
-        add_flow(draft, component.name, f"check_flow_{chamber}", (port, inner), [conductance, TRANSITION, 0.0], opening)
+        add_flow(draft, component.name, f"check_flow_{chamber}", (port, inner), head, opening)
 
 
 def add_poppet(

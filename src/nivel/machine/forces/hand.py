@@ -1,0 +1,46 @@
+"""A hand in words: a spring from a point of a body, of whichever is chosen, to a point in space."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.checked import Problem
+from nivel.machine.coefficient import NotNegativeNumber
+from nivel.machine.forces.element import ForceElement
+from nivel.machine.quantity import ANY, Quantity, listed
+from nivel.machine.time_function import TimeFunction, varying
+
+Varied = Annotated[TimeFunction, varying(ANY)]
+Place = Annotated[TimeFunction, varying("length")]
+Frequency = Annotated[float, Quantity("frequency", positive=True)]
+
+
+class Hand(ForceElement):
+    """A force m pull (ω² (towards - p) - 2 ζ ω ṗ) at the point p of the chosen body of mass m, ω = 2π `frequency`: as strong as lets the
+    body alone swing with this frequency and damping ratio.
+
+    `nivel live` adds one, by which bodies are picked up with the mouse.
+    """
+
+    stiff: ClassVar[bool] = False
+
+    type: Literal["hand"] = "hand"
+    pull: Varied = Field(description="1 while it holds, 0 while it does not, and between")
+    body_number: Varied = Field(
+        description="which body: its number in the order of the file, from 0; none where there is no such one"
+    )
+    point: Annotated[tuple[Place, Place, Place], BeforeValidator(listed)] = Field(
+        description="of the body, in its frame"
+    )
+    towards: Annotated[tuple[Place, Place, Place], BeforeValidator(listed)] = Field(description="in space, global axes")
+    frequency: Frequency = Field(default=1.5, description="of the chosen body alone")
+    damping_ratio: NotNegativeNumber = 0.7
+
+    def problems(self) -> Iterator[Problem]:
+        if isinstance(self.pull, int | float) and self.pull == 0:
+            yield Problem(
+                ("pull",), "a hand that never pulls does nothing; 1 holds, or an expression such as `grip.value`"
+            )

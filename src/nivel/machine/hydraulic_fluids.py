@@ -1,0 +1,75 @@
+"""Whether the components of circuits fit the fluids that flow in them: one fluid for each, and gases where gas may flow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+from nivel.machine.hydraulics import COMPONENT_OF
+from nivel.machine.index import Place, elements
+from nivel.machine.record import entry
+
+Faults = Iterator[tuple[Place, str]]
+GAS: Final = "ideal-gas"
+KINDS: Final = ("liquid", GAS)
+DEFAULT: Final = ""  # name of the fluid of a machine without `fluids`
+RATED: Final = "`sonic_conductance`, in dm^3/(s*bar), and `critical_ratio`"
+OF_LIQUIDS: Final = ("wall_modulus",)
+OF_GASES: Final = ("heat_conductance",)
+
+
+def fluid_faults(machine: Any, nodes: Mapping[str, Any]) -> Faults:
+    """Place and message of everything that is wrong. nodes : the component that makes each."""
+    kinds = {str(entry(each, "name")): str(entry(each, "type") or "liquid") for each in elements(machine, "fluids")}
+    kinds = kinds or {DEFAULT: "liquid"}
+    for at, component in enumerate(elements(machine, "hydraulics")):
+        place: Place = ("hydraulics", at)
+        touched = _touched(component, nodes, kinds)
+        if len(set(touched.values())) > 1:
+            said = ", ".join(f"{node} of {fluid}" for node, fluid in touched.items())
+            yield place, f"one component carries one fluid; its nodes are {said}"
+        elif touched and (kind := kinds[next(iter(touched.values()))]) in KINDS:
+            yield from _of_kind(component, place, kind == GAS)
+
+
+def _touched(component: Any, nodes: Mapping[str, Any], kinds: Mapping[str, str]) -> dict[str, str]:
+    """The fluid of each node that a component is, or is connected to; what cannot be told is left out."""
+    ports = entry(component, "ports")
+    connected = [node for node in ports.values() if isinstance(node, str)] if isinstance(ports, Mapping) else []
+    made = {node: component for node, maker in nodes.items() if maker is component}
+    found = {node: nodes[node] for node in connected if node in nodes} | made
+    fluids = {node: entry(maker, "fluid") or _only(kinds) for node, maker in found.items() if _holds_fluid(maker)}
+    return {node: fluid for node, fluid in fluids.items() if isinstance(fluid, str) and fluid in kinds}
+
+
+def _holds_fluid(maker: Any) -> bool:
+    kind = COMPONENT_OF.get(str(entry(maker, "type")))
+    return kind is not None and "fluid" in kind.model_fields
+
+
+def _only(kinds: Mapping[str, str]) -> str | None:
+    return next(iter(kinds)) if len(kinds) == 1 else None
+
+
+def _of_kind(component: Any, place: Place, gas: bool) -> Faults:
+    """What does not belong to liquids, or to gases."""
+    type_ = str(entry(component, "type"))
+    kind = COMPONENT_OF.get(type_)
+    if kind is None:
+        return
+    if gas and not kind.gases:
+        known = ", ".join(f"`{word}`" for word, each in COMPONENT_OF.items() if each.gases)
+        yield (*place, "type"), f"a {type_} is for liquids; circuits of gas know {known}"
+        return
+    for key in OF_LIQUIDS if gas else OF_GASES:
+        if entry(component, key) is not None:
+            yield (*place, key), f"`{key}` belongs to {'liquids' if gas else 'gases'}"
+    rated = [(place, component), *(((*place, key), entry(component, key)) for key in ("cushion_A", "cushion_B"))]
+    for where, rating in rated:
+        if gas and entry(rating, "flow") is not None:
+            yield (*where, "flow"), f"a flow at a difference of pressure is of liquids; gases have {RATED}"
+        if not gas and entry(rating, "sonic_conductance") is not None:
+            yield (
+                (*where, "sonic_conductance"),
+                "a sonic conductance is of gases; liquids have `flow` at `pressure_drop`",
+            )

@@ -1,0 +1,153 @@
+"""Linear equations (1 - s J) k = f of a machine whose only stiffness is that of its circuits and modes, in relative coordinates.
+
+    k_x = f_x + s (G_x k_x + G_s k_s + G_r k_r)        k_r = J o_v + s C (E_x k_x + E_s k_s + E_r k_r)        k_s = J f_q + s k_r
+
+for states x of circuits, coordinates s on which they act and their rates r, with the slopes G of ẋ and E of the efforts e by hand
+(`nivel.kernels.hydraulics.tangent`) and the compliance C = J M⁻¹ Jᵀ of the mechanics (`nivel.motion.unit_efforts`). Then
+
+    k_v = o_v + s M⁻¹ Jᵀ e        k_q = f_q + s T k_v
+
+o is k without circuits: f of rigid bodies; with modes that of `nivel.motion.modal_shift`, and M is the mass of its factors.
+
+All else that moves the machine (weight, velocity forces) is slow against a step of these and taken as it is: a method that is of its order
+for any J needs no more.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.record import NONE, record_at
+from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.motion.tree_motion import write_positions
+from nivel.native.function import leaf
+
+
+@leaf
+def factorise_rows_in_order(matrix):
+    """Overwrite a matrix (n, n) with its factors L U, no rows exchanged; places of zeros cost a look. Returns the first row without a
+    pivot, or -1."""
+    n = matrix.shape[0]
+    for i in range(n):
+        row = matrix[i]
+        for k in range(i):
+            if row[k] != 0.0:
+                above = matrix[k, k + 1 : n]
+                factor = row[k] * matrix[k, k]
+                row[k] = factor
+                rest = matrix[i, k + 1 : n]
+                for j in range(above.shape[0]):
+                    rest[j] -= factor * above[j]
+        if not np.abs(row[i]) > 0.0:
+            return i
+        row[i] = 1.0 / row[i]
+    return -1
+
+
+@leaf
+def solve_in_order(matrix, b):
+    """Overwrite b (n,) with the solution, for factors whose diagonal is that of U inverted."""
+    n = b.shape[0]
+    for i in range(n):
+        row, total = matrix[i, :i], b[i]
+        for j in range(i):
+            total -= row[j] * b[j]
+        b[i] = total
+    for m in range(n):
+        i = n - 1 - m
+        row, total = matrix[i], b[i]
+        for j in range(i + 1, n):
+            total -= row[j] * b[j]
+        b[i] = total * row[i]
+
+
+@leaf
+def soften(tangent):
+    """The last rows of `slopes` := compliance times `effort`: second derivatives of the coordinates."""
+    first, width = tangent.state.shape[0], tangent.slopes.shape[1]
+    for c in range(tangent.coordinate.shape[0]):
+        row = tangent.slopes[first + c]
+        for j in range(width):
+            row[j] = 0.0
+        for d in range(tangent.coordinate.shape[0]):
+            share, effort = tangent.compliance[c, d], tangent.effort[d]
+            for j in range(width):
+                row[j] += share * effort[j]
+
+
+@leaf
+def factorise_circuit(machine, number, s):
+    """Factors `number` of the equations for this s. Returns a status; the state without a pivot is left in control.failure."""
+    record = record_at(machine)
+    tangent = record.circuit.tangent
+    matrix, slopes = tangent.matrix[number], tangent.slopes
+    states, count = tangent.state.shape[0], tangent.coordinate.shape[0]
+    for i in range(states + count):
+        row, slope = matrix[i], slopes[i]
+        for j in range(states):
+            row[j] = -s * slope[j]
+        for c in range(count):
+            row[states + c] = -s * (slope[states + count + c] + s * slope[states + c])
+        row[i] += 1.0
+    failed = factorise_rows_in_order(matrix)
+    if failed < 0:
+        return OK
+    record.control.failure[0] = failed
+    return NOT_CONVERGED
+
+
+@leaf
+def solve_circuit(machine, number, s, f, other):
+    """Fill b with k of the states and rates of coordinates, `load` with e, and add the change of the coordinates to `travel` of these
+    factors, for the rate f (ny,) of the state last evaluated and `other` (ny,), o."""
+    record = record_at(machine)
+    tangent, coordinates = record.circuit.tangent, record.coordinates
+    b, states, count = tangent.b, tangent.state.shape[0], tangent.coordinate.shape[0]
+    positions, columns = np.int64(record.tree.positions[0]), record.tree.column.shape[0]
+    first = positions + columns
+    for i in range(states):
+        b[i] = f[first + np.int64(tangent.state[i])]
+    for c in range(count):
+        total, direction = 0.0, tangent.direction[c]
+        for k in range(columns):
+            total += direction[k] * other[positions + k]
+        b[states + c] = total
+    for c in range(count):
+        moved = s * coordinates.rate[tangent.coordinate[c]]
+        for i in range(states + count):
+            b[i] += moved * tangent.slopes[i, states + c]
+    solve_in_order(tangent.matrix[number], b)
+    for c in range(count):
+        total, effort = 0.0, tangent.effort[c]
+        for j in range(states):
+            total += effort[j] * b[j]
+        for d in range(count):
+            along = coordinates.rate[tangent.coordinate[d]] + s * b[states + d]
+            total += effort[states + d] * along + effort[states + count + d] * b[states + d]
+        tangent.load[c] = total
+        tangent.travel[number, c] += s * (coordinates.rate[tangent.coordinate[c]] + s * b[states + c])
+
+
+@leaf
+def advance_circuit(machine, number, s, f, other, y, into):
+    """into := y + s k with (1 - s J) k = f, for factors `number` of this s and o in `other`; y is the state last evaluated."""
+    record = record_at(machine)
+    tangent, tree = record.circuit.tangent, record.tree
+    solve_circuit(machine, number, s, f, other)
+    positions, columns = np.int64(tree.positions[0]), tree.column.shape[0]
+    first = positions + columns
+    for k in range(columns):
+        total = 0.0
+        for c in range(tangent.coordinate.shape[0]):
+            total += tangent.response[c, k] * tangent.load[c]
+        tree.change[k] = s * (other[positions + k] + s * total)
+        into[positions + k] = y[positions + k] + tree.change[k]
+    for n in range(tree.node.shape[0]):
+        write_positions(machine, y, tree.change, tree.moved, n, np.int64(tree.node[n, 4]))
+    for k in range(positions):
+        into[k] = y[k] + s * (f[k] + tree.moved[k])
+    for j in range(y.shape[0] - first):
+        into[first + j] = y[first + j] + s * f[first + j]
+    for j in range(tangent.unknown.shape[0]):
+        if tangent.unknown[j] != NONE:
+            into[first + j] = y[first + j] + s * tangent.b[tangent.unknown[j]]

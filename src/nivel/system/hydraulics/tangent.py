@@ -1,0 +1,134 @@
+"""Tables of the derivatives of circuits by hand: which states and coordinates they have, and in which order these are eliminated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.kernels.circuit_record import CircuitTangent
+from nivel.kernels.hook import FAMILIES
+from nivel.kernels.hydraulics import ledger, load_signal, pipe, piston, restriction, rotary, spool, volume
+from nivel.kernels.record import NONE, Record
+from nivel.system.factor_plan import minimum_degree
+from nivel.system.system import System
+
+# in the order of `nivel.kernels.hydraulics.tangent`
+DERIVED = (
+    piston.displace,
+    piston.guide,
+    piston.press,
+    spool.move,
+    spool.lift,
+    load_signal.apply,
+    rotary.set_displacement,
+    rotary.turn,
+    restriction.apply,
+    pipe.apply,
+)
+# those whose derivatives are those of nodes, or none
+WITHOUT = (volume.apply, rotary.supply, ledger.apply)
+Index = NDArray[np.uint32]
+
+
+def with_circuit_tangent(system: System) -> System:
+    """The system with room for the derivatives of its circuits, in relative coordinates."""
+    circuit = system.record.circuit._replace(tangent=_tables(system))
+    return replace(system, record=system.record._replace(circuit=circuit))
+
+
+def _tables(system: System) -> CircuitTangent:
+    record = system.record
+    family = _families(record)
+    state = _in_order(system)
+    coordinate = np.unique([q for q in _coordinates(record, family) if q != NONE]).astype(np.uint32)
+    states, count, velocities = len(state), len(coordinate), len(record.tree.column)
+    nodes, size = len(record.circuit.node), len(state) + len(coordinate)
+    unknown = _numbers(state, len(record.elements.state))
+    return CircuitTangent(
+        family=family,
+        state=state,
+        unknown=unknown,
+        coordinate=coordinate,
+        number=_numbers(coordinate, len(record.coordinates.what)),
+        signal=_signals(record, unknown),
+        source=_sources(record, family, unknown),
+        by_mass=np.zeros(nodes),
+        by_stroke=np.zeros((nodes, count)),
+        effort=np.zeros((count, states + 2 * count)),
+        slopes=np.zeros((size, states + 2 * count)),
+        direction=np.zeros((count, velocities)),
+        response=np.zeros((count, velocities)),
+        compliance=np.zeros((count, count)),
+        matrix=np.zeros((2, size, size)),
+        b=np.zeros(size),
+        load=np.zeros(count),
+        travel=np.zeros((2, count)),
+    )
+
+
+def _families(record: Record) -> Index:
+    """Number of each of DERIVED among those of the machine, or NONE."""
+    own = [FAMILIES[int(address)] for address in record.elements.address]
+    return np.array([own.index(each) if each in own else NONE for each in DERIVED], dtype=np.uint32)
+
+
+def _in_order(system: System) -> Index:
+    """States of circuits, by minimum degree of what their components couple."""
+    count = len(system.record.elements.state)
+    own = [k for k in range(count) if not (system.states[k].integral or system.states[k].sampled)]
+    neighbours: list[set[int]] = [set() for _ in own]
+    place = {state: k for k, state in enumerate(own)}
+    for each in system.coupled:
+        for a, b in combinations(sorted(place[state] for state in each.states if state in place), 2):
+            neighbours[a].add(b)
+            neighbours[b].add(a)
+    order, _ = minimum_degree([1] * len(own), neighbours, {})
+    return np.array([own[k] for k in order], dtype=np.uint32)
+
+
+def _rows(record: Record, number: int) -> Iterator[tuple[int, list[int]]]:
+    """Number and columns of each element of a family; none where that is NONE."""
+    if number != NONE:
+        for k in range(*record.elements.span[number].tolist()):
+            yield k, record.elements.columns[k].tolist()
+
+
+def _coordinates(record: Record, family: Index) -> Iterator[int]:
+    """Those on which pistons and motors act."""
+    for each, column in ((piston.guide, piston.COORDINATE), (rotary.turn, rotary.COORDINATE)):
+        for _, columns in _rows(record, family[DERIVED.index(each)]):
+            yield columns[column]
+
+
+def _numbers(chosen: Index, count: int) -> Index:
+    """The inverse of `chosen`: the number of each of `count` among these, or NONE."""
+    out = np.full(count, NONE, dtype=np.uint32)
+    out[chosen] = np.arange(len(chosen))
+    return out
+
+
+def _signals(record: Record, unknown: Index) -> Index:
+    """Of each node that is a signal the number of its state."""
+    out = np.full(len(record.circuit.node), NONE, dtype=np.uint32)
+    own = [FAMILIES[int(address)] for address in record.elements.address].index(volume.apply)
+    for _, columns in _rows(record, own):
+        if columns[volume.KIND] == volume.SIGNAL:
+            out[columns[volume.NODE]] = unknown[columns[volume.STATE]]
+    return out
+
+
+def _sources(record: Record, family: Index, unknown: Index) -> Index:
+    """Of each output that is a position or a setting its state, or the poppet whose pressures give it."""
+    out = np.full((len(record.outputs.value), 2), NONE, dtype=np.uint32)
+    states = ((spool.move, spool.STATE), (spool.lift, spool.STATE), (rotary.set_displacement, rotary.STATE))
+    for each, column in states:
+        for k, columns in _rows(record, family[DERIVED.index(each)]):
+            if columns[column] != NONE:
+                out[columns[0], 0] = unknown[columns[column]]
+            elif each is spool.lift:
+                out[columns[0], 1] = k
+    return out

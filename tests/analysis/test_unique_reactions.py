@@ -1,0 +1,50 @@
+"""Which components of reactions are unique where constraints repeat each other."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nivel
+from nivel.analysis.unique_reactions import COMPONENTS
+
+FOUR_BAR = Path(__file__).parents[2] / "examples" / "four-bar-revolutes.yaml"
+
+
+@pytest.fixture(scope="module")
+def redundant():
+    return nivel.load(FOUR_BAR)
+
+
+def test_a_planar_loop_of_revolutes_has_unique_forces_in_its_plane_alone(redundant):
+    """Forces along the axes and moments across them may be locked in."""
+    found = redundant.check().reactions
+    assert [each.joint for each in found] == ["crank_pivot", "crank_pin", "rocker_pin", "rocker_pivot"]
+    for each in found:
+        assert each.unique == ("force x", "force y")
+        assert each.others == ("force z", "moment x", "moment y")
+    assert "crank_pin: unique are force x, force y; not force z" in str(redundant.check())
+
+
+def test_unique_components_are_those_of_the_exactly_constrained_machine(redundant):
+    """The same machine, its joints changed as `nivel check` proposes, carries the same unique components."""
+    record = redundant.record
+    ball = {"type": "spherical", "axis": None}
+    changed = {"crank_pin": ball, "rocker_pin": {"type": "cylindrical"}}
+    joints = tuple(joint.replace(**changed.get(joint.name, {})) for joint in record.joints)
+    exact = nivel.Machine.from_record(record.replace(joints=joints))
+    settings = {"duration": 0.2, "output_interval": 0.05, "coordinates": "absolute"}
+    runs = [redundant.simulate(**settings), exact.simulate(**settings)]
+    assert runs[1].trust.redundant_rows == ()
+    for each in redundant.check().reactions:
+        k = runs[0].coordinates["joint"].index(each.joint)
+        force, other = (
+            np.hstack([r.array("joint_force_local")[:, k], r.array("joint_torque_local")[:, k]]) for r in runs
+        )
+        places = [COMPONENTS.index(name) for name in each.unique]
+        if each.joint != "crank_pin":  # a spherical joint placed by a point has the global axes
+            np.testing.assert_allclose(force[:, places], other[:, places], atol=1e-6 * np.abs(force).max())
+        else:
+            np.testing.assert_allclose(
+                np.linalg.norm(force[:, :2], axis=1), np.linalg.norm(other[:, :2], axis=1), rtol=1e-6
+            )

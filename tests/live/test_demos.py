@@ -1,0 +1,47 @@
+"""The machines of `nivel demo`: they are ready to be driven, stand still at rest, and go where their levers say."""
+
+import numpy as np
+import pytest
+
+import nivel
+from nivel.demos.catalogue import DEMOS, FOLDER, demo_file
+from nivel.live.preparation import live_plan
+from nivel.machine import Table
+
+HYDRAULIC = {
+    "loader-crane": {"lift_lever": "luffing.angle", "extension_lever": "telescope.displacement"},
+    "excavator": {"boom_lever": "foot.angle", "stick_lever": "elbow.angle"},
+}
+REST, PUSHED, END = 0.1, 0.35, 0.8  # s
+STILL = 2e-3  # m: oil in closed chambers settles by less
+
+
+def test_every_machine_of_the_folder_is_a_demo_and_the_first_is_the_loader_crane():
+    assert {path.stem for path in FOLDER.glob("*.yaml")} == set(DEMOS)
+    assert next(iter(DEMOS)) == "loader-crane"
+
+
+@pytest.mark.parametrize("name", DEMOS)
+def test_a_demo_is_live_at_one_kilohertz_and_every_input_says_what_it_does(name):
+    machine = nivel.load(demo_file(name)).record
+    _, pace = live_plan(machine, {}, None)
+    assert pace.tick == pytest.approx(1e-3)
+    assert machine.inputs
+    for each in machine.inputs:
+        assert each.description
+        assert each.hold or (each.keys and each.gamepad and each.stick)
+    keys = [key for each in machine.inputs if each.keys for key in (each.keys.raise_, each.keys.lower)]
+    assert len(set(keys)) == len(keys)
+
+
+@pytest.mark.parametrize("name", HYDRAULIC)
+def test_a_hydraulic_machine_stands_still_until_its_levers_are_moved(name):
+    moved = HYDRAULIC[name]
+    tables = {lever: Table((0, REST, PUSHED, END), (0, 0, 1, 1)) for lever in moved}
+    result = nivel.load(demo_file(name)).simulate(duration=END, output_interval=0.05, inputs=tables)
+    position, resting = result.array("position"), result.time <= REST + 1e-9
+    assert resting.sum() > 2
+    assert np.abs(position[resting] - position[0]).max() < STILL
+    for coordinate in moved.values():
+        course = result.array(coordinate)
+        assert course[-1] - course[0] > 0.02

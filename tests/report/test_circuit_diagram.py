@@ -1,0 +1,115 @@
+"""The diagram of circuits: no line crosses a symbol, no two lines lie upon each other, no words are over others."""
+
+import re
+import xml.etree.ElementTree as ET
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+import nivel
+from nivel.files import parse_machine
+from nivel.machine.hydraulics import COMPONENTS
+from nivel.report.circuit.drawing import circuit_diagram, laid_out
+from nivel.report.circuit.parts import circuit_of
+from nivel.report.circuit.symbols import SYMBOLS
+
+FILES = sorted((Path(__file__).parents[2] / "examples" / "hydraulics").glob("*.yaml"))
+WITHOUT_SYMBOL = {"volume"}  # a line with a name
+
+each_example = pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+
+
+def record_of(path):
+    return parse_machine(path.read_text(encoding="utf-8"), path).model_dump(mode="json")
+
+
+def drawn(path):
+    circuit = circuit_of(record_of(path))
+    return circuit, laid_out(circuit)
+
+
+def pieces(drawing):
+    """(node, x0, y0, x1, y1) of all straight pieces of lines."""
+    for line in drawing.lines:
+        for (x0, y0), (x1, y1) in zip(line.points, line.points[1:], strict=False):
+            yield line.node, min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)
+
+
+def boxes(circuit):
+    """(x0, y0, x1, y1) of symbols with their words."""
+    for part in circuit.parts:
+        wide, high = part.symbol.wide, part.symbol.high
+        yield part.x - wide, part.y - high + 0.5, part.x + wide, part.y + high - 0.5
+        half = 6.5 * (len(part.words) + 1)
+        yield part.x + wide + 6, part.y - half, part.x + wide + 6 + part.label_width, part.y + half
+
+
+def overlap(a, b):
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+@each_example
+def test_lines_cross_no_symbol_and_no_words(path):
+    circuit, drawing = drawn(path)
+    for box in boxes(circuit):
+        for node, *piece in pieces(drawing):
+            assert not overlap(box, piece), node
+
+
+@each_example
+def test_lines_of_different_nodes_do_not_lie_upon_each_other(path):
+    _, drawing = drawn(path)
+    for (one, *a), (other, *b) in combinations(pieces(drawing), 2):
+        if one != other:
+            level = a[1] == a[3] and b[1] == b[3] and abs(a[1] - b[1]) < 2 and a[0] < b[2] and b[0] < a[2]
+            upright = a[0] == a[2] and b[0] == b[2] and abs(a[0] - b[0]) < 2 and a[1] < b[3] and b[1] < a[3]
+            assert not level, (one, other)
+            assert not upright, (one, other)
+
+
+@each_example
+def test_no_words_are_over_others(path):
+    circuit, drawing = drawn(path)
+    labels = [(label.x, label.y - 9, label.x + label.wide, label.y + 2) for label in drawing.labels]
+    for a, b in combinations([*boxes(circuit), *labels], 2):
+        assert not overlap(a, b)
+    for label in labels:
+        assert not any(overlap(label, piece) for _, *piece in pieces(drawing))
+
+
+@each_example
+def test_every_pin_of_a_component_is_on_a_line_or_at_a_tank(path):
+    circuit, drawing = drawn(path)
+    ends = {(round(x, 3), round(y, 3)) for line in drawing.lines for x, y in line.points[:1]}
+    ends |= {(round(x, 3), round(y, 3)) for x, y, _ in drawing.tanks}
+    for _, part, port in circuit.pins():
+        above = port in part.symbol.above
+        x = part.x + (part.symbol.above if above else part.symbol.below)[port]
+        assert (round(x, 3), round(part.y + (-part.symbol.high if above else part.symbol.high), 3)) in ends
+
+
+def test_the_pressures_at_the_start_stand_at_the_nodes():
+    path = next(each for each in FILES if each.stem == "cylinder-boom")
+    facts = nivel.load(path).check()
+    root = ET.fromstring(circuit_diagram(record_of(path), facts.pressures))
+    found = {span.get("data-pressure"): span.text for span in root.iter() if span.get("data-pressure")}
+    assert set(found) == {"supply.pressure", "lift.pressure_A", "lift.pressure_B"}
+    for name, text in found.items():
+        assert float(text.removesuffix(" bar")) == pytest.approx(facts.pressures[f"hydraulics.{name}"] / 1e5, rel=1e-3)
+
+
+def test_every_component_has_a_symbol():
+    kinds = {record.model_fields["type"].default for record in COMPONENTS}
+    assert kinds - WITHOUT_SYMBOL == set(SYMBOLS)
+
+
+@pytest.mark.parametrize("ways", ["2/2", "3/2", "4/2", "4/3", "5/2", "5/3"])
+def test_the_symbol_of_a_valve_has_a_box_for_each_position_and_a_pin_for_each_port(ways):
+    symbol = SYMBOLS["directional-valve"]({"ways": ways})
+    assert len(re.findall(r"h30 v30 h-30 z", symbol.body)) == int(ways[2])
+    assert len(symbol.above) + len(symbol.below) == int(ways[0])
+
+
+def test_a_machine_without_a_circuit_has_no_diagram():
+    assert circuit_diagram({"bodies": []}, {}) == ""

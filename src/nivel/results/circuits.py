@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from nivel.machine.hydraulics.directional import CENTRED
 from nivel.results.scales import Readable
-from nivel.results.statements import number
-from nivel.results.verdicts import THRESHOLDS, Item
+from nivel.results.verdicts import THRESHOLDS, Item, number, quantity
 
 START = "hydraulics."
 INTEGRALS = ("supplied", "delivered", "lost")
@@ -71,10 +70,8 @@ def _energy_item(result: Readable) -> Item:
     k = int(np.argmax(error))
     fraction = float(error[k]) / scale if scale > NO_ENERGY else 0.0
     threshold = THRESHOLDS["energy"]
-    said = (
-        f"{number(float(supplied[-1]))} J supplied = {number(float(delivered[-1]))} J given to bodies + {number(float(lost[-1]))} J lost "
-        f"+ {number(float(stored[-1] - stored[0]))} J stored; error {number(fraction)} of the largest of these ({threshold})"
-    )
+    given, into_bodies, heat, kept = (quantity(float(each[-1]), "J") for each in flows)
+    said = f"{given} supplied = {into_bodies} given to bodies + {heat} lost + {kept} stored; error {number(fraction)} of the largest of these ({threshold})"
     return Item(
         "hydraulics",
         threshold.verdict(fraction),

@@ -292,6 +292,14 @@ def number(value: float) -> str:
     return f"{float(mantissa):g}e{int(exponent)}"
 
 
+def quantity(value: float, unit: str) -> str:
+    """A number with its unit as people say it: 94 kJ, 1.25 MJ, 812 J."""
+    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if factor <= abs(value) < 1e12:
+            return f"{value / factor:.3g} {prefix}{unit}"
+    return f"{number(value)} {unit}"
+
+
 def _known(record: type[Any], data: dict[str, Any]) -> dict[str, Any]:
     """The entries that the record has; numbers that JSON cannot hold are read back."""
     names = {field.name: field.type for field in fields(record)}

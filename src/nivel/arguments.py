@@ -7,8 +7,9 @@ NumPy scalars stand for the numbers that they are. Numbers out of range, and wha
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache, wraps
-from inspect import Parameter, Signature, signature
+from inspect import Parameter, signature
 from numbers import Integral, Real
 from os import PathLike
 from sys import float_info
@@ -62,39 +63,59 @@ def plain(value: Any) -> Any:
     return value.item() if getattr(value, "shape", None) == () and hasattr(value, "dtype") else value
 
 
+@dataclass(frozen=True)
+class _Signature:
+    """What calls of a function are held against.
+
+    types : of its parameters. unnamed : names of those that may be given without one; rest : of the one that takes all further ones.
+    known : names that may be given. needed : those without a default. open_ended : whether other names are taken too.
+    """
+
+    types: Mapping[str, Any]
+    unnamed: Sequence[str]
+    rest: str | None
+    known: Sequence[str]
+    needed: Sequence[str]
+    open_ended: bool
+
+
 @cache
-def _types(function: FunctionType) -> tuple[Signature, dict[str, Any]]:
-    """The signature of a function and the types of its parameters. That of its result may be known to type checkers only."""
+def _signature(function: FunctionType) -> _Signature:
+    """That of a function. The type of its result may be known to type checkers only."""
     bare = FunctionType(function.__code__, function.__globals__, closure=function.__closure__)
     bare.__annotations__ = {name: each for name, each in function.__annotations__.items() if name != "return"}
-    return signature(function), get_type_hints(bare)
+    types, parameters = get_type_hints(bare), signature(function).parameters.values()
+    return _Signature(
+        types,
+        [each.name for each in parameters if each.kind in UNNAMED],
+        next((each.name for each in parameters if each.kind is Parameter.VAR_POSITIONAL), None),
+        [each.name for each in parameters if each.kind in NAMED and each.name in types],
+        [each.name for each in parameters if each.default is Parameter.empty and each.kind in (*UNNAMED, *NAMED)],
+        any(each.kind is Parameter.VAR_KEYWORD for each in parameters),
+    )
 
 
 def _faults(function: Any, given: tuple[Any, ...], named: dict[str, Any]) -> Iterator[Fault]:
-    title = _title(function, given)
-    its_signature, types = _types(function)
-    parameters = its_signature.parameters
-    unnamed = [each.name for each in parameters.values() if each.kind in UNNAMED]
-    rest = next((each.name for each in parameters.values() if each.kind is Parameter.VAR_POSITIONAL), None)
-    open_ended = any(each.kind is Parameter.VAR_KEYWORD for each in parameters.values())
-    known = [each.name for each in parameters.values() if each.kind in NAMED and each.name in types]
+    its = _signature(function)
+    types, unnamed = its.types, its.unnamed
     pairs = [*zip(unnamed, given, strict=False), *named.items()]
-    if rest is not None:
-        pairs += [(rest, value) for value in given[len(unnamed) :]]
+    if its.rest is not None:
+        pairs += [(its.rest, value) for value in given[len(unnamed) :]]
     elif len(given) > len(unnamed):
-        yield _fault("", _too_many(title, [name for name in unnamed if name in types], given[len(unnamed) :]))
+        few = [name for name in unnamed if name in types]
+        yield _fault("", _too_many(_title(function, given), few, given[len(unnamed) :]))
     for name, value in pairs:
         if name in types and not _fits(value, types[name]):
             yield _fault(name, f"{_expected(types[name])} was expected, got {shown(value)}")
     for name in named:
-        if name not in known and not open_ended:
-            yield _fault("", f"{title}: {unknown_word(name, known, 'argument')}")
+        if name not in its.known and not its.open_ended:
+            yield _fault("", f"{_title(function, given)}: {unknown_word(name, its.known, 'argument')}")
         elif name in unnamed[: len(given)]:
-            yield _fault(name, f"{title} is given this twice, with its name and without")
+            yield _fault(name, f"{_title(function, given)} is given this twice, with its name and without")
     there = {name for name, _ in pairs}
-    for each in parameters.values():
-        if each.default is Parameter.empty and each.kind in (*UNNAMED, *NAMED) and each.name not in there:
-            yield _fault(each.name, f"{title} needs this: {_expected(types.get(each.name, Any))}")
+    for name in its.needed:
+        if name not in there:
+            yield _fault(name, f"{_title(function, given)} needs this: {_expected(types.get(name, Any))}")
 
 
 def _too_many(title: str, unnamed: list[str], rest: tuple[Any, ...]) -> str:

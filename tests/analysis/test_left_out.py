@@ -17,7 +17,7 @@ def windows(count, **settings: Any):
     """N four-bars side by side, all joints revolute (IFToMM benchmark A02), with gravity out of the plane too."""
     bodies, joints = [], []
     start: dict[str, Any] = {"start_rates": {"angle": -1.0}}
-    inertia = (0.08, 0.001, 0.08)
+    inertia: Any = (0.08, 0.001, 0.08)
     for k in range(count + 1):
         bodies.append(Body(name=f"crank{k}", mass=1.0, inertia=inertia, position=(k, 0.5, 0)))
         joints.append(pin(f"foot{k}", ("ground", f"crank{k}"), (k, 0, 0), **(start if k == 0 else {})))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from nivel.machine.forces import PointForce, Torque
+from nivel.analysis.soft_forces import is_soft
 from nivel.machine.hydraulics import Component
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.symbols import find_symbol
@@ -16,12 +16,12 @@ MOVING = ("joints", "inputs", "markers", "bodies")  # what signals of the motion
 
 
 def only_circuits_are_stiff(machine: MachineRecord) -> bool:
-    """Whether a machine has circuits with derivatives by hand, and besides them and weight no forces but those given in time, no continuous
-    states, and in circuits no commands that follow pressures at once."""
+    """Whether a machine has circuits with derivatives by hand, and besides them and weight no forces but soft ones and those given in
+    time, no continuous states, and in circuits no commands that follow pressures at once."""
     return (
         bool(machine.hydraulics)
         and not machine.beams
-        and all(isinstance(each, PointForce | Torque) for each in machine.forces)
+        and all(is_soft(machine, each) for each in machine.forces)
         and all(state.update is not None for state in machine.states)
         and all(part.role != "state" for block in machine.control for part in block.parts)
         and set(families_of(machine)) <= {*DERIVED, *WITHOUT}

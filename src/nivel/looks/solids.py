@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 FACETS = 48  # of a cylinder: its silhouette is round to 0.2 % of the radius
 MOST_FACES = 4000  # of a mesh, to keep the picture small
-FEW_FACETS = 20  # in a machine of many bodies, to keep the picture small
+FEW_FACETS, FEWEST_FACETS = 20, 8  # in a machine of many bodies, to keep the picture small
 
 
 @dataclass
@@ -78,10 +78,33 @@ def reach(shape: dict[str, Any]) -> Array:
     """(n, 3) [m] points in the body frame whose extent is that of the shape."""
     if shape["type"] == "mesh":
         return surface_arrays(shape["surface"])[0]
-    parts = solid(shape)
-    if isinstance(parts, Ball):
-        return parts.centre + parts.radius * np.concatenate([np.eye(3), -np.eye(3)])
-    return np.concatenate([face.corners for face in parts])
+    return np.array(shape.get("centre") or [0.0, 0.0, 0.0], dtype=float) + _rims(shape)
+
+
+def _rims(shape: dict[str, Any]) -> Array:
+    """(n, 3) points around a shape at the origin."""
+    axis = "xyz".index(shape.get("along") or "x")
+    turn = 2.0 * np.pi * np.arange(FACETS) / FACETS
+    circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    match shape["type"]:
+        case "box":
+            return 0.5 * np.array(shape["size"], dtype=float) * np.array(list(product((-1.0, 1.0), repeat=3)))
+        case "sphere":
+            return shape["radius"] * np.concatenate([np.eye(3), -np.eye(3)])
+        case "extrusion":
+            section = np.array(shape["outline"], dtype=float)
+        case "capsule":
+            tip = (0.5 * shape["length"] + shape["radius"]) * np.eye(3)[axis]
+            return np.concatenate([_at_ends(shape["radius"] * circle, shape["length"], axis), [tip, -tip]])
+        case kind:
+            section = shape["outer_radius" if kind == "tube" else "radius"] * circle
+    return _at_ends(section, shape["length"], axis)
+
+
+def _at_ends(section: Array, length: float, axis: int) -> Array:
+    """(2 n, 3) a section (n, 2) at both ends of an axis."""
+    along = np.repeat([-0.5 * length, 0.5 * length], len(section))
+    return np.roll(np.column_stack([along, np.tile(section, (2, 1))]), axis, axis=1)
 
 
 def _box(size: Array) -> list[Face]:

@@ -94,8 +94,8 @@ def _edges_seen_once(faces: list[Face]) -> set[tuple[int, int]]:
     """(face, edge) whose neighbour across the edge turns away: the silhouette."""
     found: dict[Any, list[tuple[int, int]]] = {}
     for k, face in enumerate(faces):
-        for i, corner in enumerate(face.corners):
-            ends = (corner, face.corners[(i + 1) % len(face.corners)])
-            key = tuple(sorted(tuple(np.round(end, 9)) for end in ends))
+        corners = [tuple(corner) for corner in np.round(face.corners, 9).tolist()]
+        for i, corner in enumerate(corners):
+            key = tuple(sorted((corner, corners[(i + 1) % len(corners)])))
             found.setdefault(key, []).append((k, i))
     return {places[0] for places in found.values() if len(places) == 1}

@@ -12,9 +12,12 @@ Box = tuple[float, float, float, float]  # left, top, right, bottom in pixels
 
 FONT = 13.0  # pixels
 LETTER = 0.58  # width of a letter over its height, on average
+NEAR = 9.0  # pixels from a sign within which a name disturbs it
+SAMPLES = 25  # of a line
 CROWDED = 3.0  # cost above which a name is left out: it would hide more than it says
 MANY = 40  # names; then only those that find room close by are shown
 CLOSE_BY = 0.5
+TRIED = 100  # names; of more, so many evenly taken
 DISTANCES = (15.0, 25.0, 38.0, 56.0)  # pixels from the point to the label
 ANGLES = np.deg2rad([-40.0, 40.0, -140.0, 140.0, 0.0, 180.0, -90.0, 90.0, -65.0, 65.0, -115.0, 115.0])
 
@@ -48,12 +51,32 @@ def place(labels: list[Label], points: Array, lines: Array, width: float, height
     """
     placed: list[Placed] = []
     limit = CROWDED if len(labels) <= MANY else CLOSE_BY
-    for label in labels:
-        found = [(_cost(label, box, far, placed, points, lines, width, height), box) for box, far in _candidates(label)]
+    around = _Surroundings(points, lines)
+    for label in labels[:: -(-len(labels) // TRIED) or 1]:
+        near = around.of(label)
+        found = [(_cost(box, far, placed, near, width, height), box) for box, far in _candidates(label)]
         cost, box = min(found, key=lambda each: each[0])
         if cost < limit:
             placed.append(Placed(label, box))
     return placed
+
+
+class _Surroundings:
+    """Signs, and samples along lines, of which a label meets only those nearby."""
+
+    def __init__(self, points: Array, lines: Array) -> None:
+        along = np.linspace(0.0, 1.0, SAMPLES)[None, :, None]
+        lines = np.reshape(lines, (-1, 2, 2))
+        self.points = np.reshape(points, (-1, 2))
+        self.samples = (lines[:, :1] + along * (lines[:, 1:] - lines[:, :1])).reshape(-1, 2)
+        self.line = np.repeat(np.arange(len(lines)), SAMPLES)
+
+    def of(self, label: Label) -> tuple[Array, Array, NDArray[np.int64]]:
+        """Points, samples and the lines of these that any place of the label may touch."""
+        reach = np.array([text_width(label.text), 1.15 * FONT]) + DISTANCES[-1] + NEAR
+        place = np.array([label.x, label.y])
+        near, beside = (np.all(np.abs(each - place) <= reach, axis=1) for each in (self.points, self.samples))
+        return self.points[near], self.samples[beside], self.line[beside]
 
 
 def text_width(text: str) -> float:
@@ -80,11 +103,17 @@ def _eased(direction: float) -> float:
 
 
 def _cost(
-    label: Label, box: Box, far: float, placed: list[Placed], points: Array, lines: Array, width: float, height: float
+    box: Box,
+    far: float,
+    placed: list[Placed],
+    near: tuple[Array, Array, NDArray[np.int64]],
+    width: float,
+    height: float,
 ) -> float:
     left, top, right, bottom = box
     if left < 2.0 or top < 2.0 or right > width - 2.0 or bottom > height - 2.0:
         return np.inf
+    points, samples, line = near
     cost = far
     for other in placed:
         a = other.box
@@ -93,12 +122,9 @@ def _cost(
     if len(points):
         dx = np.maximum(np.maximum(left - points[:, 0], points[:, 0] - right), 0.0)
         dy = np.maximum(np.maximum(top - points[:, 1], points[:, 1] - bottom), 0.0)
-        cost += 1.5 * float(np.clip(1.0 - np.hypot(dx, dy) / 9.0, 0.0, 1.0).sum())
-    if len(lines):
-        along = np.linspace(0.0, 1.0, 25)[None, :, None]
-        samples = lines[:, :1] + along * (lines[:, 1:] - lines[:, :1])
-        inside = (
-            (samples[..., 0] > left) & (samples[..., 0] < right) & (samples[..., 1] > top) & (samples[..., 1] < bottom)
-        )
-        cost += 0.6 * float(inside.any(axis=1).sum())
+        cost += 1.5 * float(np.clip(1.0 - np.hypot(dx, dy) / NEAR, 0.0, 1.0).sum())
+    if len(samples):
+        x, y = samples[:, 0], samples[:, 1]
+        inside = (x > left) & (x < right) & (y > top) & (y < bottom)
+        cost += 0.6 * len(np.unique(line[inside]))
     return cost

@@ -164,12 +164,14 @@ def _violations(result: Result) -> Panel | None:
             continue
         rows = result.coordinates[result.variables[variable].dims[1]]
         own = [result.units(f"{row}.{suffix}") or next(iter(scales)) for row in rows]
-        units = np.array([UNITLESS.get(unit, unit) for unit in own])
-        owners = np.array([row.split(".", maxsplit=1)[0] for row in rows])
         values = np.abs(result.array(variable))
         for (unit, scale), word in zip(scales.items(), ("gaps", "misalignments"), strict=True):
-            here = [owner for owner in dict.fromkeys(owners.tolist()) if np.any((owners == owner) & (units == unit))]
-            worst = [np.max(values[:, (owners == owner) & (units == unit)], axis=1) for owner in here]
+            of_joint: dict[str, list[int]] = {}
+            for k, row in enumerate(rows):
+                if UNITLESS.get(own[k], own[k]) == unit:
+                    of_joint.setdefault(row.split(".", maxsplit=1)[0], []).append(k)
+            here = list(of_joint)
+            worst = [np.max(values[:, of_joint[owner]], axis=1) for owner in here]
             order = sorted(range(len(here)), key=lambda k: -np.nanmax(worst[k], initial=0.0))[:TOGETHER]
             curves = tuple(Curve(here[k], worst[k], str(i)) for i, k in enumerate(sorted(order)))
             if curves:

@@ -11,7 +11,7 @@ from nivel.looks.colours import colour_of
 from nivel.looks.joints import ON_RAIL, sliding_axes, turning_axes
 from nivel.looks.links import held_points
 from nivel.looks.poses import Array, Pose, body_poses, in_space
-from nivel.looks.solids import FACETS, FEW_FACETS, reach_of, shapes_of
+from nivel.looks.solids import FACETS, FEW_FACETS, FEWEST_FACETS, reach_of, shapes_of
 from nivel.looks.sweeps import rings, swept_bodies
 from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
@@ -22,7 +22,7 @@ from nivel.report.frame import WIDTH, Frame, fit
 from nivel.report.joint_drawing import draw_joint
 from nivel.report.labels import FONT, Label, place
 
-MANY_BODIES = 20
+MANY_BODIES, VERY_MANY_BODIES = 20, 200
 ALONG = np.linspace(0.0, 1.0, 12)[None, :, None]  # where lines are probed
 IMPORTANCE = ("joint-name", "body", "force-name")  # names are placed in this order
 STYLE = """
@@ -74,7 +74,8 @@ def machine_picture(
 
 def _drawing(scene: dict[str, Any], poses: dict[str, Pose], frame: Frame, touched: list[Plane]) -> Drawing:
     drawing = Drawing()
-    facets = FACETS if len(scene["bodies"]) <= MANY_BODIES else FEW_FACETS
+    count = len(scene["bodies"])
+    facets = FACETS if count <= MANY_BODIES else FEW_FACETS if count <= VERY_MANY_BODIES else FEWEST_FACETS
     swept, places = swept_bodies(scene), {body["name"]: k for k, body in enumerate(scene["bodies"])}
     for sweep in scene.get("sweeps", []):
         draw_sweep(drawing, frame, sweep, poses, colour_of(places[sweep["bodies"][0]]))

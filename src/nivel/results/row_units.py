@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from functools import lru_cache
 
 # (units of the row at position level) → units of the variable
 OF_VARIABLE = {
@@ -18,5 +19,11 @@ OF_VARIABLE = {
 def own_units(attributes: Mapping[str, str | float | int], variable: str, row: str) -> str:
     """Units of `row` of `variable`, from the attributes `coordinate_units`, `constraint_units` (JSON: row → units)."""
     attribute = "coordinate_units" if variable.startswith("joint_") else "constraint_units"
-    stated = json.loads(str(attributes.get(attribute, "{}")))
+    stated = _stated(str(attributes.get(attribute, "{}")))
     return OF_VARIABLE.get(variable, {}).get(stated.get(row, ""), "")
+
+
+@lru_cache(maxsize=8)
+def _stated(text: str) -> dict[str, str]:
+    """Row → units, read once for all rows."""
+    return json.loads(text)

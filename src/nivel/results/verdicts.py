@@ -79,8 +79,8 @@ CHECKS = {
     "steps": Threshold(
         0.3,
         math.inf,
-        "The fastest rate of the machine times the step, told where a run is red: beyond 0.3 an explicit method does not follow what is "
-        "that fast, beyond 1 to 3 it goes astray.",
+        "The fastest rate of the machine times the step, reported where a run is red: beyond 0.3 an explicit method does not follow "
+        "motions that fast, beyond 1 to 3 it diverges.",
     ),
     "turn": Threshold(
         0.5,

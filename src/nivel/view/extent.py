@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nivel.looks.joints import sliding_axes, turning_axes
 from nivel.looks.links import attached, held_points
-from nivel.looks.poses import Pose, body_poses, in_space, upwards
+from nivel.looks.poses import Pose, body_poses, in_space, rotation, upwards
 from nivel.looks.solids import reach_of, shapes_of
 from nivel.looks.viewpoint import choose_view, is_planar
 from nivel.machine.surface import surface_arrays
@@ -40,9 +40,8 @@ class Extent:
 
 def extent(cast: Cast, position: Array, orientation: Array) -> Extent:
     """The extent over frames: position (n, B, 3) [m], orientation (n, B, 4)."""
-    boxes = [_box(body) for body in cast.scene.get("bodies", [])]
     position, orientation = _looked_at(position, orientation)
-    clouds = [_points(cast.scene, boxes, p, q) for p, q in zip(position, orientation, strict=True)]
+    clouds = _clouds(cast.scene, position, orientation)
     size = float(np.linalg.norm(np.ptp(clouds[0], axis=0))) if len(clouds[0]) else 0.0
     if size > 0.0:  # a run that exploded is shown where it began
         near = np.all(np.linalg.norm(position - position[0], axis=-1) <= FLOWN * size, axis=1)
@@ -78,11 +77,17 @@ def _first_view(scene: dict[str, Any], position: Array, orientation: Array, up: 
     return Viewpoint(triple(view.right), triple(view.up), triple(view.towards), is_planar(bones, turning, sliding))
 
 
-def _points(scene: dict[str, Any], boxes: list[Array], position: Array, orientation: Array) -> Array:
-    """(n, 3) points around the machine in one frame; boxes : corners around the shape of each body, in its frame."""
-    poses = body_poses(scene, position, orientation)
-    placed = [in_space(poses[body["name"]], box) for body, box in zip(scene["bodies"], boxes, strict=True)]
-    return np.concatenate([_skeleton(scene, poses), *placed])
+def _clouds(scene: dict[str, Any], position: Array, orientation: Array) -> list[Array]:
+    """(n, 3) points around the machine in each of the frames: what `_skeleton` has, and the corners around the shapes of bodies."""
+    own = [np.vstack([_held(scene, body), _box(body)]) for body in scene["bodies"]]
+    of_body = np.repeat(np.arange(len(own)), [len(points) for points in own])
+    local = np.concatenate([NOTHING, *own])
+    resting = np.concatenate([_on_ground(scene), NOTHING])
+    moving = [
+        r[of_body] + np.einsum("nij,nj->ni", rotation(theta)[of_body], local)
+        for r, theta in zip(position, orientation, strict=True)
+    ]
+    return [np.concatenate([resting, points]) for points in moving]
 
 
 def _box(body: dict[str, Any]) -> Array:
@@ -100,10 +105,16 @@ def _corners(points: Array) -> Array:
 
 def _skeleton(scene: dict[str, Any], poses: dict[str, Pose]) -> Array:
     """(n, 3) centres of mass, and points where joints and forces hold bodies and ground."""
-    parts = [np.reshape(np.asarray(scene.get("ground_points", []), dtype=float), (-1, 3))]
-    parts += [
-        in_space(poses[body["name"]], np.vstack([[body["centre_of_mass"]], held_points(scene, body)]))
-        for body in scene["bodies"]
-    ]
-    parts += [in_space(poses["ground"], point) for point in attached(scene, "ground")]
-    return np.concatenate([NOTHING, *parts])
+    parts = [in_space(poses[body["name"]], _held(scene, body)) for body in scene["bodies"]]
+    return np.concatenate([NOTHING, _on_ground(scene), *parts])
+
+
+def _held(scene: dict[str, Any], body: dict[str, Any]) -> Array:
+    """(n, 3) the centre of mass of a body and the points where it is held, in its frame."""
+    return np.vstack([[body["centre_of_mass"]], held_points(scene, body)])
+
+
+def _on_ground(scene: dict[str, Any]) -> Array:
+    """(n, 3) points where joints and forces hold the ground."""
+    points = [*scene.get("ground_points", []), *attached(scene, "ground")]
+    return np.reshape(np.asarray(points, dtype=float), (-1, 3))

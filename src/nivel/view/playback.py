@@ -30,7 +30,7 @@ LARGEST: Final = 1e30  # [m] beyond it bodies are not drawn: 32-bit numbers coul
 @dataclass(frozen=True)
 class Budget:
     """Bytes that a motion, its columns, the strains of beams and the modal stresses of flexible bodies may take before compression; frames
-    that are shown at most; whether arrows come along."""
+    that are shown at most; whether arrows come along, and the list of what can be plotted."""
 
     motion: int
     columns: int
@@ -38,11 +38,12 @@ class Budget:
     sections: int = 0
     stress: int = 0
     vectors: bool = True
+    plots: bool = True
 
 
 SERVED: Final = Budget(motion=64_000_000, columns=0, frames=20_000, sections=16_000_000, stress=24_000_000)
 ALONE: Final = Budget(motion=3_000_000, columns=1_000_000, frames=4_000, sections=500_000, stress=2_000_000)
-SMALL: Final = Budget(motion=600_000, columns=0, frames=1200, vectors=False)
+SMALL: Final = Budget(motion=600_000, columns=0, frames=1200, vectors=False, plots=False)
 
 
 def playback(results: Sequence[Result], budget: Budget) -> bytes:
@@ -111,7 +112,9 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         drivers=players.drivers,
         sweeps=players.sweeps,
         couplings=couplings(players, position, orientation),
-        columns=columns(result, frames, block, budget.columns) if number == 0 or budget.columns else [],
+        columns=columns(result, frames, block, budget.columns)
+        if budget.plots and (number == 0 or budget.columns)
+        else [],
         moments=[Moment(name, float(at)) for name, at in _marks(result)],
         notes=_notes(result, rows[:, : 7 * bodies], frames),
         motion=Motion(

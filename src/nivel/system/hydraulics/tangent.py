@@ -31,7 +31,7 @@ DERIVED = (
     pipe.apply,
 )
 # those whose derivatives are those of nodes, or none
-WITHOUT = (volume.apply, rotary.supply, ledger.begin, ledger.apply)
+WITHOUT = (ledger.begin, volume.apply, rotary.supply, ledger.apply)
 Index = NDArray[np.uint32]
 
 

@@ -427,6 +427,11 @@ def test_circuits_with_derivatives_by_hand():
     )
 
 
+def test_circuits_with_derivatives_by_hand_and_flexible_bodies():
+    crane = nivel.load(ROOT / "examples" / "hydraulics" / "loader-crane.yaml", {"include": "booms/flexible.yaml"})
+    short(crane.record, "extrapolated-euler", steps=2, step=1e-4, coordinates="relative")
+
+
 # --- nothing is left out ---
 
 

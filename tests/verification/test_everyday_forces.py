@@ -126,3 +126,20 @@ def test_a_rope_by_points_is_the_rope_by_markers_there():
 def test_a_rope_whose_way_is_not_clear_is_refused(way, message):
     with pytest.raises(ModelError, match=message):
         parse_machine(ROPE.replace("WAY", way))
+
+
+def placed(angle):
+    machine = nivel.Machine.from_record(parse_machine(BLOCK))
+    return machine.with_part("left", machine, orientation={"axis": [0, 0, 1], "angle": angle}).forces["left_springs"]
+
+
+def test_a_part_turned_by_a_quarter_has_its_springs_along_the_other_axes():
+    spring = placed("90 deg")
+    np.testing.assert_allclose(spring.stiffness, [200, 50, 800], rtol=1e-12)
+    np.testing.assert_allclose(spring.free_displacement, [-0.1, 0, 0], atol=1e-15)
+    np.testing.assert_allclose(spring.preload, [0, 0, 80], atol=1e-12)
+
+
+def test_a_part_turned_otherwise_is_refused_where_its_springs_would_leave_the_global_axes():
+    with pytest.raises(ModelError, match=r"along other axes than the global ones; take a bushing"):
+        placed("30 deg")

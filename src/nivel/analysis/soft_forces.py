@@ -10,10 +10,13 @@ import numpy as np
 from nivel.machine import mass_properties, resolve
 from nivel.machine.body import Body
 from nivel.machine.forces import Contact, ForceElement, Hand, JointSpringDamper, PointForce, Torque
+from nivel.machine.functions import functions_in
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.symbols import find_symbol
 
 SOFT: Final = 0.2  # frequency, or rate of decay, times the step
 CORNER: Final = 4.0  # mass of a solid over that which a corner of it feels
+WAITING: Final = ("inputs",)  # signals that the motion does not change
 IMPACT: Final = 3.0  # normal force over weight, of bodies set down
 
 
@@ -21,10 +24,16 @@ def is_soft(machine: MachineRecord, force: ForceElement) -> bool:
     """Whether no motion of a body that the force alone makes is quicker than some steps."""
     match force:
         case PointForce() | Torque() | Hand():
-            return True
+            return not _follows_motion(machine, force)
         case Contact() | JointSpringDamper():
             return _rate(machine, force) * machine.simulation.step <= SOFT
     return False
+
+
+def _follows_motion(machine: MachineRecord, force: ForceElement) -> bool:
+    """Whether a force given as functions may change with the motion within a step; what it follows then is not bounded."""
+    paths = [path for _, function in functions_in(force) for path in function.signals]
+    return any(find_symbol(path, machine).section not in WAITING for path in paths)
 
 
 def _rate(machine: MachineRecord, force: Contact | JointSpringDamper) -> float:

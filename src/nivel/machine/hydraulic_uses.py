@@ -74,7 +74,7 @@ def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: P
     seen: dict[str, str] = {}
     for port, node in ports_of(component).items():
         where = (*place, "ports", port)
-        if port not in SENSING or nodes.get(node) == SIGNAL:
+        if port not in SENSING or nodes.get(node) != "volume":  # a tank may be felt alone
             used.add(node)
         if node not in nodes:
             whole = [each for each in nodes if each.startswith(f"{node}.")]

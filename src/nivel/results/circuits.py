@@ -71,7 +71,8 @@ def _energy_item(result: Readable) -> Item:
     fraction = float(error[k]) / scale if scale > NO_ENERGY else 0.0
     threshold = THRESHOLDS["energy"]
     given, into_bodies, heat, kept = (quantity(float(each[-1]), "J") for each in flows)
-    said = f"{given} supplied = {into_bodies} given to bodies + {heat} lost + {kept} stored; error {number(fraction)} of the largest of these ({threshold})"
+    balance = f"{given} supplied = {into_bodies} given to bodies + {heat} lost + {kept} stored"
+    said = f"{balance}; error {number(fraction)} of the largest of these ({threshold})"
     return Item(
         "hydraulics",
         threshold.verdict(fraction),

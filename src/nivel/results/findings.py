@@ -171,7 +171,8 @@ def _damped_item(damped: Damped, method: str) -> Item:
     by = f"{method} takes" if method else "the method takes"
     text = (
         f"Damped: {by} {quantity(damped.lost, 'J')} from the motion, and {quantity(damped.lost_finer, 'J')} with finer steps: "
-        f"vibrations faster than the steps are damped away; take steps of a tenth of their period, or say that they do not matter by damping them yourself "
+        f"vibrations faster than the steps are damped away; take steps of a tenth of their period, or say that they do not "
+        f"matter by damping them yourself "
         f"(green where finer steps lose less, amber otherwise)"
     )
     return Item("damped", "amber", text, damped.lost)

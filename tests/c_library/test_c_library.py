@@ -144,7 +144,7 @@ def test_a_crane_steered_from_c_is_that_steered_from_python(tmp_path):
     found = dict(zip(written.outputs, library.loader_crane_outputs(crane)[: len(written.outputs)], strict=True))
     assert len(names) > 100
     assert {name: found[name] for name in names} == {name: simulation[name] for name in names}
-    assert abs(found["luffing.angle"]) > 1e-4
+    assert abs(found["luffing.angle"]) > 1e-5
     assert library.loader_crane_input(crane, lift) == -0.2
     assert math.isnan(library.loader_crane_input(crane, 2))  # never set
     for input, value in ((lift, 1.1), (lift, math.nan), (4, 0.0), (-1, 0.0)):

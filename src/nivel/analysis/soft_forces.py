@@ -50,10 +50,15 @@ def _rate(machine: MachineRecord, force: Contact | JointSpringDamper) -> float:
 
 
 def _rate_of_contact(machine: MachineRecord, contact: Contact) -> float:
-    known = contact.body is not None and contact.law is None and contact.exponent == 1.0
-    if not known or contact.body not in machine.body_named or not isinstance(contact.stiffness, int | float):
+    body = machine.body_named.get(contact.body or "")
+    if (
+        body is None
+        or contact.law is not None
+        or contact.exponent != 1.0
+        or not isinstance(contact.stiffness, int | float)
+    ):
         return inf
-    mass = _inertia(machine.body_named[contact.body], is_angle=False)
+    mass = _inertia(body, is_angle=False)
     if not mass:
         return inf
     sliding = (

@@ -28,8 +28,8 @@ def with_hand(machine: MachineRecord) -> MachineRecord:
         name=name,
         pull=values[PULL],
         body_number=values[BODY],
-        point=tuple(values[POINT:TOWARDS]),
-        towards=tuple(values[TOWARDS:]),
+        point=(values[2], values[3], values[4]),
+        towards=(values[5], values[6], values[7]),
     )
     added = (Input(name=each, range=limits, hold=True) for each, limits in zip(inputs, ranges, strict=True))
     return machine.replace(inputs=(*machine.inputs, *added), forces=(*machine.forces, hand))

@@ -25,7 +25,14 @@ from step_time import call_peer
 PEER = Path(__file__).resolve().parent / "peers" / "exudyn_hydraulic_arms.py"
 EVERY = 0.01
 # nivel's method and step [s]; Exudyn's solvers run at the step of the data
-METHODS = (("extrapolated-euler", 1e-3), ("extrapolated-euler", 2e-3), ("rk4", 1e-3), ("rk4", 2e-3), ("rk4", 2.5e-3), ("rk4", 5e-3))
+METHODS = (
+    ("extrapolated-euler", 1e-3),
+    ("extrapolated-euler", 2e-3),
+    ("rk4", 1e-3),
+    ("rk4", 2e-3),
+    ("rk4", 2.5e-3),
+    ("rk4", 5e-3),
+)
 SOLVERS = ("trapezoidal", "generalised-alpha")
 
 

@@ -34,18 +34,21 @@ def test_every_key_of_a_component_is_on_the_page(record):
 
 @pytest.mark.parametrize("path", sorted((ROOT / "examples" / "hydraulics").glob("*.yaml")), ids=lambda path: path.stem)
 def test_an_example_runs_green(path):
-    result = nivel.load(path).simulate()
+    result = nivel.load(path).simulate(
+        **({"duration": 1.0} if path.stem == "loader-crane" else {})
+    )  # its cycle has tests of its own
     assert result.outcome == "done"
     assert [item for item in result.trust.items if item.verdict != "green"] == []
 
 
 def test_the_boom_of_the_crane_bends_by_one_word(tmp_path):
     """Bent or rigid it stands on the same pressure, of nearly the same weight."""
+    from nivel.flexible.body_file import write_body
     from nivel.flexible.reduce import reduce
 
     folder = tmp_path / "hydraulics"
     shutil.copytree(ROOT / "examples" / "hydraulics", folder, ignore=shutil.ignore_patterns("*.nc"))
-    reduce(folder / "booms" / "boom.yaml").save(folder / "booms" / "boom.nc")
+    write_body(reduce(folder / "booms" / "boom.yaml").body, folder / "booms" / "boom.nc")
     settings = {"coordinates": "relative", "integrator": "radau", "tolerance": 1e-4, "duration": 0.19}
     stiff, bent = (
         nivel.load(folder / "loader-crane.yaml", {"include": f"booms/{word}.yaml"}).simulate(**settings)

@@ -1,4 +1,4 @@
-"""The two arms of hydraulic_arms_data.py in Exudyn: plane bodies, hinges, and its hydraulic actuator, whose pressures are first-order states.
+"""The two arms of hydraulic_arms_data.py in Exudyn: plane bodies, hinges, its hydraulic actuator with pressures as states.
 
     python benchmarks/peers/exudyn_hydraulic_arms.py [--step 1e-3] [--runs 5] [--solver trapezoidal] [--states FILE]
 
@@ -38,9 +38,7 @@ def build() -> tuple[Any, Any, list[Any]]:
         half = 0.5 * data.LENGTH[arm]
         x, y = data.on_arm(arm, (half, 0.0))
         node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[x, y, data.ANGLE[arm]]))
-        body = mbs.AddObject(
-            items.ObjectRigidBody2D(mass=data.MASS[arm], inertia=data.inertia(arm), nodeNumber=node)
-        )
+        body = mbs.AddObject(items.ObjectRigidBody2D(mass=data.MASS[arm], inertia=data.inertia(arm), nodeNumber=node))
 
         def marker(number: Any, point: tuple[float, float], middle: float) -> Any:
             return mbs.AddMarker(
@@ -81,19 +79,17 @@ def build() -> tuple[Any, Any, list[Any]]:
             )
         )
         carriers.append(body)
-        for number in (node, pressures):
-            sensors.append(
-                mbs.AddSensor(
-                    items.SensorNode(
-                        nodeNumber=number,
-                        storeInternal=True,
-                        writeToFile=False,
-                        outputVariableType=exu.OutputVariableType.Coordinates,
-                    )
-                )
-            )
+        sensors += [_sensor(mbs, number) for number in (node, pressures)]
     mbs.Assemble()
     return container, mbs, sensors
+
+
+def _sensor(mbs: Any, node: Any) -> Any:
+    """Of the coordinates of a node."""
+    kind = exu.OutputVariableType.Coordinates
+    return mbs.AddSensor(
+        items.SensorNode(nodeNumber=node, storeInternal=True, writeToFile=False, outputVariableType=kind)
+    )
 
 
 def settings(step: float, solver: str) -> Any:

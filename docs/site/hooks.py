@@ -20,7 +20,8 @@ from reference import command_page, key_page
 ROOT = Path(__file__).parents[2]
 # pages that stand beside docs/
 PAGES = {"NOTATION.md": "notation.md", "benchmarks/README.md": "benchmarks.md", "README.md": "index.md"}
-OUTSIDE = re.compile(r"\]\((?:\.\./)+([^)#\s]+)(#[^)\s]*)?\)")
+OUTSIDE = re.compile(r"\]\(((?:\.\./)+[^)#\s]+)(#[^)\s]*)?\)")
+ANY = re.compile(r"\]\((?!http|#)([^)#\s]+)(#[^)\s]*)?\)")
 MOVING = ("slider-crank", "suspension", "four-bar")
 
 
@@ -49,6 +50,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for path in sorted((ROOT / "examples").rglob("*")):
         if path.is_file() and path.suffix in (".yaml", ".py"):
             add(f"files/{path.relative_to(ROOT).as_posix()}", path.read_bytes())
+    for place in sorted(_files_linked()):
+        add(f"files/{place}", (ROOT / place).read_bytes())
     pictures = os.environ.get("NIVEL_SITE_PICTURES", "1") == "1"
     page, drawn = gallery(pictures)
     add("gallery.md", page)
@@ -75,23 +78,26 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
 
 def _with_links(markdown: str, source: str) -> str:
     """`markdown` of the file `source` with links to where things stand in the site."""
-    page = PAGES.get(source, source.removeprefix("docs/"))
-    up = "../" * page.count("/")
+    up = "../" * PAGES.get(source, source.removeprefix("docs/")).count("/")
 
-    def moved(target: str, anchor: str) -> str:
-        place = (Path(source).parent / target).as_posix() if not target.startswith("..") else target
-        place = os.path.normpath(place)
+    def moved(match: re.Match[str]) -> str:
+        place, anchor = _linked(match, source), match[2] or ""
         if place.startswith("docs/"):
             return f"]({up}{place.removeprefix('docs/')}{anchor})"
-        if place in PAGES:
-            return f"]({up}{PAGES[place]}{anchor})"
-        return f"]({up}files/{place})"
+        return f"]({up}{PAGES[place]}{anchor})" if place in PAGES else f"]({up}files/{place})"
 
-    def outside(match: re.Match[str]) -> str:
-        target = match[0][2:-1].split("#")[0]
-        place = os.path.normpath((Path(source).parent / target).as_posix())
-        return moved(os.path.relpath(place, Path(source).parent), match[2] or "")
+    return (ANY if source in PAGES else OUTSIDE).sub(moved, markdown)
 
-    if source in PAGES:
-        return re.sub(r"\]\((?!http|#)([^)#\s]+)(#[^)\s]*)?\)", outside, markdown)
-    return OUTSIDE.sub(outside, markdown)
+
+def _linked(match: re.Match[str], source: str) -> str:
+    """The file to which a link of the file `source` leads, as a path in the repository."""
+    return os.path.normpath((Path(source).parent / match[1]).as_posix())
+
+
+def _files_linked() -> set[str]:
+    """The files outside of docs/ to which its pages link, besides pages and examples."""
+    found = set()
+    for path in (ROOT / "docs").rglob("*.md"):
+        source = path.relative_to(ROOT).as_posix()
+        found |= {_linked(match, source) for match in OUTSIDE.finditer(path.read_text(encoding="utf-8"))}
+    return {place for place in found if place not in PAGES and not place.startswith(("docs/", "examples/"))}

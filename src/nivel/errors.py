@@ -11,6 +11,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Final
+
+LONGEST: Final = 2000  # characters of a line; names may be of any length
+
+
+def plain(text: str) -> str:
+    """`text` without what would steer a terminal, and not longer than LONGEST."""
+    if len(text) > LONGEST:
+        text = f"{text[:LONGEST]}…"
+    return "".join(each if each.isprintable() or each in "\n " else repr(each)[1:-1] for each in text)
 
 
 class NivelError(Exception):
@@ -31,6 +41,10 @@ class Fault:
     column: int
     path: str
     message: str
+
+    def __post_init__(self) -> None:
+        for field in ("file", "path", "message"):
+            object.__setattr__(self, field, plain(getattr(self, field)))
 
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}:{self.column}: " if self.line else ""

@@ -160,7 +160,7 @@ def test_mechanisms_are_named_with_what_moves(sections, names):
 
 
 def test_what_falls_for_ever_is_named():
-    error = failing({"gravity": DOWN, "bodies": {"stone": solid()}}, "moves on for ever")
+    error = failing({"gravity": DOWN, "bodies": {"stone": solid()}}, "keeps moving")
     assert "stone, y of its position, unbalanced by 9.81 N" in error.message
 
 

@@ -1,12 +1,13 @@
 """A machine with every component of hydraulic circuits, in motion."""
 
+from nivel import Machine
 from simulating import hinge, machine, slide, solid
 
 RATED = {"flow": "40 L/min", "pressure_drop": "7 bar"}
 CUSHION = {"length": "20 mm", "flow": "40 L/min", "pressure_drop": "2 bar"}
 
 
-def machine_with_circuits():
+def machine_with_circuits(command="0.3 + 0.5*rail.displacement + 1e-9*line.pressure"):
     """Two blocks on slides, pushed by a cylinder with cushions and by a telescope, and a wheel turned by an actuator and a motor."""
     axes = {
         "rail": slide("ground", "block", point=[0.6, 0, 0]),
@@ -49,7 +50,7 @@ def machine_with_circuits():
                 "valve": {
                     "type": "directional-valve", "ways": "4/3", "centre": "open", "overlap": 0.05, "frequency": "20 Hz",
                     "ports": {"P": "gap", "T": "tank", "A": "ram.A", "B": "ram.B"}, "leakage": 1e-12,
-                    "command": "0.3 + 0.5*rail.displacement + 1e-9*line.pressure", **RATED,
+                    "command": command, **RATED,
                 },
                 "slow": {
                     "type": "directional-valve", "ways": "3/2", "frequency": "5 Hz", "rate_limit": 4,
@@ -84,6 +85,11 @@ def machine_with_circuits():
             "states": {"filter": {"rate": "ram.force*1e-6 + valve.flow_PA - filter.value"}},
         }
     )  # fmt: skip
+
+
+def machine_whose_commands_wait():
+    """The same with a constant command and no state beside those of circuits: their derivatives are found by hand."""
+    return Machine.from_record(machine_with_circuits(command=0.4).record.replace(states=()))
 
 
 GAS_RATED = {"sonic_conductance": "2 dm^3/(s*bar)"}

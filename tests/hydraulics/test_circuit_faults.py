@@ -34,7 +34,28 @@ CASES = {
     "a closed volume": (
         "  tank: {",
         "  lost: {type: volume, volume: 1 L}\n  tank: {",
-        "nothing is connected to the volume `lost`",
+        "nothing flows into the volume `lost` or out of it",
+    ),
+    "a volume that is only felt": (
+        "  tank: {",
+        "  lost: {type: volume, volume: 1 L}\n  hold: {type: check-valve, ports: {A: lift.A, B: tank, X: lost}, pilot_ratio: 3, "
+        "flow: 1 L/min, pressure_drop: 1 bar}\n  tank: {",
+        "nothing flows into the volume `lost` or out of it",
+    ),
+    "a tank without pressure": (
+        "pressure: 2 bar",
+        "pressure: -2 bar",
+        "pressures are absolute: one greater than zero was expected",
+    ),
+    "a tank that follows a pressure": (
+        "pressure: 2 bar",
+        "pressure: supply.pressure",
+        "`supply.pressure` follows from pressures, of which this is one; use a state that follows it",
+    ),
+    "a loop through a block": (
+        "hydraulics:",
+        "control:\n  loop: {type: gain, input: valve.flow_PA, gain: 100}\nhydraulics:",
+        "`valve.flow_PA` follows from the flows, and these from the control; take a sample of it",
     ),
     "a pump without relief": (
         "relief-valve, ports: {P: supply",
@@ -99,3 +120,24 @@ def test_a_step_that_empties_a_volume_says_which():
 def test_a_valve_at_its_end_for_the_whole_run_is_told():
     result = Machine.from_record(parse_machine(GOOD.replace("command: 0", "command: 1"))).simulate()
     assert "saturation" in [item.name for item in result.trust.items]
+
+
+def test_a_valve_of_two_positions_may_stay_in_one():
+    text = GOOD.replace("ways: 4/3", "ways: 4/2").replace("command: 0", "command: 1")
+    assert "saturation" not in [item.name for item in Machine.from_record(parse_machine(text)).simulate().trust.items]
+
+
+def test_a_relief_valve_that_is_too_small_is_told():
+    result = Machine.from_record(parse_machine(GOOD.replace("28 cm^3/rev", "280 cm^3/rev"))).simulate()
+    item = next(item for item in result.trust.items if item.name == "saturation")
+    assert item.verdict == "amber"
+    assert "the relief valve relief is fully open for the whole run" in item.text
+
+
+def test_a_chamber_that_cavitates_for_the_whole_run_is_told():
+    text = GOOD.replace("stroke: 0.55", "stroke: 0.55, start_B: 0.05 bar")
+    item = next(
+        item for item in Machine.from_record(parse_machine(text)).simulate().trust.items if item.name == "cavitation"
+    )
+    assert "lift.pressure_B falls to 0.05 bar" in item.text
+    assert "for 100 % of the run" in item.text

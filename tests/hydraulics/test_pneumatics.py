@@ -10,6 +10,7 @@ from circuits import BAR, PA, circuit, history
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.files import parse_machine
+from nivel.files.schema import schema
 from simulating import slide
 
 RHO_N, T_N, KAPPA = 1.185, 293.15, 1.4
@@ -201,3 +202,9 @@ def test_a_fault_of_a_gas_says_what_would_be_right(case):
 
 def test_a_good_circuit_of_gas_runs():
     assert Machine.from_record(parse_machine(GOOD)).simulate().outcome == "done"
+
+
+def test_editors_take_a_liquid_without_its_type_and_a_gas_with_it():
+    definitions = schema()["$defs"]
+    assert "type" not in definitions["Fluid"]["required"]
+    assert "type" in definitions["Gas"]["required"]

@@ -424,6 +424,21 @@ def test_circuits(integrator):
     short(hydraulic_zoo.machine_with_gas().record, integrator, steps=2, step=1e-4)
 
 
+def test_circuits_with_derivatives_by_hand():
+    short(
+        hydraulic_zoo.machine_whose_commands_wait().record,
+        "extrapolated-euler",
+        steps=2,
+        step=1e-4,
+        coordinates="relative",
+    )
+
+
+def test_circuits_with_derivatives_by_hand_and_flexible_bodies():
+    crane = nivel.load(ROOT / "examples" / "hydraulics" / "loader-crane.yaml", {"include": "booms/flexible.yaml"})
+    short(crane.record, "extrapolated-euler", steps=2, step=1e-4, coordinates="relative")
+
+
 # --- nothing is left out ---
 
 

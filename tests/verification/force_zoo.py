@@ -154,6 +154,7 @@ CASES = {
     "rope, slack": Case({"type": "rope", "markers": ["tip", "eye"], "stiffness": 60, "damping": 2, "length": 9.0}),
     "winch": Case({"type": "rope", "markers": ["tip", "eye"], "stiffness": 60, "damping": 1, "length": 0.3,
                    "speed": "0.3*lever.value + 0.1*sin(time)"}, more={"inputs": {"lever": LEVER}}),
+    "hand": Case({"type": "hand", "pull": "0.8 + 0.1*time", "body_number": 1, "point": [0.1, -0.2, 0.3], "towards": ["time", 1, "tip.x"]}),
     "coulomb": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "viscous": 0.1}),
     "coulomb, given load": Case({**RUBBING, "model": "coulomb", "transition_speed": 0.5, "normal_load": 20}),
     "coulomb, turning": Case({**RUBBING, "coordinate": "axle.angle", "model": "coulomb", "transition_speed": 0.05, "radius": 0.04,

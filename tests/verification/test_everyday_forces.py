@@ -90,3 +90,56 @@ def test_springs_that_do_nothing_are_refused():
     text = BLOCK.replace("    stiffness: [50 N/m, 200 N/m, 800 N/m]\n", "").replace("    preload: [0, 0, 80 N]\n", "")
     with pytest.raises(ModelError, match="needs a `stiffness`, a `damping` or a `preload`"):
         parse_machine(text)
+
+
+ROPE = """
+format: 1
+bodies:
+  jib: {mass: 5, inertia: [1, 1, 1], position: [1, 0, 2], orientation: {axis: [0, 0, 1], angle: 40 deg}}
+  load: {mass: 2, inertia: [1, 1, 1], position: [1, 0, 0]}
+joints: {clamp: {type: fixed, bodies: [ground, jib], point: [1, 0, 2]}}
+markers: {drum: {body: ground}, head: {body: jib}, hook: {body: load}}
+forces: {rope: {type: rope, WAY, stiffness: 1e4, length: 4}}
+simulation: {duration: 0.05, step: 1 ms}
+"""
+POINTS = "bodies: [ground, jib, load], points: [[0, 0, 0], [1, 0, 2], [1, 0, 0]]"
+
+
+def test_a_rope_by_points_is_the_rope_by_markers_there():
+    by_points, by_markers = (run(ROPE.replace("WAY", way)) for way in (POINTS, "markers: [drum, head, hook]"))
+    tension = by_points.array("force.rope.magnitude")
+    np.testing.assert_array_equal(tension, by_markers.array("force.rope.magnitude"))
+    assert tension[0] == pytest.approx(1e4 * (np.sqrt(5) + 2 - 4), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("way", "message"),
+    [
+        ("bodies: [ground, load]", "one of `points` for each"),
+        ("bodies: [ground, load], points: [[0, 0, 0]]", "there are 2 bodies, 1 points"),
+        ("bodies: [load], points: [[0, 0, 0]]", "needs two points at least"),
+        ("bodies: [ground, load, load], points: [[0, 0, 0], [1, 0, 0], [1, 0, 0]]", "follows itself"),
+        ("markers: [drum, hook], bodies: [ground, load]", "must not be given with `markers`"),
+        ("bodies: [ground, laod], points: [[0, 0, 0], [1, 0, 0]]", "did you mean `load`"),
+    ],
+)
+def test_a_rope_whose_way_is_not_clear_is_refused(way, message):
+    with pytest.raises(ModelError, match=message):
+        parse_machine(ROPE.replace("WAY", way))
+
+
+def placed(angle):
+    machine = nivel.Machine.from_record(parse_machine(BLOCK))
+    return machine.with_part("left", machine, orientation={"axis": [0, 0, 1], "angle": angle}).forces["left_springs"]
+
+
+def test_a_part_turned_by_a_quarter_has_its_springs_along_the_other_axes():
+    spring = placed("90 deg")
+    np.testing.assert_allclose(spring.stiffness, [200, 50, 800], rtol=1e-12)
+    np.testing.assert_allclose(spring.free_displacement, [-0.1, 0, 0], atol=1e-15)
+    np.testing.assert_allclose(spring.preload, [0, 0, 80], atol=1e-12)
+
+
+def test_a_part_turned_otherwise_is_refused_where_its_springs_would_leave_the_global_axes():
+    with pytest.raises(ModelError, match=r"along other axes than the global ones; take a bushing"):
+        placed("30 deg")

@@ -456,7 +456,9 @@ def test_unknown_models_are_named():
 def test_a_cable_that_bends_unalike_is_refused():
     sections = cantilever("ancf-cable", None)
     sections["beams"]["rod"]["section"]["stiffness"][5] = 3.0
-    with pytest.raises(ModelError, match=r"bends alike in all directions.*here EI_y = 100, EI_z = 3 N m\^2"):
+    with pytest.raises(
+        ModelError, match=r"has the same bending stiffness in all directions.*here EI_y = 100, EI_z = 3 N m\^2"
+    ):
         machine(sections)
     section_, coupled = sections["beams"]["rod"]["section"], np.diag([1e5, 1e5, 1e5, 80.0, 100.0, 100.0])
     coupled[0, 3] = coupled[3, 0] = 20.0

@@ -74,6 +74,21 @@ def test_free_pendulum_settles_at_its_lowest_point_from_anywhere(start):
     np.testing.assert_allclose(result.array("arm.position")[0], [0, -0.5, 0], atol=1e-8)
 
 
+def test_a_pendulum_settles_from_where_its_first_step_is_singular():
+    """Started upwards of level its stiffness is -1 in units of itself, which the first stiffness added, 1, takes away but for round-off."""
+    for start in np.linspace(-0.6, -0.4, 9):
+        body = solid(1.0, 1e-9, position=[-1, 0, 0])
+        joint = {**hinge("ground", "bob"), "start": {"angle": start}}
+        sections = {
+            "gravity": [0, -G, 0],
+            "bodies": {"bob": body},
+            "joints": {"hinge": joint},
+            "assembly": {"largest_gap": 9},
+        }
+        r = machine(sections).statics(duration=0.0)
+        np.testing.assert_allclose(r.array("bob.position")[-1], [0, -1, 0], atol=1e-9)
+
+
 def test_inverted_pendulum_stays_where_it_is_drawn_and_is_told_unstable():
     """ω² = (k - m g l)/(m l² + J), negative for a weak spring."""
     for stiffness, unstable in ((5.0, 1), (15.0, 0)):

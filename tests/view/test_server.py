@@ -78,7 +78,7 @@ def test_nothing_but_get_is_answered(playing, method):
         assert answer.getheader("Allow") == "GET"
 
 
-@pytest.mark.parametrize("host", ["evil.example", "evil.example:80", "127.0.0.1.evil.example"])
+@pytest.mark.parametrize("host", ["evil.example", "[", "evil.example:80", "127.0.0.1.evil.example"])
 def test_other_names_of_this_machine_are_refused(playing, host):
     assert get(playing, host=host)[0].status == 403
 

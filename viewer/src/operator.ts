@@ -24,7 +24,7 @@ export class Operator {
     this.hand = controls.map(() => null);
     this.keys = new Set(controls.flatMap((each) => [each.raises, each.lowers]).filter(Boolean));
     addEventListener("keydown", (event) => this.press(event), true);
-    addEventListener("keyup", (event) => this.held.delete(named(event.key)), true);
+    addEventListener("keyup", (event) => this.held.delete(named(event.key)) && this.refresh(), true);
     addEventListener("blur", () => this.letGo());
     document.addEventListener("visibilitychange", () => document.hidden && this.letGo());
     setInterval(() => this.refresh(), EVERY);
@@ -66,8 +66,10 @@ export class Operator {
     if (event.ctrlKey || event.metaKey || event.altKey || !this.keys.has(key) || isText(event.target)) return;
     event.preventDefault();
     event.stopImmediatePropagation();
+    if (this.held.has(key)) return;
     this.begin();
     this.held.add(key);
+    this.refresh(); // at once, and then every EVERY
   }
 
   private refresh(): void {

@@ -12,8 +12,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 
-from nivel.analysis.circuit_stiffness import only_circuits_are_stiff
-from nivel.analysis.modal_stiffness import only_modes_are_stiff
+from nivel.analysis.modal_stiffness import goes_by_circuits, only_modes_are_stiff
 from nivel.integrate.catalogue import BY_CIRCUITS, BY_MODES, INTEGRATORS
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
@@ -50,7 +49,7 @@ def choose_coordinates(machine: MachineRecord) -> str:
     if settings.cut:
         return "relative"
     facts = INTEGRATORS[settings.integrator]
-    if settings.integrator in BY_CIRCUITS and settings.formulation == "newton-euler" and only_circuits_are_stiff(machine):
+    if settings.integrator in BY_CIRCUITS and goes_by_circuits(machine, "relative"):
         # there derivatives are found by hand
         return "relative"
     if machine.is_flexible:

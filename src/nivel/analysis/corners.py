@@ -8,7 +8,6 @@ from functools import lru_cache
 from typing import TypeGuard
 
 import numpy as np
-from scipy.optimize import root_scalar
 
 from nivel.kernels.function import NEAR
 from nivel.machine.arithmetic import (
@@ -81,6 +80,8 @@ def _of_expression(expression: Expression, end: float) -> tuple[float, ...]:
 
 
 def _found(expression: Expression, end: float) -> Iterator[float]:
+    from scipy.optimize import root_scalar  # takes a fifth of a second to import
+
     times = np.linspace(0.0, end, SAMPLES + 1)
     for first, second in _sides(expression.tree):
 

@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
 
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.redundancy import scaled_jacobian
@@ -68,6 +67,8 @@ def passages(prepared: Prepared, result: Result) -> Iterator[Passage]:
 
 def _minima(places: NDArray[np.float64], value: Callable[[float], float]) -> Iterator[tuple[float, float]]:
     """Places of the minima of a function that are as good as zero against its middle value, and that share."""
+    from scipy.optimize import minimize_scalar  # takes a fifth of a second to import
+
     found = np.array([value(at) for at in places])
     middle = float(np.median(found))
     for k in range(1, len(found) - 1):

@@ -23,7 +23,7 @@ COMPONENTS: Final = ("force x", "force y", "force z", "moment x", "moment y", "m
 
 @dataclass(frozen=True)
 class ReactionFacts:
-    """Components of the reaction of a joint, along the axes of its first marker: those that are unique, and the others that it transmits."""
+    """Reaction of a joint along the axes of its first marker: components that are unique, and the others that it transmits."""
 
     joint: str
     unique: tuple[str, ...]

@@ -66,6 +66,8 @@ def command(
     no effect with the methods of this run is refused. Exit code 0 done, 2 the input is at fault, 3 the computation failed, 130
     interrupted; what was computed is kept in every case.
     """
+    if out is not None:  # before all that takes time
+        refuse_to_replace(None if no_report else beside(Path(out)), Path(out), force, Path(machine))
     from nivel.api import load
     from nivel.errors import ModelError, SolveError
 

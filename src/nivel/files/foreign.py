@@ -7,7 +7,7 @@ from typing import Final
 _BEGINNINGS: Final[tuple[tuple[bytes, str], ...]] = (
     (
         b"\x89HDF\r\n",
-        "this is a result, not a machine file: `nivel view {file}` plays it, `nivel explain {file}` says what it is worth; "
+        "this is a result, not a machine file: `nivel view {file}` plays it, `nivel explain {file}` says how far it can be trusted; "
         "the machine that made it is the file that was run",
     ),
     (b"CDF\x01", "this is a NetCDF-3 file, not a machine file"),

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Any, Final
 
 from pydantic import BeforeValidator, ValidationError
 
-from nivel.errors import ModelError
-from nivel.files.outline import NAMED, VALUES, as_part, check_sections, check_start, section_of
+from nivel.errors import Fault, ModelError
+from nivel.files.outline import FORMAT, NAMED, VALUES, as_part, check_sections, check_start, section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine.quantity import FAULT, fault, shown
 from nivel.machine.record import Record, unknown_word
 
 TAKEN: Final = tuple(section for section in NAMED if section not in VALUES)
+
+STARTS: Final = re.compile(r"""^\s*\{?\s*["']?format["']?\s*:""", re.MULTILINE)
 
 
 def _file_name(value: Any) -> Any:
@@ -79,6 +82,9 @@ def _read(tree: Tree, path: Path, entry: Any, sources: Sources) -> Tree | None:
     if found is None:
         return None
     text, file = found
+    if STARTS.search(text) is None:  # not read, nor quoted in any message
+        tree.faults.append(Fault(file, 1, 1, "", f"`format: {FORMAT}` is missing: this is no machine file"))
+        return None
     try:
         part = read_tree(text, file)
         check_start(part)

@@ -173,8 +173,9 @@ def placed_joint(joint: Joint, scene: Scene) -> Joint:
         changes["pitch"] = -joint.pitch
     for field in ("start", "start_rates"):
         values = getattr(joint, field)
-        given = values.given if values is not None else {}
-        opposite = {name: -value for name, value in given.items() if scene.is_opposite(f"{joint.name}.{name}")}
+        if values is None:
+            continue
+        opposite = {name: -value for name, value in values.given.items() if scene.is_opposite(f"{joint.name}.{name}")}
         if opposite:
             changes[field] = values.replace(**opposite)
     return joint.replace(**changes)

@@ -85,6 +85,8 @@ def _without_name(definition: dict[str, Any]) -> None:
 
 
 def _with_type(definition: dict[str, Any]) -> None:
-    """Where the type tells which record it is, a file has to give it, although in Python the class does."""
-    if "const" in definition["properties"].get("type", {}):
+    """Where the type tells which record it is, a file has to give it, although in Python the class does, unless it is that of what has
+    none."""
+    its = definition["properties"].get("type", {})
+    if "const" in its and not its.pop("optional", False):
         definition["required"] = ["type", *definition.get("required", [])]

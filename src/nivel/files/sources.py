@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from pathlib import Path as FilePath
+from stat import S_ISDIR, S_ISREG
 from typing import Final, TypeVar
 
 from nivel.errors import Fault, ModelError
@@ -16,6 +17,7 @@ from nivel.machine.quantity import shown
 Content = TypeVar("Content", str, bytes)
 
 DEEPEST: Final = 20  # files that name files
+LARGEST: Final = 500 * 10**6  # bytes of a file
 MOST: Final = 2000  # files read for one machine, each as often as it is used
 
 
@@ -139,10 +141,16 @@ def read_text(path: str | FilePath) -> str:
 def read_bytes(path: str | FilePath) -> bytes:
     """The content of the file at `path`.
 
-    Raises ModelError where it cannot be read.
+    Raises ModelError where it cannot be read, is no plain file (a device, a pipe), or is larger than LARGEST.
     """
     file = str(path)
     try:
+        facts = FilePath(path).stat()
+        if not (S_ISREG(facts.st_mode) or S_ISDIR(facts.st_mode)):
+            raise ModelError(Fault(file, 0, 0, file, "this is a device or a pipe; a file was expected"))
+        if facts.st_size > LARGEST:
+            size = f"{facts.st_size / 1e6:.0f} MB"
+            raise ModelError(Fault(file, 0, 0, file, f"the file has {size}; up to {LARGEST // 10**6} MB are read"))
         return FilePath(path).read_bytes()
     except FileNotFoundError:
         raise ModelError(Fault(file, 0, 0, file, "there is no such file")) from None

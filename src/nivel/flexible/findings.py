@@ -171,7 +171,7 @@ def _statements(full: Array, reduced: Array, found: Orthonormal) -> list[str]:
     if found.dependent:
         out.append(f"{found.dependent} vectors of the basis depended on others and were left out.")
     if found.condition > ILL:
-        text = "some interface freedoms move the body alike, or move hardly any mass"
+        text = "some interface freedoms move the body in the same way, or move hardly any mass"
         out.append(f"The basis is ill-conditioned ({found.condition:.2g}): {text}; take away interfaces that coincide.")
     count = min(len(full), len(reduced))
     good = np.flatnonzero(np.abs(reduced[:count] / full[:count] - 1.0) > 0.01)

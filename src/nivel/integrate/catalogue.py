@@ -17,8 +17,8 @@ class IntegratorFacts:
     motion as a residual, with exact tangents, and iterates by Newton's method alone; it solves them for accelerations and multipliers, or
     with `first_order` for the rates of the state; complex_shift : it also solves systems with complex shares of a step. step_residual :
     module of its residual, one over a whole step in absolute coordinates; empty: that at a time; step_residual_flexible : the same for
-    machines with flexible bodies. velocity_jumps : it ends its steps where speeds of drivers jump, and lets them. circuit_tangent : it needs
-    the derivatives of circuits by hand.
+    machines with flexible bodies. velocity_jumps : it ends its steps where speeds of drivers jump, and lets them.
+    circuit_tangent : it takes the derivatives of circuits by hand.
     """
 
     module: str

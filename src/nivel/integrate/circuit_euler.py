@@ -114,8 +114,8 @@ def fill_both(evaluate, machine, run, t, h, prepare, renew, leave):
 def step_over_circuits(evaluate, machine, history, prepare, renew, leave):
     """One step. Returns a status.
 
-    prepare, renew, leave : compiled into this one. prepare(machine, number, s) : factors of this number, in the state y. renew(machine, s) :
-    what of the factors of the halves depends on the state in the middle. leave(machine, y, f, s, other) : k without circuits.
+    prepare, renew, leave : compiled into this one. The first gives factors (machine, number, s) in the state y, the second what of those of
+    the halves depends on the state in the middle (machine, s), the third k without circuits (machine, y, f, s, other).
     """
     run, circuit = run_at(history), record_at(machine).circuit
     y, whole, halves = run.y, run.stages[WHOLE], run.stages[HALVES]

@@ -35,7 +35,8 @@ def _attempt(evaluate, machine, history, h):
         run.trial[i] = run.previous[i]
     add_stages(run, h, A[NEW], NEW, run.trial)
     # the two estimates, h⁶ and h⁴, together behave as h⁸ (§II.10, eq. 10.17)
-    return OK, 0.0 if fifth == 0.0 else fifth * fifth / np.sqrt(fifth * fifth + 0.01 * third * third)
+    # no squares: those of errors below 1e-162 are zero, and their ratio no number
+    return OK, 0.0 if fifth == 0.0 else fifth * (fifth / np.hypot(fifth, 0.1 * third))
 
 
 @leaf

@@ -1,5 +1,8 @@
-"""`nivel.integrate.circuit_euler` for machines with flexible bodies, whose modes are stiff too: J is that of `nivel.motion.circuit_shift` with
-the modes of `nivel.motion.modal_shift`, and factors of modes are those of the state at which each part begins."""
+"""`nivel.integrate.circuit_euler` for machines with flexible bodies, whose modes are stiff too.
+
+J is that of `nivel.motion.circuit_shift` with the modes of `nivel.motion.modal_shift`, whose factors are those of the state at which each
+part begins.
+"""
 
 from __future__ import annotations
 

@@ -104,10 +104,11 @@ def count_into(histogram, row, duration):
 def wanted(live, i, heard):
     """Value of input i that the operator wants, within its limits; at rest where no operator is heard. Without a rest it stays."""
     limit = live.limit[i]
-    target = live.target[i] if heard or np.isnan(limit[REST]) else limit[REST]
+    rest = live.value[i] if np.isnan(limit[REST]) else limit[REST]
+    target = live.target[i] if heard else rest
     if not (limit[LOW] <= target <= limit[HIGH]):
         # beyond its range, or no number
-        target = limit[LOW] if target < limit[LOW] else limit[HIGH] if target > limit[HIGH] else limit[REST]
+        target = limit[LOW] if target < limit[LOW] else limit[HIGH] if target > limit[HIGH] else rest
     return target
 
 

@@ -24,6 +24,7 @@ from nivel.live.system_clock import clock_addresses
 from nivel.live.timing import Timing, timing_of
 from nivel.machine import MachineRecord
 from nivel.native import library
+from nivel.system.hydraulics.components import families_of
 
 DURATION: Final = 2.0  # s simulated, at least so many ticks
 TICKS_AT_LEAST: Final = 2000
@@ -119,17 +120,21 @@ def _parts(live_run: LiveRun, timing: Timing, idle: float) -> dict[str, float]:
 
     code, families = motion.kernels.evaluate.address, [int(each) for each in record.elements.address]
     evaluate = cost(lambda: repeat_evaluation(code, machine, t, y, rate, AT_ONCE)) / AT_ONCE
-    forces = sum(
-        cost(lambda k=k, family=family: repeat_family(family, machine, k, t, AT_ONCE)) / AT_ONCE
-        for k, family in enumerate(families)
-    )
+    hydraulic = {each.address for each in families_of(live_run.plan.machine)}
+    circuits = forces = 0.0
+    for k, family in enumerate(families):
+        seconds = cost(lambda k=k, family=family: repeat_family(family, machine, k, t, AT_ONCE)) / AT_ONCE
+        circuits += seconds * (family in hydraulic)
+        forces += seconds * (family not in hydraulic)
+    beside = min(1.0, evaluate / max(forces + circuits, 1e-12))  # parts of an evaluation are no longer than it
     motion.kernels.evaluate(machine, t, y, rate)
     correct = cost(lambda: live_run.loop.correct(machine, t, y))
     show = cost(lambda: observe(machine, t, y, frame))
     calls = pace.substeps * float(run.counter[EVALUATIONS]) / max(float(run.counter[DONE_STEPS]), 1.0)
     parts = {
-        "forces, circuits and inputs": calls * min(forces, evaluate),
-        "bodies, constraints and solve": calls * max(evaluate - forces, 0.0),
+        "forces, control and inputs": calls * beside * forces,
+        "circuit": calls * beside * circuits,
+        "bodies, constraints and solve": calls * max(evaluate - forces - circuits, 0.0),
         "correction of the joints": pace.substeps * correct,
         "output": show / pace.every,
     }

@@ -283,9 +283,7 @@ class Beam(Checked):
             why = "its `stiffness` has numbers off the diagonal"
         else:
             return
-        message = (
-            f"an `ancf-cable` bends alike in all directions, and nothing couples its strains; here {why}: {OTHERS}"
-        )
+        message = f"an `ancf-cable` has the same bending stiffness in all directions, and nothing couples its strains; here {why}: {OTHERS}"
         yield Problem(("section",), message)
 
     def _problems_of_stations(self) -> Iterator[Problem]:

@@ -58,7 +58,7 @@ def functions_of(machine: MachineRecord) -> Iterator[MachineFunction]:
 def _of_part(section: str, part: Record) -> Iterator[MachineFunction]:
     name = str(getattr(part, "name", None) or section)
     sampling = Sampling(part.every or 0.0) if isinstance(part, State) and part.update is not None else None
-    for place, function in _in_fields(part):
+    for place, function in functions_in(part):
         yield MachineFunction(f"{name}.{place}", section, name, function, isinstance(part, Driver), sampling)
 
 
@@ -71,7 +71,8 @@ def _of_block(section: str, block: Block) -> Iterator[MachineFunction]:
             yield MachineFunction(block.path(part.name), section, block.name, function, sampling=sampling)
 
 
-def _in_fields(record: Record) -> Iterator[tuple[str, Expression | Table | PythonLaw]]:
+def functions_in(record: Record) -> Iterator[tuple[str, Expression | Table | PythonLaw]]:
+    """The functions in the fields of a record, each with its place, `vector.x`."""
     for field in type(record).model_fields:
         yield from _in_value(field, getattr(record, field))
 
@@ -81,7 +82,7 @@ def _in_value(place: str, value: object) -> Iterator[tuple[str, Expression | Tab
         case Expression() | Table() | PythonLaw():
             yield place, value
         case Record():
-            for inner, function in _in_fields(value):
+            for inner, function in functions_in(value):
                 yield f"{place}.{inner}", function
         case tuple() | list():
             names = AXES if len(value) == 3 else range(1, len(value) + 1)

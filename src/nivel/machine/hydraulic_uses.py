@@ -74,7 +74,8 @@ def _of_ports(component: Any, nodes: Mapping[str, str], used: set[str], place: P
     seen: dict[str, str] = {}
     for port, node in ports_of(component).items():
         where = (*place, "ports", port)
-        used.add(node)
+        if port not in SENSING or nodes.get(node) != "volume":  # a tank may be felt alone
+            used.add(node)
         if node not in nodes:
             whole = [each for each in nodes if each.startswith(f"{node}.")]
             hint = f"; a chamber of it is needed: {' or '.join(f'`{each}`' for each in whole)}" if whole else ""
@@ -145,7 +146,7 @@ def _late(component: Any, keys: tuple[str, ...], index: Index, parameters: Param
                     where,
                     f"`{path}` follows from the flows, and cannot steer them at once; use {hint}a state that follows it",
                 )
-            if entry(component, "type") == "tank" and name in index.control:
+            if entry(component, "type") == "tank" and (name in index.control or kind is not None):
                 yield where, f"`{path}` follows from pressures, of which this is one; use a state that follows it"
 
 
@@ -158,7 +159,8 @@ def _unconnected(component: Any, used: set[str], place: Place) -> Faults:
         if node in used:
             continue
         if type_ == "volume":
-            yield place, f"nothing is connected to the volume `{node}`; name it in the `ports` of a component"
+            what = f"nothing flows into the volume `{node}` or out of it"
+            yield place, f"{what}; name it in the `ports` of a component, at another port than {' or '.join(SENSING)}"
         elif type_ == "tank":
             yield place, f"nothing is connected to `{node}`; name it in the `ports` of a component"
 

@@ -79,6 +79,8 @@ UNITS: dict[str, Unit] = {
 # known without pint, but free as names of parameters
 _FREE: dict[str, Unit] = {**dict.fromkeys(("L", "l"), Unit(1e-3, dimension(m=3))), "K": Unit(1.0, dimension(K=1))}
 
+LONGEST = 40  # letters of a unit
+
 
 @cache
 def unit(name: str) -> Unit:
@@ -86,12 +88,19 @@ def unit(name: str) -> Unit:
 
     Raises UnknownUnitError, with the nearest known name in its message.
     """
-    found = UNITS.get(name) or _FREE.get(name) or _ask_pint(name)
+    found = UNITS.get(name) or _FREE.get(name) or (_ask_pint(name) if _may_be_unit(name) else None)
+    if found is None and len(name) > LONGEST:
+        raise UnknownUnitError(f"the unit `{name[:LONGEST]}…` is not known")
     if found is None:
         near = get_close_matches(name, UNITS, n=1, cutoff=0.5)
         hint = f"; did you mean `{near[0]}`?" if near else ""
         raise UnknownUnitError(f"the unit `{name}` is not known{hint}")
     return found
+
+
+def _may_be_unit(name: str) -> bool:
+    """Whether this is worth asking for: short, of letters and plain digits. Pint stumbles over others."""
+    return len(name) <= LONGEST and all(each.isalpha() or each in "_0123456789" for each in name)
 
 
 @cache

@@ -15,6 +15,7 @@ MOST = 2 * TOGETHER  # curves in a plot: those after the first TOGETHER are dash
 # how the last word of a name begins → heading, unit shown, SI value of it
 KINDS = {
     "pressure": ("pressures", "bar", 1e5),
+    "temperature": ("temperatures of gas", "K", 1.0),
     "flow": ("flows", "L/min", 1e-3 / 60.0),
     "position": ("positions", "", 1.0),
     "force": ("forces of actuators", "N", 1.0),

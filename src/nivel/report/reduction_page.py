@@ -30,7 +30,7 @@ MEANINGS: Final = (
     (
         "MAC",
         "modal assurance criterion, weighted with the mass: one where a reduced mode has the shape of the whole model's, zero where not. "
-        "In brackets the reduced mode that is most alike, where it stands elsewhere in the order",
+        "In brackets the reduced mode that is most similar, where it stands elsewhere in the order",
     ),
     (
         "Normal modes",

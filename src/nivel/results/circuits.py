@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nivel.machine.hydraulics.directional import CENTRED
 from nivel.results.scales import Readable
-from nivel.results.statements import number
-from nivel.results.verdicts import THRESHOLDS, Item
+from nivel.results.verdicts import THRESHOLDS, Item, number, quantity
 
 START = "hydraulics."
 INTEGRALS = ("supplied", "delivered", "lost")
@@ -69,10 +70,9 @@ def _energy_item(result: Readable) -> Item:
     k = int(np.argmax(error))
     fraction = float(error[k]) / scale if scale > NO_ENERGY else 0.0
     threshold = THRESHOLDS["energy"]
-    said = (
-        f"{number(float(supplied[-1]))} J supplied = {number(float(delivered[-1]))} J given to bodies + {number(float(lost[-1]))} J lost "
-        f"+ {number(float(stored[-1] - stored[0]))} J stored; error {number(fraction)} of the largest of these ({threshold})"
-    )
+    given, into_bodies, heat, kept = (quantity(float(each[-1]), "J") for each in flows)
+    balance = f"{given} supplied = {into_bodies} given to bodies + {heat} lost + {kept} stored"
+    said = f"{balance}; error {number(fraction)} of the largest of these ({threshold})"
     return Item(
         "hydraulics",
         threshold.verdict(fraction),
@@ -118,12 +118,16 @@ def _cavitation_items(result: Readable) -> Iterator[Item]:
 
 
 def _saturation_items(result: Readable) -> Iterator[Item]:
-    """4/3 valves whose spools are at one end for the whole run."""
-    for name in result.variables:
-        valve = name.removeprefix(START).removesuffix(".flow_PB")
-        if not name.startswith(START) or not name.endswith(".flow_PB"):
+    """Valves that are at one end for the whole run: spools with a centre between their ends, and relief valves fully open."""
+    for valve in json.loads(str(result.attributes.get("machine_record", "{}"))).get("hydraulics") or ():
+        name, kind = valve["name"], valve["type"]
+        centred = kind == "directional-valve" and valve["ways"] in CENTRED
+        if not centred and kind != "relief-valve":
             continue
-        position = _history(result, f"{START}{valve}.position")[1:]
-        if len(position) and (np.all(position > AT_END) or np.all(position < -AT_END)):
-            text = f"Saturation: the valve {valve} is at the end of its stroke for the whole run; does its command have the right scale?"
-            yield Item("saturation", "amber", text, row=valve)
+        position = _history(result, f"{START}{name}.position")[1:]
+        if centred and len(position) and (np.all(position > AT_END) or np.all(position < -AT_END)):
+            text = f"Saturation: the valve {name} is at the end of its stroke for the whole run; does its command have the right scale?"
+            yield Item("saturation", "amber", text, row=name)
+        if kind == "relief-valve" and len(position) and np.all(position > AT_END):
+            text = f"Saturation: the relief valve {name} is fully open for the whole run and bounds no pressure; is its flow right?"
+            yield Item("saturation", "amber", text, row=name)

@@ -10,7 +10,7 @@ from nivel.results.bending import Bent
 from nivel.results.second_look import Damped, Growth, OwnError
 from nivel.results.steps_seen import Rounding, Turn
 from nivel.results.unseen import Unseen
-from nivel.results.verdicts import CHECKS, Item, Threshold, number
+from nivel.results.verdicts import CHECKS, Item, Threshold, number, quantity
 
 SHOWN = 5  # functions of which each has a line
 
@@ -170,8 +170,9 @@ def _bent_item(found: Bent) -> Item:
 def _damped_item(damped: Damped, method: str) -> Item:
     by = f"{method} takes" if method else "the method takes"
     text = (
-        f"Damped: {by} {number(damped.lost)} J from the motion, and {number(damped.lost_finer)} J with finer steps: vibrations faster than "
-        f"the steps are damped away; take steps of a tenth of their period, or say that they do not matter by damping them yourself "
+        f"Damped: {by} {quantity(damped.lost, 'J')} from the motion, and {quantity(damped.lost_finer, 'J')} with finer steps: "
+        f"vibrations faster than the steps are damped away; take steps of a tenth of their period, or say that they do not "
+        f"matter by damping them yourself "
         f"(green where finer steps lose less, amber otherwise)"
     )
     return Item("damped", "amber", text, damped.lost)

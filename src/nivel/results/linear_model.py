@@ -148,14 +148,15 @@ class LinearModel:
         return StateSpace(self.A, self.B, self.C, self.D)
 
     def control(self) -> Any:
-        """`control.StateSpace` with names. Needs the package python-control."""
+        """`control.StateSpace` with names, whose dots are underscores there: `rail_displacement`. Needs the package python-control."""
         self._need_ports()
         try:
             import control  # type: ignore[import-not-found]
         except ImportError:
-            raise ModelError("python-control is not installed: pip install control") from None
-        names = {"states": list(self.states), "inputs": list(self.inputs), "outputs": list(self.outputs)}
-        return control.ss(self.A, self.B, self.C, self.D, **names)
+            raise ModelError("python-control is not installed: pip install 'nivel[control]'") from None
+        names = {"states": self.states, "inputs": self.inputs, "outputs": self.outputs}
+        plain = {kind: [name.replace(".", "_") for name in each] for kind, each in names.items()}
+        return control.ss(self.A, self.B, self.C, self.D, **plain)
 
     def frequencies(self) -> Array:
         """[Hz] from a tenth of the slowest to ten times the fastest eigenvalue that is not zero."""

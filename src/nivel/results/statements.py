@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from nivel.results.held import Shared, in_words
 from nivel.results.unresolved import Unresolved
-from nivel.results.verdicts import THRESHOLDS, Item, Threshold, Trust, Verdict, number
+from nivel.results.verdicts import THRESHOLDS, Item, Threshold, Trust, Verdict, number, quantity
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
     "done": ("green", "Outcome: the run reached its end"),
@@ -57,12 +57,14 @@ def _energy_item(trust: Trust, unresolved: Unresolved | None) -> Item:
     if not math.isfinite(error):
         said = f"the energy is not a number any more from t = {trust.energy_error_time:.6g} s on"
     elif scale > 0.0:
-        said = f"error {number(fraction)} of the {trust.energy_scale_kind} {number(scale)} J"
+        said = f"error {number(fraction)} of the {trust.energy_scale_kind} {quantity(scale, 'J')}"
     elif not trust.energy_scale_kind:
         said = "nothing was computed"
     else:
         said = (
-            "no energy anywhere, and no error" if error == 0.0 else f"error {number(error)} J where there is no energy"
+            "no energy anywhere, and no error"
+            if error == 0.0
+            else f"error {quantity(error, 'J')} where there is no energy"
         )
     cause = _unresolved_words(unresolved) if unresolved else ""
     row = unresolved.force if unresolved else ""
@@ -76,7 +78,7 @@ def _unresolved_words(unresolved: Unresolved) -> str:
         f"{number(its.work / its.energy)} times all other energy of the run" if its.energy else "and there is no energy"
     )
     return (
-        f"; {its.force} does {number(its.work)} J in one step of {number(its.step)} s at t = {its.time:.6g} s, {share}: what it does "
+        f"; {its.force} does {quantity(its.work, 'J')} in one step of {number(its.step)} s at t = {its.time:.6g} s, {share}: what it does "
         f"decays, or vibrates, within a step, and its work is not known. Take a shorter step, or an integrator that chooses "
         f"its steps (radau)"
     )
@@ -90,6 +92,8 @@ def violation_item(trust: Trust) -> Item:
     angle = " rad" if trust.constraint_violation_units == "rad" else " as a cosine"
     scale = f" of the {_size(trust)}" if length else angle
     said = f"Joints: open by at most {value}{number(fraction)}{scale}"
+    if trust.constraint_violation_max == 0.0:
+        return numeric("violation", "Joints: closed exactly", fraction, None, "")
     row, time = trust.constraint_violation_row, trust.constraint_violation_time
     return numeric("violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
 

@@ -139,9 +139,10 @@ def rewrite(path: Path, attributes: Attributes) -> None:
         _write_final(path, temporary, attributes)
         temporary.replace(path)
     except OSError as error:
-        temporary.unlink(missing_ok=True)
         _note(path, attributes)
         raise _not_compressed(path, _reason(error)) from error
+    finally:
+        temporary.unlink(missing_ok=True)
 
 
 def _not_compressed(path: Path, reason: str) -> SolveError:

@@ -79,8 +79,8 @@ CHECKS = {
     "steps": Threshold(
         0.3,
         math.inf,
-        "The fastest rate of the machine times the step, told where a run is red: beyond 0.3 an explicit method does not follow what is "
-        "that fast, beyond 1 to 3 it goes astray.",
+        "The fastest rate of the machine times the step, reported where a run is red: beyond 0.3 an explicit method does not follow "
+        "motions that fast, beyond 1 to 3 it diverges.",
     ),
     "turn": Threshold(
         0.5,
@@ -290,6 +290,14 @@ def number(value: float) -> str:
         return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
     mantissa, exponent = f"{value:.1e}".split("e")
     return f"{float(mantissa):g}e{int(exponent)}"
+
+
+def quantity(value: float, unit: str) -> str:
+    """A number with its unit as people say it: 94 kJ, 1.25 MJ, 812 J."""
+    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if factor <= abs(value) < 1e12:
+            return f"{value / factor:.3g} {prefix}{unit}"
+    return f"{number(value)} {unit}"
 
 
 def _known(record: type[Any], data: dict[str, Any]) -> dict[str, Any]:

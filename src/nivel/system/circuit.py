@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import get_args, get_type_hints
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nivel.kernels.circuit_record import CircuitTangent
 from nivel.kernels.hydraulics.volume import VOLUME
@@ -13,18 +13,50 @@ from nivel.kernels.record import NONE, Circuit
 from nivel.system.state_facts import Coupled
 from nivel.system.tables import Array, index_array
 
+Index = NDArray[np.uint32]
 ROOM = 5  # columns of `Circuit.room`
 FLUID = 10  # columns of `Circuit.fluid`
 
 
+def tangent_tables(
+    family: Index,
+    state: Index,
+    unknown: Index,
+    coordinate: Index,
+    number: Index,
+    signal: Index,
+    source: Index,
+    velocities: int,
+) -> CircuitTangent:
+    """Room for the derivatives of circuits. family … source : as in `CircuitTangent`."""
+    states, count, nodes = len(state), len(coordinate), len(signal)
+    size, width = states + count, states + 2 * count
+    return CircuitTangent(
+        family=family,
+        state=state,
+        unknown=unknown,
+        coordinate=coordinate,
+        number=number,
+        signal=signal,
+        source=source,
+        by_mass=np.zeros(nodes),
+        by_stroke=np.zeros((nodes, count)),
+        effort=np.zeros((count, width)),
+        slopes=np.zeros((size, width)),
+        direction=np.zeros((count, velocities)),
+        response=np.zeros((count, velocities)),
+        compliance=np.zeros((count, count)),
+        matrix=np.zeros((2, size, size)),
+        b=np.zeros(size),
+        load=np.zeros(count),
+        travel=np.zeros((2, count)),
+    )
+
+
 def no_tangent() -> CircuitTangent:
     """For methods that do not need it: all arrays empty."""
-    shapes = {1: (0,), 2: (0, 0), 3: (0, 0, 0)}
-    kinds = {"index": np.uint32, "real": float}
-    hints = get_type_hints(CircuitTangent, include_extras=True)
-    return CircuitTangent(
-        **{name: np.zeros(shapes[get_args(hint)[1]], kinds[get_args(hint)[2]]) for name, hint in hints.items()}
-    )
+    none = index_array([], 1)
+    return tangent_tables(none, none, none, none, none, none, index_array([], 2), 0)
 
 
 @dataclass(frozen=True)

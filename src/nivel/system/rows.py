@@ -38,7 +38,8 @@ Views = dict[str, tuple[int, int | Rail | Wheel]]  # from which marker to which,
 class RowTable:
     """Rows of the machine, each with the parts of C_q that it has.
 
-    owner : name of the joint, coupling or driver of each row. velocity : rows that hold velocities alone. spans : rows of each joint. part_marker, part_row : of each part.
+    owner : name of the joint, coupling or driver of each row. velocity : rows that hold velocities alone. spans : rows of each joint.
+    part_marker, part_row : of each part.
     first_part : of each joint row, the part of the joint's first marker. given : offset of each combination, None: as placed.
     """
 

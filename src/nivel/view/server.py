@@ -107,7 +107,10 @@ class Viewing:
             return False
         if self.address.token:
             return True
-        return urlsplit(f"//{hosts[0]}").hostname in LOOPBACK
+        try:
+            return urlsplit(f"//{hosts[0]}").hostname in LOOPBACK
+        except ValueError:  # `[` is no name of a host
+            return False
 
     def _has_token(self, query: str) -> bool:
         if not self.address.token:

@@ -27,7 +27,7 @@ MOST_STEPS = 600
 LONGEST = 0.3
 # What is left of the forces beyond the linear ones, as a share of what the step was made for: more is tried again, less makes σ smaller.
 CROOKED, STRAIGHT = 0.6, 0.2
-MORE, LESS = 4.0, 0.1
+MORE, LESS, FARTHER = 4.0, 0.1, 100.0
 LARGEST, SMALLEST = 1e6, 1e-10
 # A machine whose unbalanced forces are this share of its loads is in equilibrium as drawn.
 IMPLICIT_ACCELERATIONS = 1e-9
@@ -37,7 +37,7 @@ STILL, NEAR = 1e-8, 0.05
 FIRST, LEAST = 0.5, 1.0 / 64.0
 # A machine that went this many lengths or radians is held by nothing.
 FAR = 50.0
-MOVES_ON = "the machine moves on for ever"
+MOVES_ON = "the machine keeps moving"
 
 
 def settle(equations: StaticEquations, start: Rest, iteration: Iteration) -> Found:
@@ -173,7 +173,8 @@ def _descend(equations: StaticEquations, state: Rest) -> Rest:
             sigma = more
             continue
         if tried.size > LONGEST:
-            sigma = max(1.5 * sigma, sigma * tried.size / LONGEST, SMALLEST * MORE)
+            # a step far too long says that K + σ is as good as singular, and little of the σ that is wanted
+            sigma = max(sigma * min(max(1.5, tried.size / LONGEST), FARTHER), SMALLEST * MORE)
             continue
         if tried.size <= STILL:
             return tried.state

@@ -81,7 +81,7 @@ class _Input:
         self.sets: dict[str, list[int]] = {}
         self.elements: list[list[int]] = []
         self.others = False
-        self.materials = 0
+        self.materials = self.instances = 0
         self.values: dict[str, list[float]] = {}
         self.pending: list[int] = []
 
@@ -96,6 +96,8 @@ class _Input:
                 self.pending = []
                 self._begin(keyword, options, number)
                 continue
+            if keyword == "INSTANCE":
+                raise FormatError(f"*INSTANCE moves its nodes by `{line[:60]}`; write a flat input file", number)
             try:
                 self._data(keyword, options, [part.strip() for part in line.split(",")])
             except ValueError:
@@ -116,8 +118,13 @@ class _Input:
     def _begin(self, keyword: str, options: dict[str, str], line: int) -> None:
         if keyword == "INCLUDE":
             raise FormatError("*INCLUDE is not followed; write the mesh into one file", line)
-        if keyword == "INSTANCE" or (keyword == "NODE" and options.get("SYSTEM")):
-            raise FormatError(f"*{keyword} moves nodes; write a flat input file without parts and instances", line)
+        if keyword == "NODE" and options.get("SYSTEM"):
+            raise FormatError("*NODE with SYSTEM gives nodes in axes of their own; write them in global ones", line)
+        self.instances += keyword == "INSTANCE"
+        if self.instances > 1:
+            raise FormatError(
+                "this is a second *INSTANCE, with numbers of nodes of its own; write a flat input file", line
+            )
         self.materials += keyword == "MATERIAL"
         if keyword == "ELEMENT" and options.get("TYPE", "").upper() not in TETRAHEDRA:
             self.others = True

@@ -97,7 +97,7 @@ def add_slopes(machine, number, t):
         if conductance != 0.0:
             add_flow_by_pressure(circuit, a, b, a, conductance)
             add_flow_by_pressure(circuit, a, b, b, -conductance)
-        if kind != DIRECT and kind != EDGE and kind != MIDDLE:
+        if kind in (FIXED, GIVEN, CUSHION):
             continue
         slope = density * through * difference * slope_of_opening(index, n, value[index[POSITION]])
         if slope == 0.0:

@@ -25,7 +25,9 @@ class Fluid(Checked):
     collection: ClassVar[str] = "fluids"
 
     name: Name
-    type: Literal["liquid"] = "liquid"
+    type: Literal["liquid"] = Field(
+        default="liquid", description="need not be given", json_schema_extra={"optional": True}
+    )
     density: Density = Field(default=870.0, description="of the liquid at atmospheric pressure")
     bulk_modulus: Pressure = Field(default=1.5e9, description="of the liquid at atmospheric pressure")
     bulk_modulus_slope: NotNegativeNumber = Field(default=10.0, description="what it grows by with the pressure")

@@ -50,6 +50,12 @@ class Tank(Component):
     pressure: VaryingPressure = Field(default=ATMOSPHERE, description="absolute")
     fluid: Name | None = Field(default=None, description="default: the only one")
 
+    def problems(self) -> Iterator[Problem]:
+        yield from super().problems()
+        if isinstance(self.pressure, float | int) and self.pressure <= 0.0:
+            told = f"pressures are absolute: one greater than zero was expected, got {self.pressure:g} Pa"
+            yield Problem(("pressure",), f"{told}; the air has 1.01325 bar")
+
 
 class Accumulator(Component):
     """A volume with gas in it, behind an inlet."""

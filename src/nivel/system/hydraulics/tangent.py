@@ -13,6 +13,7 @@ from nivel.kernels.circuit_record import CircuitTangent
 from nivel.kernels.hook import FAMILIES
 from nivel.kernels.hydraulics import ledger, load_signal, pipe, piston, restriction, rotary, spool, volume
 from nivel.kernels.record import NONE, Record
+from nivel.system.circuit import tangent_tables
 from nivel.system.factor_plan import minimum_degree
 from nivel.system.system import System
 
@@ -30,7 +31,7 @@ DERIVED = (
     pipe.apply,
 )
 # those whose derivatives are those of nodes, or none
-WITHOUT = (volume.apply, rotary.supply, ledger.apply)
+WITHOUT = (ledger.begin, volume.apply, rotary.supply, ledger.apply)
 Index = NDArray[np.uint32]
 
 
@@ -45,28 +46,16 @@ def _tables(system: System) -> CircuitTangent:
     family = _families(record)
     state = _in_order(system)
     coordinate = np.unique([q for q in _coordinates(record, family) if q != NONE]).astype(np.uint32)
-    states, count, velocities = len(state), len(coordinate), len(record.tree.column)
-    nodes, size = len(record.circuit.node), len(state) + len(coordinate)
     unknown = _numbers(state, len(record.elements.state))
-    return CircuitTangent(
-        family=family,
-        state=state,
-        unknown=unknown,
-        coordinate=coordinate,
-        number=_numbers(coordinate, len(record.coordinates.what)),
-        signal=_signals(record, unknown),
-        source=_sources(record, family, unknown),
-        by_mass=np.zeros(nodes),
-        by_stroke=np.zeros((nodes, count)),
-        effort=np.zeros((count, states + 2 * count)),
-        slopes=np.zeros((size, states + 2 * count)),
-        direction=np.zeros((count, velocities)),
-        response=np.zeros((count, velocities)),
-        compliance=np.zeros((count, count)),
-        matrix=np.zeros((2, size, size)),
-        b=np.zeros(size),
-        load=np.zeros(count),
-        travel=np.zeros((2, count)),
+    return tangent_tables(
+        family,
+        state,
+        unknown,
+        coordinate,
+        _numbers(coordinate, len(record.coordinates.what)),
+        _signals(record, unknown),
+        _sources(record, family, unknown),
+        len(record.tree.column),
     )
 
 

@@ -24,6 +24,7 @@ import test_friction
 import test_rails
 import test_statics_closed_forms
 import tree_machines
+from nivel.analysis import preparation
 from nivel.analysis.implicit import find_tangent
 from nivel.integrate import paced as paced_loop
 from nivel.integrate.catalogue import INTEGRATORS
@@ -178,6 +179,12 @@ def test_ways(way, integrator):
 def test_redundant_joints(coordinates):
     for integrator in (EXPLICIT, "generalised-alpha"):
         short(machines.four_bar("revolute", "revolute"), integrator, steps=2, coordinates=coordinates)
+
+
+def test_redundant_joints_by_pivots(monkeypatch):
+    """As where rows do not repeat each other everywhere."""
+    monkeypatch.setattr(preparation, "leave_out", lambda system, rows: None)
+    short(machines.four_bar("revolute", "revolute"), EXPLICIT, steps=2, coordinates="absolute")
 
 
 def test_steps_chosen_by_the_error():

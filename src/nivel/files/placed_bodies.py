@@ -127,8 +127,8 @@ def _placed_shape(shape: Shape, placing: Placement) -> Shape:
         case Capsule():
             return Capsule(radius=shape.radius, length=length(shape), colour=shape.colour)
         case Tube():
-            radii = {"outer_radius": shape.outer_radius, "inner_radius": shape.inner_radius}
-            return Tube(**radii, length=length(shape), colour=shape.colour)
+            own = Tube(outer_radius=shape.outer_radius, inner_radius=shape.inner_radius, length=length(shape))
+            return own.replace(colour=shape.colour)
         case Extrusion():
             return Extrusion(outline=shape.outline, length=length(shape), colour=shape.colour)
 

@@ -80,7 +80,9 @@ class Coordinates(NamedTuple):
     active: U1  # those that constraints, forces or laws need
     start: U1  # (Q + 1,) first part of each, and behind the last
     part_marker: U1  # of each part
-    station: F1  # [m] of each part that is a node of a beam, its place along the unstressed line
+    station: (
+        F1  # [m] of each part that is a node of a beam, its place along the unstressed line; of a wheel, its two radii
+    )
     followed: (
         U1  # those that are measured at every accepted state: angles, to count their turns, and places along beams
     )
@@ -282,7 +284,7 @@ class Saddle(NamedTuple):
     P_column: U1
     P_entry: U1  # ... and where each entry stands in column order
     shift: F1  # (K,) added to the diagonal of S: 1/α of penalty methods, else 0
-    least: F1  # (K,) pivot below which a row moves nothing, in elimination order
+    least: F1  # (K,) pivot below which a row moves nothing, in elimination order; inf: the row repeats others and is left out
     # work
     W: F2  # (N, width)
     G: F3  # (B, width, width) what the formulation needs of each body's mass matrix
@@ -398,7 +400,7 @@ class Partition(NamedTuple):
 class Control(NamedTuple):
     """Numbers that steer an evaluation."""
 
-    rank: U1  # (1,) independent rows
+    rank: U1  # (3,) independent rows; rows that are left out; whether the last factor is pivoted
     # (3,) most iterations of the augmented Lagrangian (1: none), those of all evaluations so far, evaluations since it last converged
     iterations: U1
     stabilise: F1  # (4,) Baumgarte 2α and β²; tolerances of |C|/scale and |Ċ|/scale for the direct correction

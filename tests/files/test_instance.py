@@ -15,7 +15,16 @@ from nivel.machine.forces import FORCES
 from nivel.machine.references import SECTIONS
 
 RECORDS = (Body, Marker, Joint, Gear, Belt, Rack, LinearCoupling, Driver, *FORCES, Sensor)
-TEXTS = {"name", "units", "quantity", "sequence", "file", "surface", "interface"}  # texts that name no element
+TEXTS = {
+    "name",
+    "units",
+    "quantity",
+    "sequence",
+    "file",
+    "surface",
+    "interface",
+    "colour",
+}  # texts that name no element
 
 
 def parts(record, seen):

@@ -8,6 +8,7 @@ import pytest
 import nivel
 
 control = pytest.importorskip("control")
+pytest.importorskip("control.statesp")  # a folder `control` of examples is no library
 CRANE = Path(__file__).parents[2] / "examples" / "crane-control.yaml"
 
 

@@ -67,7 +67,10 @@ def test_constraints_accelerations_and_multipliers_are_those_of_newton_euler(nam
         assert prepared.motion.holds(0.3, y)
         found = numbers(prepared.motion)
         assert prepared.absolute.holds(0.3, same_state(prepared))
-        for a, b in zip(found, numbers(prepared.absolute), strict=True):
+        expected = numbers(prepared.absolute)
+        if name.startswith("redundant"):  # aside of its constraints they contradict each other
+            found, expected = ([each[k] for k in (0, 1, 4)] for each in (found, expected))
+        for a, b in zip(found, expected, strict=True):
             np.testing.assert_allclose(a, b, atol=1e-9 * (1 + np.abs(b).max(initial=0.0)))
 
 

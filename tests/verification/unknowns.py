@@ -230,7 +230,13 @@ class Unknowns:
             np.array([self.derivative(direction) for direction in directions.T]).reshape(directions.shape[::-1]).T
         )
         rows = np.abs(own * widths).max(axis=1, keepdims=True, initial=0.0)
-        return float((np.abs(own @ directions - expected) / np.maximum(rows, 1e-300)).max(initial=0.0))
+        error = np.abs(own @ directions - expected) / np.maximum(rows, 1e-300)
+        return float(np.delete(error, self._slips(), axis=0).max(initial=0.0))
+
+    def _slips(self):
+        """Rows of velocities alone: their values do not change with positions; that they are those of C_q is tested elsewhere."""
+        first, row = self.here.n + self.here.states, self.here.motion.system.record.residual.row
+        return [first + k for k, each in enumerate(row) if each in self.here.motion.system.velocity_rows]
 
     def matrix(self):
         """(matrix of `differentiate` at z, the same for changes of z): its columns are for turns after the change."""

@@ -122,7 +122,7 @@ def _together(system: System, rows: Iterable[int], bodies: Iterable[int]) -> Ite
     sliding = {
         q: int(q if coordinates.what[q, 0] == ALONG else coordinates.what[q, 3])
         for q in terms
-        if coordinates.what[q, 0] >= ALONG
+        if ALONG <= coordinates.what[q, 0] <= TWIST
     }
     if not sliding or not set(rows) <= {row for row, *_ in combination}:
         yield frozenset(bodies)

@@ -178,7 +178,7 @@ ON_PLANE = Combination(
     zero=True,
     effort=("normal_force", "force of the plane on the wheel along its normal"),
 )
-ROLLING = "x, y: of the wheel's centre along the x and y axes of the plane's marker; normal force and friction act on the wheel"
+ROLLING = "x: of the wheel's centre along the x axis of the plane's marker; y: along its y axis; normal force and friction act on the wheel"
 
 ROD = Composition(
     (Combination("distance", ((Measured(DISTANCE), 1.0),), given="distance"),),

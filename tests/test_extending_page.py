@@ -138,6 +138,7 @@ def run(folder, *command):
     return done.stdout
 
 
+@pytest.mark.full
 def test_the_joint_and_the_result_variable_of_the_page_are_there(package):
     out = dict(line.split(" ", 1) for line in run(package, "-c", FOLLOW).splitlines())
     assert float(out["open"]) < 1e-9

@@ -213,7 +213,9 @@ def arc_of_green():
     return end_of_arc(stretch, turn)
 
 
-@pytest.mark.parametrize(("model", "coarse", "order"), [("ancf-cable", 8, 4.0), ("ancf-beam", 32, 2.0)])
+@pytest.mark.parametrize(
+    ("model", "coarse", "order"), [("ancf-cable", 8, 4.0), pytest.param("ancf-beam", 32, 2.0, marks=pytest.mark.full)]
+)
 def test_rolled_up_to_a_circle_with_the_order_of_the_element(model, coarse, order):
     expected = np.zeros(2) if model == "ancf-cable" else arc_of_green()
     errors = [np.linalg.norm(rolled_up(model, elements) - expected) for elements in (coarse, 2 * coarse)]

@@ -8,6 +8,7 @@ centre is its origin.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import Annotated, Any, Final, Literal
 
 import numpy as np
@@ -62,9 +63,9 @@ class _Between(_Coloured):
             raise fault("`from` and `to` are the same point")
         return self
 
+    @abstractmethod
     def _extent(self) -> dict[str, object]:
         """The fields that say how long the shape is when no two points do."""
-        raise NotImplementedError
 
 
 class Box(_Between):

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import ModelError
 from nivel.results.comparison_files import write_text
+from nivel.results.dataset_file import write_dataset
 
 if TYPE_CHECKING:
     import xarray
@@ -137,14 +137,7 @@ class Efforts:
 
     def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:
         """Write the histories as NetCDF. Raises ModelError where the file exists and `force` is not given."""
-        target = Path(path)
-        if target.exists() and not force:
-            raise ModelError(f"the file {target} exists; give another name, or replace it with force")
-        try:
-            self.to_xarray().to_netcdf(target, engine="h5netcdf")
-        except OSError as error:
-            raise ModelError(f"the file {target} cannot be written: {str(error).lower()}") from error
-        return target
+        return write_dataset(self.to_xarray(), path, force=force)
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
         """Write the page: efforts, power, peaks and work."""

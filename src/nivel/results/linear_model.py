@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.results.comparison_files import write_text
+from nivel.results.dataset_file import write_dataset
 
 if TYPE_CHECKING:
     import xarray
@@ -255,14 +256,7 @@ class LinearModel:
 
     def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:
         """Write everything as NetCDF, for `xarray.open_dataset`. Raises ModelError where the file exists and `force` is not given."""
-        target = Path(path)
-        if target.exists() and not force:
-            raise ModelError(f"the file {target} exists; give another name, or replace it with force")
-        try:
-            self.to_xarray().to_netcdf(target, engine="h5netcdf")
-        except OSError as error:
-            raise ModelError(f"the file {target} cannot be written: {str(error).lower()}") from error
-        return target
+        return write_dataset(self.to_xarray(), path, force=force)
 
     def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
         """Write the page of the analysis: eigenvalues, modes, frequency response."""

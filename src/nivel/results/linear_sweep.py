@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from nivel.errors import ModelError
 from nivel.results.comparison_files import write_text
+from nivel.results.dataset_file import write_dataset
 from nivel.results.linear_model import ROUND_OFF, LinearModel
 
 if TYPE_CHECKING:
@@ -148,11 +149,7 @@ class LinearSweep:
 
     def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:
         """Write the numbers as NetCDF. Raises ModelError where the file exists and `force` is not given."""
-        target = Path(path)
-        if target.exists() and not force:
-            raise ModelError(f"the file {target} exists; give another name, or replace it with force")
-        self.to_xarray().to_netcdf(target, engine="h5netcdf")
-        return target
+        return write_dataset(self.to_xarray(), path, force=force)
 
 
 def _distance(before: LinearModel, after: LinearModel, place: NDArray[np.intp]) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
@@ -82,9 +83,9 @@ class Block(Checked):
         """The quantities of a block of this kind, which may be raw data."""
         return cls.quantities
 
+    @abstractmethod
     def computation(self) -> tuple[Part, ...]:
         """The parts of which one is called `self.output`."""
-        raise NotImplementedError
 
     @property
     def parts(self) -> tuple[Part, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, Literal
 
@@ -47,9 +48,9 @@ class OfOneVariable(OfInput):
 
     start: Number = Field(default=0.0, description="value at the start, in a steady state")
 
+    @abstractmethod
     def coefficients(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Numerator and denominator, coefficients of falling powers of s."""
-        raise NotImplementedError
 
     def computation(self) -> tuple[Part, ...]:
         system = of_transfer_function(*self.coefficients())

@@ -159,7 +159,9 @@ def _assembled(equations: StaticEquations, state: Rest, since: Since) -> _System
         by_speed = -parts[1][n + states][:, equations.free].toarray() * equations.length[equations.free]
         laws = np.hstack([-kept.T @ (by_speed / scale[:, None]), kept.T * (size[states] / scale)])
         laws /= np.max(np.abs(laws), axis=1, keepdims=True)
-        change = np.concatenate([since.moved, ((state.y[equations.first_state :][:count] - since.states) / size)[states]])
+        change = np.concatenate(
+            [since.moved, ((state.y[equations.first_state :][:count] - since.states) / size)[states]]
+        )
         matrix = csc_matrix(matrix + _placed(kept @ laws, f, matrix.shape))
         right[own_rows] -= kept @ (laws @ change)
     return _System(matrix, right, unit[chosen], states)

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.looks.poses import upwards
 from nivel.report.beam_shapes import beam_shapes
-from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.report.control_diagram import control_diagram
 from nivel.report.load_path import load_paths, vibration_table
 from nivel.report.panel import Group, Panel

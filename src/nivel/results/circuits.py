@@ -33,6 +33,12 @@ def circuit_items(result: Readable) -> Iterator[Item]:
     yield from _saturation_items(result)
 
 
+def pressures_at(result: Readable, frame: int) -> dict[str, float]:
+    """Pressures of circuits [Pa] in one frame, by the name of the variable."""
+    names = [name for name in result.variables if name.startswith(START) and ".pressure" in name]
+    return {name: float(_history(result, name)[frame]) for name in names}
+
+
 @dataclass(frozen=True)
 class Guard:
     """Steps of a run over circuits, those among them that were made in parts, the parts whose extrapolation was not taken, and the largest

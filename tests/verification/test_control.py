@@ -326,7 +326,9 @@ def test_the_first_transition_that_holds_is_taken_of_several():
     result = simulated(START + SEVERAL)
     k = np.arange(41)  # of samples
     wait, second, first, later = 0.0, 1.0, 2.0, 3.0
-    expected = np.select([k < 6, k < 9, k < 10, k < 13, k < 14, k < 20], [wait, second, wait, second, wait, first], later)
+    expected = np.select(
+        [k < 6, k < 9, k < 10, k < 13, k < 14, k < 20], [wait, second, wait, second, wait, first], later
+    )
     np.testing.assert_array_equal(result["control.choice.state"], expected)
 
 

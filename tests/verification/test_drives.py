@@ -136,7 +136,7 @@ simulation: {duration: 0.1, step: 1 ms, integrator: radau, tolerance: 1e-8, star
 
 
 def test_a_drive_between_two_points_carries_the_moment_of_a_load():
-    """A length between two points is a coordinate too: force m g 2.0/0.6 m, upright under the boom, and torque at the screw over the gear."""
+    """Force m g 2.0/0.6 m, upright under the boom, and torque at the screw by the gear."""
     result = Machine.from_record(parse_machine(ACTUATOR)).simulate()
     force = 300 * 9.81 * 2.0 / 0.6
     assert np.asarray(result["force.drive.magnitude"]) == pytest.approx(force, rel=1e-6)

@@ -36,8 +36,8 @@ def exact_positions():
         ({"integrator": "bdf", "tolerance": 1e-5}, 1e-2),
         pytest.param({"integrator": "bdf", "tolerance": 1e-7}, 1e-4, marks=pytest.mark.full),
         ({"integrator": "generalised-alpha", "step": 5e-5}, 1e-3),
-        ({"integrator": "hht", "step": 5e-5}, 1e-3),
-        ({"integrator": "newmark", "step": 5e-5}, 1e-3),
+        pytest.param({"integrator": "hht", "step": 5e-5}, 1e-3, marks=pytest.mark.full),
+        pytest.param({"integrator": "newmark", "step": 5e-5}, 1e-3, marks=pytest.mark.full),
     ],
     ids=lambda each: each["integrator"] if isinstance(each, dict) else "",
 )

@@ -85,8 +85,8 @@ def _job(entry: Entry) -> dict[str, Any]:
     return job_of(entry, [(str(_path(entry)), None)])
 
 
-def job_of(entry: Entry, targets: list[tuple[str, tuple[str, str] | None]]) -> dict[str, Any]:
-    """What a worker is told: the files to write, each with the name and features of a processor, or for this one."""
+def job_of(entry: Entry, targets: list[tuple[str, tuple[str, str, str] | None]]) -> dict[str, Any]:
+    """What a worker is told: the files to write, each with what LLVM compiles for (processor, features, system), or for this one."""
     sources = fingerprint(entry.name.partition(":")[0])
     return {"entry": entry.name, "symbol": entry.symbol, "sources": sources, "targets": targets}
 

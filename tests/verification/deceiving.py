@@ -101,6 +101,48 @@ def gaussian(width):
     return Deceiving(f"gaussian-of-{width:g}-s", machine, "slide.position.x", exact)
 
 
+def glitch():
+    """A push of 10 N, and a small one of 1 N more within 20 µs, which is nothing in its impulse; harmless within 0.3 s."""
+
+    def machine(harmless):
+        w = 0.3 if harmless else 2e-5
+        return slide(f"10 + exp(-((time - 1.2003)/{w!r})**2)")
+
+    def exact(time, harmless):
+        w = 0.3 if harmless else 2e-5
+
+        def integral(t):
+            u = (t - 1.2003) / w
+            return 0.5 * np.sqrt(np.pi) * w * (w * (u * erf(u) + np.exp(-(u**2)) / np.sqrt(np.pi)))
+
+        rest = 0.5 * np.sqrt(np.pi) * w * erf(-1.2003 / w)  # of the speed at t = 0
+        return 0.5 + 5.0 * time**2 + integral(time) - integral(0.0) - rest * time
+
+    return Deceiving("glitch-of-a-push", machine, "slide.position.x", exact)
+
+
+def narrow_drag():
+    """A push of 10 N, at speeds within 5 mm/s of 3 m/s almost none, in steps of 5 ms; harmless within 1 m/s."""
+    width = {False: 0.005, True: 1.0}
+
+    def machine(harmless):
+        record = slide(f"10 - 9.5*exp(-((slide.vx - 3)/{width[harmless]})**2)", duration=1.0)
+        return record.replace(simulation=record.simulation.replace(step=5e-3))
+
+    @cache
+    def solution(harmless):
+        def rates(_t, y):
+            return y[1], 10.0 - 9.5 * np.exp(-(((y[1] - 3.0) / width[harmless]) ** 2))
+
+        options = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-12, "max_step": 1e-3, "dense_output": True}
+        return solve_ivp(rates, (0.0, 1.0), (0.5, 0.0), **options).sol
+
+    def exact(time, harmless):
+        return solution(harmless)(time)[0]
+
+    return Deceiving("narrow-drag", machine, "slide.position.x", exact)
+
+
 def hum():
     """4 kHz from the first moment on: it leaves a mean speed of A/(m ω)."""
     pace = {False: 2.0 * np.pi * 4000.0, True: 2.0 * np.pi * 2.0}
@@ -386,6 +428,8 @@ KINDS = (
     *(pulse(width) for width in (0.4, 2e-2, 1e-3, 2e-5)),
     gaussian(1e-2),
     gaussian(2e-5),
+    glitch(),
+    narrow_drag(),
     hum(),
     wall(),
     far(1e7),

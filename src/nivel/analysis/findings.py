@@ -14,10 +14,12 @@ from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared
 from nivel.analysis.second_run import Verified
 from nivel.integrate.run import TURNED
+from nivel.results.accuracy import error_from_finer
 from nivel.results.bending import ModalBody, fastest_unstiffened, most_bent
 from nivel.results.estimate import Estimate
 from nivel.results.findings import Findings
 from nivel.results.result import Result
+from nivel.results.scales import machine_size
 from nivel.results.second_look import damped, growth, own_error
 from nivel.results.steps_seen import largest_turn, rounding
 from nivel.results.unseen import Unseen
@@ -54,7 +56,18 @@ def find(
         unstiffened=fastest_unstiffened(result, bending),
         bent=most_bent(result, bending),
         method=settings.integrator,
+        agreed=_agreed(result, verified) if verified is not None else None,
     )
+
+
+def _agreed(result: Result, verified: Verified) -> float:
+    """By what two runs are apart, as a share of the path of the body that moves farthest, or of the machine's size where that is more."""
+    apart = error_from_finer(result, verified.result, verified.refinement.left).value
+    size = machine_size(result)[0]
+    if "position" not in result.variables:
+        return apart / size
+    paths = np.linalg.norm(np.ptp(result.array("position"), axis=0), axis=-1)
+    return apart / max(size, float(np.max(np.nan_to_num(paths), initial=0.0)))
 
 
 def _bending(plan: Plan) -> list[ModalBody]:
@@ -76,5 +89,6 @@ def _unseen(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result
         return []
     settings = plan.settings
     step = settings.step if settings.steps else None
-    steps = steps_of(finished.pace, settings.duration, step, () if step else corners(plan.machine))
+    ends = corners(plan.machine) if step is None or prepared.integrator.knows_corners else ()
+    steps = steps_of(finished.pace, settings.duration, step, ends)
     return list(unseen_loads(plan.machine, result, steps.until(end), prepared.integrator))

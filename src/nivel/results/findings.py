@@ -13,6 +13,8 @@ from nivel.results.unseen import Unseen
 from nivel.results.verdicts import CHECKS, Item, Threshold, number, quantity
 
 SHOWN = 5  # functions of which each has a line
+# What is hidden between the places where steps look counts above so many times what two runs are apart by, and this share of a load.
+BEYOND_AGREED, LEAST_HIDDEN = 10.0, 1e-10
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,7 @@ class Fast:
 @dataclass(frozen=True)
 class Findings:
     """Each None, or empty, where it was not looked at; see the modules of their types. unseen : by steps. between : samples, of functions
-    that are sampled. method : the integrator."""
+    that are sampled. method : the integrator. agreed : what two runs are apart by, as a share of the largest motion."""
 
     unseen: Sequence[Unseen] = ()
     between: Sequence[Unseen] = ()
@@ -52,11 +54,12 @@ class Findings:
     passages: Sequence[Passage] = ()
     bent: Bent | None = None
     method: str = ""
+    agreed: float | None = None
 
 
 def finding_items(found: Findings) -> Iterator[Item]:
     """The lines of what is not green."""
-    yield from _unseen_items(found.unseen)
+    yield from _unseen_items(found.unseen, found.agreed)
     yield from _sampling_items(found.between)
     if found.turn is not None:
         yield from _told(_turn_item(found.turn))
@@ -89,13 +92,24 @@ def _measured(
     return Item(name, verdict, f"{text} ({threshold})", value, threshold.green, threshold.amber, row, time)
 
 
-def _unseen_items(unseen: Sequence[Unseen]) -> Iterator[Item]:
-    told = sorted((each for each in unseen if not each.share < CHECKS["loads"].green), key=lambda each: -each.share)
+def _unseen_items(unseen: Sequence[Unseen], agreed: float | None) -> Iterator[Item]:
+    told = sorted((each for each in unseen if _is_missed(each, agreed)), key=lambda each: -each.share)
     for each in told[:SHOWN]:
         by = "" if each.of == "time" else f" along {each.of}"
         said = f"the steps miss {number(min(each.share, 1.0))} of {each.name} at t = {each.time:.6g} s, where it changes{by} within"
         advice = f"{number(each.scale)} s, in steps of {number(each.step)} s; take steps of {number(min(each.scale, each.step) / 10.0)} s"
-        yield _measured("loads", f"Loads: {said} {advice}", each.share, each.time, each.name)
+        if each.share < CHECKS["loads"].green:
+            much = f"that is {number(each.hidden)} of it over the whole run, more than two runs are apart by, and neither need see it"
+            yield Item("loads", "amber", f"Loads: {said} {advice} ({much})", each.share, row=each.name, time=each.time)
+        else:
+            yield _measured("loads", f"Loads: {said} {advice}", each.share, each.time, each.name)
+
+
+def _is_missed(each: Unseen, agreed: float | None) -> bool:
+    """Whether a load is missed by much, or by more than a headline that two runs agree on allows."""
+    if not each.share < CHECKS["loads"].green:
+        return True
+    return agreed is not None and each.hidden > BEYOND_AGREED * max(agreed, LEAST_HIDDEN)
 
 
 def _sampling_items(between: Sequence[Unseen]) -> Iterator[Item]:

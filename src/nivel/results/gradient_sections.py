@@ -45,10 +45,11 @@ def _beam(beam: Beam, v: Array) -> Felt:
     energy = 0.5 * np.einsum("tpi,tpi,p->t", strain, stress, weight)
     Y, Z = v[:, :, 2], v[:, :, 3]
     squares = 0.5 * np.sum(Y * Y, axis=-1) - 0.5, 0.5 * np.sum(Z * Z, axis=-1) - 0.5, np.sum(Y * Z, axis=-1)
-    half = 0.5 * lengths_of(beam)
-    of_node = np.append(half, 0.0) + np.append(0.0, half)
-    for share, value in zip(section_stiffness(C), squares, strict=True):
-        energy = energy + 0.5 * share * (value**2 @ of_node)
+    for length in np.unique(lengths_of(beam)).tolist():
+        of_element = np.where(lengths_of(beam) == length, 0.5 * length, 0.0)
+        of_node = np.append(of_element, 0.0) + np.append(0.0, of_element)
+        for share, value in zip(section_stiffness(C, length), squares, strict=True):
+            energy = energy + 0.5 * share * (value**2 @ of_node)
     return Felt(_share(beam, now.share[0]), weight, strain, stress, energy)
 
 

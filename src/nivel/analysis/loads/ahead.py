@@ -13,8 +13,8 @@ from nivel.machine.machine_record import MachineRecord
 Array = NDArray[np.float64]
 # samples in one of the PARTS of a run
 SAMPLES = 16
-# Within a step a function changes by this share of its range at most: some six steps a period.
-CHANGE = 1.0
+# Within a step a function changes by this share of its range at most: six steps a period.
+CHANGE = 0.5
 # Bounds beyond the samples by this share of the range are looked into by so many halvings, so many intervals at once.
 BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 16, 4096
 
@@ -43,7 +43,8 @@ def allowed_steps(machine: MachineRecord, duration: float) -> Array:
         span = float(np.ptp(seen))
         moving = steepest * duration > span * (1.0 + 1e-9)
         allowed[moving] = np.minimum(allowed[moving], CHANGE * span / steepest[moving])
-    return _ending_before(allowed, duration / PARTS)
+    part = duration / PARTS
+    return _ending_before(_beside(allowed, part), part)
 
 
 def with_features(curve: Curve, time: Array, values: Array) -> tuple[Array, Array]:
@@ -72,6 +73,16 @@ def with_features(curve: Curve, time: Array, values: Array) -> tuple[Array, Arra
         begin, width = np.concatenate([begin, middle]), np.tile(0.5 * width, 2)
         low, high = np.tile(low, 2), np.tile(high, 2)
     return time, values
+
+
+def _beside(allowed: Array, part: float) -> Array:
+    """No more than what is allowed in any part nearer than a step of that length: the top of a sine is as fast as its sides."""
+    out = allowed.copy()
+    for k in np.flatnonzero(np.isfinite(allowed)):
+        reach = int(allowed[k] / part)
+        near = slice(max(0, k - reach), k + reach + 1)
+        out[near] = np.minimum(out[near], allowed[k])
+    return out
 
 
 def _ending_before(allowed: Array, part: float) -> Array:

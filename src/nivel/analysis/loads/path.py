@@ -40,12 +40,15 @@ class Steps:
 
 
 def steps_of(pace: Array, duration: float, step: float | None, corners: tuple[float, ...] = ()) -> Steps:
-    """The steps of a run up to `duration` [s]. step [s] : a fixed one. pace : of `Run`, for steps that were chosen; they end at `corners`
-    [s], and are as long as the shortest one at that time: a method that goes so far down has seen what there is."""
+    """The steps of a run up to `duration` [s]. step [s] : a fixed one. Steps end at `corners` [s] too. pace : of `Run`, for
+    steps that were chosen; they are as long as the shortest one at that time: a method that goes so far down has seen what there is."""
     if step is not None:
         count = max(1, int(np.ceil(duration / step * (1.0 - 1e-12))))
         stride = -(-count // MOST_STEPS)
         begin = step * np.arange(0, count, stride, dtype=np.float64)
+        if corners and stride == 1:
+            ends = np.unique(np.append(begin, [t for t in corners if t < duration]))
+            return Steps(ends, np.diff(ends, append=count * step))
         return Steps(begin, np.full(len(begin), step))
     part = duration / PARTS
     taken = np.where(np.isfinite(pace[LEAST]), pace[LEAST], part)

@@ -75,12 +75,21 @@ def _certainly_independent(motion: MotionEquations) -> bool:
 
 def scaled_jacobian(motion: MotionEquations, modes: ModalRows | None = None) -> Array:
     """C_q with lengths in units of the machine's length and rows of unit length; the columns of modes behind the others."""
-    J = motion.jacobian().reshape(motion.system.machine_rows, -1, 6).copy()
-    J[:, :, :3] *= motion.system.size
-    J = J.reshape(len(J), -1)
+    J = _in_lengths(motion)
     if modes is not None:
         J = np.hstack([J, modes.columns(motion)])
     return J / np.linalg.norm(J, axis=1, keepdims=True)
+
+
+def row_lengths(motion: MotionEquations) -> Array:
+    """(rows,) lengths of the rows of C_q, lengths in units of the machine's length."""
+    return np.linalg.norm(_in_lengths(motion), axis=1)
+
+
+def _in_lengths(motion: MotionEquations) -> Array:
+    J = motion.jacobian().reshape(motion.system.machine_rows, -1, 6).copy()
+    J[:, :, :3] *= motion.system.size
+    return J.reshape(len(J), -1)
 
 
 def dependent_rows(J: Array) -> tuple[list[int], Array]:

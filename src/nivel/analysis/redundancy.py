@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -179,7 +180,8 @@ def _held_directions(J: Array) -> Array:
 
     if not len(J):
         return np.zeros((J.shape[1], 0))
-    Q, R, _ = qr(J.T, mode="economic", pivoting=True)
+    factors: Any = qr(J.T, mode="economic", pivoting=True)
+    Q, R, _ = factors
     return Q[:, np.abs(np.diag(R)) > DEPENDENT]
 
 

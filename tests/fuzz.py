@@ -86,7 +86,7 @@ PIECES = (
 
 def machine_files(rng: random.Random, folder: Path) -> Callable[[], object]:
     """An example with some of its tokens, lines or letters changed, loaded and checked."""
-    source = rng.choice(sorted((ROOT / "examples").glob("*.yaml")))
+    source = rng.choice(sorted((ROOT / "examples").rglob("*.yaml")))
     lines = source.read_text(encoding="utf-8").splitlines()
     for _ in range(rng.randint(1, 4)):
         k = rng.randrange(len(lines))

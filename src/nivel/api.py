@@ -230,13 +230,11 @@ class Machine(Model):
         limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
         chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
+        self._refuse_target(out, force)
         compile_seconds = build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
         from nivel.analysis.simulate import simulate
-        from nivel.results.target import keep_sources
 
-        if out is not None and self.origin.file:
-            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
         with chosen._faults_in_file():
             return simulate(
                 plan,
@@ -375,13 +373,11 @@ class Machine(Model):
         neutral, chosen = for_statics(self.record, settings)
         with self._faults_in_file():
             methods = methods_of(neutral, "newton-euler", chosen)
+        self._refuse_target(out, force)
         compile_seconds = build(statics_entries(methods), listener)
         # what follows takes longer to import
         from nivel.analysis.statics.run import statics
-        from nivel.results.target import keep_sources
 
-        if out is not None and self.origin.file:
-            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
         with self._faults_in_file():
             return statics(
                 self.record,
@@ -425,19 +421,17 @@ class Machine(Model):
         settings = kinematics_settings(self.record, {**given, "coordinates": coordinates})
         with self._faults_in_file():
             refuse_what_bends(self.record)
-            build(assembly_entries(self.record), listener or Listener())
+            build(assembly_entries(self.record), listener)
             from nivel.analysis.kinematics.drive import driven
 
             machine, settings = driven(self.record, settings)
             plain, chosen = neutral(machine, settings.coordinates)
             methods = methods_of(plain, "newton-euler", chosen)
-        compile_seconds = build(kinematics_entries(methods), listener or Listener())
+        self._refuse_target(out, force)
+        compile_seconds = build(kinematics_entries(methods), listener)
         # what follows takes longer to import
         from nivel.analysis.kinematics.run import kinematics
-        from nivel.results.target import keep_sources
 
-        if out is not None and self.origin.file:
-            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
         with self._faults_in_file():
             return kinematics(
                 machine,
@@ -471,7 +465,7 @@ class Machine(Model):
         settings = kinematics_settings(
             self.record, {"drive": coordinate, "end": 0.0, "positions": positions, "coordinates": coordinates}
         )
-        build(assembly_entries(self.record), listener or Listener())
+        build(assembly_entries(self.record), listener)
         with self._faults_in_file():
             from nivel.analysis.kinematics.drive import present_value
 
@@ -525,7 +519,7 @@ class Machine(Model):
 
             plain, _ = neutral(without_actuators(record, settings), "absolute")
             methods = methods_of(plain, "newton-euler", "absolute")
-        build(linear_entries(methods), listener or Listener())
+        build(linear_entries(methods), listener)
         if motion is None:
             followed = Machine.from_record(record, self.origin).kinematics(positions=positions, listener=listener)
         else:
@@ -552,7 +546,7 @@ class Machine(Model):
             refuse_jumps(self.record)
             plain, chosen = neutral(self.record, coordinates or "auto")
             methods = methods_of(plain, "newton-euler", chosen)
-        build(linear_entries(methods), listener or Listener())
+        build(linear_entries(methods), listener)
         from nivel.analysis.inverse.mechanics import Mechanics
         from nivel.analysis.moment import at_start
 
@@ -656,7 +650,7 @@ class Machine(Model):
         if settings.time > 0.0:
             run = self.with_settings({"duration": settings.time})._plan(())
             entries += run_entries(run)
-        build(entries, listener or Listener())
+        build(entries, listener)
         # what follows takes longer to import
         from nivel.analysis.linearise.run import linearise
         from nivel.analysis.moment import run_until
@@ -718,6 +712,14 @@ class Machine(Model):
         meet the beams that they slide along."""
         with self._faults_in_file():
             return plan_run(self.record, given)
+
+    def _refuse_target(self, out: str | PathLike[str] | None, force: bool) -> None:
+        """Refuse a result file that cannot be written, before anything is compiled. Raises ModelError."""
+        from nivel.results.target import check_target  # results take long to import
+
+        if out is not None:
+            sources = [Path(self.origin.file)] if self.origin.file else []
+            check_target(Path(fspath(out)), "result file", force=force, sources=sources)
 
     @contextmanager
     def _faults_in_file(self) -> Iterator[None]:

@@ -238,7 +238,7 @@ def test_nothing_is_computed_for_a_path_that_cannot_work(tmp_path):
     assert (tmp_path / "there.nc").stat().st_size == 0
     with pytest.raises(ModelError, match="cannot be written: file name too long"):
         Store(tmp_path / f"{'x' * 300}.nc")
-    with pytest.raises(ModelError, match="there is no folder"):
+    with pytest.raises(ModelError, match="cannot be written: file name too long"):
         Store(tmp_path / ("x" * 300) / "run.nc")
 
 

@@ -291,7 +291,10 @@ class _Start:
             matrix = None if rate is None else self._matrix(free, scale, rate)
             if rate is None or matrix is None:
                 break
-            change = np.linalg.solve(np.eye(len(free)) / step - matrix, rate - (self.y - before)[places] / step)
+            try:
+                change = np.linalg.solve(np.eye(len(free)) / step - matrix, rate - (self.y - before)[places] / step)
+            except np.linalg.LinAlgError:  # singular for this step; for a shorter one it is not
+                break
             self.y[places] += change
             if np.all(np.abs(change) <= CLOSE * scale):
                 return True

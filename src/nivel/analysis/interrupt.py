@@ -1,4 +1,4 @@
-"""Ctrl-C during a compiled loop: remembered, and looked at between two chunks."""
+"""Signals during a compiled loop: remembered, and looked at between two chunks; SIGTERM is obeyed when results are closed."""
 
 from __future__ import annotations
 
@@ -7,6 +7,9 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import Final
+
+TERMINATED: Final = 128 + signal.SIGTERM  # exit code, as of shells
 
 
 @contextmanager
@@ -14,9 +17,12 @@ def interruptible() -> Iterator[Callable[[], bool]]:
     """Yields a function that tells whether Ctrl-C (or SIGTERM) came. Outside the main thread nothing is caught."""
     came = False
 
-    def remember(_signal: int, _frame: FrameType | None) -> None:
+    def remember(number: int, frame: FrameType | None) -> None:
         nonlocal came
         came = True
+        outer = before[number]
+        if number == signal.SIGTERM and callable(outer):
+            outer(number, frame)
 
     if threading.current_thread() is not threading.main_thread():
         yield lambda: False
@@ -27,3 +33,29 @@ def interruptible() -> Iterator[Callable[[], bool]]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+@contextmanager
+def terminable() -> Iterator[None]:
+    """SIGTERM ends the program, by SystemExit, when the block is left and not inside it; a handler of the program is called instead.
+
+    Outside the main thread, and where the program ignores SIGTERM, nothing is done.
+    """
+    came = False
+
+    def remember(_number: int, _frame: FrameType | None) -> None:
+        nonlocal came
+        came = True
+
+    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) is signal.SIG_IGN:
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, remember)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+        if came and callable(before):
+            before(signal.SIGTERM, None)
+        elif came:
+            raise SystemExit(TERMINATED)

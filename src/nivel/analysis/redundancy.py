@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +15,8 @@ from nivel.system.system import Array
 
 # Rows count as dependent below this share of their length: assembled machines are closed to about 1e-12.
 DEPENDENT = 1e-8
+# Singular values of unit rows from which on rows are certainly independent, whatever the round-off in J Jᵀ.
+NEARLY = 1e-4
 # Pivots of S above this share of their diagonal prove independence without a closer look.
 CERTAIN = 1e-9
 # Two positions this far apart (share of the machine's length, radians) tell a singular position from a redundant machine.
@@ -75,12 +78,21 @@ def _certainly_independent(motion: MotionEquations) -> bool:
 
 def scaled_jacobian(motion: MotionEquations, modes: ModalRows | None = None) -> Array:
     """C_q with lengths in units of the machine's length and rows of unit length; the columns of modes behind the others."""
-    J = motion.jacobian().reshape(motion.system.machine_rows, -1, 6).copy()
-    J[:, :, :3] *= motion.system.size
-    J = J.reshape(len(J), -1)
+    J = _in_lengths(motion)
     if modes is not None:
         J = np.hstack([J, modes.columns(motion)])
     return J / np.linalg.norm(J, axis=1, keepdims=True)
+
+
+def row_lengths(motion: MotionEquations) -> Array:
+    """(rows,) lengths of the rows of C_q, lengths in units of the machine's length."""
+    return np.linalg.norm(_in_lengths(motion), axis=1)
+
+
+def _in_lengths(motion: MotionEquations) -> Array:
+    J = motion.jacobian().reshape(motion.system.machine_rows, -1, 6).copy()
+    J[:, :, :3] *= motion.system.size
+    return J.reshape(len(J), -1)
 
 
 def dependent_rows(J: Array) -> tuple[list[int], Array]:
@@ -88,8 +100,7 @@ def dependent_rows(J: Array) -> tuple[list[int], Array]:
 
     The rows without the last of each combination that vanishes are the first independent ones: they are found from the end.
     """
-    U, sizes, _ = np.linalg.svd(J)
-    N = U[:, int(np.sum(sizes > DEPENDENT)) :]
+    N = _vanishing(J)
     surplus = N.shape[1]
     basis, count, left = np.zeros((surplus, surplus)), 0, np.zeros(len(J))
     for k in range(len(J) - 1, -1, -1):
@@ -103,12 +114,29 @@ def dependent_rows(J: Array) -> tuple[list[int], Array]:
     return sorted(np.argsort(-left, kind="stable")[:surplus].tolist()), N
 
 
+def _vanishing(J: Array) -> Array:
+    """(rows, surplus) left singular vectors of J (unit rows) whose singular values are at most DEPENDENT.
+
+    Eigenvectors of J Jᵀ of eigenvalues up to NEARLY² span them and few others. Round-off ε turns that space towards a vector of singular
+    value σ by ε/σ², which adds at most ε/NEARLY to its own singular values: far below DEPENDENT.
+    """
+    from scipy.linalg import eigh
+
+    if not len(J):
+        return np.zeros((0, 0))
+    _, V = eigh(J @ J.T, subset_by_value=(-np.inf, NEARLY**2))
+    U, sizes, _ = np.linalg.svd(V.T @ J, full_matrices=V.shape[1] > J.shape[1])
+    small = np.concatenate([sizes, np.zeros(U.shape[1] - len(sizes))]) <= DEPENDENT
+    return V @ U[:, small]
+
+
 def _rank_nearby(motion: MotionEquations, t: float, y: Array, rank: int, modes: ModalRows | None) -> int:
     """Rank a little aside along a free motion of the rigid machine, joints closed again: larger than `rank` where only this position is
     singular."""
     if aside(motion, t, y, ASIDE, seed=0, closed=False) is None:
         return rank
-    return max(rank, int(np.sum(np.linalg.svd(scaled_jacobian(motion, modes), compute_uv=False) > ASIDE**2)))
+    J = scaled_jacobian(motion, modes)
+    return max(rank, int(np.sum(np.linalg.eigvalsh(J @ J.T) > ASIDE**4)))
 
 
 def aside(motion: MotionEquations, t: float, y: Array, far: float, *, seed: int, closed: bool = True) -> Array | None:
@@ -120,7 +148,9 @@ def aside(motion: MotionEquations, t: float, y: Array, far: float, *, seed: int,
     system = motion.system
     motion.evaluate(t, y)
     J = scaled_jacobian(motion)
-    share = _free_part(J, np.random.default_rng(seed).standard_normal(J.shape[1]))
+    held = _held_directions(J)
+    change = np.random.default_rng(seed).standard_normal(J.shape[1])
+    share = _free_part(held, change)
     length = float(np.linalg.norm(share))
     if not length > DEPENDENT * np.sqrt(J.shape[1]):
         return None
@@ -134,7 +164,7 @@ def aside(motion: MotionEquations, t: float, y: Array, far: float, *, seed: int,
     is_closed = close_positions(motion, t, found)
     reached = change_between(y[: system.positions], found[: system.positions])
     reached[:, :3] /= system.size
-    way = np.linalg.norm(_free_part(J, reached.ravel()) - share)
+    way = np.linalg.norm(_free_part(held, reached.ravel()) - share)
     if closed:
         return found if is_closed and way < 0.5 * far else None
     if not is_closed or way > 0.1 * far:
@@ -144,6 +174,18 @@ def aside(motion: MotionEquations, t: float, y: Array, far: float, *, seed: int,
     return found
 
 
-def _free_part(J: Array, change: Array) -> Array:
-    """The part of a change that no row of J feels."""
-    return change - np.linalg.lstsq(J, J @ change, rcond=DEPENDENT)[0]
+def _held_directions(J: Array) -> Array:
+    """(n, rank) orthonormal: the directions that rows of J feel."""
+    from scipy.linalg import qr
+
+    if not len(J):
+        return np.zeros((J.shape[1], 0))
+    factors: Any = qr(J.T, mode="economic", pivoting=True)
+    Q, R, _ = factors
+    return Q[:, np.abs(np.diag(R)) > DEPENDENT]
+
+
+def _free_part(held: Array, change: Array) -> Array:
+    """The part of a change that is in no direction that is held."""
+    left = change - held @ (held.T @ change)
+    return left - held @ (held.T @ left)

@@ -13,6 +13,7 @@ from nivel.analysis.fastest import too_long
 from nivel.analysis.findings import find
 from nivel.analysis.held_friction import resting_frictions
 from nivel.analysis.history import SECANT
+from nivel.analysis.interrupt import terminable
 from nivel.analysis.listener import Listener
 from nivel.analysis.plan import Plan
 from nivel.analysis.preparation import Prepared, prepare
@@ -58,7 +59,8 @@ def simulate(
     compile_seconds : what was spent on compiling before, for the result's timing.
     verify : a second run goes beside this one, with finer steps on other times, and its distance tells how exact this one is; it goes on
     after it for `verify_limit` [s] at most, by default as long again as it took.
-    Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails.
+    Raises ModelError before anything is computed, SolveError (with the result so far) when the computation fails, SystemExit where SIGTERM
+    came, with the result closed.
     """
     listener = listener or Listener()
     sink = Memory() if out is None else Store(out, force)
@@ -67,7 +69,8 @@ def simulate(
     prepared = prepare(plan.methods)
     second = SecondRun(plan, verify_limit) if verify else None
     try:
-        return _run(plan, prepared, sink, second, source, listener, begin, compile_seconds)
+        with terminable():
+            return _run(plan, prepared, sink, second, source, listener, begin, compile_seconds)
     finally:
         if second is not None:
             second.cancel()

@@ -13,7 +13,7 @@ import numpy as np
 
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.freedoms import LARGEST
-from nivel.analysis.redundancy import DEPENDENT
+from nivel.analysis.redundancy import dependent_rows, row_lengths, scaled_jacobian
 from nivel.system.system import Array
 
 # a component that changes by less than this share of the largest change does not: shares are 0.1 and more, or round-off
@@ -59,13 +59,8 @@ def unique_reactions(motion: MotionEquations) -> tuple[ReactionFacts, ...]:
 
 def _free_multipliers(motion: MotionEquations) -> Array:
     """(K, k) multipliers without any effect, lengths and moments in units of the machine's length."""
-    J = motion.jacobian().reshape(motion.system.machine_rows, -1, 6).copy()
-    J[:, :, :3] *= motion.system.size
-    J = J.reshape(len(J), -1)
-    length = np.linalg.norm(J, axis=1)
-    U, sizes, _ = np.linalg.svd(J / length[:, None])
-    rank = int(np.sum(sizes > DEPENDENT))
-    return U[:, rank:] / length[:, None]
+    _, N = dependent_rows(scaled_jacobian(motion))
+    return N / row_lengths(motion)[:, None]
 
 
 def _wrenches(motion: MotionEquations, k: int) -> tuple[Array, tuple[int, int]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from os import PathLike
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -32,6 +33,7 @@ from nivel.machine import MachineRecord
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
+from nivel.results.target import check_target
 
 Array = NDArray[np.float64]
 FRAMES_AT_ONCE: Final = 32
@@ -76,6 +78,8 @@ def replay(
     """
     if not take.ticks:
         raise ModelError("this take has no tick: there is nothing to replay")
+    if out is not None:
+        check_target(Path(out), "result file", force=force)
     plan = plan_run(recording.machine)
     compile_seconds = build([*run_entries(plan), drive], listener)
     again = prepared_run(plan, recording.pace)

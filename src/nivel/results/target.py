@@ -11,13 +11,14 @@ from nivel.errors import ModelError
 
 
 def check_target(path: Path, what: str, *, force: bool, sources: Iterable[Path] = ()) -> None:
-    """Refuse to write `what` ("result file", "report", …) to `path` where that would destroy something.
+    """Refuse to write `what` ("result file", "report", …) to `path` where that cannot be done or would destroy something.
 
-    An existing file is replaced with `force` only; what is not a regular file, and what is one of the files `sources`
-    under any name, never is. Raises ModelError.
+    The folder has to be there and to take files. An existing file is replaced with `force` only; what is not a regular file, and what is
+    one of the files `sources` under any name, never is. Raises ModelError.
     """
     found = status(path, what)
     if found is None:
+        _check_folder(path, what)
         return
     if stat.S_ISDIR(found.st_mode):
         raise ModelError(f"{path} is a folder; the name of a {what} was expected")
@@ -26,9 +27,10 @@ def check_target(path: Path, what: str, *, force: bool, sources: Iterable[Path] 
     keep_sources(path, what, sources)
     if not force:
         raise ModelError(f"the {what} {path} exists already; it is replaced with --force (in Python: force=True)")
+    _check_folder(path, what)
 
 
-def check_folder(path: Path, what: str) -> None:
+def _check_folder(path: Path, what: str) -> None:
     """Refuse to write `what` to `path` where its folder is none, or may not be written into. Raises ModelError."""
     folder = path.parent
     if not os.path.exists(folder):  # Path.exists raises where the name is too long
@@ -40,9 +42,8 @@ def check_folder(path: Path, what: str) -> None:
 
 
 def check_text_target(path: Path, what: str, *, force: bool, sources: Iterable[Path] = ()) -> None:
-    """As `check_target`, and refuse where a text cannot be written to `path`: what was computed for it would be lost. Raises ModelError."""
+    """As `check_target`, for a text that is written into the file that stands at `path`. Raises ModelError."""
     check_target(path, what, force=force, sources=sources)
-    check_folder(path, what)
     if path.exists() and not os.access(path, os.W_OK):
         raise ModelError(f"the {what} {path} cannot be written: permission denied")
 

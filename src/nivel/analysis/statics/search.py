@@ -106,6 +106,8 @@ def _settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Fo
         state = _descend(equations, state)
     except StateError:
         raise EquilibriumError("a force, or the state, is not a number", state) from None
+    except PivotError:
+        raise EquilibriumError("its equations are singular to round-off", state) from None
     return equilibrate(equations, state, iteration)
 
 

@@ -23,6 +23,7 @@ import { World } from "./stage/world";
 import { Coordinates } from "./ui/coordinates";
 import { Display } from "./ui/display";
 import { el, short } from "./ui/dom";
+import { Circuit } from "./ui/circuit";
 import { Inspector } from "./ui/inspector";
 import { Legend } from "./ui/legend";
 import { helpDialog, listenToKeys } from "./ui/keys";
@@ -54,6 +55,7 @@ export class App {
   private readonly timeline: Timeline | null = null;
   private readonly tree: Tree;
   private readonly inspector: Inspector;
+  private readonly circuit: Circuit | null;
   private readonly coordinates: Coordinates | null = null;
   readonly live: Live | null = null;
   private trails: Trails | null = null;
@@ -106,6 +108,7 @@ export class App {
     const ghostTime = this.ghosts[0]?.motion.time ?? null;
     const times = { main: this.motion?.time ?? new Float64Array(), ghost: ghostTime, ghostTitle: others[0]?.title ?? "", isPath: !!this.motion?.load };
     this.plots = new Plots(columns, times, (time) => this.goTo(time), () => this.inspector?.refresh(), (time) => this.motion?.says(time, short) ?? short(time));
+    this.circuit = stage.circuit ? new Circuit(stage.circuit, columns, this.plots) : null;
     this.inspector = new Inspector(stage, columns, this.plots, this.traces, {
       follow: () => this.followOrFit(),
       isFollowed: (picked) => this.follower.name === picked.name,
@@ -143,6 +146,7 @@ export class App {
       this.live = live;
       this.hand = hand;
     }
+    if (this.circuit) this.inspector.put(this.circuit.element);
     const data = el("div", {}, this.live?.panel ?? null, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;
     this.panels = new Panels(stage, others, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? this.live?.bar ?? null, this.status, () => this.dialog.showModal());
@@ -185,6 +189,7 @@ export class App {
     this.timeline?.tick();
     this.plots.moveTo(player.time);
     this.inspector.moveTo(player.frame);
+    this.circuit?.moveTo(player.frame);
   }
 
   /** A frame from the server; it is acknowledged when it is drawn. */

@@ -175,7 +175,7 @@ def _guard(finished: RunOutcome, prepared: Prepared) -> Guard | None:
     if not (guards and prepared.motion.system.nodes):
         return None
     timing = finished.timing
-    return Guard(int(timing["steps"]), int(timing["guarded"]), timing["pressure_difference"])
+    return Guard(int(timing["steps"]), int(timing["rejected"]), int(timing["guarded"]), timing["pressure_difference"])
 
 
 def _small_states(result: Result, prepared: Prepared, machine: MachineRecord) -> tuple[SmallState, ...]:

@@ -28,7 +28,7 @@ def command(machine: str, overrides: dict[str, str], allow_code: bool, circuit: 
     loaded = load(machine, overrides, allow_code=allow_code)
     facts = loaded.check(listener=Listener(lambda text, _total: click.echo(text, err=True)))
     if circuit is not None:
-        from nivel.report.circuit.drawing import circuit_diagram
+        from nivel.looks.circuit.drawing import circuit_diagram
 
         drawn = circuit_diagram(loaded.record.model_dump(mode="json"), facts.pressures)
         if not drawn:

@@ -113,7 +113,7 @@ INTEGRATORS: dict[str, IntegratorFacts] = {
     "extrapolated-euler": IntegratorFacts(
         "nivel.integrate.extrapolated_euler",
         "extrapolated_euler",
-        3,
+        4,
         2,
         residual=True,
         first_order=True,
@@ -138,12 +138,12 @@ BY_MODES: dict[str, IntegratorFacts] = {"ros2": IntegratorFacts("nivel.integrate
 # the same for machines whose only stiffness is that of circuits, with rigid bodies and with flexible ones: with tangents by hand
 BY_CIRCUITS: dict[str, IntegratorFacts] = {
     "extrapolated-euler": IntegratorFacts(
-        "nivel.integrate.circuit_euler", "circuit_euler", 4, 2, implicit=True, circuit_tangent=True
+        "nivel.integrate.circuit_euler", "circuit_euler", 5, 2, implicit=True, circuit_tangent=True
     )
 }
 BY_FLEXIBLE_CIRCUITS: dict[str, IntegratorFacts] = {
     "extrapolated-euler": IntegratorFacts(
-        "nivel.integrate.flexible_circuit_euler", "flexible_circuit_euler", 4, 2, implicit=True, circuit_tangent=True
+        "nivel.integrate.flexible_circuit_euler", "flexible_circuit_euler", 5, 2, implicit=True, circuit_tangent=True
     )
 }
 

@@ -17,7 +17,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.integrate.extrapolated_euler import HALVES, LARGEST, RATE, WHOLE, is_state, pressure_difference
+from nivel.integrate.extrapolated_euler import HALVES, RATE, WHOLE, is_state, pressure_difference
+from nivel.integrate.parts import LARGEST, step_in_parts
 from nivel.integrate.run import EVALUATIONS, FACTORISATIONS, KNOWN, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.kernels.hook import call_evaluate
 from nivel.kernels.hydraulics.tangent import find_slopes, slope_by_mass
@@ -28,9 +29,9 @@ from nivel.motion.unit_efforts import answer, answer_unit_efforts, project
 from nivel.native.entry import entry
 from nivel.native.function import leaf, shared, stage
 
-# Numbers of the factors of the whole step and of its halves; one more row of run.stages: k without circuits.
+# Numbers of the factors of the whole step and of its halves; more rows of run.stages: k without circuits, the rate at the begin.
 OF_WHOLE, OF_HALVES = 0, 1
-OTHER = 3
+OTHER, BEGIN = 3, 4
 # Share of LARGEST up to which slopes judge a difference of pressures.
 JUDGED = 0.25
 
@@ -60,24 +61,24 @@ def judged_difference(machine, run):
 
 
 @leaf
-def may_extrapolate(evaluate, machine, run):
-    """Whether 2 Y₂ - Y₁, in `trial`, is a state whose pressures can be trusted; then it is the state last evaluated, with its rate in
-    `scratch`, or KNOWN is 0."""
+def difference_in_step(evaluate, machine, run):
+    """How far the pressures [Pa] of Y₁ and Y₂ differ; infinite where these, or 2 Y₂ - Y₁ in `trial`, are no states.
+
+    Where the last one can be taken it is the state last evaluated, with its rate in `scratch`, or KNOWN is 0.
+    """
     run.counter[KNOWN] = 0
     if not is_state(machine, run.trial) or not is_state(machine, run.stages[WHOLE]):
-        return False
+        return np.inf
     run.counter[EVALUATIONS] += 1
     if call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, run.scratch) != OK:
-        return False
+        return np.inf
     difference = judged_difference(machine, run)
     # where constraints are corrected, the state to be accepted is another one
     run.counter[KNOWN] = 1 if record_at(machine).saddle.row.shape[0] == 0 else 0
     if not difference <= JUDGED * LARGEST:
         run.counter[KNOWN] = 0
         difference = pressure_difference(evaluate, machine, run)
-    guard = record_at(machine).circuit.guard
-    guard[1] = max(guard[1], difference)
-    return difference <= LARGEST
+    return difference
 
 
 @shared
@@ -111,27 +112,24 @@ def fill_both(evaluate, machine, run, t, h, prepare, renew, leave):
 
 
 @shared
-def step_over_circuits(evaluate, machine, history, prepare, renew, leave):
-    """One step. Returns a status.
+def attempt_over_circuits(evaluate, machine, history, prepare, renew, leave):
+    """A step into `trial`, for `step_in_parts`: 2 Y₂ - Y₁, or where that cannot be trusted Y₂, or Y₁.
 
     prepare, renew, leave : compiled into this one. The first gives factors (machine, number, s) in the state y, the second what of those of
     the halves depends on the state in the middle (machine, s), the third k without circuits (machine, y, f, s, other).
     """
-    run, circuit = run_at(history), record_at(machine).circuit
-    y, whole, halves = run.y, run.stages[WHOLE], run.stages[HALVES]
+    run = run_at(history)
+    whole, halves, trial = run.stages[WHOLE], run.stages[HALVES], run.trial
     status, filled = fill_both(evaluate, machine, run, run.clock[TIME], run.clock[STEP], prepare, renew, leave)
     if status != OK:
-        return status
-    for i in range(y.shape[0]):
-        run.trial[i] = 2.0 * halves[i] - whole[i]
-    if filled and may_extrapolate(evaluate, machine, run):
-        for i in range(y.shape[0]):
-            y[i] = run.trial[i]
-        return OK
-    circuit.guard[0] += 1.0
-    for i in range(y.shape[0]):
-        y[i] = halves[i] if filled else whole[i]
-    return OK
+        return status, np.inf
+    for i in range(trial.shape[0]):
+        trial[i] = 2.0 * halves[i] - whole[i]
+    difference = difference_in_step(evaluate, machine, run) if filled else np.inf
+    if not difference <= LARGEST:
+        for i in range(trial.shape[0]):
+            trial[i] = halves[i] if filled else whole[i]
+    return OK, difference
 
 
 @stage
@@ -159,7 +157,13 @@ def leave_rate(machine, y, f, s, other):
     return OK
 
 
+@stage
+def attempt_rigid(evaluate, machine, history):
+    """`attempt_over_circuits` of rigid bodies."""
+    return attempt_over_circuits(evaluate, machine, history, prepare_rigid, renew_nothing, leave_rate)
+
+
 @entry(STEP_SIGNATURE)
 def circuit_euler(evaluate, machine, history):
     """One step."""
-    return step_over_circuits(evaluate, machine, history, prepare_rigid, renew_nothing, leave_rate)
+    return step_in_parts(evaluate, machine, history, attempt_rigid, BEGIN)

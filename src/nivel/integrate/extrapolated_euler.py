@@ -8,27 +8,26 @@
 restrictions in place of their tangents: with these, a linearly implicit step over a small volume behind an orifice rings for ever, since
 it is one step of Newton's method on a root.
 
-Guard: where pressures of Y₁ and Y₂ differ by more than LARGEST, or a mass would vanish, extrapolation is not trusted and Y₂ is taken, or
-where Y₂ is no state, Y₁. Such steps are counted, and the largest difference is kept, in `Circuit.guard`.
+Guard: where pressures of Y₁ and Y₂ differ by more than LARGEST, or a mass would vanish, the step is made in parts
+(`nivel.integrate.parts`). Of the smallest parts that cannot be trusted either Y₂ is taken, or where that is no state, Y₁; they are counted,
+and the largest difference is kept, in `Circuit.guard`.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from nivel.integrate.parts import LARGEST, step_in_parts
 from nivel.integrate.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
 from nivel.kernels.hook import call_evaluate
 from nivel.kernels.record import NONE, record_at
 from nivel.kernels.shifted_matrix import factorise_shifted, find_parts, keep_multipliers, solve_shifted_parts
 from nivel.kernels.status import OK
 from nivel.native.entry import entry
-from nivel.native.function import leaf
+from nivel.native.function import leaf, stage
 
-# rows of run.stages: rates inside the step, Y₁, Y₂
-RATE, WHOLE, HALVES = 0, 1, 2
-ROWS = 3
-# pressures [Pa] of Y₁ and Y₂ may differ by this much
-LARGEST = 2e5
+# rows of run.stages: rates inside the step, Y₁, Y₂, the rate at the begin
+RATE, WHOLE, HALVES, BEGIN = 0, 1, 2, 3
 
 
 @leaf
@@ -105,28 +104,29 @@ def both(evaluate, machine, run, t, h):
     return OK, True
 
 
+@stage
+def attempt(evaluate, machine, history):
+    """A step into `trial`, for `step_in_parts`: 2 Y₂ - Y₁, or where that cannot be trusted Y₂, or Y₁."""
+    run, circuit = run_at(history), record_at(machine).circuit
+    whole, halves, trial = run.stages[WHOLE], run.stages[HALVES], run.trial
+    keep_multipliers(machine)
+    status, filled = both(evaluate, machine, run, run.clock[TIME], run.clock[STEP])
+    if status != OK:
+        return status, np.inf
+    filled, difference = filled and is_state(machine, halves), np.inf
+    if filled and is_state(machine, whole):
+        difference = 0.0 if circuit.node.shape[0] == 0 else pressure_difference(evaluate, machine, run)
+    for i in range(trial.shape[0]):
+        trial[i] = 2.0 * halves[i] - whole[i]
+    if not is_state(machine, trial):
+        difference = np.inf
+    if not difference <= LARGEST:
+        for i in range(trial.shape[0]):
+            trial[i] = halves[i] if filled else whole[i]
+    return OK, difference
+
+
 @entry(STEP_SIGNATURE)
 def extrapolated_euler(evaluate, machine, history):
     """One step."""
-    run, circuit = run_at(history), record_at(machine).circuit
-    t, h, y = run.clock[TIME], run.clock[STEP], run.y
-    keep_multipliers(machine)
-    status, filled = both(evaluate, machine, run, t, h)
-    if status != OK:
-        return status
-    whole, halves = run.stages[WHOLE], run.stages[HALVES]
-    filled = filled and is_state(machine, halves)
-    difference = np.inf
-    if filled and is_state(machine, whole):
-        difference = 0.0 if circuit.node.shape[0] == 0 else pressure_difference(evaluate, machine, run)
-        circuit.guard[1] = max(circuit.guard[1], difference)
-    for i in range(y.shape[0]):
-        run.trial[i] = 2.0 * halves[i] - whole[i]
-    if difference <= LARGEST and is_state(machine, run.trial):
-        for i in range(y.shape[0]):
-            y[i] = run.trial[i]
-        return OK
-    circuit.guard[0] += 1.0
-    for i in range(y.shape[0]):
-        y[i] = halves[i] if filled else whole[i]
-    return OK
+    return step_in_parts(evaluate, machine, history, attempt, BEGIN)

@@ -6,7 +6,8 @@ part begins.
 
 from __future__ import annotations
 
-from nivel.integrate.circuit_euler import step_over_circuits
+from nivel.integrate.circuit_euler import BEGIN, attempt_over_circuits
+from nivel.integrate.parts import step_in_parts
 from nivel.integrate.run import STEP_SIGNATURE
 from nivel.kernels.record import record_at
 from nivel.kernels.status import OK
@@ -38,7 +39,13 @@ def leave_modes(machine, y, f, s, other):
     return solve_shifted_modes(machine, y, other, s)
 
 
+@stage
+def attempt_flexible(evaluate, machine, history):
+    """`attempt_over_circuits` of flexible bodies."""
+    return attempt_over_circuits(evaluate, machine, history, prepare_flexible, factorise_shifted_modes, leave_modes)
+
+
 @entry(STEP_SIGNATURE)
 def flexible_circuit_euler(evaluate, machine, history):
     """One step."""
-    return step_over_circuits(evaluate, machine, history, prepare_flexible, factorise_shifted_modes, leave_modes)
+    return step_in_parts(evaluate, machine, history, attempt_flexible, BEGIN)

@@ -33,26 +33,34 @@ def circuit_items(result: Readable) -> Iterator[Item]:
     yield from _saturation_items(result)
 
 
+def pressures_at(result: Readable, frame: int) -> dict[str, float]:
+    """Pressures of circuits [Pa] in one frame, by the name of the variable."""
+    names = [name for name in result.variables if name.startswith(START) and ".pressure" in name]
+    return {name: float(_history(result, name)[frame]) for name in names}
+
+
 @dataclass(frozen=True)
 class Guard:
-    """Steps of a run over circuits, those among them whose extrapolation was not taken, and the largest difference [Pa] of a pressure
-    between one step and two of half the length."""
+    """Steps of a run over circuits, those among them that were made in parts, the parts whose extrapolation was not taken, and the largest
+    difference [Pa] of a pressure between one step and two of half the length."""
 
     steps: int
+    divided: int
     guarded: int
     difference: float
 
 
 def guard_items(guard: Guard | None) -> Iterator[Item]:
-    """How many steps were of order one, and how large the error of pressures in one step was."""
+    """How many steps were divided, how many parts were of order one, and how large the error of pressures in one was."""
     if guard is None or not guard.steps:
         return
     share = guard.guarded / guard.steps
     verdict = "green" if share < GUARDED_GREEN else "amber" if share < GUARDED_AMBER else "red"
-    counted = f"{guard.guarded} of {guard.steps} steps were not extrapolated"
+    divided = f"{guard.divided} of {guard.steps} steps were made in parts"
+    counted = f"{divided}, {guard.guarded} parts were not extrapolated"
     largest = f"pressures of one step and of two half ones differed by at most {guard.difference / 1e5:.3g} bar"
     advice = "" if verdict == "green" else "; take a shorter step, or larger small volumes"
-    text = f"Pressure steps: {counted} (green below {100 * GUARDED_GREEN:g} %), {largest}{advice}"
+    text = f"Pressure steps: {counted} (green below {100 * GUARDED_GREEN:g} % of the steps), {largest}{advice}"
     yield Item("pressure steps", verdict, text, share, GUARDED_GREEN, GUARDED_AMBER)
 
 

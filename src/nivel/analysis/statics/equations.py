@@ -21,6 +21,7 @@ from scipy.sparse import bmat, csc_matrix
 from nivel.analysis.equations import MotionEquations
 from nivel.analysis.statics.pattern import Block
 from nivel.kernels import static_entries, tangent_entries
+from nivel.kernels.hydraulics.volume import VOLUME
 from nivel.kernels.record import NONE
 from nivel.kernels.status import OK
 from nivel.system.layout import reported
@@ -214,13 +215,19 @@ class StaticEquations:
         )
         return K, D, M
 
-    def whole_matrix(self, state: Rest) -> Sparse:
-        """[K, D_x, C_qᵀ; -∂ẋ/∂q, -∂ẋ/∂x, 0; C_q, 0, 0] in units."""
-        K, D, M = self.whole_parts(state)
+    def at_rest(self, K: Sparse, D: Sparse, M: Sparse) -> Sparse:
+        """[K, D_x, C_qᵀ; -∂ẋ/∂q, -∂ẋ/∂x, 0; C_q, 0, 0] in units, of `whole_parts`."""
         first = self.n + self.state_count
         inner = bmat([[K[:first, : self.n], D[:first, self.n : first], M[:first, first:]]])
         below = csc_matrix((self.rows, self.state_count + self.rows))
         return csc_matrix(bmat([[inner], [bmat([[M[first:, : self.n], below]])]]))
+
+    @cached_property
+    def is_mass(self) -> NDArray[np.bool_]:
+        """(S,) whether a state is the mass of fluid in a volume."""
+        out = np.zeros(self.state_count, dtype=bool)
+        out[[node.state for node in self.system.nodes if node.kind == VOLUME]] = True
+        return out
 
     @cached_property
     def _blocks(self) -> tuple[Block, Block]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from nivel.report.circuit.symbols import SYMBOLS, Symbol
+from nivel.looks.circuit.symbols import SYMBOLS, Symbol
 
 SENSING: Final = ("LS", "X")  # ports that only feel a pressure: dashed lines
 CHAMBERED: Final = ("cylinder", "telescopic-cylinder", "rotary-actuator")

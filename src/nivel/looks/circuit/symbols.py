@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from nivel.report.circuit.valve_symbol import directional_valve
+from nivel.looks.circuit.valve_symbol import directional_valve
 
 SPRING: Final = "l3 -5 l4 10 l4 -10 l3 5"
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from nivel.report.circuit.parts import CHARACTER, SENSING, VALUE, Circuit, Part
+from nivel.looks.circuit.parts import CHARACTER, SENSING, VALUE, Circuit, Part
 
 TRACK, LANE, MARGIN, EDGE = 19.0, 11.0, 14.0, 10.0  # [px] between tracks and lanes; above and below tracks; around all
 DRAIN = 26.0  # height of a tank with its line

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
 
-from nivel.report.circuit.parts import Circuit, Part, circuit_of
-from nivel.report.circuit.placing import place
-from nivel.report.circuit.routing import Drawing, Line, Router
+from nivel.looks.circuit.parts import Circuit, Part, circuit_of
+from nivel.looks.circuit.placing import place
+from nivel.looks.circuit.routing import Drawing, Line, Router
 
 LARGEST = 120  # components that can be read in one drawing
 STYLE = """

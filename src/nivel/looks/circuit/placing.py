@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from nivel.report.circuit.parts import ACTUATORS, Circuit, Part
-from nivel.report.circuit.symbols import flipped
+from nivel.looks.circuit.parts import ACTUATORS, Circuit, Part
+from nivel.looks.circuit.symbols import flipped
 
 LOAD, VALVE, BEFORE, SUPPLY = 1, 2, 3, 4
 BELOW: Final = ("pump", "flow-source", "accumulator", "load-sensing", "tank")

@@ -54,6 +54,7 @@ if TYPE_CHECKING:
 
     from nivel.analysis.check import Check
     from nivel.analysis.inverse.mechanics import Mechanics
+    from nivel.analysis.mass import MassProperties
     from nivel.analysis.posing import Posing
     from nivel.analysis.stepping import Simulation
     from nivel.c_library.writer import Files
@@ -136,6 +137,17 @@ class Machine(Model):
 
         with self._faults_in_file():
             return check(plan)
+
+    @checked_arguments
+    def mass_properties(
+        self, about: str = "ground", bodies: Sequence[str] | str = (), *, listener: Listener | None = None
+    ) -> MassProperties:
+        """Mass, centre of mass and inertia of these bodies, or of all, as assembled, about a marker or body and along its axes."""
+        build(assembly_entries(self.record), listener)
+        from nivel.analysis.mass import mass_properties
+
+        with self._faults_in_file():
+            return mass_properties(self.record, about, (bodies,) if isinstance(bodies, str) else tuple(bodies))
 
     @checked_arguments
     def posed(self, *, listener: Listener | None = None) -> Posing:

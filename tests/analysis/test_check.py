@@ -37,8 +37,8 @@ def test_redundancy_is_said_with_names():
     text = str(check(machines.four_bar(second="revolute", third="revolute")))
     assert "redundant: " in text
     assert (
-        "reactions are not in: hinge, pin, pivot, sleeve" in text
-        or "reactions are not in: hinge, pin, sleeve, pivot" in text
+        "reactions are not unique in: hinge, pin, pivot, sleeve" in text
+        or "reactions are not unique in: hinge, pin, sleeve, pivot" in text
     )
 
 

@@ -105,6 +105,7 @@ def test_a_rocker_goes_as_far_as_crank_and_coupler_are_in_line():
     np.testing.assert_allclose([found.low, found.high], lows, atol=1e-6)
     assert not found.full_turn
     assert "drive is held by" in found.low_reason
+    assert f"rocker_pivot.angle is {found.low:.6g} rad" in found.low_reason
 
 
 def test_a_crank_that_can_turns_right_round():
@@ -121,6 +122,7 @@ def test_a_locked_machine_keeps_its_positions_and_says_what_holds_it():
     assert len(result.time) > 10
     assert result.trust.verdict == "red"
     assert np.abs(result.array("constraint_violation")).max() < 1e-12
+    assert not any("is passed" in item.text for item in result.trust.items)  # it ends in the singular position
 
 
 def test_the_transmission_angle_is_that_of_the_cosine_law():

@@ -26,6 +26,7 @@ from nivel.analysis.plan import Methods, Plan
 from nivel.analysis.preparation import prepare
 from nivel.analysis.settings import RunSettings
 from nivel.analysis.unique_reactions import ReactionFacts, unique_reactions
+from nivel.kernels.status import OK
 from nivel.machine.joint import JOINT_KINDS, Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.flexible import bending_bodies
@@ -208,9 +209,9 @@ def _by_owner(facts: Check, changes: tuple[tuple[str, float, float], ...]) -> It
 def _redundancy_lines(facts: Check) -> Iterator[str]:
     if facts.redundant_rows:
         yield f"constraints: {facts.constraint_rows} rows, redundant: {', '.join(facts.redundant_rows)}"
-        yield f"  the motion is unique; reactions are not in: {', '.join(facts.non_unique_joints)}"
-        if any(each.unique for each in facts.reactions):
-            yield "  along the axes of their first markers"
+        yield f"  the motion does not depend on them; reactions are not unique in: {', '.join(facts.non_unique_joints)}"
+        if facts.reactions:
+            yield "  on their first bodies, along the axes of their first markers; ranges at the start: as one or another row is left out"
             yield from (f"    {each}" for each in facts.reactions)
         if facts.exact:
             yield f"  exactly constrained, with the same freedoms: {'; '.join(facts.exact)}"
@@ -232,10 +233,11 @@ def check(plan: Plan) -> Check:
     record, redundancy, assembly = system.record, prepared.redundancy, prepared.assembly
     from nivel.kernels.observe import observe
 
-    prepared.absolute.evaluate(0.0, assembly.y)
+    status, _ = prepared.absolute.evaluate(0.0, assembly.y)
     frame = np.zeros(system.layout.width)
     observe(prepared.absolute.handle.address, 0.0, assembly.y, frame)
     columns = next(v.columns for v in system.layout.variables if v.name == "joint_coordinate")
+    reactions = unique_reactions(prepared.absolute, loaded=status == OK) if redundancy.redundant_rows else ()
     modes = _modes(machine)
     measured = equations(machine, measured=True)
     measured.evaluate(0.0, assembly.y)
@@ -277,7 +279,7 @@ def check(plan: Plan) -> Check:
         constraint_rows=system.machine_rows,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
-        reactions=unique_reactions(measured) if redundancy.redundant_rows else (),
+        reactions=reactions,
         gap=assembly.gap,
         gap_row=assembly.gap_row,
         moved=assembly.moved,

@@ -72,14 +72,19 @@ class Instant:
         self._residual = FAMILIES[int(self.record.hooks.address[RESIDUAL])].twin
         measure = int(self.record.hooks.address[MEASURE])
         self._measure = FAMILIES[measure].twin if measure else None
-        tree = self.record.tree
-        if len(tree.node):
-            tree.state[: self.positions] = y[: self.positions]
+        self._count_turns()
         self.vdot, self.lam = self._motion()
 
     def move_to(self, t: float, y: Array, vdot: Array) -> None:
         """Be at another time and state, with these accelerations (n,) and no multipliers."""
         self.t, self.y, self.vdot, self.lam = t, y.copy(), vdot.copy(), np.zeros(self.rows)
+        self._count_turns()
+
+    def _count_turns(self) -> None:
+        """Tell the tree which turn its angles are in."""
+        for tree in (self.record.tree, self.twin.tree):
+            if len(tree.node):
+                tree.state[: self.positions] = self.y[: self.positions]
 
     def _idle(self) -> NDArray[np.bool_]:
         """Turns of point masses."""

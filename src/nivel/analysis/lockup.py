@@ -41,13 +41,15 @@ TAKES_PART = 0.1
 class Jam:
     """The position beyond which joints cannot be closed.
 
-    time : [s]. joints, drivers : whose rows depend on each other there; couplings are with the joints. later : a time beyond it [s], at
+    time : [s]. joints, drivers : whose rows depend on each other there; couplings are with the joints. places : where these drivers are
+    then, in words. later : a time beyond it [s], at
     which `row`, in words, is open by `gap`, with its unit, and most of all rows, when all are as nearly closed as was found.
     """
 
     time: float
     joints: tuple[str, ...]
     drivers: tuple[str, ...]
+    places: tuple[str, ...]
     later: float
     gap: str
     row: str
@@ -59,9 +61,10 @@ class Jam:
         held = f"{_listed(self.drivers)} {verb} held by {_listed(self.joints)}"
         if not self.drivers:
             held = f"{_listed(self.joints)} depend on each other"
+        places = f" There {_listed(self.places)}." if self.places else ""
         return (
-            f"the machine jams at t = {self.time:.6g} s, in a singular position beyond which its joints cannot be closed: there {held}. "
-            f"At t = {self.later:.6g} s {self.row} would be open by {self.gap}"
+            f"the machine jams at t = {self.time:.6g} s, in a singular position beyond which its joints cannot be closed: there {held}."
+            f"{places} At t = {self.later:.6g} s {self.row} would be open by {self.gap}"
         )
 
     @property
@@ -168,18 +171,37 @@ class _Nearby:
         """The jam at `last` in the position q, where the rows lose a combination to which they add the shares `lost`."""
         system, constraints = self.absolute.system, self.absolute.system.record.constraints
         owners = dict.fromkeys(system.row_owner[row] for row in np.flatnonzero(lost >= TAKES_PART * lost.max()))
-        drivers = {system.row_owner[row] for row, name in enumerate(system.rows[: len(lost)]) if _is_driven(name)}
+        rows = {system.row_owner[row]: row for row, name in enumerate(system.rows[: len(lost)]) if _is_driven(name)}
+        drivers = tuple(name for name in owners if name in rows)
+        self.closed(last, q)
+        places = tuple(place for name in drivers for place in self.driven_to(rows[name]))
         self.closed(later, q)
         violation = np.abs(constraints.C[: len(lost)])
         worst = int(np.argmax(violation / constraints.scale[: len(lost)]))
         return Jam(
             time=last,
-            joints=tuple(name for name in owners if name not in drivers),
-            drivers=tuple(name for name in owners if name in drivers),
+            joints=tuple(name for name in owners if name not in rows),
+            drivers=drivers,
+            places=places,
             later=later,
             gap=f"{violation[worst]:.3g} {unit_of(system, worst)}",
             row=named_row(system, worst),
         )
+
+    def driven_to(self, row: int) -> Iterator[str]:
+        """The joint coordinate that this row drives, and its value in the state last evaluated, in words; nothing for markers."""
+        system = self.absolute.system
+        constraints, coordinates = system.record.constraints, system.record.coordinates
+        known = system.record.joints.coordinate.tolist()
+        for _, first, *_ in constraints.combination[constraints.combination[:, 0] == row].tolist():
+            k = int(constraints.term[first, 0])
+            if k in known:
+                place = known.index(k)
+                unit = system.coordinate_units[place]
+                value = float(coordinates.value[k])
+                turned = f" ({np.degrees(value):.6g}°)" if unit == "rad" else ""
+                name = system.layout.coordinates["joint_coordinate"][place]
+                yield f"{name} is {value:.6g} {unit}{turned}"
 
 
 def unit_of(system: System, row: int) -> str:

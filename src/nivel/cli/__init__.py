@@ -35,6 +35,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "reduce": CommandPlace("nivel.cli.reduce", "Make a flexible body of a finite-element model."),
     "view": CommandPlace("nivel.cli.view", "Play a result, or move a machine, in the browser."),
     "explain": CommandPlace("nivel.cli.explain", "Say how far a result can be trusted, and why."),
+    "loads": CommandPlace("nivel.cli.loads", "Peak reactions, power and work, cycles of any signal."),
     "stress": CommandPlace("nivel.cli.stress", "Say where and when a flexible body is stressed most."),
     "export": CommandPlace("nivel.cli.export", "Write a result as a table, or a machine as a C library."),
     "warmup": CommandPlace("nivel.cli.warmup", "Compile all kernels ahead of the first run."),

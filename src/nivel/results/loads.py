@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.errors import ModelError
+from nivel.errors import Fault, ModelError
 from nivel.flexible.rainflow import Cycle, rainflow
+from nivel.machine.arithmetic import ExpressionError
+from nivel.machine.quantity import expression_fault, read_quantity
 
 if TYPE_CHECKING:
     import xarray
@@ -37,10 +39,11 @@ def reactions(result: Result) -> xarray.Dataset:
     return xarray.Dataset(values, coords={"joint": list(result.coordinates["joint"])})
 
 
-def powers(result: Result) -> xarray.Dataset:
+def powers(result: Result, period: float | str | None = None) -> xarray.Dataset:
     """Of every driver, coupling and force that reports its power: the largest magnitude [W], the work done and the work taken back [J].
 
-    Raises ModelError for a result without any.
+    period : [s] of a cycle; then also the work of the last whole one [J], and its mean power [W]. Raises ModelError for a result without
+    any power, or shorter than the period.
     """
     import xarray
 
@@ -54,7 +57,25 @@ def powers(result: Result) -> xarray.Dataset:
         "work_done": (dims, np.trapezoid(np.maximum(history, 0.0), result.time, axis=0), {"units": "J"}),
         "work_taken": (dims, np.trapezoid(np.minimum(history, 0.0), result.time, axis=0), {"units": "J"}),
     }
+    if period is not None:
+        period = _time(period)
+        work = _work_of_cycle(history, result.time, period)
+        values["work_per_cycle"] = (dims, work, {"units": "J"})
+        values["mean_power"] = (dims, work / period, {"units": "W"})
     return xarray.Dataset(values, coords={"element": [name.removesuffix(".power") for name in names]})
+
+
+def _work_of_cycle(power: Array, time: Array, period: float) -> Array:
+    """(elements,) [J] work from the end of the result back over one period."""
+    span = float(time[-1] - time[0])
+    if not 0.0 < period <= span * (1.0 + 1e-9):
+        raise ModelError(
+            f"a period above zero and up to the {span:.6g} s of the result was expected, got {period:.6g} s"
+        )
+    steps = 0.5 * (power[1:] + power[:-1]) * np.diff(time)[:, None]
+    work = np.vstack([np.zeros(power.shape[1]), np.cumsum(steps, axis=0)])
+    begin = max(float(time[-1]) - period, float(time[0]))
+    return np.array([column[-1] - np.interp(begin, time, column) for column in work.T])
 
 
 def cycles(result: Result, name: str, *, repeating: bool = False) -> xarray.Dataset:
@@ -99,3 +120,11 @@ def _rms(values: Array, time: Array) -> Array:
     if span <= 0.0:
         return np.sqrt(np.mean(values**2, axis=0))
     return np.sqrt(np.trapezoid(values**2, time, axis=0) / span)
+
+
+def _time(given: float | str) -> float:
+    """[s] of a number or a text with a unit. Raises ModelError."""
+    try:
+        return read_quantity(given, "time", {})
+    except ExpressionError as problem:
+        raise ModelError(Fault("", 0, 0, "loads.period", expression_fault(problem, given).message())) from None

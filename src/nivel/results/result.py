@@ -293,11 +293,13 @@ class Result:
 
         return reactions(self)
 
-    def powers(self) -> xarray.Dataset:
-        """Peak power, work done and work taken back of every driver, coupling and force that reports its power."""
+    @checked_arguments
+    def powers(self, *, period: float | str | None = None) -> xarray.Dataset:
+        """Peak power, work done and work taken back of every driver, coupling and force that reports its power; with the period of a cycle
+        [s] the work in the last whole one, and its mean power."""
         from nivel.results.loads import powers
 
-        return powers(self)
+        return powers(self, period)
 
     @checked_arguments
     def cycles(self, name: str, *, repeating: bool = False) -> xarray.Dataset:

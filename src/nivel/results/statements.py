@@ -24,12 +24,11 @@ def statements(
     shared: Sequence[Shared] = (),
     unresolved: Unresolved | None = None,
     *,
-    passed: bool = False,
     blind: str = "",
 ) -> Iterator[Item]:
     """The items of the report; `failure` says what stopped the run, `stopped_by` which event ended it, `shared` which frictions share
-    a load in no certain way, `unresolved` the force that the energy error comes from, `passed` whether a position was passed where
-    freedoms split, `blind` why a second run may be wrong as the first."""
+    a load in no certain way, `unresolved` the force that the energy error comes from, `blind` why a second run may be wrong as the first.
+    """
     verdict, text = OUTCOMES.get(trust.outcome, ("red", f"Outcome: {trust.outcome}"))
     if stopped_by:
         text = f"Outcome: the event {stopped_by} ended the run, as it was to do"
@@ -40,7 +39,7 @@ def statements(
         yield _rate_item(trust)
     if trust.degrees_of_freedom is not None:
         yield freedom_item(trust)
-    yield redundancy_item(trust, unique=not passed)
+    yield redundancy_item(trust)
     if shared:
         yield _shared_item(shared)
     if trust.accuracy_estimate is not None:
@@ -152,8 +151,8 @@ def freedom_item(trust: Trust) -> Item:
     return Item("degrees_of_freedom", "green", f"Freedom: {degrees}{modes} (green from 1 on)")
 
 
-def redundancy_item(trust: Trust, *, unique: bool = True) -> Item:
-    """Constraints that repeat others. unique : whether the motion is."""
+def redundancy_item(trust: Trust) -> Item:
+    """Constraints that repeat others."""
     if not trust.redundant_rows:
         return Item(
             "redundancy",
@@ -164,19 +163,19 @@ def redundancy_item(trust: Trust, *, unique: bool = True) -> Item:
     count = len(trust.redundant_rows)
     repeats = "1 constraint row repeats others" if count == 1 else f"{count} constraint rows repeat others"
     unsure = (
-        f"how the reactions of {', '.join(trust.non_unique_joints)} share the load is not"
+        f"how {', '.join(trust.non_unique_joints)} share the load is not unique: `nivel check` says which components are, and how far the "
+        "others may differ"
         if trust.non_unique_joints
-        else "so are the reactions"
+        else "the reactions are unique"
     )
-    motion = "The motion is unique; " if unique else ""
-    text = f"Redundancy: {repeats} ({rows}). {motion}{unsure} (green when none, amber otherwise)"
+    text = f"Redundancy: {repeats} ({rows}). The motion does not depend on them; {unsure} (green when none, amber otherwise)"
     return Item("redundancy", "amber", text)
 
 
 def _shared_item(shared: Sequence[Shared]) -> Item:
     """Frictions that hold a joint at rest together with what prescribes its motion, or with other frictions."""
     text = (
-        f"Friction: {'; '.join(map(in_words, shared))}. The motion is unique; how they share the load is not "
+        f"Friction: {'; '.join(map(in_words, shared))}. The motion does not depend on how they share the load, which is not unique "
         f"(green when none, amber otherwise)"
     )
     return Item("shared_friction", "amber", text, time=min(each.spans[0][0] for each in shared))

@@ -137,7 +137,6 @@ def assess(result: Readable, facts: Facts) -> Trust:
             facts.stopped_by,
             facts.shared,
             unresolved,
-            passed=_passes(facts.further),
             blind=blindness(facts.further),
         ),
         *facts.further,
@@ -148,11 +147,6 @@ def assess(result: Readable, facts: Facts) -> Trust:
         *guard_items(facts.guard),
     )
     return replace(trust, items=items, verdict=worst(items))
-
-
-def _passes(further: tuple[Item, ...]) -> bool:
-    """Whether a position was passed where freedoms split."""
-    return any(item.name == "singular" for item in further)
 
 
 def _small_state(state: SmallState) -> Item:

@@ -15,11 +15,12 @@ from nivel.system.system import Array, System
 
 @dataclass(frozen=True)
 class MovingState:
-    """time [s], the state y and the accelerations v̇ (n,) of the bodies."""
+    """time [s], the state y, the accelerations v̇ (n,) of the bodies, and all joint coordinates; none where the motion has other ones."""
 
     time: float
     y: Array
     vdot: Array
+    coordinates: Array
 
 
 def moving_states(system: System, result: Result, every: int = 1) -> Iterator[MovingState]:
@@ -39,6 +40,8 @@ def moving_states(system: System, result: Result, every: int = 1) -> Iterator[Mo
         result.array(f"state.{fact.name}")[some] if f"state.{fact.name}" in result.variables else None
         for fact in system.states
     ]
+    known = list(result.coordinates.get("joint_coordinate", ())) == list(system.layout.coordinates["joint_coordinate"])
+    angles = result.array("joint_coordinate")[some] if known else np.zeros((len(position), 0))
     for k, time in enumerate(result.time[some]):
         A = rotation_matrices(orientation[k])
         velocity, omega, acceleration, alpha = (each[k] for each in rates)
@@ -49,4 +52,4 @@ def moving_states(system: System, result: Result, every: int = 1) -> Iterator[Mo
         for j, values in enumerate(states):
             if values is not None:
                 y[first + j] = values[k]
-        yield MovingState(float(time), y, np.hstack([acceleration, local[1]]).ravel())
+        yield MovingState(float(time), y, np.hstack([acceleration, local[1]]).ravel(), angles[k])

@@ -159,7 +159,8 @@ def _close(sink: Memory | Store, prepared: Prepared, finished: RunOutcome, run: 
     message, advice, at = finished.failure or ("", "", 0.0)
     redundancy = prepared.redundancy
     near = singular_positions(prepared, sink.result())
-    if finished.failure is not None and "jams" not in message and near is not None and near.least < STUCK:
+    jammed = finished.failure is not None and "jams" in message
+    if finished.failure is not None and not jammed and near is not None and near.least < STUCK:
         message = f"a position at t = {near.time:.6g} s is singular: the rows of {', '.join(near.joints)} depend on each other there"
         advice = "Branches of positions meet in it. Take another number of positions, so that none falls on it: it is then stepped over."
     facts = KinematicsFacts(
@@ -169,7 +170,8 @@ def _close(sink: Memory | Store, prepared: Prepared, finished: RunOutcome, run: 
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
         halved=int(run.counter[REJECTED]),
-        passed=near.passed if near is not None else (),
+        # a machine that jams has come to the singular position, not past it
+        passed=tuple(pair for pair in near.passed if not jammed or pair[1] < at) if near is not None else (),
         nearest=(near.least, near.time) if near is not None else None,
         split=near.joints if near is not None else (),
     )

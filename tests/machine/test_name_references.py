@@ -165,11 +165,11 @@ def test_the_machine_of_these_tests_is_right():
         ),
         (
             {"forces": ({**CONTACT, "body": "plain", "plane": "base"},)},
-            "forces.c.body: the body `plain` has no shape; a contact here needs a sphere, box or cylinder",
+            "forces.c.body: the body `plain` has no shape; a contact here needs a sphere, box, cylinder, extrusion or mesh",
         ),
         (
             {"forces": ({**CONTACT, "body": "pipe", "plane": "base"},)},
-            "forces.c.body: the body `pipe` is a tube; a contact here needs a sphere, box or cylinder",
+            "forces.c.body: the body `pipe` is a tube; a contact here needs a sphere, box, cylinder, extrusion or mesh",
         ),
         (
             {"forces": ({**CONTACT, "bodies": ("rod", "slab")},)},

@@ -10,6 +10,7 @@ import { Arrows } from "./stage/arrows";
 import { Colours } from "./stage/colours";
 import { cloudNow, cloudOf } from "./stage/cloud";
 import type { Extra } from "./stage/extras";
+import { Compass } from "./stage/compass";
 import { Labels } from "./stage/labels";
 import { Follower } from "./stage/follower";
 import { Hand } from "./stage/hand";
@@ -48,6 +49,7 @@ export class App {
   readonly traces: Traces;
   readonly violations: Violations;
   readonly labels: Labels;
+  private readonly compass: Compass;
   readonly plots: Plots;
   private readonly follower: Follower;
   private readonly handled: Handled;
@@ -103,7 +105,8 @@ export class App {
     this.follower = new Follower(this.world, this.actor);
     this.handled = new Handled(this.world, this.actor);
     this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
-    holder.append(names, this.legend.element);
+    this.compass = new Compass(this.world);
+    holder.append(names, this.compass.element, this.legend.element);
     const columns = new Columns(opened, connection);
     const ghostTime = this.ghosts[0]?.motion.time ?? null;
     const times = { main: this.motion?.time ?? new Float64Array(), ghost: ghostTime, ghostTitle: others[0]?.title ?? "", isPath: !!this.motion?.load };
@@ -228,7 +231,8 @@ export class App {
     }
     const { clientWidth, clientHeight } = this.world.holder;
     for (const actor of [this.actor, ...this.ghosts.map((ghost) => ghost.actor)]) actor.look(this.world.camera, clientHeight);
-    this.labels.update(this.world.camera, clientWidth, clientHeight);
+    this.labels.update(this.world.camera, clientWidth, clientHeight, !this.world.running);
+    this.compass.update();
   }
 
   /** Everything that depends on the frame that is shown. */
@@ -291,7 +295,8 @@ export class App {
   }
 
   /** The picture alone, without controls. */
-  bare(side: View): void {
+  bare(side: View, fine: boolean): void {
+    if (fine) this.world.drawFinely();
     document.body.classList.add("bare");
     this.panels.close();
     this.world.keepFree({ left: 0, top: 0, right: 0, bottom: 0 });

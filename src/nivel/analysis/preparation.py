@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from nivel.analysis.refusals import (
 )
 from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import IntegratorFacts
+from nivel.kernels.arrays import copied
 from nivel.machine.beam import Beam
 from nivel.machine.machine_record import MachineRecord
 from nivel.motion.catalogue import FORMULATIONS, PathFacts, path_of
@@ -38,6 +39,13 @@ from nivel.system.system import Array, System
 
 if TYPE_CHECKING:
     from nivel.analysis.statics.start import Settled
+
+
+class Assembled(NamedTuple):
+    """The equations of a machine in absolute coordinates, and its state as assembled."""
+
+    motion: MotionEquations
+    assembly: Assembly
 
 
 @dataclass(frozen=True)
@@ -59,14 +67,16 @@ class Prepared:
     allowed: Array | None = None
 
 
-def prepare(methods: Methods) -> Prepared:
-    """Build and assemble the machine of these methods.
+def prepare(methods: Methods, given: Assembled | None = None) -> Prepared:
+    """Build and assemble the machine of these methods; given : the machine is built and assembled already.
 
     Raises ModelError where it cannot be closed, starts in a singular position, or has friction of no certain load.
     """
     machine, path, integrator = methods.machine, methods.path, methods.integrator
-    motion = equations(machine)
-    assembly, rest = _assembled(machine, motion)
+    motion, assembly = given or _assembled(machine)
+    rest = _at_rest(machine, motion, assembly)
+    if rest is not None:
+        assembly = rest.assembled(motion, assembly)
     redundancy, absolute = _independent_rows(machine, motion, assembly.y)
     refuse_uncertain_loads(machine, redundancy)
     refuse_deep_starts(machine, absolute, assembly.y)
@@ -99,17 +109,23 @@ def prepare(methods: Methods) -> Prepared:
     )
 
 
-def _assembled(machine: MachineRecord, motion: MotionEquations) -> tuple[Assembly, Settled | None]:
-    """The machine as assembled, or where its run starts from equilibrium at rest there, and that equilibrium."""
+def _assembled(machine: MachineRecord) -> Assembled:
+    """The equations of the machine in absolute coordinates, and its state as assembled."""
+    motion = equations(machine)
     assembly = assemble(machine, motion)
     refuse_moved_nodes(machine, assembly.moved, motion.system.size)
     refuse_struck_nodes(machine, assembly.velocity_change, *_speeds(motion.system, assembly.y))
+    return Assembled(motion, assembly)
+
+
+def _at_rest(machine: MachineRecord, motion: MotionEquations, assembly: Assembly) -> Settled | None:
+    """The equilibrium from which the run starts; None where it starts as given."""
     if machine.simulation.start != "equilibrium":
-        return assembly, None
+        return None
     from nivel.analysis.statics.start import settled  # is built of what is prepared here
 
-    rest = settled(machine)
-    return rest.assembled(motion, assembly), rest
+    system = replace(motion.system, record=copied(motion.system.record))
+    return settled(machine, Assembled(replace(motion, system=system), assembly))
 
 
 def _speeds(system: System, y: Array) -> tuple[float, float]:

@@ -12,6 +12,7 @@ from nivel.machine.body import Body
 from nivel.machine.forces import Contact, ForceElement, Hand, JointSpringDamper, PointForce, Torque
 from nivel.machine.functions import functions_in
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.shape import Box, Cylinder, Sphere
 from nivel.machine.symbols import find_symbol
 
 SOFT: Final = 0.2  # frequency, or rate of decay, times the step
@@ -53,6 +54,7 @@ def _rate_of_contact(machine: MachineRecord, contact: Contact) -> float:
     body = machine.body_named.get(contact.body or "")
     if (
         body is None
+        or not isinstance(body.shape, Sphere | Box | Cylinder)
         or contact.law is not None
         or contact.exponent != 1.0
         or not isinstance(contact.stiffness, int | float)

@@ -169,6 +169,9 @@ class Simulation:
 
     def _set(self, inputs: Mapping[str, float]) -> None:
         """Give inputs and states their values, and evaluate again what depends on them."""
+        if not isinstance(inputs, Mapping):
+            said = f"values by name were expected, {{'push': 200}}, got {shown(inputs)}; how long a step is says the machine"
+            raise ModelError(Fault("", 0, 0, "inputs", said))
         changed = False
         for name, value in inputs.items():
             number = self._checked(name, value)

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from nivel.cli.ending import COLOURS, computed_in, ended, say_checks
 from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
 from nivel.cli.progress import progress_listener
-from nivel.cli.run import COLOURS, assembly_lines, beside, refuse_to_replace
+from nivel.cli.run import assembly_lines, beside, refuse_to_replace
 
 if TYPE_CHECKING:
     from nivel.results.mechanism import Range
@@ -128,14 +129,9 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
 
     console = Console(stderr=True, highlight=False)
     time, timing = result.time, result.timing
-    reached = f"t = {time[-1]:.6g} s" if len(time) else "no position"
-    console.print(
-        f"[bold]{result.name}[/bold]: {result.outcome}, {len(time)} positions up to {reached}, "
-        f"{timing.get('loop_seconds', 0.0):.3g} s of computing"
-    )
+    console.print(f"{ended(result)}, {len(time)} positions {computed_in(timing.get('loop_seconds', 0.0))}")
     for line in assembly_lines(result):
         console.print(line)
     console.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
-    for item in result.trust.items:
-        console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
+    say_checks(console, result.trust)
     console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from nivel.cli.ending import COLOURS, computed_in, ended, say_checks
 from nivel.cli.failures import say_faults
 from nivel.cli.options import (
     allow_code_option,
@@ -23,8 +24,6 @@ from nivel.cli.progress import progress_listener
 if TYPE_CHECKING:
     from nivel.results import Result
     from nivel.results.verdicts import Trust
-
-COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 
 
 @click.command(short_help="Simulate a machine: result file, report, summary.")
@@ -142,18 +141,16 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
     console = Console(stderr=True, highlight=False)
     trust = result.trust
     timing = result.timing
-    done = f"[bold]{result.name}[/bold]: {result.outcome}, {result.time[-1] if len(result.time) else 0:.6g} s simulated"
+    done = ended(result)
     if timing:  # not where the run was broken off
-        per_step = 1e6 * timing["loop_seconds"] / max(timing["steps"], 1)
-        done += f" in {timing['steps']} steps, {timing['loop_seconds']:.3g} s of computing ({per_step:.1f} µs a step)"
+        done += f", {timing['steps']} steps {computed_in(timing['loop_seconds'], timing['steps'])}"
     console.print(done)
     for line in assembly_lines(result):
         console.print(line)
     for line in in_words(result.events, result.stopped_by):
         console.print(f"event: {line}", markup=False)
     console.print(f"trust: {said_in_colour(trust)}", soft_wrap=True)
-    for item in trust.items:
-        console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
+    say_checks(console, trust)
     console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
 
 

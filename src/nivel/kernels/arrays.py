@@ -35,6 +35,19 @@ def complex_twin(record: Any) -> Any:
     return type(record)(*twins)
 
 
+def copied(record: Any) -> Any:
+    """The record with arrays of its own; what are the same arrays in it, are the same in the copy."""
+    return _copied(record, {})
+
+
+def _copied(record: Any, known: dict[int, NDArray[Any]]) -> Any:
+    fields = (
+        _copied(field, known) if isinstance(field, tuple) else known.setdefault(id(field), field.copy())
+        for field in record
+    )
+    return type(record)(*fields)
+
+
 @cache
 def _kinds(record_class: type) -> tuple[str, ...]:
     """What each field of a record is: its kind of array, or `record`."""

@@ -31,7 +31,8 @@ def _descriptors(record: Any, words: list[int]) -> list[int]:
         else:
             if not field.flags.c_contiguous:
                 raise TypeError("arrays of a record must be C-contiguous")
-            words += (0, 0, field.size, field.itemsize, field.ctypes.data, *field.shape, *field.strides)
+            data = field.ctypes.data if field.size else 0  # of an empty array nothing is read
+            words += (0, 0, field.size, field.itemsize, data, *field.shape, *field.strides)
     return words
 
 

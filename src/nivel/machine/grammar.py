@@ -18,6 +18,7 @@ turn. `2 m / 4 s` could then be read in two ways and is refused; `(2 m)/(4 s)` i
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from nivel.machine.arithmetic import (
     COMPARISONS,
@@ -46,6 +47,7 @@ _TOKEN = re.compile(
 )
 
 
+@lru_cache(maxsize=4096)
 def parse(text: str) -> Node:
     """The tree of `text`, names unbound.
 

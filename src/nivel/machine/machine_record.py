@@ -109,6 +109,10 @@ class MachineRecord(Checked):
         """The markers that have a place of their own, by name."""
         return {marker.name: marker for marker in self.markers if marker.name is not None}
 
+    def with_simulation(self, simulation: SimulationSettings) -> Self:
+        """The same machine with other settings, which name no joints that these did not: nothing is checked again."""
+        return self.model_copy(update={"simulation": simulation})
+
     @model_validator(mode="wrap")
     @classmethod
     def _in_plain_words(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:

@@ -81,6 +81,15 @@ class Record(BaseModel):
         given = {name: getattr(self, name) for name in self.model_fields_set}
         return type(self)(**(given | changes))
 
+    def __setattr__(self, field: str, value: Any) -> None:
+        """Refused: nothing changes a record. Raises ModelError with the line to write."""
+        own = str(getattr(self, "name", None) or self.collection)
+        line = (
+            f"machine = machine.with_values({{'{own}.{field}': {value!r}}})" if own else f"replace({field}={value!r})"
+        )
+        message = f"a record never changes; write `{line}`, which gives another one"
+        raise ModelError(Fault("", 0, 0, f"{own}.{field}" if own else field, message))
+
     def __str__(self) -> str:
         return repr(self)
 

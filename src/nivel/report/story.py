@@ -105,7 +105,7 @@ def headline(result: Result) -> Headline:
     verdict, outcome = HEADLINES.get(result.outcome, ("red", result.outcome))
     reached = _reached(result)
     seconds = result.timing.get("loop_seconds")
-    took = f" in {_seconds(float(seconds))} of computing" if seconds else ""
+    took = f", computed in {_seconds(float(seconds))}" if seconds else ""
     if result.stopped_by:
         took += f", until the event {result.stopped_by}"
     text = {

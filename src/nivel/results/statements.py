@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from nivel.results.held import Shared, in_words
 from nivel.results.unresolved import Unresolved
-from nivel.results.verdicts import THRESHOLDS, Item, Threshold, Trust, Verdict, number, quantity
+from nivel.results.verdicts import CLOSED, THRESHOLDS, Item, Threshold, Trust, Verdict, number, quantity
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
     "done": ("green", "Outcome: the run reached its end"),
@@ -93,6 +93,9 @@ def violation_item(trust: Trust) -> Item:
     said = f"Joints: open by at most {value}{number(fraction)}{scale}"
     if trust.constraint_violation_max == 0.0:
         return numeric("violation", "Joints: closed exactly", fraction, None, "")
+    if fraction < CLOSED:
+        said = "Joints: closed to round-off"
+        return numeric("violation", said, fraction, trust.constraint_violation_time, trust.constraint_violation_row)
     row, time = trust.constraint_violation_row, trust.constraint_violation_time
     return numeric("violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)
 
@@ -107,6 +110,11 @@ def _rate_item(trust: Trust) -> Item:
         against = f"{said_scale}, the least that counts: the machine is at rest"
     units = trust.constraint_rate_violation_units
     value = number(trust.constraint_rate_violation_max)
+    if fraction < CLOSED:
+        said = "Joint rates: right to round-off"
+        return numeric(
+            "rate_violation", said, fraction, trust.constraint_rate_violation_time, trust.constraint_rate_violation_row
+        )
     said = f"Joint rates: off by at most {value} {units}, {number(fraction)} of {against}"
     row, time = trust.constraint_rate_violation_row, trust.constraint_rate_violation_time
     return numeric("rate_violation", f"{said}, row {row} at t = {time:.6g} s", fraction, time, row)

@@ -26,7 +26,7 @@ def check_target(path: Path, what: str, *, force: bool, sources: Iterable[Path] 
         raise ModelError(f"{path} is {_kind(found.st_mode)}, not a file; the name of a {what} was expected")
     keep_sources(path, what, sources)
     if not force:
-        raise ModelError(f"the {what} {path} exists already; it is replaced with --force (in Python: force=True)")
+        raise ModelError(f"the {what} {path} exists already; use --force to overwrite it (in Python: force=True)")
     _check_folder(path, what)
 
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 Index = NDArray[np.uint32]
+Groups = tuple[tuple[int, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -58,10 +60,15 @@ def minimum_degree(groups: Sequence[int], neighbours: Sequence[set[int]]) -> lis
 
 
 def plan(rows: Sequence[Sequence[int]], block_row: Sequence[int], block_body: Sequence[int]) -> Elimination:
-    """Elimination of all rows.
+    """Elimination of all rows. Its arrays are only read: machines of one structure share them.
 
     rows : the rows of each joint (or normalisation), kept together; block_row, block_body : row and body of every block of C_q.
     """
+    return _planned(tuple(tuple(group) for group in rows), tuple(block_row), tuple(block_body))
+
+
+@lru_cache(maxsize=64)
+def _planned(rows: Groups, block_row: tuple[int, ...], block_body: tuple[int, ...]) -> Elimination:
     count = sum(len(group) for group in rows)
     group_of = np.empty(count, dtype=int)
     for g, group in enumerate(rows):

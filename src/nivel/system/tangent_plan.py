@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,8 +50,22 @@ def plan_tangent(
     found : groups whose derivatives are found otherwise; their entries are in the plan all the same.
     alone : groups that nothing depends on, moved apart from all others: on what they depend is not in `couples`.
     stages : of a step, which are planned as one system too; 0: they are not.
+    Arrays of a plan are only read: machines of one structure share them.
     """
-    pairs = {(a, b) for a, b in couples if a != b}
+    pairs = frozenset((a, b) for a, b in couples if a != b)
+    return _planned(tuple(sizes), tuple(constraint), pairs, mirrored, frozenset(found), frozenset(alone), stages)
+
+
+@lru_cache(maxsize=64)
+def _planned(
+    sizes: tuple[int, ...],
+    constraint: tuple[bool, ...],
+    pairs: frozenset[tuple[int, int]],
+    mirrored: bool,
+    found: frozenset[int],
+    alone: frozenset[int],
+    stages: int,
+) -> TangentPlan:
     beside = [{g} for g in range(len(sizes))]
     for a, b in pairs:
         beside[a].add(b)

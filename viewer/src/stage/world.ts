@@ -33,7 +33,7 @@ export class World {
   private cloud: THREE.Vector3[];
   private free = { left: 0, top: 0, right: 0, bottom: 0 };
   private dirty = true;
-  private readonly finest: number; // pixels of the picture for one of the page
+  private finest: number; // pixels of the picture for one of the page
   private ratio: number;
   private shadows = true; // as the user wants
   private fitted = true; // everything is in sight, and stays so when the room changes
@@ -104,6 +104,17 @@ export class World {
     this.sun.castShadow = on && this.level < 1;
     this.floor.setShadows(this.sun.castShadow);
     this.invalidate();
+  }
+
+  /** Smooth edges and soft shadows whatever they cost: for pictures that are kept. */
+  drawFinely(): void {
+    document.body.classList.remove("plain");
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.finest = this.ratio = 2;
+    this.scene.traverse((each) => {
+      if (each instanceof THREE.Mesh) for (const material of [each.material].flat()) material.needsUpdate = true;
+    });
+    this.resize();
   }
 
   /** Look from one of the standard sides, far enough to see everything. */
@@ -260,7 +271,7 @@ export class World {
     this.sun.position.copy(middle).addScaledVector(from, 3 * reach);
     this.sun.target.position.copy(middle);
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(1024, 1024);
+    this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 3;
     this.sun.shadow.normalBias = 0.004 * this.stage.size;
     const frustum = this.sun.shadow.camera;

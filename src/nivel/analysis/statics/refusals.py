@@ -92,6 +92,6 @@ def for_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Mach
         output_interval=None,
         step_control="own",
     )
-    neutral = holding_free(machine.replace(simulation=simulation))
+    neutral = holding_free(machine.with_simulation(simulation))
     coordinates = choose_coordinates(neutral)
-    return neutral.replace(simulation=neutral.simulation.replace(coordinates=coordinates)), coordinates
+    return neutral.with_simulation(neutral.simulation.replace(coordinates=coordinates)), coordinates

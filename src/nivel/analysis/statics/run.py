@@ -15,7 +15,7 @@ from nivel.analysis.interrupt import interruptible
 from nivel.analysis.listener import Listener
 from nivel.analysis.outcome import broken_function
 from nivel.analysis.plan import methods_of
-from nivel.analysis.preparation import Prepared, prepare
+from nivel.analysis.preparation import Assembled, Prepared, prepare
 from nivel.analysis.refusals import refuse_rough_motions
 from nivel.analysis.statics.attributes import statics_attributes
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
@@ -62,13 +62,16 @@ class Walk:
     buckling: list[tuple[float, str]] = field(default_factory=list)
 
 
-def prepare_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Prepared, StaticEquations]:
-    """The machine assembled, and its equations of static equilibrium. Raises ModelError."""
+def prepare_statics(
+    machine: MachineRecord, settings: StaticsSettings, given: Assembled | None = None
+) -> tuple[Prepared, StaticEquations]:
+    """The machine assembled, and its equations of static equilibrium; given : as built and assembled for a run. Raises ModelError."""
     refuse_friction(machine)
     refuse_with_states(machine, settings)
     neutral, coordinates = for_statics(machine, settings)
     refuse_rough_motions(neutral)
-    prepared = prepare(methods_of(neutral, "newton-euler", coordinates))
+    held = len(neutral.drivers) > len(machine.drivers)  # drivers that hold what is free are not in what was built
+    prepared = prepare(methods_of(neutral, "newton-euler", coordinates), None if held else given)
     motion = with_residual(prepared.motion, prepared.start, coordinates, ResidualOptions(shifted=True))
     motion.system.record.coordinates.reference[:] = prepared.assembly.reference
     # multipliers of equilibria are those of the residual, and S in the record is of another state

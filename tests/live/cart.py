@@ -38,7 +38,8 @@ def machine():
 def running(**given):
     """A session of the cart, paused at its start."""
     with TemporaryDirectory() as folder:
-        with session_of(machine(), {}, urgent=False, recorded_in=Path(folder), **given) as session:
+        opened = session_of(machine(), {}, urgent=False, recorded_in=Path(folder), **given)
+        with opened as session:
             yield session
 
 

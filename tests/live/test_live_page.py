@@ -65,6 +65,26 @@ def test_keys_and_a_gamepad_move_the_machine_and_gauges_follow(live, browser):
     cart.until(lambda: not session.is_operated)
 
 
+def test_a_page_that_lost_its_connection_operates_again_and_takes_over_what_others_left(live, browser):
+    """The key that is held moves the lever again; of the brake, which stays where it is left, the page has what another operator set."""
+    session, viewing = live
+    session.command("run")
+
+    def follows_another():
+        session.operate([0.0, 0.25])
+        return page.evaluate("nivel.app.live.operator.values[1]") == 0.25
+
+    with watched(browser, width=500, height=400) as seen:
+        page = seen.open(viewing.address.url)
+        until(page, follows_another)
+        page.keyboard.down("d")
+        until(page, lambda: session.values()["lever"] == 1.0)
+        page.evaluate("nivel.app.connection.socket.close()")
+        until(page, lambda: session.values()["lever"] == 0.0)
+        until(page, lambda: session.values()["lever"] == 1.0)
+        page.keyboard.up("d")
+
+
 def test_a_stopped_browser_does_not_touch_the_loop(live, browser):
     session, viewing = live
     with watched(browser) as seen:

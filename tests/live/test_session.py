@@ -110,7 +110,7 @@ def test_a_restored_state_goes_on_exactly_where_it_was_saved(driven):
 
 
 def test_a_state_that_is_restored_after_a_reset_leads_back_to_what_came_before_it():
-    """0.1 s to the right, saved; reset, to the left; restored: the take is the first 0.1 s and what follows, not the time after the reset."""
+    """To the right, saved; reset, to the left; restored: the take is the first motion and what follows, not that after the reset."""
     with running() as session:
         session.command("run")
         operate(session, [1.0, 1.0], 0.4)

@@ -26,7 +26,10 @@ def session_of(
     recorded_in: Path | None = None,
     listener: Listener | None = None,
 ) -> Iterator[Session]:
-    """The machine, prepared in the solver's process, paused at its start. recorded_in : a folder with room for what is recorded. Raises ModelError where it cannot be."""
+    """The machine, prepared in the solver's process, paused at its start. recorded_in : a folder for what is recorded.
+
+    Raises ModelError where it cannot be.
+    """
     machine = machine.with_settings(settings)
     pace_of(machine.record.simulation.step, tick)  # a tick that is not right is no fault of the file
     try:

@@ -79,9 +79,11 @@ def test_a_page_that_lost_its_connection_operates_again_and_takes_over_what_othe
         until(page, follows_another)
         page.keyboard.down("d")
         until(page, lambda: session.values()["lever"] == 1.0)
+        before = set(viewing.streams)
         page.evaluate("nivel.app.connection.socket.close()")
-        until(page, lambda: session.values()["lever"] == 0.0)
-        until(page, lambda: session.values()["lever"] == 1.0)
+        until(page, lambda: viewing.streams and not viewing.streams & before)
+        until(page, "nivel.app.live.status.driver === 'you'")
+        until(page, lambda: session.is_operated and session.values()["lever"] == 1.0)
         page.keyboard.up("d")
 
 

@@ -85,6 +85,7 @@ def test_a_page_that_lost_its_connection_operates_again_and_takes_over_what_othe
         until(page, "nivel.app.live.status.driver === 'you'")
         until(page, lambda: session.is_operated and session.values()["lever"] == 1.0)
         page.keyboard.up("d")
+    session.command("reset")
 
 
 def test_a_stopped_browser_does_not_touch_the_loop(live, browser):
@@ -137,11 +138,11 @@ def name_of(process):
 def test_a_body_is_pulled_by_the_mouse(live, browser):
     """With shift a drag pulls the cart along its rail, and the view does not turn; after it the hand has let go."""
     session, viewing = live
+    session.command("reset")
+    session.command("run")
     with watched(browser) as seen:
         page = seen.open(viewing.address.url)
         until(page, "!!nivel.app.live.status")
-        session.command("reset")
-        session.command("run")
         turned = "nivel.app.world.camera.quaternion.toArray()"
         before = page.evaluate(turned)
         x, y = page.evaluate(

@@ -63,7 +63,7 @@ def command(
     from nivel.live.opening import session_of
     from nivel.live.recording import write_recording
     from nivel.live.source import LiveSource
-    from nivel.live.timing import in_words
+    from nivel.live.timing import in_a_sentence, in_words
     from nivel.results.target import check_folder, check_target
     from nivel.view.opening import serve
 
@@ -96,6 +96,9 @@ def command(
         timing = session.timing
     for line in in_words(timing):
         say(line)
+    if timing.ticks:
+        integrator = session.plan.settings.integrator
+        say(f"  {in_a_sentence(session.plan.machine.name, integrator, timing, session.parts)}")
     if listen:
         say(f"datagrams: {outside.counts}")
     if record is not None:

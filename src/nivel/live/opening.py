@@ -12,6 +12,7 @@ from nivel.analysis.listener import Listener
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.integrate.paced import drive
+from nivel.live.parts import ENTRIES
 from nivel.live.preparation import live_plan, pace_of
 from nivel.live.session import Session
 
@@ -34,7 +35,7 @@ def session_of(
     pace_of(machine.record.simulation.step, tick)  # a tick that is not right is no fault of the file
     try:
         plan, pace = live_plan(machine.record, settings, tick)
-        build([*run_entries(plan), drive], listener)
+        build([*run_entries(plan), drive, *ENTRIES], listener)
         session = Session(plan, pace, urgent=urgent, recorded_in=recorded_in)
     except ModelError as error:
         raise ModelError(machine.origin.placed(error.faults)) from None

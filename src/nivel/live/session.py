@@ -55,6 +55,7 @@ class Session:
         self.plan, self.pace = plan, pace
         self.on_frame: Callable[[], None] = lambda: None
         self.said: list[str] = []
+        self.parts: Mapping[str, float] = {}  # share of the computing time by part, once it has ended
         self.problem = ""
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
@@ -137,6 +138,9 @@ class Session:
             try:
                 while self._pipe.poll():
                     told = self._pipe.recv()
+                    if told.kind == "parts":
+                        self.parts = told.facts
+                        continue
                     self.said.append(told.text)
                     if told.kind == "failed" or self.mode == "ended":
                         self.problem = told.text

@@ -127,7 +127,7 @@ def _cost(name: str, plan: Plan, pace: Pace, exact: Array | None, *, at_rest: bo
             return Cost(name, None, {}, note)
         note = f"{note}: this is with levers at rest"
     timing = timing_of(run.live)
-    return Cost(name, timing, shares(run.its, run.live.control, run.loop, timing.computing[0]), note, off)
+    return Cost(name, timing, shares(run.its, run.live.control, run.loop), note, off)
 
 
 class _Run:

@@ -10,8 +10,9 @@ import numpy as np
 
 from nivel.integrate.paced import TICKS
 from nivel.integrate.repeated import halt, repeat_evaluation, repeat_family, repeat_rows
-from nivel.integrate.run import DONE_STEPS, EVALUATIONS
+from nivel.integrate.run import BUDGET, DONE_STEPS, EVALUATIONS, EVENTS, FRAMES, TIME
 from nivel.kernels.observe import observe
+from nivel.kernels.status import BUDGET_SPENT
 from nivel.live.preparation import LiveRun
 from nivel.native.entry import Entry
 from nivel.system.hydraulics.components import families_of
@@ -21,19 +22,28 @@ AT_ONCE: Final = 20  # of short ones
 ENTRIES: Final[tuple[Entry, ...]] = (halt.code, repeat_evaluation, repeat_family, repeat_rows)
 
 
-def shares(live_run: LiveRun, control: Any, loop: Callable[[], int], median: float) -> dict[str, float]:
-    """Share of the computing time by part, in the state where the run is, which stays. Empty of methods that do not evaluate ẏ.
+def shares(live_run: LiveRun, control: Any, loop: Callable[[], int]) -> dict[str, float]:
+    """Share of the computing time of a tick by part. Empty of methods that do not evaluate ẏ, and where the run does not go on.
 
-    control, loop : of the live run. median : computing time of a tick [s]; what no part has used is that of the method.
+    control, loop : of the live run, which goes some ticks further. What no part has used is that of the method.
 
     An evaluation is split as it is computed: bodies, with markers, measured coordinates and, apart, the rows of the constraints, is what
     it takes until its first force; then come the forces, by families; the rest are masses, multipliers and accelerations.
     """
-    if live_run.prepared.integrator.residual or not median > 0.0:
+    if live_run.prepared.integrator.residual:
         return {}
     run, motion, pace = live_run.run, live_run.prepared.motion, live_run.pace
     record, machine = motion.system.record, motion.handle.address
-    at, y, rate = float(run.clock[0]), run.y.copy(), np.zeros_like(run.y)
+    states: list[int] = []
+
+    def tick() -> None:
+        run.counter[BUDGET], run.counter[FRAMES], run.counter[EVENTS] = pace.substeps, 0, 0
+        states.append(live_run.loop.advance())
+
+    median = _seconds(tick)
+    if any(each != BUDGET_SPENT for each in states):
+        return {}
+    at, y, rate = float(run.clock[TIME]), run.y.copy(), np.zeros_like(run.y)
 
     def begin() -> int:
         control[TICKS] = 0
@@ -73,7 +83,7 @@ def shares(live_run: LiveRun, control: Any, loop: Callable[[], int], median: flo
             "solve": evaluations * max(whole - read - forces - circuit, 0.0),
             "output": output / pace.every,
         },
-        median,
+        max(median - idle, 0.0),
     )
 
 

@@ -39,7 +39,6 @@ from nivel.live.preparation import LiveRun, Pace, prepared_run
 from nivel.live.shared import live_in
 from nivel.live.snapshot import Snapshot, arrays_of, put_back, taken
 from nivel.live.system_clock import become_urgent, clock_addresses
-from nivel.live.timing import timing_of
 from nivel.native import library
 
 ROUND: Final = 0.5  # s that the compiled loop goes on before it is looked whether the server is still there
@@ -125,9 +124,9 @@ class Solver:
         """Share of the computing time by part, where that can be measured without compiling."""
         control = self._live.control
         control[PACED] = 0
-        if library.missing(ENTRIES):
+        if control[MODE] not in (shared.RUNNING, shared.PAUSED) or library.missing(ENTRIES):
             return {}
-        return shares(self._its, control, self._drive, timing_of(self._live).computing[0])
+        return shares(self._its, control, self._drive)
 
     def _drive_once(self, ticks: int) -> None:
         control = self._live.control

@@ -196,6 +196,8 @@ def test_ticks_are_whole_steps():
     assert pace_of(1e-3, 5e-3).substeps == 5
     with pytest.raises(ModelError, match="is not a multiple of the step"):
         pace_of(1e-3, 2.5e-3)
+    with pytest.raises(ModelError, match=r"1 s is longer than 0\.1 s"):
+        pace_of(1.0, None)
 
 
 def test_slow_motion_goes_at_its_speed():

@@ -227,6 +227,7 @@ export class App {
       this.shownTime = this.latest.time;
       this.latest = null;
       this.refreshFrame();
+      if (this.live) this.colours.spread();
       this.trails?.add();
       this.hand?.update();
       this.handled.keepInSight();

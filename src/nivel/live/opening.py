@@ -15,6 +15,7 @@ from nivel.integrate.paced import drive
 from nivel.live.parts import ENTRIES
 from nivel.live.preparation import live_plan, pace_of
 from nivel.live.session import Session
+from nivel.native import workers
 
 
 @contextmanager
@@ -36,6 +37,7 @@ def session_of(
     try:
         plan, pace = live_plan(machine.record, settings, tick)
         build([*run_entries(plan), drive, *ENTRIES], listener)
+        workers.end_all()
         session = Session(plan, pace, urgent=urgent, recorded_in=recorded_in)
     except ModelError as error:
         raise ModelError(machine.origin.placed(error.faults)) from None

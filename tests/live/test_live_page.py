@@ -65,6 +65,29 @@ def test_keys_and_a_gamepad_move_the_machine_and_gauges_follow(live, browser):
     cart.until(lambda: not session.is_operated)
 
 
+def test_a_page_that_lost_its_connection_operates_again_and_takes_over_what_others_left(live, browser):
+    """The key that is held moves the lever again; of the brake, which stays where it is left, the page has what another operator set."""
+    session, viewing = live
+    session.command("run")
+
+    def follows_another():
+        session.operate([0.0, 0.25])
+        return page.evaluate("nivel.app.live.operator.values[1]") == 0.25
+
+    with watched(browser, width=500, height=400) as seen:
+        page = seen.open(viewing.address.url)
+        until(page, follows_another)
+        page.keyboard.down("d")
+        until(page, lambda: session.values()["lever"] == 1.0)
+        before = set(viewing.streams)
+        page.evaluate("nivel.app.connection.socket.close()")
+        until(page, lambda: viewing.streams and not viewing.streams & before)
+        until(page, "nivel.app.live.status.driver === 'you'")
+        until(page, lambda: session.is_operated and session.values()["lever"] == 1.0)
+        page.keyboard.up("d")
+    session.command("reset")
+
+
 def test_a_stopped_browser_does_not_touch_the_loop(live, browser):
     session, viewing = live
     with watched(browser) as seen:
@@ -115,11 +138,11 @@ def name_of(process):
 def test_a_body_is_pulled_by_the_mouse(live, browser):
     """With shift a drag pulls the cart along its rail, and the view does not turn; after it the hand has let go."""
     session, viewing = live
+    session.command("reset")
+    session.command("run")
     with watched(browser) as seen:
         page = seen.open(viewing.address.url)
         until(page, "!!nivel.app.live.status")
-        session.command("reset")
-        session.command("run")
         turned = "nivel.app.world.camera.quaternion.toArray()"
         before = page.evaluate(turned)
         x, y = page.evaluate(

@@ -34,6 +34,7 @@ import { Plots } from "./ui/plots";
 import { Timeline } from "./ui/timeline";
 import { Tree } from "./ui/tree";
 
+const NOTED = 4000; // ms that a note is shown
 const IDLE = 400; // ms without a frame after which nothing moves
 const FEW_NAMES = 14; // a machine of more bodies starts without names
 
@@ -64,10 +65,11 @@ export class App {
   private hand: Hand | null = null;
   private shownTime = 0;
   private readonly panels: Panels;
-  private readonly dialog = helpDialog();
+  private readonly dialog: HTMLDialogElement;
   private readonly status = el("p", { class: "status", role: "status" });
   private picked: Picked | null = null;
   private latest: Frame | null = null;
+  private noted = 0;
   private came = 0; // ms: when the last frame came
 
   constructor(
@@ -150,6 +152,7 @@ export class App {
       this.hand = hand;
     }
     if (this.circuit) this.inspector.put(this.circuit.element);
+    this.dialog = helpDialog(this.live?.keys ?? null);
     const data = el("div", {}, this.live?.panel ?? null, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;
     this.panels = new Panels(stage, others, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? this.live?.bar ?? null, this.status, () => this.dialog.showModal());
@@ -204,13 +207,20 @@ export class App {
   }
 
   message(message: FromServer): void {
-    if (message.type === "note") this.say(message.text);
+    if (message.type === "note") this.note(message.text);
     if (message.type === "status") this.live?.update(message);
     if (message.type === "moved") this.coordinates?.update(message.values, this.stage.coordinates, message.problem);
   }
 
   say(text: string): void {
+    clearTimeout(this.noted);
     this.status.textContent = text;
+  }
+
+  /** Say something that is soon out of date. */
+  private note(text: string): void {
+    this.say(text);
+    this.noted = window.setTimeout(() => this.say(""), NOTED);
   }
 
   private beforeRender(now: number): void {
@@ -225,6 +235,7 @@ export class App {
       this.shownTime = this.latest.time;
       this.latest = null;
       this.refreshFrame();
+      if (this.live) this.colours.spread();
       this.trails?.add();
       this.hand?.update();
       this.handled.keepInSight();

@@ -5,6 +5,8 @@ import { inflate, openPackage } from "./package";
 import type { View } from "./stage/views";
 import "./style.css";
 
+const LOST = 3; // attempts in vain after which the program counts as gone
+
 function complain(text: string): void {
   const message = document.createElement("p");
   message.className = "complaint";
@@ -65,9 +67,10 @@ function connect(): void {
     },
     onFrame: (frame) => app?.take(frame),
     onMessage: (message) => app?.message(message),
-    onState: (connected) => {
+    onOther: () => location.reload(),
+    onState: (connected, failures) => {
       if (!connected) app?.live?.lose();
-      app?.say(connected ? "" : "The program that shows this page has ended; what is here stays.");
+      app?.say(connected ? "" : failures < LOST ? "The connection was lost; it is tried again." : "The program that shows this page has ended; what is here stays.");
     },
   });
 }

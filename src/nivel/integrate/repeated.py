@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from nivel.kernels.hook import call_evaluate, call_family
-from nivel.kernels.status import OK
+from nivel.kernels.constraint import constraint_rows
+from nivel.kernels.hook import call_evaluate, call_family, family
+from nivel.kernels.record import record_at
+from nivel.kernels.status import DONE, OK
 from nivel.native.entry import entry
 from nivel.native.signature import Signature
 
 FAMILY_AGAIN = Signature("status", ("entry", "machine", "count", "number", "count"))
+ROWS_AGAIN = Signature("status", ("machine", "count"))
 EVALUATE_AGAIN = Signature("status", ("entry", "machine", "number", "vector", "vector", "count"))
 
 
@@ -27,3 +30,18 @@ def repeat_evaluation(evaluate, machine, t, y, rate, times):
     for _ in range(times):
         status = call_evaluate(evaluate, machine, t, y, rate)
     return status
+
+
+@entry(ROWS_AGAIN)
+def repeat_rows(machine, times):
+    """Fill the rows of the constraints so many times."""
+    record = record_at(machine)
+    for _ in range(times):
+        constraint_rows(record.bodies, record.markers, record.constraints)
+    return OK
+
+
+@family
+def halt(machine, number, t):
+    """In the place of the first family: the evaluation ends before the forces."""
+    return DONE

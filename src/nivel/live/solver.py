@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import signal
 import time
 from dataclasses import asdict, dataclass, field
 from multiprocessing.connection import Connection
@@ -33,10 +34,12 @@ from nivel.integrate.run import STEP as STEP_CLOCK
 from nivel.kernels import status as codes
 from nivel.kernels.observe import observe
 from nivel.live import shared
+from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import LiveRun, Pace, prepared_run
 from nivel.live.shared import live_in
 from nivel.live.snapshot import Snapshot, arrays_of, put_back, taken
 from nivel.live.system_clock import become_urgent, clock_addresses
+from nivel.native import library
 
 ROUND: Final = 0.5  # s that the compiled loop goes on before it is looked whether the server is still there
 REST: Final = 0.004  # s between two looks at the commands while nothing moves
@@ -44,7 +47,7 @@ REST: Final = 0.004  # s between two looks at the commands while nothing moves
 
 @dataclass
 class Told:
-    """What the solver says over its pipe. kind : ready, said, failed, refused."""
+    """What the solver says over its pipe. kind : ready, said, failed, refused, parts."""
 
     kind: str
     text: str = ""
@@ -52,7 +55,8 @@ class Told:
 
 
 def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
-    """The life of the process: prepare, say what is needed, get the memory, tick."""
+    """The life of the process: prepare, say what is needed, get the memory, tick. Ctrl-C is for the server, which then ends it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         live_run = prepared_run(plan, pace)
     except NivelError as error:
@@ -64,7 +68,7 @@ def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
         memory = SharedMemory(pipe.recv())
     except (EOFError, FileNotFoundError):
         return
-    with contextlib.suppress(KeyboardInterrupt, BrokenPipeError):
+    with contextlib.suppress(BrokenPipeError):
         Solver(live_run, live_in(memory.buf, live_run.sizes), pipe).live(urgent)
     # the arrays still look at the memory, which goes with the process
     os._exit(0)
@@ -113,7 +117,16 @@ class Solver:
                 self._drive_once(max(1, int(ROUND / self._its.pace.tick)))
             else:
                 time.sleep(REST)
+        self._pipe.send(Told("parts", facts=self._parts()))
         control[MODE] = shared.GONE
+
+    def _parts(self) -> dict[str, float]:
+        """Share of the computing time by part, where that can be measured without compiling."""
+        control = self._live.control
+        control[PACED] = 0
+        if control[MODE] not in (shared.RUNNING, shared.PAUSED) or library.missing(ENTRIES):
+            return {}
+        return shares(self._its, control, self._drive)
 
     def _drive_once(self, ticks: int) -> None:
         control = self._live.control

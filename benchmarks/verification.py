@@ -3,7 +3,8 @@
     python benchmarks/verification.py [EXAMPLE.yaml ...]
 
 Wall time is that of the whole command, reading, running and reporting, the least of REPEATS; processor time counts both threads. The bar is
-1.5 by wall time on two cores that have nothing else to do: where others work on them too, the ratio of processor times is what is left of it.
+1.5 by wall time on two cores that have nothing else to do: where others work on them too, the ratio of processor times is what is left of
+it.
 """
 
 from __future__ import annotations
@@ -33,7 +34,9 @@ def main() -> None:
         ratios = f"{walls[-1]:6.2f} {verified[1] / plain[1]:6.2f}"
         print(f"{path.stem:32} {plain[0]:8.2f} {verified[0]:8.2f} {ratios}  {verified[2]}", flush=True)
     above = sum(ratio > BAR for ratio in walls)
-    print(f"wall time with over without: median {statistics.median(walls):.2f}, largest {max(walls):.2f}, {above} above")
+    print(
+        f"wall time with over without: median {statistics.median(walls):.2f}, largest {max(walls):.2f}, {above} above"
+    )
 
 
 def _best(path: Path, options: list[str]) -> tuple[float, float, str] | None:

@@ -298,7 +298,9 @@ def test_short_elements_of_a_thick_beam_have_no_critical_load_of_their_own():
         sections = {
             "beams": {"rod": rod},
             "joints": {"root": {"type": "fixed", "bodies": ["ground", "rod.start"], "point": [0, 0, 0]}},
-            "forces": {"push": {"type": "force", "body": "rod.end", "vector": [0, f"{24 * 2.07e11 * 1e-4 / 12}*time", 0]}},
+            "forces": {
+                "push": {"type": "force", "body": "rod.end", "vector": [0, f"{24 * 2.07e11 * 1e-4 / 12}*time", 0]}
+            },
         }
         result = machine(sections).statics(duration=1, step=0.25)
         assert result.trust.verdict == "green", result

@@ -23,7 +23,7 @@ from pathlib import Path
 from rich.progress import Progress
 
 from nivel import __version__
-from nivel.analysis.compilation import all_entries
+from nivel.analysis.plan.compilation import all_entries
 from nivel.native import library, shipped, store, workers
 from nivel.native.entry import Entry
 from nivel.native.sources import fingerprint

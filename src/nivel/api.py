@@ -9,8 +9,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
-from nivel.analysis.compilation import (
+from nivel.analysis.compare.compare_grid import Axes, compile_grid, lay_out
+from nivel.analysis.plan.compilation import (
     assembly_entries,
     build,
     kinematics_entries,
@@ -19,9 +19,9 @@ from nivel.analysis.compilation import (
     run_entries,
     statics_entries,
 )
-from nivel.analysis.listener import Listener
-from nivel.analysis.plan import Plan, methods_of, plan_run
-from nivel.analysis.settings import waiting_time
+from nivel.analysis.plan.plan import Plan, methods_of, plan_run
+from nivel.analysis.plan.settings import waiting_time
+from nivel.analysis.progress.listener import Listener
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
@@ -52,18 +52,18 @@ from nivel.wording import shown
 if TYPE_CHECKING:
     import xarray
 
-    from nivel.analysis.check import Check
+    from nivel.analysis.check.check import Check
+    from nivel.analysis.interactive.posing import Posing
     from nivel.analysis.inverse.mechanics import Mechanics
     from nivel.analysis.mass import MassProperties
-    from nivel.analysis.posing import Posing
-    from nivel.analysis.stepping import Simulation
+    from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
     from nivel.native.entry import Entry
-    from nivel.results.comparison import Comparison
-    from nivel.results.efforts import Efforts
-    from nivel.results.joint_path import JointPath
-    from nivel.results.linear_model import LinearModel
-    from nivel.results.mechanism import Range
+    from nivel.results.analyses.efforts import Efforts
+    from nivel.results.analyses.linear_model import LinearModel
+    from nivel.results.analyses.mechanism import Range
+    from nivel.results.comparison.comparison import Comparison
+    from nivel.results.frames.joint_path import JointPath
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
 
@@ -133,7 +133,7 @@ class Machine(Model):
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         plan = self._plan(self.origin.settings_outside)
         build(preparation_entries(plan.methods), listener)
-        from nivel.analysis.check import check
+        from nivel.analysis.check.check import check
 
         with self._faults_in_file():
             return check(plan)
@@ -153,7 +153,7 @@ class Machine(Model):
     def posed(self, *, listener: Listener | None = None) -> Posing:
         """The assembled machine, to be moved by hand. Raises ModelError where it cannot be assembled."""
         build(assembly_entries(self.record), listener)
-        from nivel.analysis.posing import Posing
+        from nivel.analysis.interactive.posing import Posing
 
         with self._faults_in_file():
             return Posing(self.record)
@@ -245,7 +245,7 @@ class Machine(Model):
         self._refuse_target(out, force)
         compile_seconds = build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
-        from nivel.analysis.simulate import simulate
+        from nivel.analysis.run.simulate import simulate
 
         with chosen._faults_in_file():
             return simulate(
@@ -305,7 +305,7 @@ class Machine(Model):
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         build(_entries_of(plan, chosen.record), listener)
-        from nivel.analysis.stepping import Simulation
+        from nivel.analysis.run.stepping import Simulation
 
         with chosen._faults_in_file():
             return Simulation(plan, source=self.origin.source, record=record)
@@ -427,7 +427,7 @@ class Machine(Model):
         """
         from nivel.analysis.kinematics.refusals import refuse_what_bends
         from nivel.analysis.kinematics.settings import kinematics_settings
-        from nivel.analysis.neutral import neutral
+        from nivel.analysis.plan.neutral import neutral
 
         given = {"drive": drive, "start": start, "end": end, "duration": duration, "positions": positions}
         settings = kinematics_settings(self.record, {**given, "coordinates": coordinates})
@@ -518,7 +518,7 @@ class Machine(Model):
         from nivel.analysis.inverse.refusals import refuse_for_inverse
         from nivel.analysis.inverse.settings import inverse_settings
         from nivel.analysis.inverse.trajectory import along_trajectory
-        from nivel.analysis.neutral import neutral
+        from nivel.analysis.plan.neutral import neutral
 
         given = {"actuators": actuators, "limits": limits, "weights": weights, "hold": hold}
         if motion is not None and trajectory is not None:
@@ -552,7 +552,7 @@ class Machine(Model):
         coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
         """
         from nivel.analysis.linearise.refusals import refuse_jumps
-        from nivel.analysis.neutral import neutral
+        from nivel.analysis.plan.neutral import neutral
 
         with self._faults_in_file():
             refuse_jumps(self.record)
@@ -560,7 +560,7 @@ class Machine(Model):
             methods = methods_of(plain, "newton-euler", chosen)
         build(linear_entries(methods), listener)
         from nivel.analysis.inverse.mechanics import Mechanics
-        from nivel.analysis.moment import at_start
+        from nivel.analysis.run.moment import at_start
 
         with self._faults_in_file():
             return Mechanics(plain, at_start(methods))
@@ -636,7 +636,7 @@ class Machine(Model):
         """
         from nivel.analysis.linearise.refusals import refuse_jumps
         from nivel.analysis.linearise.settings import linearise_settings
-        from nivel.analysis.neutral import neutral
+        from nivel.analysis.plan.neutral import neutral
 
         simulation = self.record.simulation
         wanted = simulation.coordinates if coordinates is None else coordinates
@@ -665,7 +665,7 @@ class Machine(Model):
         build(entries, listener)
         # what follows takes longer to import
         from nivel.analysis.linearise.run import linearise
-        from nivel.analysis.moment import run_until
+        from nivel.analysis.run.moment import run_until
 
         with self._faults_in_file():
             posture = None if run is None else run_until(run, listener or Listener())
@@ -714,7 +714,7 @@ class Machine(Model):
         grid = lay_out(chosen.record, axes, given)
         compile_grid(chosen.record, grid, listener)
         # what follows takes longer to import
-        from nivel.analysis.compare import compare
+        from nivel.analysis.compare.compare import compare
 
         with chosen._faults_in_file():
             return compare(chosen.record, grid, repeat=repeat, listener=listener)
@@ -727,7 +727,7 @@ class Machine(Model):
 
     def _refuse_target(self, out: str | PathLike[str] | None, force: bool) -> None:
         """Refuse a result file that cannot be written, before anything is compiled. Raises ModelError."""
-        from nivel.results.target import check_target  # results take long to import
+        from nivel.results.frames.target import check_target  # results take long to import
 
         if out is not None:
             sources = [Path(self.origin.file)] if self.origin.file else []

@@ -5,8 +5,8 @@ import pytest
 
 import machines
 from checking import check
-from nivel.analysis.choice import _absolute_cost, _relative_cost, choose_coordinates
-from nivel.analysis.settings import complete
+from nivel.analysis.plan.choice import _absolute_cost, _relative_cost, choose_coordinates
+from nivel.analysis.plan.settings import complete
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.machine import Body, MachineRecord, SimulationSettings

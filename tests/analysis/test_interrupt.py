@@ -6,7 +6,7 @@ import pytest
 
 import machines
 from nivel import Machine
-from nivel.analysis.listener import Listener
+from nivel.analysis.progress.listener import Listener
 from nivel.results import Result
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.redundancy import dependent_rows
+from nivel.analysis.assembly.redundancy import dependent_rows
 from preparing import prepare
 from running import run
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.analysis.unique_reactions import COMPONENTS
+from nivel.analysis.assembly.unique_reactions import COMPONENTS
 
 FOUR_BAR = Path(__file__).parents[2] / "examples" / "four-bar-revolutes.yaml"
 

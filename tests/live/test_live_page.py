@@ -9,7 +9,7 @@ import pytest
 
 import cart
 from browsing import chromium, served, until, watched
-from nivel.integrate.paced import DONE
+from nivel.integrate.loop.paced import DONE
 from nivel.live.source import LiveSource
 from nivel.live.timing import timing_of
 

@@ -9,7 +9,7 @@ import pytest
 import cart
 from cart import DAMPING, FORCE, MASS, machine, operate, running, until
 from nivel.errors import ModelError
-from nivel.integrate.paced import DONE, SAVED
+from nivel.integrate.loop.paced import DONE, SAVED
 from nivel.live.hand import grip
 from nivel.live.opening import session_of
 from nivel.live.preparation import live_plan, pace_of

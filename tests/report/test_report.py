@@ -14,7 +14,7 @@ from nivel.report.peaks import peak_reactions
 from nivel.report.thinning import Thinning
 from nivel.report.write import number, quantity, report_html
 from nivel.results import Memory
-from nivel.results.trust import Facts, assess
+from nivel.results.trust.trust import Facts, assess
 
 TIME = np.linspace(0.0, 2.0, 201)
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from beams import flying, hinged, prepared
 from nivel.errors import ModelError
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
 from simulating import simulate
 
 STEEL = {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3, "density": "7850 kg/m^3"}

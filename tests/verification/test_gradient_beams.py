@@ -13,10 +13,10 @@ from scipy.spatial.transform import Rotation
 
 from beams import forces, prepared, trust
 from gradient_beams import EI, LENGTH, MODELS, bodies_of_nodes, cantilever, deformed, flying, in_motion, section
-from nivel.analysis import implicit
-from nivel.analysis.beam_facts import beam_facts
+from nivel.analysis.assembly import implicit
+from nivel.analysis.plan.beam_facts import beam_facts
 from nivel.errors import ModelError, SolveError
-from nivel.kernels.observe import observe
+from nivel.kernels.output.observe import observe
 from references.flexible_pendulum import TIP
 from simulating import machine, simulate
 from test_beam_elements import moved

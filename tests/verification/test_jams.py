@@ -6,7 +6,7 @@ from math import acos, cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from nivel.analysis import dynamics
+from nivel.analysis.run import dynamics
 from nivel.errors import SolveError
 from nivel.results.result import Result
 from simulating import hinge, simulate, slide, solid

@@ -6,15 +6,15 @@ from scipy.interpolate import CubicSpline
 
 import machines
 from lanes import FULL
-from nivel.analysis.assemble import assemble
-from nivel.analysis.equations import equations, moved
-from nivel.analysis.redundancy import analyse
-from nivel.kernels.constraint import combine, constraint_rows
-from nivel.kernels.coordinate import measure
-from nivel.kernels.marker import move_markers, place_markers
-from nivel.kernels.rigid import place_body
-from nivel.kernels.rolling import CONTACT, rolling
-from nivel.kernels.spatial import multiply
+from nivel.analysis.assembly.assemble import assemble
+from nivel.analysis.assembly.equations import equations, moved
+from nivel.analysis.assembly.redundancy import analyse
+from nivel.kernels.algebra.spatial import multiply
+from nivel.kernels.bodies.constraint import combine, constraint_rows
+from nivel.kernels.bodies.coordinate import measure
+from nivel.kernels.bodies.marker import move_markers, place_markers
+from nivel.kernels.bodies.rigid import place_body
+from nivel.kernels.bodies.rolling import CONTACT, rolling
 from nivel.machine import Body, Joint, MachineRecord
 from nivel.machine.joint import JOINT_COORDINATES, JOINT_KINDS
 from nivel.system.system import parameter_rates

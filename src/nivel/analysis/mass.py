@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from nivel.analysis.assemble import assemble
-from nivel.analysis.equations import equations
+from nivel.analysis.assembly.assemble import assemble
+from nivel.analysis.assembly.equations import equations
 from nivel.errors import Fault, ModelError
 from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.inertia import point_mass_inertia

@@ -34,7 +34,7 @@ def command(
 
     Shows every joint with its first and second body, its zero and its positive direction. Exit code 2 with every fault that was found.
     """
-    from nivel.analysis.listener import Listener
+    from nivel.analysis.progress.listener import Listener
     from nivel.api import load
 
     loaded = load(machine, overrides, allow_code=allow_code)

@@ -14,7 +14,7 @@ from nivel.cli.progress import progress_listener
 from nivel.cli.run import assembly_lines, beside, refuse_to_replace
 
 if TYPE_CHECKING:
-    from nivel.results.mechanism import Range
+    from nivel.results.analyses.mechanism import Range
     from nivel.results.result import Result
 
 
@@ -64,7 +64,7 @@ def command(
     """
     from nivel.api import load
     from nivel.errors import ModelError, SolveError
-    from nivel.results.mechanism import add_studies, read_curve, read_transmission
+    from nivel.results.analyses.mechanism import add_studies, read_curve, read_transmission
 
     loaded = load(machine, overrides, allow_code=allow_code)
     angles = [read_transmission(loaded.record, each) for each in transmission]

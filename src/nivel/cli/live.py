@@ -64,7 +64,7 @@ def command(
     from nivel.live.recording import write_recording
     from nivel.live.source import LiveSource
     from nivel.live.timing import in_a_sentence, in_words
-    from nivel.results.target import check_target
+    from nivel.results.frames.target import check_target
     from nivel.view.opening import serve
 
     def say(text: str) -> None:

@@ -92,7 +92,7 @@ def command(
 
 def _refuse_to_replace(target: Path, page: Path | None, vtk: Path | None, force: bool, model: Path) -> None:
     from nivel.errors import ModelError
-    from nivel.results.target import check_target
+    from nivel.results.frames.target import check_target
 
     if page == target:
         raise ModelError(

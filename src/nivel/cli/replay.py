@@ -37,7 +37,7 @@ def command(
     from nivel.errors import ModelError
     from nivel.live.recording import read_recording
     from nivel.live.replay import replay, rerun
-    from nivel.results.target import check_target
+    from nivel.results.frames.target import check_target
 
     stored = read_recording(recording)
     if not stored.takes:

@@ -23,7 +23,7 @@ from nivel.cli.progress import progress_listener
 
 if TYPE_CHECKING:
     from nivel.results import Result
-    from nivel.results.verdicts import Trust
+    from nivel.results.trust.verdicts import Trust
 
 
 @click.command(short_help="Simulate a machine: result file, report, summary.")
@@ -122,7 +122,7 @@ def beside(target: Path) -> Path:
 def refuse_to_replace(report: Path | None, target: Path, force: bool, machine: Path) -> None:
     """Refuse files that exist, unless they may be replaced; the machine file is never written over."""
     from nivel.errors import ModelError
-    from nivel.results.target import check_target
+    from nivel.results.frames.target import check_target
 
     if report is not None and report == target:
         raise ModelError(
@@ -136,7 +136,7 @@ def refuse_to_replace(report: Path | None, target: Path, force: bool, machine: P
 def _say(result: Result, target: Path, report: Path | None) -> None:
     from rich.console import Console
 
-    from nivel.results.occurrence import in_words
+    from nivel.results.frames.occurrence import in_words
 
     console = Console(stderr=True, highlight=False)
     trust = result.trust

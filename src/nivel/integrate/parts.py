@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.integrate.run import EVALUATIONS, KNOWN, REACHED, REJECTED, STEP, TIME, run_at
-from nivel.kernels.hook import call_evaluate
-from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.integrate.loop.run import EVALUATIONS, KNOWN, REACHED, REJECTED, STEP, TIME, run_at
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import call_evaluate
+from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, shared
 
 # A step has at most this many parts.

@@ -12,10 +12,10 @@ from nivel.machine.coefficient import PositiveNumber, Truth
 from nivel.machine.flexibility import FlexibleBody
 from nivel.machine.inertia import InertiaTensor, impossible, mass_properties
 from nivel.machine.orientation import Orientation
-from nivel.machine.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector, listed
 from nivel.machine.record import GROUND, Name
 from nivel.machine.shape import Mesh, Shape, Sphere
 from nivel.machine.solids import volume, why_not_solid
+from nivel.machine.units.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector, listed
 
 LIGHTEST: Final = 1e-2  # [kg/m³] mean density below which a unit must have slipped: a hundredth of that of air
 DENSEST: Final = 1e5  # [kg/m³] and above which: four times that of the densest metal

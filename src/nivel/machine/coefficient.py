@@ -21,10 +21,10 @@ from pydantic import (
 from pydantic_core import CoreSchema, InitErrorDetails, core_schema
 
 from nivel.arguments import plain
-from nivel.machine.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.coordinate_reference import kind_of
-from nivel.machine.dimension import KINDS
-from nivel.machine.quantity import (
+from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
+from nivel.machine.units.dimension import KINDS
+from nivel.machine.units.quantity import (
     Quantity,
     expression_fault,
     fault,

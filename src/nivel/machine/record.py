@@ -20,8 +20,8 @@ from pydantic_core import ErrorDetails, InitErrorDetails
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.machine.example_line import list_line, mapping_line
-from nivel.machine.quantity import FAULT, REPORTED, fault, reported
 from nivel.machine.signature import PlainSignature
+from nivel.machine.units.quantity import FAULT, REPORTED, fault, reported
 from nivel.wording import shown, unknown_word
 
 NAME = re.compile(r"[^\W\d_][\w-]*")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, Final
 
-from nivel.machine.arithmetic import Parameters
 from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.coordinate_uses import coordinate_faults
 from nivel.machine.forces import Contact
@@ -16,6 +15,7 @@ from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.point_masses import point_mass_faults
 from nivel.machine.record import GROUND, Record, entry, unknown_word
 from nivel.machine.symbols import outputs_of, states_of, symbol_faults
+from nivel.machine.units.arithmetic import Parameters
 
 __all__ = ["SECTIONS", "reference_faults"]
 

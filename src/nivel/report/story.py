@@ -8,9 +8,9 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from nivel.results.beam_nodes import beam_nodes
-from nivel.results.occurrence import in_words
-from nivel.results.verdicts import Item, Trust, Verdict
+from nivel.results.beams.beam_nodes import beam_nodes
+from nivel.results.frames.occurrence import in_words
+from nivel.results.trust.verdicts import Item, Trust, Verdict
 
 if TYPE_CHECKING:
     from nivel.results.result import Result

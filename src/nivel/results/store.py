@@ -18,11 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError, SolveError
-from nivel.integrate.sink import Header
-from nivel.results.contents import resolved, shape_of
-from nivel.results.space import Space
-from nivel.results.stored import StoredContents, opened
-from nivel.results.target import check_target
+from nivel.integrate.loop.sink import Header
+from nivel.results.frames.contents import resolved, shape_of
+from nivel.results.frames.space import Space
+from nivel.results.frames.stored import StoredContents, opened
+from nivel.results.frames.target import check_target
 from nivel.system.layout import Variable
 
 if TYPE_CHECKING:

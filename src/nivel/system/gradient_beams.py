@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nivel.kernels.beam_record import PointInertia
 from nivel.kernels.forces.ancf_beam import apply as ancf_beam
 from nivel.kernels.forces.ancf_cable import apply as ancf_cable
-from nivel.kernels.hook import Family
-from nivel.kernels.record import NONE
-from nivel.machine.beam import Beam
+from nivel.kernels.record.beam_record import PointInertia
+from nivel.kernels.record.hook import Family
+from nivel.kernels.record.record import NONE
+from nivel.machine.beams.beam import Beam
 from nivel.system.beam_elements import gauss
 from nivel.system.builder import SystemBuilder
 from nivel.system.gradient_elements import (

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.machine.beam import Beam
+from nivel.machine.beams.beam import Beam
 from nivel.system.beam_elements import gauss
 from nivel.system.gradient_beams import section_stiffness
 from nivel.system.gradient_elements import (

@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.analysis.instant import Complex, Instant
+from nivel.analysis.assembly.instant import Complex, Instant
+from nivel.analysis.assembly.user_frames import frame_axes, frame_place, point_acceleration, point_velocity
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue
 from nivel.analysis.linearise.reduction import Ports, Reduction
-from nivel.analysis.moment import Moment
+from nivel.analysis.run.moment import Moment
 from nivel.analysis.statics.equations import turned
-from nivel.analysis.user_frames import frame_axes, frame_place, point_acceleration, point_velocity
 from nivel.errors import ModelError
 from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.machine_record import MachineRecord

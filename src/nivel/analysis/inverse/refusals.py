@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.analysis.rolling import refuse_rolling
+from nivel.analysis.plan.rolling import refuse_rolling
 from nivel.errors import Fault, ModelError
 from nivel.machine.forces import Friction
 from nivel.machine.machine_record import MachineRecord

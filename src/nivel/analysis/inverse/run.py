@@ -16,16 +16,16 @@ from collections import Counter
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.instant import Instant
+from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.inverse.least import Least, least_efforts
 from nivel.analysis.inverse.settings import InverseSettings
-from nivel.analysis.inverse.states import MovingState, moving_states
-from nivel.analysis.listener import Listener
-from nivel.analysis.moment import at_start
-from nivel.analysis.plan import Methods
-from nivel.kernels.observe import observe
+from nivel.analysis.kinematics.states import MovingState, moving_states
+from nivel.analysis.plan.plan import Methods
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.moment import at_start
+from nivel.kernels.output.observe import observe
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.efforts import Efforts
+from nivel.results.analyses.efforts import Efforts
 from nivel.results.result import Result
 from nivel.system.system import Array
 

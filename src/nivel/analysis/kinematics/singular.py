@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import qr
 
-from nivel.analysis.inverse.states import moving_states
-from nivel.analysis.preparation import Prepared
-from nivel.analysis.redundancy import scaled_jacobian
+from nivel.analysis.assembly.redundancy import scaled_jacobian
+from nivel.analysis.kinematics.states import moving_states
+from nivel.analysis.run.preparation import Prepared
 from nivel.results.result import Result
 from nivel.system.system import Array
 

@@ -18,8 +18,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from nivel.analysis.instant import Instant
-from nivel.kernels.record import NONE
+from nivel.analysis.assembly.instant import Instant
+from nivel.kernels.record.record import NONE
 from nivel.system.system import Array
 
 # shares by which principal moments and lengths are equal, and speeds nothing

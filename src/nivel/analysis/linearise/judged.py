@@ -7,15 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.instant import Complex, Instant
+from nivel.analysis.assembly.instant import Complex, Instant
+from nivel.analysis.assembly.unknowns import unknown_name
 from nivel.analysis.linearise.axes import Frames, candidates
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input, Output
 from nivel.analysis.linearise.reduction import Reduction, StateSpace
 from nivel.analysis.linearise.steady import BALANCE, acceleration_of, is_at_rest, keeps_its_equations
-from nivel.analysis.moment import Moment
-from nivel.analysis.unknowns import unknown_name
-from nivel.kernels.record import NONE
+from nivel.analysis.run.moment import Moment
+from nivel.kernels.record.record import NONE
 from nivel.system.system import Array
 
 Found = tuple[Reduction, Array, Array, StateSpace]

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lstsq, qr
 
-from nivel.analysis.instant import Instant, Reader, Slopes
+from nivel.analysis.assembly.instant import Instant, Reader, Slopes
 from nivel.analysis.linearise.axes import TurnedAxes
 from nivel.system.system import Array
 

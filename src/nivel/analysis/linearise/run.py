@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from nivel.analysis.attributes import run_attributes
-from nivel.analysis.instant import Instant
+from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.assembly.user_frames import frame_axes, frame_place
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues, with_squares
 from nivel.analysis.linearise.judged import judged, nothing
 from nivel.analysis.linearise.names import velocity_names
@@ -19,15 +19,15 @@ from nivel.analysis.linearise.reduction import Ports, Reduction, StateSpace
 from nivel.analysis.linearise.refusals import MOST, refuse_jumps
 from nivel.analysis.linearise.settings import LineariseSettings
 from nivel.analysis.linearise.steady import is_at_rest
-from nivel.analysis.listener import Listener
-from nivel.analysis.moment import Moment, Posture, at_posture, at_start
-from nivel.analysis.plan import Methods
+from nivel.analysis.plan.plan import Methods
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.attributes import run_attributes
+from nivel.analysis.run.moment import Moment, Posture, at_posture, at_start
 from nivel.analysis.statics.linear import symmetric, symmetric_modes
-from nivel.analysis.user_frames import frame_axes, frame_place
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.linear_model import LinearModel
-from nivel.results.linear_motion import Posed
+from nivel.results.analyses.linear_model import LinearModel
+from nivel.results.analyses.linear_motion import Posed
 from nivel.system.system import Array
 
 NAMED = 6  # states in a sentence

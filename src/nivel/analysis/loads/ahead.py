@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.loads.functions import Curve, TableCurve, varying
-from nivel.integrate.run import PARTS
-from nivel.machine.arithmetic import TIME
+from nivel.integrate.loop.run import PARTS
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.arithmetic import TIME
 
 Array = NDArray[np.float64]
 # samples in one of the PARTS of a run

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from nivel.analysis.loads.functions import Varying, is_local
 from nivel.errors import ModelError
-from nivel.integrate.run import LEAST, PARTS
-from nivel.machine.arithmetic import TIME
+from nivel.integrate.loop.run import LEAST, PARTS
 from nivel.machine.control.part import VALUE
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.symbols import Symbol, UnknownSymbolError, find_symbol
+from nivel.machine.units.arithmetic import TIME
 from nivel.results.result import Result
-from nivel.results.scales import rotated
+from nivel.results.trust.scales import rotated
 
 Array = NDArray[np.float64]
 AXES = {"x": 0, "y": 1, "z": 2}

@@ -17,11 +17,11 @@ from nivel.analysis.loads.functions import Varying, varying
 from nivel.analysis.loads.path import Path, Steps, path_of
 from nivel.analysis.loads.sight import as_seen
 from nivel.integrate.catalogue import IntegratorFacts
-from nivel.machine.arithmetic import TIME
-from nivel.machine.bounds import Interval
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.arithmetic import TIME
+from nivel.machine.units.bounds import Interval
 from nivel.results.result import Result
-from nivel.results.unseen import Unseen
+from nivel.results.trust.unseen import Unseen
 
 Array = NDArray[np.float64]
 # Parts of a step between samples, and how many parts of the run are judged by themselves.

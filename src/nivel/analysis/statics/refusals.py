@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.analysis.choice import choose_coordinates
+from nivel.analysis.plan.choice import choose_coordinates
 from nivel.analysis.statics.free import holding_free
 from nivel.analysis.statics.settings import StaticsSettings
 from nivel.errors import Fault, ModelError

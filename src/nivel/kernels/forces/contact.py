@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import maximum, real, tanh
+from nivel.kernels.algebra.analytic import maximum, real, tanh
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.wrench import add_force_at
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import stage
 
 # columns of `columns`; MARKER: centre and axes of the shape (a cylinder's is z); OTHER: the plane (z outwards), or the other sphere;

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from nivel.errors import Fault, ModelError
 from nivel.kernels.forces import bushing, contact
-from nivel.kernels.function import OUTPUT
-from nivel.kernels.record import NONE
+from nivel.kernels.record.function import OUTPUT
+from nivel.kernels.record.record import NONE
 from nivel.machine.body import Body
 from nivel.machine.forces import Bushing, Contact
 from nivel.machine.placement import frame_from_axes

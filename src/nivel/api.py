@@ -52,10 +52,10 @@ from nivel.wording import shown
 if TYPE_CHECKING:
     import xarray
 
+    from nivel.analysis.assembly.mass import MassProperties
     from nivel.analysis.check.check import Check
     from nivel.analysis.interactive.posing import Posing
     from nivel.analysis.inverse.mechanics import Mechanics
-    from nivel.analysis.mass import MassProperties
     from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
     from nivel.native.entry import Entry
@@ -144,7 +144,7 @@ class Machine(Model):
     ) -> MassProperties:
         """Mass, centre of mass and inertia of these bodies, or of all, as assembled, about a marker or body and along its axes."""
         build(assembly_entries(self.record), listener)
-        from nivel.analysis.mass import mass_properties
+        from nivel.analysis.assembly.mass import mass_properties
 
         with self._faults_in_file():
             return mass_properties(self.record, about, (bodies,) if isinstance(bodies, str) else tuple(bodies))

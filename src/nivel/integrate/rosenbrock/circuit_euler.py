@@ -18,8 +18,8 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, KNOWN, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
-from nivel.integrate.parts import LARGEST, step_in_parts
 from nivel.integrate.rosenbrock.extrapolated_euler import HALVES, RATE, WHOLE, is_state, pressure_difference
+from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
 from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.tangent import find_slopes, slope_by_mass
 from nivel.kernels.record.hook import call_evaluate

@@ -9,7 +9,8 @@ restrictions in place of their tangents: with these, a linearly implicit step ov
 it is one step of Newton's method on a root.
 
 Guard: where pressures of Y₁ and Y₂ differ by more than LARGEST, or a mass would vanish, the step is made in parts
-(`nivel.integrate.parts`). Of the smallest parts that cannot be trusted either Y₂ is taken, or where that is no state, Y₁; they are counted,
+(`nivel.integrate.rosenbrock.parts`). Of the smallest parts that cannot be trusted either Y₂ is taken, or where that is no state, Y₁; they
+are counted,
 and the largest difference is kept, in `Circuit.guard`.
 """
 
@@ -18,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
-from nivel.integrate.parts import LARGEST, step_in_parts
+from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import call_evaluate
 from nivel.kernels.record.record import NONE, record_at

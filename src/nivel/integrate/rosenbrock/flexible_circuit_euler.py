@@ -7,8 +7,8 @@ part begins.
 from __future__ import annotations
 
 from nivel.integrate.loop.run import STEP_SIGNATURE
-from nivel.integrate.parts import step_in_parts
 from nivel.integrate.rosenbrock.circuit_euler import BEGIN, attempt_over_circuits
+from nivel.integrate.rosenbrock.parts import step_in_parts
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.record import record_at
 from nivel.motion.circuit_shift import factorise_circuit, soften

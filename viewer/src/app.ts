@@ -168,6 +168,7 @@ export class App {
     else if (this.motion) this.motion.sample(this.motion.start, this.actor.frame);
     this.refreshFrame();
     if (this.live) this.handled.watchAll();
+    this.world.now = () => cloudNow(this.actor);
     if (content.mode === "machine" || this.live) this.world.around = () => cloudNow(this.actor);
     const first = columns.list().find((column) => /\.(angle|displacement)$/.test(column.name));
     if (first && this.player) void this.plots.show([first.name]);
@@ -272,7 +273,7 @@ export class App {
     if (this.picked?.kind === "body") this.follower.toggle(this.picked.name);
     else {
       this.follower.stop();
-      this.world.fit();
+      this.world.fitNow();
     }
     this.inspector.refresh();
   }

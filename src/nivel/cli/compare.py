@@ -62,6 +62,7 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
 @override_option
 @allow_code_option
 @click.option(
+    "-o",
     "--out",
     multiple=True,
     type=click.Path(dir_okay=False, path_type=Path),

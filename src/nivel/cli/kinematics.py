@@ -38,7 +38,9 @@ if TYPE_CHECKING:
 @click.option("--coordinates", metavar="NAME", help="What the equations are written in: auto, absolute, relative.")
 @override_option
 @allow_code_option
-@click.option("--out", metavar="FILE.nc", type=click.Path(), help="Result file. Default: NAME-kinematics.nc, here.")
+@click.option(
+    "-o", "--out", metavar="FILE.nc", type=click.Path(), help="Result file. Default: NAME-kinematics.nc, here."
+)
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 @click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
 @quiet_option

@@ -44,7 +44,7 @@ MOST = 1000  # values of a parameter
 @override_option
 @allow_code_option
 @click.option(
-    "--out", metavar="FILE.nc", type=click.Path(), help="Matrices and eigenvalues. Default: NAME-linear.nc, here."
+    "-o", "--out", metavar="FILE.nc", type=click.Path(), help="Matrices and eigenvalues. Default: NAME-linear.nc, here."
 )
 @click.option("--mode", "shown", type=int, multiple=True, metavar="N", help="Also write mode N as a page to be played.")
 @click.option("--force", is_flag=True, help="Replace existing files.")

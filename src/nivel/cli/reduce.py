@@ -23,6 +23,7 @@ SHOWN = 15  # modes in the table of the terminal
 @file_argument("model")
 @override_option
 @click.option(
+    "-o",
     "--out",
     "-o",
     type=click.Path(dir_okay=False, path_type=Path),

@@ -21,7 +21,10 @@ if TYPE_CHECKING:
 @simulation_options
 @click.option("--take", type=click.IntRange(1), help="Which motion of the recording, from 1; default: the longest.")
 @click.option(
-    "--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .replay.nc, here."
+    "-o",
+    "--out",
+    type=click.Path(dir_okay=False),
+    help="Result file; default: the machine's name with .replay.nc, here.",
 )
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 @quiet_option

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,6 +22,8 @@ from nivel.cli.options import (
 )
 from nivel.cli.progress import progress_listener
 
+ROUND_OFF = 1e-14  # m, rad or per second: smaller changes of the start are not reported
+
 if TYPE_CHECKING:
     from nivel.results import Result
     from nivel.results.trust.verdicts import Trust
@@ -32,7 +35,9 @@ if TYPE_CHECKING:
 @override_option
 @input_option
 @allow_code_option
-@click.option("--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here.")
+@click.option(
+    "-o", "--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here."
+)
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 @click.option("--no-verify", is_flag=True, help="Make no second run, and say nothing of how exact the result is.")
 @click.option(
@@ -164,8 +169,17 @@ def said_in_colour(trust: Trust) -> str:
 def assembly_lines(result: Result) -> Iterator[str]:
     """What the start differs from the file in: nothing is changed silently."""
     assembly = json.loads(str(result.attributes.get("assembly", "{}")))
-    for name, distance, angle in assembly.get("moved", []):
+    moved, changed = (
+        [each for each in assembly.get(kind, []) if max(each[1:]) > ROUND_OFF] for kind in ("moved", "velocity_change")
+    )
+    for name, distance, angle in moved:
         why = f"to close {assembly['gap_row']}, open by {assembly['gap']:.3g} as given"
-        yield f"assembly: {name} was moved by {distance:.3g} m and {angle:.3g} rad {why}"
-    for name, speed, rate in assembly.get("velocity_change", []):
-        yield f"assembly: the velocity of {name} was changed by {speed:.3g} m/s and {rate:.3g} rad/s to fit the joints"
+        yield f"assembly: {name} was moved by {_amounts((distance, 'm'), (math.degrees(angle), 'deg'))} {why}"
+    for name, speed, rate in changed:
+        yield f"assembly: the velocity of {name} was changed by {_amounts((speed, 'm/s'), (rate, 'rad/s'))} to fit the joints"
+
+
+def _amounts(*amounts: tuple[float, str]) -> str:
+    """Amounts with their units, those at round-off left out."""
+    largest = max(amount for amount, _ in amounts)
+    return " and ".join(f"{amount:.3g} {unit}" for amount, unit in amounts if amount > 1e-9 * largest)

@@ -37,6 +37,7 @@ SHOWN: Final = 12  # vibrations in the terminal
 @override_option
 @allow_code_option
 @click.option(
+    "-o",
     "--out",
     metavar="FILE.nc",
     type=click.Path(),

@@ -137,7 +137,7 @@ def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
         yield (*place, "plane"), f"the plane is on `{body}` itself; it needs another body, or `{GROUND}`"
     shape = index.bodies.get(body, "") if isinstance(body, str) else ""
     if entry(contact, "materials") is not None and shape in SHAPES_ON_PLANE and shape != "sphere":
-        message = f"`materials` give the stiffness of spheres (Hertz); `{body}` is a {shape}: give its `stiffness`"
+        message = f"`materials` give the stiffness of spheres (Hertz); the shape of `{body}` is `{shape}`: give its `stiffness`"
         yield (*place, "materials"), message
 
 
@@ -151,7 +151,7 @@ def _of_shape(body: Any, index: Index, allowed: tuple[str, ...], place: Place) -
     if not shape:
         yield place, f"the body `{body}` has no shape; a contact here needs a {wanted}"
     elif shape in _SHAPES and shape not in allowed:
-        yield place, f"the body `{body}` is a {shape}; a contact here needs a {wanted}"
+        yield place, f"the shape of `{body}` is `{shape}`; a contact here needs a {wanted}"
 
 
 def _of_sensor(sensor: Any, index: Index, place: Place) -> Faults:

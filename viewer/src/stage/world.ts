@@ -24,6 +24,7 @@ export class World {
   onEdges: (on: boolean) => void = () => {};
   onRecolour: (look: Look) => void = () => {};
   around: (() => THREE.Vector3[]) | null = null; // points around a machine that is moved by hand, as it stands now
+  now: (() => THREE.Vector3[]) | null = null; // points around the machine as it stands now
   frameCount = 0;
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
   private readonly sky = new THREE.HemisphereLight(0xffffff, 0x8893a0, 1.55);
@@ -130,6 +131,16 @@ export class World {
     if (this.around) this.see(this.around());
     const towards = this.camera.position.clone().sub(this.controls.target).normalize();
     this.flyTo(towards, this.up, this.middle(), this.distance(towards), animate);
+  }
+
+  /** What stands there at this moment is in sight, as large as it can be; the standard views have the whole motion in sight. */
+  fitNow(): void {
+    if (this.around || !this.now) return this.fit();
+    const whole = this.cloud;
+    this.see(this.now());
+    this.fit();
+    this.cloud = whole;
+    this.fitted = false;
   }
 
   /** Everything is in sight, as long as nobody looks closer. */

@@ -126,12 +126,14 @@ def _lines(facts: Check) -> Iterator[str]:
         yield "bodies"
     for body in facts.bodies:
         inertia = (
-            f"principal inertia {_vector(body.principal_inertia)} kg m²" if body.principal_inertia else "a point mass"
+            f"principal inertia {_vector(body.principal_inertia, 4)} kg m²"
+            if body.principal_inertia
+            else "a point mass"
         )
-        turned = f", turned {np.degrees(body.angle):.6g} deg about {_vector(body.axis)}" if body.angle > 1e-12 else ""
+        turned = f", turned {np.degrees(body.angle):.4g} deg about {_vector(body.axis)}" if body.angle > 1e-12 else ""
         place = f"frame at {_vector(body.position)} m{turned}"
         bends = f", flexible: {body.modes}" if body.modes else ""
-        yield f"  {body.name}: {body.mass:.6g} kg, {inertia}, {place}{bends}"
+        yield f"  {body.name}: {body.mass:.4g} kg, {inertia}, {place}{bends}"
     if facts.beams:
         yield "beams"
     for beam in facts.beams:
@@ -143,7 +145,8 @@ def _lines(facts: Check) -> Iterator[str]:
         place = f"at {_vector(joint.point)} m{axis}"
         yield f"  {joint.name}: {joint.type}, {joint.first} → {joint.second}, free motions {joint.free}, {place}"
         for name, value, units in joint.coordinates:
-            yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}"
+            degrees = f" ({round(np.degrees(value), 9) + 0.0:.4g} deg)" if units == "rad" else ""
+            yield f"    {name} = {round(value, 12) + 0.0:.6g} {units}{degrees}"
     for kind, convention in {joint.type: joint.convention for joint in facts.joints if joint.coordinates}.items():
         yield f"  {kind}: {convention}"
     for title in ("couplings", "drivers", "forces", "hydraulics", "inputs", "states", "control", "sensors", "events"):
@@ -152,9 +155,9 @@ def _lines(facts: Check) -> Iterator[str]:
             yield f"{title}: {facts.control_size}" if title == "control" else title
         yield from (f"  {words}" for words in elements)
     if facts.freedoms:
-        yield "freedoms, in this position"
+        yield "degrees of freedom, in this position"
     for freedom in facts.freedoms:
-        several = f" ({freedom.count} freedoms)" if freedom.count > 1 else ""
+        several = f" ({freedom.count} degrees of freedom)" if freedom.count > 1 else ""
         remedy = f"; to stop that, {freedom.remedy}" if freedom.remedy else ""
         yield f"  {freedom.words}{several}{remedy}"
     yield from _assembly_lines(facts)
@@ -171,7 +174,7 @@ def _beam_lines(beam: BeamFacts) -> Iterator[str]:
     place = f"{beam.length:.6g} m long, from {_vector(beam.start)} to {_vector(beam.end)} m"
     segments, kind = beam.model == "segments", f"{beam.model} " if beam.model.startswith("ancf") else orders[beam.order]
     parts = f"{beam.nodes} rigid segments" if segments else f"{beam.elements} {kind}elements, {beam.nodes} nodes"
-    yield f"  {beam.name}: {beam.mass:.6g} kg, {place}, {parts}"
+    yield f"  {beam.name}: {beam.mass:.4g} kg, {place}, {parts}"
     yield f"    stations {', '.join(beam.stations)}"
     slow, fast = _frequency(beam.first_bending), _frequency(beam.fastest)
     yield f"    vibrates from about {slow} (bending, both ends free) to {fast} (a single {'spring' if segments else 'element'}), unstressed"
@@ -188,7 +191,7 @@ def _assembly_lines(facts: Check) -> Iterator[str]:
     if facts.moved:
         yield f"assembly: as given, {facts.gap_row} is open by {facts.gap:.3g}; closed by moving"
         for name, distance, angle in _by_owner(facts, facts.moved):
-            yield f"  {name} by {distance:.3g} m and {angle:.3g} rad"
+            yield f"  {name} by {distance:.3g} m and {np.degrees(angle):.3g} deg"
     else:
         yield "assembly: closed as given"
     for name, speed, rate in _by_owner(facts, facts.velocity_change):
@@ -214,15 +217,15 @@ def _redundancy_lines(facts: Check) -> Iterator[str]:
             yield "  on their first bodies, along the axes of their first markers; ranges at the start: as one or another row is left out"
             yield from (f"    {each}" for each in facts.reactions)
         if facts.exact:
-            yield f"  exactly constrained, with the same freedoms: {'; '.join(facts.exact)}"
+            yield f"  exactly constrained, with the same degrees of freedom: {'; '.join(facts.exact)}"
     else:
-        yield f"constraints: {facts.constraint_rows} rows, none redundant, every reaction is unique"
+        yield f"constraints: {facts.constraint_rows} rows, no redundant constraints, every reaction is unique"
 
 
-def _vector(values: tuple[float, ...]) -> str:
+def _vector(values: tuple[float, ...], digits: int = 6) -> str:
     """Components; those at round-off of the largest are shown as 0."""
     largest = max(abs(value) for value in values)
-    return "(" + ", ".join(f"{value if abs(value) > 1e-12 * largest else 0.0:.6g}" for value in values) + ")"
+    return "(" + ", ".join(f"{value if abs(value) > 1e-12 * largest else 0.0:.{digits}g}" for value in values) + ")"
 
 
 def check(plan: Plan) -> Check:

@@ -6,6 +6,7 @@ Bounds hold for every point of an interval (Moore 1966); they are wide where a s
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import reduce
 from typing import Final
 
 import numpy as np
@@ -49,26 +50,31 @@ _RISING: Final = {
 @np.errstate(all="ignore")  # a division by zero is no number, as in a run
 def values_of(node: Node, known: Mapping[str, Array]) -> Array:
     """Values (n,) of a tree; known : values (n,) of the time and of each signal by its path. Not a number where there is none."""
+    return np.broadcast_to(_values(node, known), next(iter(known.values())).shape)
+
+
+def _values(node: Node, known: Mapping[str, Array]) -> Array:
+    """The same; of what is constant a single value ()."""
     match node:
         case Number(value, _):
-            return np.full_like(next(iter(known.values())), value)
+            return np.asarray(value, dtype=float)
         case Time():
             return known[TIME]
         case Signal(path):
             return known[path]
         case Negative(operand):
-            return -values_of(operand, known)
+            return -_values(operand, known)
         case Operation(symbol, left, right):
-            return _operate(symbol, values_of(left, known), values_of(right, known))
+            return _operate(symbol, _values(left, known), _values(right, known))
         case Call(("min" | "max") as function, arguments):
             chosen = np.minimum if function == "min" else np.maximum
-            return chosen.reduce([values_of(each, known) for each in arguments])
+            return reduce(chosen, (_values(each, known) for each in arguments))
         case Call(function, _) if function in COMPOUND:
-            return values_of(elementary(node), known)
+            return _values(elementary(node), known)
         case Call(function, arguments):
-            return _VALUES[function](*(values_of(each, known) for each in arguments))
+            return _VALUES[function](*(_values(each, known) for each in arguments))
         case Lookup(argument):
-            return _values_of_curve(node, values_of(argument, known))
+            return _values_of_curve(node, _values(argument, known))
     raise ValueError(f"a name is not bound: {node}")
 
 

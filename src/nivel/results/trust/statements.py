@@ -111,7 +111,7 @@ def _rate_item(trust: Trust) -> Item:
     units = trust.constraint_rate_violation_units
     value = number(trust.constraint_rate_violation_max)
     if fraction < CLOSED:
-        said = "Joint rates: right to round-off"
+        said = "Joint rates: right to round-off" + ("; the machine is at rest" if trust.at_rest else "")
         return numeric(
             "rate_violation", said, fraction, trust.constraint_rate_violation_time, trust.constraint_rate_violation_row
         )
@@ -165,7 +165,7 @@ def redundancy_item(trust: Trust) -> Item:
         return Item(
             "redundancy",
             "green",
-            "Redundancy: no constraint repeats another, so every reaction is unique (green when none)",
+            "Redundancy: no redundant constraints, every reaction is unique (green when none)",
         )
     rows = ", ".join(trust.redundant_rows)
     count = len(trust.redundant_rows)

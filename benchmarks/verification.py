@@ -2,9 +2,8 @@
 
     python benchmarks/verification.py [EXAMPLE.yaml ...]
 
-Wall time is that of the whole command, reading, running and reporting, the least of REPEATS; processor time counts both threads. The bar is
-1.5 by wall time on two cores that have nothing else to do: where others work on them too, the ratio of processor times is what is left of
-it.
+Wall time is that of the whole command, reading, running and reporting, the least of REPEATS; processor time counts both threads. The bar
+is 1.5 by wall time on two cores that have nothing else to do.
 """
 
 from __future__ import annotations

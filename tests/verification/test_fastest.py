@@ -53,6 +53,16 @@ def test_rate_of_a_spring_is_its_frequency():
     assert found.rate == pytest.approx((1e5 / inertia()) ** 0.5, rel=1e-4)
 
 
+def test_a_law_that_overflows_with_the_motion_is_not_blamed():
+    """A spring by a law, 1e9 N/m at 3 kg: it is no number any more where the place is none."""
+    law = {"type": "force", "body": "cart", "vector": ["-1e9*(rail.displacement - 0.01)", 0, 0]}
+    with pytest.raises(SolveError) as caught:
+        machine(cart(law=law)).simulate(coordinates="relative")
+    assert "the motion has grown without bound" in caught.value.message
+    assert "of law: rk4 holds it with steps below" in caught.value.advice
+    assert "division by zero" not in caught.value.advice
+
+
 def test_a_run_that_fails_for_another_reason_names_no_force():
     broken = {"type": "force", "body": "cart", "vector": ["sqrt(0.5 - time)", 0, 0]}
     with pytest.raises(SolveError) as caught:

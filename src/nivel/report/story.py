@@ -45,6 +45,7 @@ NAMES = {
     "verified": "Verified",
     "loads": "Loads",
     "sampling": "Sampling",
+    "contact": "Contact",
     "steps": "Steps",
     "turn": "Turning",
     "rounding": "Round-off",

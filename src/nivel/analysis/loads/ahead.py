@@ -47,6 +47,27 @@ def allowed_steps(machine: MachineRecord, duration: float) -> Array:
     return _ending_before(_beside(allowed, part), part)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # of functions that are no numbers somewhere
+def rounding_of_times(machine: MachineRecord, duration: float) -> float:
+    """By what share of its impulse a function of time alone is uncertain, at most, because times are rounded: its total variation by what
+    the end of the run [s] is rounded to, over the integral of its magnitude. Two runs are not apart by that."""
+    share = 0.0
+    for function in varying(machine):
+        curve = function.curve
+        if function.sampling is not None or curve.signals:
+            continue
+        time = np.linspace(0.0, duration, PARTS * SAMPLES + 1)
+        if isinstance(curve, TableCurve):
+            points = curve.points[0]
+            time = np.union1d(time, points[(points > 0.0) & (points < duration)])
+        at, seen = with_features(curve, time, np.nan_to_num(curve.values({TIME: time})))
+        impulse = float(np.trapezoid(np.abs(seen), at))
+        uncertain = float(np.abs(np.diff(seen)).sum()) * float(np.spacing(duration))
+        if impulse > 0.0 and np.isfinite(uncertain / impulse):
+            share = max(share, uncertain / impulse)
+    return share
+
+
 def with_features(curve: Curve, time: Array, values: Array) -> tuple[Array, Array]:
     """Times and values with more of them where the function has more than was sampled."""
     begin, width = time[:-1], np.diff(time)

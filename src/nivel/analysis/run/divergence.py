@@ -11,6 +11,7 @@ from nivel.system.system import Array, System
 
 # Energy that no load gave, as a multiple of that of the start and of the weights at the machine's length; as a share of the work.
 GROWN, OF_WORK = 1e3, 0.1
+UNBOUND = "the motion has grown without bound"
 
 
 def grown_motion(motion: MotionEquations, time: float, step: float, y: Array) -> tuple[str, str] | None:
@@ -35,7 +36,7 @@ def grown_motion(motion: MotionEquations, time: float, step: float, y: Array) ->
     pulls = _most(system, "power" if decays else "magnitude")
     gain = f"{abs(gained):.2g} J" if np.isfinite(gained) else "more energy than a number can hold,"
     message = (
-        f"the motion has grown without bound: the machine has {gain} that no load gave it. A step of {step:.3g} s is too long for its "
+        f"{UNBOUND}: the machine has {gain} that no load gave it. A step of {step:.3g} s is too long for its "
         f"fastest {kind}{pulls and f', and {pulls} is the force that {strongest}'}"
     )
     stiff, over = ("damper", "decays") if decays else ("spring", "vibrations")

@@ -17,6 +17,7 @@ from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Progress
 from nivel.analysis.progress.pacing import Pacing
+from nivel.analysis.run.divergence import GROWN, UNBOUND
 from nivel.analysis.run.fastest import fastest_beyond, held_step
 from nivel.analysis.run.history import start_history
 from nivel.analysis.run.lockup import Jam, can_be_asked, find_jam
@@ -248,20 +249,26 @@ def failure_of(
         chosen_by=settings.integrator if settings.steps == 0 else "",
         beams=prepared.beams if explicit else (),
     )
-    return message, _with_fastest(prepared, settings, run, advice) if explicit else advice, time
+    return (*(_with_fastest(prepared, settings, run, message, advice) if explicit else (message, advice)), time)
 
 
-def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, advice: str) -> str:
-    """The advice, led by the part that is too fast for the step where there is one."""
-    found = fastest_beyond(prepared, settings.integrator, settings.step, float(run.clock[ACCEPTED]), run.previous)
+def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, message: str, advice: str) -> tuple[str, str]:
+    """Message and advice, led by the part that is too fast for the step where there is one. Where it is so from the start, and the state
+    has grown without bound, what failed in the end only shows that."""
+    time = float(run.clock[ACCEPTED])
+    found = fastest_beyond(prepared, settings.integrator, settings.step, time, run.previous)
     if found is None:
-        return advice
+        return message, advice
     of = f", of {found.part}" if found.part else ""
     step = held_step(settings.integrator, found.rate)
-    return (
+    cause = (
         f"The fastest rate here is {found.rate:.2g}/s{of}: {settings.integrator} holds it with steps below {step:.2g} s, "
-        f"`integrator: radau` with any. {advice}"
+        f"`integrator: radau` with any."
     )
+    start, last = (float(np.max(np.abs(y), initial=0.0)) for y in (prepared.start, run.previous))
+    if UNBOUND not in message and found.time == 0.0 and not last < GROWN * max(start, prepared.motion.system.size):
+        return f"stopped at t = {time:.6g} s: {UNBOUND}; a step of {settings.step:.3g} s is too long for it", cause
+    return message, f"{cause} {advice}"
 
 
 def counts_of(system: System, run: Run) -> dict[str, float]:

@@ -34,10 +34,11 @@ HOLDS = {"euler": 2.0, "heun": 2.0, "rk4": 2.7, "ab1": 2.0, "ab2": 1.0, "ab3": 0
 
 @dataclass(frozen=True)
 class Fastest:
-    """rate [1/s] of a state, and the name of the force, component or block that it is of; empty where none works in it."""
+    """rate [1/s] of the state at `time` [s], and the name of the force, component or block that it is of; empty where none works in it."""
 
     rate: float
     part: str
+    time: float
 
 
 def too_long(prepared: Prepared, settings: RunSettings, last: tuple[float, Array] | None) -> Fast | None:
@@ -90,7 +91,7 @@ def fastest(motion: MotionEquations, t: float, y: Array) -> Fastest | None:
     # a phase at which positions and speeds of a vibration are both there
     shape = np.real(right[:, k] * np.exp(0.25j * np.pi))
     owner = _taking_part(motion, np.abs(left[:, k] * right[:, k]))
-    return Fastest(float(np.abs(rates[k])), owner or _working(motion, t, y, shape))
+    return Fastest(float(np.abs(rates[k])), owner or _working(motion, t, y, shape), t)
 
 
 def _scales(motion: MotionEquations, count: int) -> Array:

@@ -14,11 +14,15 @@ from nivel.analysis.run.passages import passages
 from nivel.analysis.run.preparation import Prepared
 from nivel.analysis.run.second_run import Verified
 from nivel.integrate.loop.run import TURNED
+from nivel.machine.forces import Contact
+from nivel.machine.shape import Sphere
+from nivel.results.passed_contacts import Pair, passed_contacts
 from nivel.results.result import Result
-from nivel.results.trust.accuracy import error_from_finer
+from nivel.results.trust.accuracy import error_from_finer, extent
 from nivel.results.trust.bending import ModalBody, fastest_unstiffened, most_bent
 from nivel.results.trust.estimate import Estimate
 from nivel.results.trust.findings import Findings
+from nivel.results.trust.motion import Motion
 from nivel.results.trust.scales import machine_size
 from nivel.results.trust.second_look import damped, growth, own_error
 from nivel.results.trust.steps_seen import largest_turn, rounding
@@ -52,6 +56,7 @@ def find(
         own=own_error(result, estimate) if estimate is not None else None,
         damped=damped(result, verified.result) if verified is not None and implicit else None,
         growth=growth(result, verified.result, verified.refinement.left) if verified is not None else None,
+        passed=tuple(passed_contacts(result, _pairs(plan))),
         passages=tuple(passages(prepared, result)) if verified is not None else (),
         unstiffened=fastest_unstiffened(result, bending),
         bent=most_bent(result, bending),
@@ -61,13 +66,22 @@ def find(
 
 
 def _agreed(result: Result, verified: Verified) -> float:
-    """By what two runs are apart, as a share of the path of the body that moves farthest, or of the machine's size where that is more."""
+    """By what two runs are apart, as a share of the longest path of a body, or of the machine's size where that is more."""
     apart = error_from_finer(result, verified.result, verified.refinement.left).value
-    size = machine_size(result)[0]
-    if "position" not in result.variables:
-        return apart / size
-    paths = np.linalg.norm(np.ptp(result.array("position"), axis=0), axis=-1)
-    return apart / max(size, float(np.max(np.nan_to_num(paths), initial=0.0)))
+    return apart / extent(Motion.of(result), machine_size(result)[0])
+
+
+def _pairs(plan: Plan) -> list[Pair]:
+    """The contacts of two spheres."""
+    out, bodies = [], {each.name: each for each in plan.machine.bodies}
+    for force in plan.machine.forces:
+        if isinstance(force, Contact) and force.bodies is not None:
+            spheres = [bodies[name].shape for name in force.bodies]
+            assert all(isinstance(each, Sphere) for each in spheres)  # the record was checked
+            first, second = [np.array(each.centre or (0.0, 0.0, 0.0)) for each in spheres if isinstance(each, Sphere)]
+            reach = sum(each.radius for each in spheres if isinstance(each, Sphere))
+            out.append(Pair(force.name, force.bodies, (first, second), reach))
+    return out
 
 
 def _bending(plan: Plan) -> list[ModalBody]:

@@ -7,6 +7,7 @@ import time
 from dataclasses import replace
 from os import PathLike
 
+from nivel.analysis.loads.ahead import rounding_of_times
 from nivel.analysis.plan.plan import Plan
 from nivel.analysis.progress.interrupt import terminable
 from nivel.analysis.progress.listener import Listener
@@ -35,7 +36,7 @@ from nivel.results.trust.findings import finding_items, steps_item
 from nivel.results.trust.held import Held, shared_loads
 from nivel.results.trust.held_together import Sticking, loads_held_together
 from nivel.results.trust.neglected import Neglected, cost
-from nivel.results.trust.trust import Facts, SmallState, assess, peak
+from nivel.results.trust.trust import Facts, Peak, SmallState, assess, peak
 from nivel.results.trust.verdicts import CHECKS, Trust
 from nivel.system.flexible import bending_bodies
 
@@ -128,7 +129,7 @@ def close_run(
         drivers=prepared.drivers,
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
-        accuracy=error_from_finer(sink.result(), verified.result, left) if verified is not None else None,
+        accuracy=_accuracy(plan, sink.result(), verified) if verified is not None else None,
         refinement=verified.refinement.words if verified is not None else "",
         verified_until=verified.until if verified is not None and verified.ended else None,
         verification_ended=verified.ended if verified is not None else "",
@@ -156,6 +157,12 @@ def close_run(
     if finished.failure is not None:
         raise SolveError(message, time=at, advice=advice, result=result)
     return result
+
+
+def _accuracy(plan: Plan, result: Result, verified: Verified) -> Peak:
+    """The headline: what two runs are apart by, and what both may have wrong by the rounding of times."""
+    rounded = rounding_of_times(plan.machine, float(result.time[-1]))
+    return error_from_finer(result, verified.result, verified.refinement.left, rounded)
 
 
 def _judged(result: Result, facts: Facts, plan: Plan, prepared: Prepared, finished: RunOutcome) -> Trust:

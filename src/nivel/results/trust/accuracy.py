@@ -22,12 +22,14 @@ def factor(left: float) -> float:
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
-def error_from_finer(result: Readable, finer: Readable, left: float) -> Peak:
+def error_from_finer(result: Readable, finer: Readable, left: float, rounded: float = 0.0) -> Peak:
     """Estimated largest error of the positions of `result` [m], with its body and time.
 
-    finer : a run with the share `left` of its error, with frames at some of its times, as far as it got.
+    finer : a run with the share `left` of its error, with frames at some of its times, as far as it got. rounded : share of the motion that
+    both runs may have wrong because times are rounded.
     A body is off by the distance of its two origins, or by the angle between its two orientations times the machine's
-    size, whichever is larger: a rotor whose origin rests counts too. No error is less than the round-off of the places.
+    size, whichever is larger: a rotor whose origin rests counts too. No error is less than the round-off of the places, or
+    what that of times makes of the longest path.
     """
     size = machine_size(result)[0]
     motion = Motion.of(result)
@@ -35,8 +37,15 @@ def error_from_finer(result: Readable, finer: Readable, left: float) -> Peak:
     if not apart.size:
         return Peak(0.0)
     k, body = np.unravel_index(int(np.argmax(apart)), apart.shape)
-    error = max(float(apart[k, body]) * size * factor(left), round_off(motion))
+    floor = max(round_off(motion), rounded * extent(motion, size))
+    error = max(float(apart[k, body]) * size * factor(left), floor)
     return Peak(error, motion.bodies[body], float(time[k]))
+
+
+def extent(motion: Motion, size: float) -> float:
+    """How far the body that moves farthest does [m], or the size of the machine where that is more."""
+    paths = np.linalg.norm(np.ptp(motion.position, axis=0), axis=-1)
+    return max(size, float(np.max(paths, initial=0.0, where=np.isfinite(paths))))
 
 
 def round_off(motion: Motion) -> float:

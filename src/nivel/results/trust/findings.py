@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from nivel.results.passed_contacts import Passed
 from nivel.results.trust.bending import Bent
 from nivel.results.trust.second_look import Damped, Growth, OwnError
 from nivel.results.trust.steps_seen import Rounding, Turn
@@ -52,6 +53,7 @@ class Findings:
     growth: Growth | None = None
     unstiffened: Bent | None = None
     passages: Sequence[Passage] = ()
+    passed: Sequence[Passed] = ()
     bent: Bent | None = None
     method: str = ""
     agreed: float | None = None
@@ -61,6 +63,7 @@ def finding_items(found: Findings) -> Iterator[Item]:
     """The lines of what is not green."""
     yield from _unseen_items(found.unseen, found.agreed)
     yield from _sampling_items(found.between)
+    yield from (_passed_item(each) for each in found.passed[:SHOWN])
     if found.turn is not None:
         yield from _told(_turn_item(found.turn))
     if found.rounding is not None:
@@ -120,6 +123,15 @@ def _sampling_items(between: Sequence[Unseen]) -> Iterator[Item]:
             f"{number(each.step)} s apart, as fast as in {number(each.scale)} s; sample faster if that is to be seen"
         )
         yield _measured("sampling", f"Sampling: {said} {advice}", each.share, each.time, each.name)
+
+
+def _passed_item(passed: Passed) -> Item:
+    text = (
+        f"Contact: {' and '.join(passed.pair.bodies)} pass through each other at t = {passed.time:.6g} s, by {number(passed.overlap)} of "
+        f"the distance at which they touch, and {passed.pair.contact} does not push them apart: they overlap for {number(passed.lasted)} s "
+        f"only; take steps of {number(passed.lasted / 10.0)} s, or a method that chooses its steps (green when none does, red otherwise)"
+    )
+    return Item("contact", "red", text, passed.overlap, row=passed.pair.contact, time=passed.time)
 
 
 def steps_item(fast: Fast) -> Item:

@@ -116,6 +116,7 @@ CHECKS = {
 # what no second run of the same model and method sees, by the names of items
 BLIND = {
     "loads": "their steps miss {row}",
+    "contact": "their steps pass {row}",
     "turn": "{row} turns too far in a step",
     "rounding": "{row} is so far from the origin that steps are rounded away",
     "damped": "their method damps vibrations away",

@@ -69,6 +69,10 @@ class LazyGroup(click.Group):
         with told():
             return super().invoke(ctx)
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        with told():  # help, too, may find no room
+            return super().parse_args(ctx, args)
+
 
 def _say_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
     if not asked:

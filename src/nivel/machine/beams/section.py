@@ -8,7 +8,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from nivel.machine.checked import Checked, Problem
-from nivel.machine.units.quantity import Density, PositiveLength, Quantity, Scalar
+from nivel.machine.coefficient import SectionLength
+from nivel.machine.units.quantity import Density, Quantity, Scalar
 
 Stress = Annotated[float, Quantity("pressure", positive=True)]
 Area = Annotated[float, Quantity("area", positive=True)]
@@ -47,15 +48,15 @@ class Circle(Checked):
     """A round bar."""
 
     type: Literal["circle"] = "circle"
-    radius: PositiveLength
+    radius: SectionLength
 
 
 class Tube(Checked):
     """A round tube."""
 
     type: Literal["tube"] = "tube"
-    outer_radius: PositiveLength
-    inner_radius: PositiveLength
+    outer_radius: SectionLength
+    inner_radius: SectionLength
 
     def problems(self) -> Iterator[Problem]:
         if self.inner_radius >= self.outer_radius:
@@ -69,17 +70,17 @@ class Rectangle(Checked):
     """A full rectangle: `width` along the local y axis, `height` along z."""
 
     type: Literal["rectangle"] = "rectangle"
-    width: PositiveLength
-    height: PositiveLength
+    width: SectionLength
+    height: SectionLength
 
 
 class Box(Checked):
     """A hollow rectangle of one wall thickness: outer `width` along the local y axis, outer `height` along z."""
 
     type: Literal["box"] = "box"
-    width: PositiveLength
-    height: PositiveLength
-    wall: PositiveLength
+    width: SectionLength
+    height: SectionLength
+    wall: SectionLength
 
     def problems(self) -> Iterator[Problem]:
         if 2.0 * self.wall >= min(self.width, self.height):
@@ -90,10 +91,10 @@ class IBeam(Checked):
     """An I: flanges of `width` along the local y axis, `height` over all along z."""
 
     type: Literal["i"] = "i"
-    width: PositiveLength
-    height: PositiveLength
-    flange: PositiveLength = Field(description="thickness of the flanges")
-    web: PositiveLength = Field(description="thickness of the web")
+    width: SectionLength
+    height: SectionLength
+    flange: SectionLength = Field(description="thickness of the flanges")
+    web: SectionLength = Field(description="thickness of the web")
 
     def problems(self) -> Iterator[Problem]:
         if 2.0 * self.flange >= self.height or self.web > self.width:
@@ -110,8 +111,8 @@ class Values(Checked):
     torsion: SecondMoment
     shear_area_y: Area | None = Field(default=None, description="for forces along y; default: no shear deformation")
     shear_area_z: Area | None = Field(default=None, description="for forces along z; default: no shear deformation")
-    stress_y: PositiveLength | None = Field(default=None, description="distance of the outermost fibres along y")
-    stress_z: PositiveLength | None = Field(default=None, description="distance of the outermost fibres along z")
+    stress_y: SectionLength | None = Field(default=None, description="distance of the outermost fibres along y")
+    stress_z: SectionLength | None = Field(default=None, description="distance of the outermost fibres along z")
 
 
 SectionRecord = Annotated[Circle | Tube | Rectangle | Box | IBeam | Values, Field(discriminator="type")]

@@ -225,3 +225,19 @@ def test_a_motor_turns_its_joint_with_the_torque_of_its_pressures():
     torque = 4 * swing * 100 * BAR
     assert history(result, "joint_rate")[-1] == pytest.approx(torque / 5 * 0.5, rel=1e-9)
     assert abs(history(result, "energy_error")[-1]) < 1e-6
+
+
+def test_a_motor_has_its_efficiencies_at_the_nominal_point():
+    """Q = D ω/η_v and T = η_hm D Δp, of a motor that its joint turns at the nominal speed."""
+    hydraulics = {
+        "high": {"type": "tank", "pressure": "201 bar"},
+        "low": {"type": "tank", "pressure": "1 bar"},
+        "motor": {**PUMP, "type": "hydraulic-motor", "ports": {"A": "high", "B": "low"}, "coordinate": "axle.angle"},
+    }
+    axle = {"type": "revolute", "bodies": ["ground", "block"], "point": [0, 0, 0], "axis": [0, 0, 1]}
+    turned = {"shaft": {"coordinate": "axle.angle", "value": f"{SPEED}*time"}}
+    block = {"block": {"mass": 1.0, "inertia": [1, 1, 1]}}
+    built = circuit(hydraulics, bodies=block, joints={"axle": axle}, drivers=turned)
+    result = built.simulate(duration=1e-3, step=1e-3, integrator="rk4")
+    assert history(result, "hydraulics.motor.flow")[-1] == pytest.approx(D * SPEED / 0.95, rel=1e-4)
+    assert -history(result, "hydraulics.motor.torque")[-1] == pytest.approx(0.92 * D * 200 * BAR, rel=1e-4)

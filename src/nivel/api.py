@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from nivel.results.analyses.linear_model import LinearModel
     from nivel.results.analyses.mechanism import Range
     from nivel.results.comparison.comparison import Comparison
+    from nivel.results.configuration_curve import ConfigurationCurve
     from nivel.results.frames.joint_path import JointPath
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
@@ -494,6 +495,21 @@ class Machine(Model):
         )
 
     @checked_arguments
+    def configuration_curve(self, coordinate: str, *, listener: Listener | None = None) -> ConfigurationCurve:
+        """All positions of a machine with one free motion, by arc length, also beyond the turning points of a coordinate, which are given.
+
+        Raises ModelError where more motions are free, or none; SolveError where the positions cannot be followed.
+        """
+        from nivel.analysis.kinematics.settings import kinematics_settings
+
+        name = kinematics_settings(self.record, {"drive": coordinate, "end": 0.0}).drive
+        build(assembly_entries(self.record), listener)
+        from nivel.analysis.kinematics.continuation import configuration_curve
+
+        with self._faults_in_file():
+            return configuration_curve(self.record, name)
+
+    @checked_arguments
     def inverse(
         self,
         *,
@@ -512,10 +528,12 @@ class Machine(Model):
         prescribe. motion : a result, or its file; default: that of the machine's drivers. trajectory : CSV file of `time` and joint
         coordinates, in place of it. limits, weights : by actuator; of more actuators than needed the least Σ (weight · effort)² is taken
         within the limits, weights being one over the limit where there is one. hold : drivers that keep holding what they prescribe.
-        positions : of the motion of the drivers or the trajectory, default 361.
+        positions : of the motion of the drivers or the trajectory, default 361. Of machines with friction drivers or the trajectory
+        prescribe the coordinates of the actuators.
         Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be had.
         """
         from nivel.analysis.inverse.refusals import refuse_for_inverse
+        from nivel.analysis.inverse.rubbing import acting_drivers, driven_alone, efforts_of_drivers, rubs
         from nivel.analysis.inverse.settings import inverse_settings
         from nivel.analysis.inverse.trajectory import along_trajectory
         from nivel.analysis.plan.neutral import neutral
@@ -527,6 +545,10 @@ class Machine(Model):
             refuse_for_inverse(self.record)
             record = self.record if trajectory is None else along_trajectory(self.record, trajectory)
             settings = inverse_settings(record, given)
+            if rubs(record):
+                drivers = acting_drivers(record, settings, recorded=motion is not None)
+                driven = Machine.from_record(driven_alone(record, settings), self.origin)
+                return efforts_of_drivers(settings, drivers, driven.kinematics(positions=positions, listener=listener))
             from nivel.analysis.inverse.run import inverse, without_actuators
 
             plain, _ = neutral(without_actuators(record, settings), "absolute")

@@ -141,9 +141,41 @@ def test_bad_options_are_explained(crank, given, said):
         crank.inverse(**given)
 
 
-def test_friction_is_refused():
-    with pytest.raises(nivel.ModelError, match="depend on the efforts"):
-        nivel.load(f"{EXAMPLES}/friction-brake.yaml").inverse()
+def rubbing(value="0.3*sin(4*time)"):
+    """A block of 2 kg on a rail at 30 degrees, rubbed with μ = 0.2, and a motor of its own that must not act besides."""
+    slope = np.radians(30.0)
+    along = (np.cos(slope), np.sin(slope), 0.0)
+    block = nivel.Body(name="block", mass=2.0, inertia=(0.1, 0.1, 0.1))
+    rail = nivel.Joint(name="rail", type="translational", bodies=("ground", "block"), point=(0, 0, 0), axis=along)
+    forces = [
+        nivel.Friction(name="sole", coordinate="rail", model="coulomb", coefficient=0.2, transition_speed=1e-3),
+        nivel.Motor(name="pull", coordinate="rail", effort=1000.0),
+    ]
+    driver = nivel.Driver(name="way", coordinate="rail", value=value)
+    machine = {"joints": [rail], "forces": forces, "drivers": [driver], "gravity": (0, -9.81, 0)}
+    return nivel.Machine("rubbing", bodies=[block], simulation={"duration": 1.5}, **machine)
+
+
+def test_friction_is_overcome_by_the_efforts():
+    """m s̈ + m g sin 30° + μ m g cos 30° tanh(ṡ/v)."""
+    found = rubbing().inverse(positions=61)
+    t = found.time
+    rate, slope = 1.2 * np.cos(4 * t), np.radians(30.0)
+    weight = 2.0 * 9.81
+    wanted = -2.0 * 4.8 * np.sin(4 * t) + weight * np.sin(slope)
+    wanted += 0.2 * weight * np.cos(slope) * np.tanh(rate / 1e-3)
+    np.testing.assert_allclose(found.effort[:, 0], wanted, rtol=1e-9)
+    np.testing.assert_allclose(found.rate[:, 0], rate, atol=1e-12)
+    assert found.actuators == ("pull",)
+    assert found.complete
+    assert found.unique
+
+
+def test_friction_is_refused_where_its_load_is_not_known():
+    with pytest.raises(nivel.ModelError, match=r"depend on the efforts.*with a recorded motion they are not found"):
+        rubbing().inverse(motion=rubbing().kinematics(positions=5))
+    with pytest.raises(nivel.ModelError, match="with limits they are not found"):
+        rubbing().inverse(limits={"pull": "5 N"})
 
 
 # --- matrices ---

@@ -15,6 +15,7 @@ from nivel.cli.run import assembly_lines, beside, refuse_to_replace
 
 if TYPE_CHECKING:
     from nivel.results.analyses.mechanism import Range
+    from nivel.results.configuration_curve import ConfigurationCurve
     from nivel.results.result import Result
 
 
@@ -24,6 +25,11 @@ if TYPE_CHECKING:
 @click.option("--from", "start", metavar="VALUE", help="Where it begins, e.g. '10 deg'; default: where it is.")
 @click.option("--to", "end", metavar="VALUE", help="Where it ends; default: one turn further.")
 @click.option("--range", "ranged", is_flag=True, help="Find how far the coordinate of --drive can go both ways.")
+@click.option(
+    "--through",
+    is_flag=True,
+    help="Follow all positions, past turning points of the coordinate of --drive; a table NAME-way.nc.",
+)
 @click.option("--duration", metavar="TIME", help="Of the motion; default that of the machine, 1 s with --drive.")
 @click.option("--positions", metavar="NUMBER", help="So many, both ends included; default 361.")
 @click.option(
@@ -55,6 +61,7 @@ def command(
     quiet: bool,
     as_json: bool,
     ranged: bool,
+    through: bool,
     transmission: tuple[str, ...],
     curve: tuple[str, ...],
     **options: Any,
@@ -73,6 +80,9 @@ def command(
     points = [read_curve(loaded.record, each) for each in curve]
     if ranged:
         _tell_range(loaded, options, quiet, as_json)
+        return
+    if through:
+        _tell_way(loaded, options, Path(out or f"{loaded.name}-way.nc"), force, quiet, as_json)
         return
     target = Path(out) if out is not None else Path(f"{loaded.name}-kinematics.nc")
     report = None if no_report else beside(target)
@@ -109,13 +119,7 @@ def command(
 
 def _tell_range(loaded: Any, options: dict[str, Any], quiet: bool, as_json: bool) -> None:
     """Both ends of the way of a coordinate."""
-    from nivel.errors import Fault, ModelError
-
-    given = [name for name in ("start", "end", "duration") if options[name] is not None]
-    if options["drive"] is None:
-        raise ModelError(Fault("", 0, 0, "kinematics.drive", "--range needs a coordinate: name it with --drive"))
-    if given:
-        raise ModelError(Fault("", 0, 0, f"kinematics.{given[0]}", "has no part in --range, which finds both ends"))
+    _alone(options, ("start", "end", "duration"), "--range")
     with progress_listener(quiet) as listener:
         found: Range = loaded.range_of_motion(
             options["drive"], coordinates=options["coordinates"], positions=options["positions"], listener=listener
@@ -124,6 +128,34 @@ def _tell_range(loaded: Any, options: dict[str, Any], quiet: bool, as_json: bool
         click.echo(json.dumps(found.summary(), indent=2))
     if not quiet:
         click.echo(str(found), err=True)
+
+
+def _tell_way(loaded: Any, options: dict[str, Any], target: Path, force: bool, quiet: bool, as_json: bool) -> None:
+    """All positions, and where the coordinate turns back."""
+    from nivel.results.frames.target import check_target
+
+    _alone(options, ("start", "end", "duration", "positions", "coordinates"), "--through")
+    check_target(target, "table", force=force, sources=[])
+    with progress_listener(quiet) as listener:
+        found: ConfigurationCurve = loaded.configuration_curve(options["drive"], listener=listener)
+        found.save(target, force=force)
+    if as_json:
+        click.echo(json.dumps(found.summary(), indent=2))
+    if not quiet:
+        click.echo(f"{found}\ndata: {target}", err=True)
+
+
+def _alone(options: dict[str, Any], others: tuple[str, ...], option: str) -> None:
+    """Raises ModelError where a coordinate is missing, or other options say how it moves."""
+    from nivel.errors import Fault, ModelError
+
+    if options["drive"] is None:
+        raise ModelError(Fault("", 0, 0, "kinematics.drive", f"{option} needs a coordinate: name it with --drive"))
+    given = [name for name in others if options[name] is not None]
+    if given:
+        raise ModelError(
+            Fault("", 0, 0, f"kinematics.{given[0]}", f"has no part in {option}, which finds the way itself")
+        )
 
 
 def _say(result: Result, target: Path, report: Path | None) -> None:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from nivel.results import Result
 
 
-@click.command(short_help="Peak reactions, power and work of actuators, cycles of any signal.")
+@click.command(short_help="Peak reactions, power and work, cycles of any signal.")
 @file_argument("result")
 @click.option(
     "--cycles",

@@ -51,10 +51,10 @@ def singular_positions(prepared: Prepared, result: Result) -> Singularity | None
         rows = scaled_jacobian(motion)
         rows = rows[:, np.abs(rows).max(axis=0, initial=0.0) > 0.0] if system.point_masses.any() else rows
         size = float(np.linalg.svd(rows, compute_uv=False)[rank - 1])
-        if before is not None and before[1] * _sign(rows[before[0]]) < 0.0:
+        if before is not None and before[1] * determinant_sign(rows[before[0]]) < 0.0:
             passed.append((times[-1], state.time))
-        kept = _independent(rows, rank)
-        before = (kept, _sign(rows[kept]))
+        kept = independent_rows(rows, rank)
+        before = (kept, determinant_sign(rows[kept]))
         sizes.append(size)
         times.append(state.time)
         if size < least:
@@ -65,12 +65,12 @@ def singular_positions(prepared: Prepared, result: Result) -> Singularity | None
     return Singularity(tuple(passed), sizes[k] / sizes[0] if sizes[0] > 0.0 else 0.0, times[k], tuple(owners))
 
 
-def _independent(rows: Array, rank: int) -> NDArray[np.intp]:
+def independent_rows(rows: Array, rank: int) -> NDArray[np.intp]:
     """Rows that are well apart here: others may be so elsewhere, where constraints repeat each other."""
     pivoted: Any = qr(rows.T, mode="r", pivoting=True)
     return np.sort(pivoted[1][:rank])
 
 
-def _sign(rows: Array) -> float:
+def determinant_sign(rows: Array) -> float:
     """Of the determinant; 0 where motions are free."""
     return float(np.linalg.slogdet(rows)[0]) if rows.shape[0] == rows.shape[1] else 0.0

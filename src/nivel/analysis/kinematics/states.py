@@ -40,7 +40,9 @@ def moving_states(system: System, result: Result, every: int = 1) -> Iterator[Mo
         result.array(f"state.{fact.name}")[some] if f"state.{fact.name}" in result.variables else None
         for fact in system.states
     ]
-    known = list(result.coordinates.get("joint_coordinate", ())) == list(system.layout.coordinates["joint_coordinate"])
+    known = list(result.coordinates.get("joint_coordinate_name", ())) == list(
+        system.layout.coordinates["joint_coordinate"]
+    )
     angles = result.array("joint_coordinate")[some] if known else np.zeros((len(position), 0))
     for k, time in enumerate(result.time[some]):
         A = rotation_matrices(orientation[k])

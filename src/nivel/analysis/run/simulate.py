@@ -125,6 +125,7 @@ def close_run(
     facts = Facts(
         outcome=finished.outcome,
         degrees_of_freedom=redundancy.degrees_of_freedom,
+        position_freedoms=redundancy.position_freedoms,
         modes=len(prepared.motion.system.modes),
         drivers=prepared.drivers,
         redundant_rows=redundancy.redundant_rows,

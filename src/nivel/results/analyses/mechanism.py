@@ -28,6 +28,10 @@ Array = NDArray[np.float64]
 GROUND: Final = "ground"
 # a point that moves slower than this share of its largest speed stands still: a cusp, or a dwell
 STILL: Final = 1e-6
+# joints nearer to each other than this share of the machine are in one place
+APART: Final = 1e-9
+# joints that slide along the z axis of their first marker
+SLIDES: Final = frozenset({"translational", "cylindrical", "point-on-line", "screw"})
 # transmission angles further than this from the right angle transmit badly
 GOOD: Final = np.radians(40.0)
 
@@ -130,16 +134,47 @@ def coupler_curve(result: Result, body: str, position: Sequence[float] = (0.0, 0
 def transmission_angle(result: Result, first: str, at: str, last: str) -> xarray.DataArray:
     """[rad] angle at joint `at` between the lines to the joints `first` and `last`, from 0 to π; π/2 transmits best.
 
-    Raises ModelError for joints that the machine does not have.
+    Where `last` slides along a line, that between the line to `first` and the normal of the slide, from 0 to π/2. Raises ModelError for
+    joints that the machine does not have, or that are in one place.
     """
     import xarray
 
-    places = [joint_place(result, name) for name in (first, at, last)]
-    d, e = places[0] - places[1], places[2] - places[1]
-    angle = np.arctan2(np.linalg.norm(np.cross(d, e), axis=1), np.sum(d * e, axis=1))
+    d = _line(result, at, first)
+    if (slide := _slide(result, last)) is not None:
+        along = np.abs(np.sum(d * slide, axis=1))
+        angle = np.arctan2(along, np.linalg.norm(d - np.sum(d * slide, axis=1)[:, None] * slide, axis=1))
+    else:
+        e = _line(result, at, last)
+        angle = np.arctan2(np.linalg.norm(np.cross(d, e), axis=1), np.sum(d * e, axis=1))
     return xarray.DataArray(
         angle, coords={"time": result.time}, dims="time", name="transmission_angle", attrs={"units": "rad"}
     )
+
+
+def _line(result: Result, at: str, to: str) -> Array:
+    """(frames, 3) [m] from one joint to another. Raises ModelError where they are in one place."""
+    line = joint_place(result, to) - joint_place(result, at)
+    length = np.linalg.norm(line, axis=1)
+    if np.any(length <= APART * np.abs(result.array("position")).max(initial=0.0)):
+        raise _fault("transmission", f"the joints {at} and {to} are in one place: no line leads from one to the other")
+    return line
+
+
+def _slide(result: Result, name: str) -> Array | None:
+    """(frames, 3) direction in which a joint slides; None where it turns."""
+    joint = _joints(result).get(name)
+    if joint is None or joint["type"] not in SLIDES:
+        return None
+    body, axis = joint["bodies"][0], np.array(joint["axes"][0], dtype=float)
+    bodies = list(result.coordinates.get("body", ()))
+    if body not in bodies:
+        return np.tile(axis, (len(result.time), 1))
+    return rotation_matrices(result.array("orientation")[:, bodies.index(body)]) @ axis
+
+
+def _joints(result: Result) -> dict[str, dict[str, Any]]:
+    """The joints of the machine by their names."""
+    return {each["name"]: each for each in json.loads(str(result.attributes.get("scene", "{}"))).get("joints", [])}
 
 
 def joint_place(result: Result, name: str) -> Array:
@@ -147,7 +182,7 @@ def joint_place(result: Result, name: str) -> Array:
 
     Raises ModelError for a joint that the machine does not have.
     """
-    joints = {each["name"]: each for each in json.loads(str(result.attributes.get("scene", "{}"))).get("joints", [])}
+    joints = _joints(result)
     if name not in joints:
         raise ModelError(unknown_name("joint", name, list(joints)))
     bodies = list(result.coordinates.get("body", ()))

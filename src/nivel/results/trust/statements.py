@@ -155,6 +155,8 @@ def freedom_item(trust: Trust) -> Item:
     if count < 1:
         return Item("degrees_of_freedom", "amber", "Freedom: no degree of freedom: nothing can move (green from 1 on)")
     degrees = "1 degree of freedom" if count == 1 else f"{count} degrees of freedom"
+    if trust.position_freedoms is not None and trust.position_freedoms > count:
+        degrees += f" of velocities, {trust.position_freedoms} of positions, as wheels roll without slip"
     modes = f", with {trust.modes} modes of flexible bodies" if trust.modes else ""
     return Item("degrees_of_freedom", "green", f"Freedom: {degrees}{modes} (green from 1 on)")
 

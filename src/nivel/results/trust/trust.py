@@ -44,7 +44,8 @@ class Facts:
     """What only the run itself knows.
 
     outcome : done, interrupted, failed or running.
-    degrees_of_freedom : None where unknown; modes : of flexible bodies. drivers : motions that are prescribed.
+    degrees_of_freedom : of velocities, None where unknown; position_freedoms : of positions. modes : of flexible bodies. drivers : motions
+    that are prescribed.
     non_unique_joints : joints whose reactions depend on which of the redundant rows are kept.
     accuracy : estimated largest error of a position [m], from `nivel.results.trust.accuracy`, and by what `refinement` of the run it was
     found;
@@ -59,6 +60,7 @@ class Facts:
 
     outcome: str
     degrees_of_freedom: int | None = None
+    position_freedoms: int | None = None
     redundant_rows: tuple[str, ...] = ()
     non_unique_joints: tuple[str, ...] = ()
     accuracy: Peak | None = None
@@ -110,6 +112,7 @@ def assess(result: Readable, facts: Facts) -> Trust:
         constraint_rate_violation_time=rate.time,
         constraint_rate_violation_units=f"{rate_units}/s",
         degrees_of_freedom=facts.degrees_of_freedom,
+        position_freedoms=facts.position_freedoms,
         modes=facts.modes,
         drivers=facts.drivers,
         redundant_rows=tuple(facts.redundant_rows),

@@ -185,8 +185,8 @@ class Trust:
     size_kind : what `size` is, to be said after "the". at_rest : `speed` is not that of the machine, which is at rest,
     but the least speed that counts.
     accuracy_refinement : what the run was done again with to find `accuracy_estimate`; verified_until : up to which time [s], None where
-    to the end; verification_ended : why not further. degrees_of_freedom : None where the run did not
-    live to tell. modes : of flexible bodies, whose coordinates
+    to the end; verification_ended : why not further. degrees_of_freedom : of velocities, None where the run did not
+    live to tell; position_freedoms : of positions. modes : of flexible bodies, whose coordinates
     are freedoms that joints may take. neglected_share : the largest share of the mass matrix of a flexible body that is lacking because it
     moves without the inertia invariants `neglected_names`; None where none does. drivers : motions that are prescribed.
     undetermined_efforts : results that are not unique while a friction holds a joint at rest together with a driver or
@@ -212,6 +212,7 @@ class Trust:
     constraint_rate_violation_time: float = 0.0
     constraint_rate_violation_units: str = "m/s"
     degrees_of_freedom: int | None = None
+    position_freedoms: int | None = None
     drivers: int = 0
     redundant_rows: tuple[str, ...] = ()
     non_unique_joints: tuple[str, ...] = ()

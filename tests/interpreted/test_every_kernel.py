@@ -24,13 +24,13 @@ import test_friction
 import test_rails
 import test_statics_closed_forms
 import tree_machines
-from nivel.analysis import preparation
-from nivel.analysis.implicit import find_tangent
+from nivel.analysis.assembly.implicit import find_tangent
+from nivel.analysis.run import preparation
 from nivel.files import parse_machine
-from nivel.integrate import paced as paced_loop
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.integrate.repeated import repeat_evaluation, repeat_family
-from nivel.kernels.status import BUDGET_SPENT, OK
+from nivel.integrate.loop import paced as paced_loop
+from nivel.integrate.loop.repeated import repeat_evaluation, repeat_family
+from nivel.kernels.core.status import BUDGET_SPENT, OK
 from nivel.live.preparation import live_plan, prepared_run
 from nivel.live.shared import bytes_of, live_in
 from nivel.machine import PointForce, Table

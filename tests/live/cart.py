@@ -2,6 +2,8 @@
 
 import time
 from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from nivel.api import Machine
 from nivel.files.reader import parse_machine
@@ -35,8 +37,10 @@ def machine():
 @contextmanager
 def running(**given):
     """A session of the cart, paused at its start."""
-    with session_of(machine(), {}, urgent=False, **given) as session:
-        yield session
+    with TemporaryDirectory() as folder:
+        opened = session_of(machine(), {}, urgent=False, recorded_in=Path(folder), **given)
+        with opened as session:
+            yield session
 
 
 def until(condition, what=""):

@@ -6,14 +6,16 @@ import random
 import socket
 import struct
 import time
+from contextlib import AsyncExitStack
 
 import numpy as np
 import pytest
 
 import cart
 from browsing import served
-from nivel.integrate.paced import DONE
-from nivel.live.datagrams import Counts, Datagrams, packed_inputs
+from nivel.errors import ModelError
+from nivel.integrate.loop.paced import BIN_WIDTH, BINS, COMPUTING, DONE
+from nivel.live.datagrams import Counts, Datagrams, packed_inputs, place_of
 from nivel.live.source import LiveSource
 from nivel.view.records import FRAME
 
@@ -31,7 +33,7 @@ def live():
 def connected(viewing):
     port = viewing.address.port
     return websockets.connect(
-        f"ws://127.0.0.1:{port}/stream", origin=f"http://127.0.0.1:{port}", max_size=None, proxy=None
+        f"ws://127.0.0.1:{port}/stream", origin=f"http://127.0.0.1:{port}", max_size=None, proxy=None, close_timeout=0.5
     )
 
 
@@ -100,6 +102,60 @@ def test_one_page_operates_and_another_may_not(live):
     assert session.mode == "running"
 
 
+def ticks_by_computing_time(session):
+    return session.live.histogram[COMPUTING * BINS : (COMPUTING + 1) * BINS].copy()
+
+
+def median_bin(counts):
+    return int(np.searchsorted(np.cumsum(counts), counts.sum() / 2))
+
+
+@pytest.mark.parametrize("seconds", [0.5, pytest.param(10.0, marks=pytest.mark.full)])
+def test_twenty_watchers_of_whom_four_stop_reading_change_nothing_for_the_operator(live, seconds):
+    """Who reads nothing holds nobody up: the operator's wish comes back, no tick is late by the loop's own computing, and half of the
+    ticks take no longer than twice what they took before."""
+    session, viewing = live
+    session.command("run")
+    before = ticks_by_computing_time(session)
+    time.sleep(seconds)
+    alone, own = ticks_by_computing_time(session) - before, session.timing.own
+
+    async def reads(page, end):
+        while time.monotonic() < end:
+            content = await asyncio.wait_for(page.recv(), 30.0)
+            if isinstance(content, bytes) and struct.unpack_from("<I", content)[0] == FRAME:
+                await page.send(json.dumps({"type": "shown", "frame": struct.unpack_from("<I", content, 4)[0]}))
+
+    async def talk():
+        async with AsyncExitStack() as stack:
+            pages = [await stack.enter_async_context(connected(viewing)) for _ in range(20)]
+            stuck = pages[:4]
+            for page in stuck:
+                page.transport.pause_reading()
+            operator = await stack.enter_async_context(connected(viewing))
+            await operator.send('{"type": "take", "on": 1}')
+            end = time.monotonic() + seconds
+            watching = [asyncio.create_task(reads(page, end)) for page in pages[4:]]
+            back = 0
+            while time.monotonic() < end or not back:
+                await operator.send('{"type": "drive", "values": [0, 0.75]}')
+                content = await asyncio.wait_for(operator.recv(), 30.0)
+                if isinstance(content, bytes) and struct.unpack_from("<I", content)[0] == FRAME:
+                    await operator.send(json.dumps({"type": "shown", "frame": struct.unpack_from("<I", content, 4)[0]}))
+                    back += struct.unpack_from("<f", content, len(content) - 4)[0] == 0.75
+            await asyncio.gather(*watching)
+            for page in stuck:
+                page.transport.resume_reading()
+            return len(viewing.streams), back
+
+    begin = ticks_by_computing_time(session)
+    pages, back = asyncio.run(talk())
+    assert pages == 21
+    assert back > 0
+    assert session.timing.own == own
+    assert median_bin(ticks_by_computing_time(session) - begin) - median_bin(alone) < np.log(2.0) / BIN_WIDTH
+
+
 def nonsense(random_numbers):
     """A message: bytes, broken JSON, records with wrong parts, names that look like paths."""
     pick = random_numbers.randrange(6)
@@ -129,6 +185,15 @@ def test_random_messages_are_dropped_and_counted(live, count):
     cart.until(lambda: int(session.live.control[DONE]) > ticks)
     assert session.mode == "running"
     cart.until(lambda: session.values() == {"lever": 0.0, "brake": 1.0}, "inputs at rest")
+
+
+def test_places_of_datagrams_are_looked_up_at_once():
+    assert place_of("localhost:9000", "udp") == ("127.0.0.1", 9000)
+    assert place_of("9001", "udp") == ("127.0.0.1", 9001)
+    with pytest.raises(ModelError, match="HOST:PORT was expected"):
+        place_of("127.0.0.1:x", "udp")
+    with pytest.raises(ModelError, match="is no host that is known here"):
+        place_of("no host:9000", "udp-to")
 
 
 def test_datagrams_operate_the_machine_and_bad_ones_are_counted(live):

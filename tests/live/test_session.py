@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 import cart
-from cart import DAMPING, FORCE, MASS, operate, running, until
+from cart import DAMPING, FORCE, MASS, machine, operate, running, until
 from nivel.errors import ModelError
-from nivel.integrate.paced import DONE, SAVED
+from nivel.integrate.loop.paced import DONE, SAVED
 from nivel.live.hand import grip
+from nivel.live.opening import session_of
 from nivel.live.preparation import live_plan, pace_of
-from nivel.live.recorder import Recording, read_recording, write_recording
+from nivel.live.recording import Recording, Take, read_recording, write_recording
 from nivel.live.replay import machine_of, replay, rerun
 
 
@@ -44,7 +45,7 @@ def driven(tmp_path_factory):
         until(lambda: session.newest[0] == 0.0, "a frame at the start")
         notes["timing"] = session.timing
     path = tmp_path_factory.mktemp("live") / "cart.live.npz"
-    write_recording(path, session.plan.machine, "", {}, session.pace, session.recorder.takes)
+    write_recording(path, session.plan.machine, "", {}, session.pace, session.recorder.parts)
     return notes, path
 
 
@@ -65,7 +66,7 @@ def test_inputs_stay_within_their_limits_and_rest_without_an_operator(driven):
     assert notes["limits"] == {"lever": 0.0, "brake": 2.0}  # no number is rest; beyond the range is its end
     assert notes["silent"] == ({"lever": 0.0, "brake": 1.0}, False)
     stored, take = longest(path)
-    tape = np.concatenate(take.tape)
+    tape = take.tape
     lever = np.concatenate([[0.0], tape[:, 0]])
     assert np.abs(np.diff(lever)).max() <= 4.0 * stored.pace.tick * (1.0 + 1e-12)
     assert lever.max() == 1.0
@@ -76,7 +77,7 @@ def test_a_live_run_is_the_motion_of_its_recorded_inputs(driven):
     """m v̇ = F u - d b v by RK4 with ten steps a tick, u and b straight from tick to tick."""
     stored, take = longest(driven[1])
     h = stored.pace.tick / 10
-    tape = np.vstack([[0.0, 1.0], np.concatenate(take.tape)[:, :2]])
+    tape = np.vstack([[0.0, 1.0], take.tape[:, :2]])
     places, y = [0.0], np.zeros(2)
     for before, after in pairwise(tape):
 
@@ -90,7 +91,7 @@ def test_a_live_run_is_the_motion_of_its_recorded_inputs(driven):
             k3 = rate(0.1 * k + 0.05, y + 0.5 * h * k2)
             y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(0.1 * k + 0.1, y + h * k3))
         places.append(y[0])
-    frames = np.concatenate(take.frames)
+    frames = take.frames
     assert len(frames) > 60
     ticks = np.round(frames[:, 0] / stored.pace.tick).astype(int)
     np.testing.assert_allclose(frames[:, 1], np.array(places)[ticks], atol=1e-9)  # column 1: x of the cart
@@ -103,17 +104,51 @@ def test_a_restored_state_goes_on_exactly_where_it_was_saved(driven):
     assert take.ticks > notes["saved"]
     assert take.whole
     again = replay(stored, take)
-    assert again.compared == len(np.concatenate(take.frames)) > 60
+    assert again.compared == len(take.frames) > 60
     assert again.is_identical
     assert again.result.trust.verdict == "green"
 
 
+def test_a_state_that_is_restored_after_a_reset_leads_back_to_what_came_before_it():
+    """To the right, saved; reset, to the left; restored: the take is the first motion and what follows, not that after the reset."""
+    with running() as session:
+        session.command("run")
+        operate(session, [1.0, 1.0], 0.4)
+        session.command("pause")
+        session.command("save")
+        saved = int(session.live.control[SAVED])
+        session.command("reset")
+        session.command("run")
+        operate(session, [-1.0, 1.0], 0.3)
+        session.command("restore")
+        operate(session, [0.0, 1.0], 0.1)
+        session.command("pause")
+        takes = session.takes
+    first, left, last = takes
+    assert last.ticks > saved
+    np.testing.assert_array_equal(last.tape[:saved], first.tape[:saved])
+    assert first.tape[:saved, 0].max() == 1.0
+    assert left.tape[:, 0].min() == -1.0
+    stored = Recording(session.plan.machine, "", {}, session.pace, tuple(takes))
+    assert all(replay(stored, take).is_identical for take in takes)
+
+
+def test_frames_that_were_not_kept_are_not_compared_and_others_still_are(driven):
+    stored, take = longest(driven[1])
+    fewer = np.delete(take.frames, [0, 7, 8, 30], axis=0)
+    again = replay(stored, Take(take.tape, fewer))
+    assert again.is_identical
+    assert again.compared == len(fewer)
+    moved = fewer.copy()
+    moved[5, 0] += 1e-4
+    assert replay(stored, Take(take.tape, moved)).different == 1
+
+
 def test_a_changed_recording_is_not_called_identical(driven):
     stored, take = longest(driven[1])
-    tape = np.concatenate(take.tape)
+    tape = take.tape.copy()
     tape[100, 0] += 1e-9
-    take.tape[:] = [tape]
-    again = replay(stored, take)
+    again = replay(stored, Take(tape, take.frames))
     assert not again.is_identical
     assert again.first > 0.09
 
@@ -129,7 +164,7 @@ def test_other_methods_repeat_the_run_within_their_error(driven):
 def test_the_inputs_of_a_recording_stand_in_its_machine(driven):
     stored, take = longest(driven[1])
     lever = machine_of(stored, take).inputs[0].signal
-    tape = np.concatenate(take.tape)
+    tape = take.tape
     np.testing.assert_allclose([lever(t) for t in (1 + np.arange(len(tape))) * 1e-3], tape[:, 0], atol=1e-9)
 
 
@@ -161,16 +196,19 @@ def test_ticks_are_whole_steps():
     assert pace_of(1e-3, 5e-3).substeps == 5
     with pytest.raises(ModelError, match="is not a multiple of the step"):
         pace_of(1e-3, 2.5e-3)
+    with pytest.raises(ModelError, match=r"1 s is longer than 0\.1 s"):
+        pace_of(1.0, None)
 
 
 def test_slow_motion_goes_at_its_speed():
-    """Slow motion: simulated time goes with the speed."""
-    with running() as session:
+    """Slow motion: simulated time goes with the speed. Of a session that is not recorded nothing is kept."""
+    with session_of(machine(), {}, urgent=False) as session:
         session.set_speed(0.1)
         session.command("run")
         begin, ticks = time.monotonic(), int(session.live.control[DONE])
         time.sleep(1.0)
         share = (int(session.live.control[DONE]) - ticks) * 1e-3 / (time.monotonic() - begin)
+        assert session.takes == []
     assert share == pytest.approx(0.1, rel=0.2)
 
 
@@ -189,12 +227,12 @@ def test_a_body_that_is_picked_up_moves_as_the_spring_says_and_its_replay_is_the
         session.let_go()
         until(lambda: session.live.value[-8] == 0.0, "let go")
         session.command("pause")
-    take = session.recorder.take
+    take = session.takes[-1]
     stored = Recording(session.plan.machine, "", {}, session.pace, (take,))
     again = replay(stored, take)
     assert again.is_identical
     result = again.result
-    tape = np.concatenate(take.tape)
+    tape = take.tape
     held = tape[:, 2] == 1.0
     begin = (1 + np.argmax(held)) * 1e-3
     assert held.sum() > 200

@@ -10,6 +10,7 @@ import { Arrows } from "./stage/arrows";
 import { Colours } from "./stage/colours";
 import { cloudNow, cloudOf } from "./stage/cloud";
 import type { Extra } from "./stage/extras";
+import { Compass } from "./stage/compass";
 import { Labels } from "./stage/labels";
 import { Follower } from "./stage/follower";
 import { Hand } from "./stage/hand";
@@ -33,6 +34,7 @@ import { Plots } from "./ui/plots";
 import { Timeline } from "./ui/timeline";
 import { Tree } from "./ui/tree";
 
+const NOTED = 4000; // ms that a note is shown
 const IDLE = 400; // ms without a frame after which nothing moves
 const FEW_NAMES = 14; // a machine of more bodies starts without names
 
@@ -48,6 +50,7 @@ export class App {
   readonly traces: Traces;
   readonly violations: Violations;
   readonly labels: Labels;
+  private readonly compass: Compass;
   readonly plots: Plots;
   private readonly follower: Follower;
   private readonly handled: Handled;
@@ -62,10 +65,11 @@ export class App {
   private hand: Hand | null = null;
   private shownTime = 0;
   private readonly panels: Panels;
-  private readonly dialog = helpDialog();
+  private readonly dialog: HTMLDialogElement;
   private readonly status = el("p", { class: "status", role: "status" });
   private picked: Picked | null = null;
   private latest: Frame | null = null;
+  private noted = 0;
   private came = 0; // ms: when the last frame came
 
   constructor(
@@ -103,7 +107,8 @@ export class App {
     this.follower = new Follower(this.world, this.actor);
     this.handled = new Handled(this.world, this.actor);
     this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
-    holder.append(names, this.legend.element);
+    this.compass = new Compass(this.world);
+    holder.append(names, this.compass.element, this.legend.element);
     const columns = new Columns(opened, connection);
     const ghostTime = this.ghosts[0]?.motion.time ?? null;
     const times = { main: this.motion?.time ?? new Float64Array(), ghost: ghostTime, ghostTitle: others[0]?.title ?? "", isPath: !!this.motion?.load };
@@ -147,6 +152,7 @@ export class App {
       this.hand = hand;
     }
     if (this.circuit) this.inspector.put(this.circuit.element);
+    this.dialog = helpDialog(this.live?.keys ?? null);
     const data = el("div", {}, this.live?.panel ?? null, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;
     this.panels = new Panels(stage, others, this.world, { structure: this.tree.element, data, display }, this.timeline?.element ?? this.live?.bar ?? null, this.status, () => this.dialog.showModal());
@@ -162,6 +168,7 @@ export class App {
     else if (this.motion) this.motion.sample(this.motion.start, this.actor.frame);
     this.refreshFrame();
     if (this.live) this.handled.watchAll();
+    this.world.now = () => cloudNow(this.actor);
     if (content.mode === "machine" || this.live) this.world.around = () => cloudNow(this.actor);
     const first = columns.list().find((column) => /\.(angle|displacement)$/.test(column.name));
     if (first && this.player) void this.plots.show([first.name]);
@@ -201,13 +208,20 @@ export class App {
   }
 
   message(message: FromServer): void {
-    if (message.type === "note") this.say(message.text);
+    if (message.type === "note") this.note(message.text);
     if (message.type === "status") this.live?.update(message);
     if (message.type === "moved") this.coordinates?.update(message.values, this.stage.coordinates, message.problem);
   }
 
   say(text: string): void {
+    clearTimeout(this.noted);
     this.status.textContent = text;
+  }
+
+  /** Say something that is soon out of date. */
+  private note(text: string): void {
+    this.say(text);
+    this.noted = window.setTimeout(() => this.say(""), NOTED);
   }
 
   private beforeRender(now: number): void {
@@ -222,13 +236,15 @@ export class App {
       this.shownTime = this.latest.time;
       this.latest = null;
       this.refreshFrame();
+      if (this.live) this.colours.spread();
       this.trails?.add();
       this.hand?.update();
       this.handled.keepInSight();
     }
     const { clientWidth, clientHeight } = this.world.holder;
     for (const actor of [this.actor, ...this.ghosts.map((ghost) => ghost.actor)]) actor.look(this.world.camera, clientHeight);
-    this.labels.update(this.world.camera, clientWidth, clientHeight);
+    this.labels.update(this.world.camera, clientWidth, clientHeight, !this.world.running);
+    this.compass.update();
   }
 
   /** Everything that depends on the frame that is shown. */
@@ -257,7 +273,7 @@ export class App {
     if (this.picked?.kind === "body") this.follower.toggle(this.picked.name);
     else {
       this.follower.stop();
-      this.world.fit();
+      this.world.fitNow();
     }
     this.inspector.refresh();
   }
@@ -291,7 +307,8 @@ export class App {
   }
 
   /** The picture alone, without controls. */
-  bare(side: View): void {
+  bare(side: View, fine: boolean): void {
+    if (fine) this.world.drawFinely();
     document.body.classList.add("bare");
     this.panels.close();
     this.world.keepFree({ left: 0, top: 0, right: 0, bottom: 0 });

@@ -14,7 +14,10 @@ export interface Listener {
   onPackage(bytes: Uint8Array): void;
   onFrame(frame: Frame): void;
   onMessage(message: FromServer): void;
-  onState(connected: boolean): void;
+  /** The program answers again, but shows something else than before. */
+  onOther(): void;
+  /** failures : attempts in a row that were in vain. */
+  onState(connected: boolean, failures: number): void;
 }
 
 export class Connection {
@@ -22,7 +25,7 @@ export class Connection {
   private requests = new Map<number, (column: Float32Array | string) => void>();
   private lastRequest = 0;
   private failures = 0;
-  private known = false; // the package came already
+  private known: Uint8Array | null = null; // the package, once it came
 
   constructor(
     private readonly address: string,
@@ -53,14 +56,14 @@ export class Connection {
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.failures = 0;
-      this.listener.onState(true);
+      this.listener.onState(true, 0);
     };
     socket.onmessage = (event) => this.receive(event.data);
     socket.onclose = () => {
       for (const done of this.requests.values()) done("the connection was lost");
       this.requests.clear();
-      this.listener.onState(false);
       const wait = PATIENCE[Math.min(this.failures++, PATIENCE.length - 1)]!;
+      this.listener.onState(false, this.failures);
       if (this.failures < 40) setTimeout(() => this.open(), wait);
     };
     this.socket = socket;
@@ -76,14 +79,21 @@ export class Connection {
     const view = new DataView(data);
     const kind = view.getUint32(0, true);
     if (kind === PACKAGE) {
-      if (!this.known) this.listener.onPackage(new Uint8Array(data, 4));
-      this.known = true;
+      this.receivePackage(new Uint8Array(data, 4));
     } else if (kind === FRAME) {
       const values = new Float32Array(data, 16);
       this.listener.onFrame({ number: view.getUint32(4, true), time: view.getFloat64(8, true), values });
     } else if (kind === COLUMN) {
       this.answer(view.getUint32(4, true), new Float32Array(data, 12));
     }
+  }
+
+  private receivePackage(bytes: Uint8Array): void {
+    const { known } = this;
+    if (!known) {
+      this.known = bytes.slice();
+      this.listener.onPackage(bytes);
+    } else if (known.length !== bytes.length || known.some((byte, k) => byte !== bytes[k])) this.listener.onOther();
   }
 
   private answer(request: number, column: Float32Array | string): void {

@@ -5,6 +5,8 @@ import { inflate, openPackage } from "./package";
 import type { View } from "./stage/views";
 import "./style.css";
 
+const LOST = 3; // attempts in vain after which the program counts as gone
+
 function complain(text: string): void {
   const message = document.createElement("p");
   message.className = "complaint";
@@ -21,8 +23,8 @@ function inWords(error: unknown): string {
 /** What programs that drive the page use: tests, `nivel view --still` and `--export film.mp4`. */
 interface Remote {
   app: App;
-  /** Hide all controls and look from a side. */
-  bare(side: View): void;
+  /** Hide all controls and look from a side; fine : draw smoothly, however slowly. */
+  bare(side: View, fine: boolean): void;
   /** First and last time. */
   span(): [number, number];
   /** Show a moment; done when it is on the screen. */
@@ -39,7 +41,7 @@ declare global {
 function present(app: App): void {
   window.nivel = {
     app,
-    bare: (side) => app.bare(side),
+    bare: (side, fine) => app.bare(side, fine),
     span: () => [app.motion?.start ?? 0, app.motion?.end ?? 0],
     pose: (time) => {
       app.goTo(time);
@@ -65,9 +67,10 @@ function connect(): void {
     },
     onFrame: (frame) => app?.take(frame),
     onMessage: (message) => app?.message(message),
-    onState: (connected) => {
+    onOther: () => location.reload(),
+    onState: (connected, failures) => {
       if (!connected) app?.live?.lose();
-      app?.say(connected ? "" : "The program that shows this page has ended; what is here stays.");
+      app?.say(connected ? "" : failures < LOST ? "The connection was lost; it is tried again." : "The program that shows this page has ended; what is here stays.");
     },
   });
 }

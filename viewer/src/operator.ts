@@ -42,6 +42,13 @@ export class Operator {
     this.sticks.set(stick, value);
   }
 
+  /** Somebody else operates, or nobody: controls that stay where they are left are taken over where they are. */
+  follow(values: Float32Array): void {
+    this.controls.forEach((each, k) => {
+      if (each.hold) this.hand[k] = this.values[k] = values[k] ?? each.rest;
+    });
+  }
+
   /** All controls back to rest. */
   rest(): void {
     this.letGo();

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isnan
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -36,7 +37,9 @@ def command(
     quiet: bool,
     **methods: Any,
 ) -> None:
-    """Run MACHINE for some seconds as fast as it goes, with its inputs at rest, and say what a tick of live operation costs.
+    """Run MACHINE for some seconds as fast as it goes, with its levers pushed to and fro, and say what a tick of live operation costs.
+
+    The last column says how far the farthest body is at the end from where steps of half the length by the method of the file have it.
 
     Without `--integrators` methods with fixed steps are tried: that of the machine file, and all that need no compiler.
     """
@@ -44,6 +47,7 @@ def command(
     from nivel.cli.progress import progress_listener
     from nivel.errors import Fault, ModelError
     from nivel.live.budget import costs, fixed_methods
+    from nivel.live.timing import in_a_sentence
     from nivel.machine.record import unknown_word
 
     for name in integrators or ():
@@ -58,18 +62,22 @@ def command(
         else:
             others = [name for name in fixed_methods() if name != own]
             found = list(costs(record, settings, tick, [own], compiled_only=False, listener=listener))
-            found += costs(record, settings, tick, others, compiled_only=True)
-    click.echo(f"{record.name}: computing time of a tick in µs\n{'':22}     50 %   99.9 %  longest  would hold")
+            found += costs(record, settings, tick, others, compiled_only=True, listener=listener)
+    click.echo(
+        f"{record.name}: computing time of a tick in µs\n{'':22}     50 %   99.9 %  longest  would hold   off by"
+    )
     for cost in found:
         click.echo(_line(cost))
-    for name, share in found[0].parts.items():
-        click.echo(f"  {100.0 * share:5.1f} %  {name}  ({found[0].integrator})")
+    first = found[0]
+    if first.timing is not None:
+        click.echo(f"\n{in_a_sentence(record.name, first.integrator, first.timing, first.parts)}")
 
 
 def _line(cost: Cost) -> str:
     timing = cost.timing
     if timing is None:
-        return f"{cost.integrator:22} {cost.problem}"
+        return f"{cost.integrator:22} {cost.note}"
     middle, high, longest = (1e6 * timing.computing[k] for k in (0, 3, 4))
     holds = f"{timing.rate_held / 1e3:.3g} kHz"
-    return f"{cost.integrator:22}{middle:9.1f}{high:9.1f}{longest:9.1f}  {holds}"
+    off = cost.note or ("" if isnan(cost.off) else f"{cost.off:.2g} m")
+    return f"{cost.integrator:22}{middle:9.1f}{high:9.1f}{longest:9.1f}  {holds:10}   {off}"

@@ -61,10 +61,10 @@ def command(
     from nivel.cli.progress import progress_listener
     from nivel.live.datagrams import Datagrams, place_of
     from nivel.live.opening import session_of
-    from nivel.live.recorder import write_recording
+    from nivel.live.recording import write_recording
     from nivel.live.source import LiveSource
-    from nivel.live.timing import in_words
-    from nivel.results.target import check_folder, check_target
+    from nivel.live.timing import in_a_sentence, in_words
+    from nivel.results.frames.target import check_target
     from nivel.view.opening import serve
 
     def say(text: str) -> None:
@@ -72,7 +72,6 @@ def command(
             click.echo(text, err=True)
 
     if record is not None:
-        check_folder(Path(record), "recording")
         check_target(Path(record), "recording", force=force, sources=[Path(machine)])
     settings = {name: value for name, value in methods.items() if value is not None}
     listen, send = udp and place_of(udp, "udp"), udp_to and place_of(udp_to, "udp_to")
@@ -80,7 +79,10 @@ def command(
     with ExitStack() as stack:
         with progress_listener(quiet) as listener:
             listener.say("preparing")
-            opened = session_of(loaded, settings, tick=tick, urgent=not no_priority, listener=listener)
+            folder = None if record is None else Path(record).absolute().parent
+            opened = session_of(
+                loaded, settings, tick=tick, urgent=not no_priority, recorded_in=folder, listener=listener
+            )
             session = stack.enter_context(opened)
             outside = Datagrams(session, listen or None, send or None)
             stack.callback(outside.close)
@@ -93,13 +95,16 @@ def command(
         timing = session.timing
     for line in in_words(timing):
         say(line)
+    if timing.ticks:
+        integrator = session.plan.settings.integrator
+        say(f"  {in_a_sentence(session.plan.machine.name, integrator, timing, session.parts)}")
     if listen:
         say(f"datagrams: {outside.counts}")
     if record is not None:
         write_recording(
-            record, session.plan.machine, loaded.origin.source, settings, session.pace, session.recorder.takes
+            record, session.plan.machine, loaded.origin.source, settings, session.pace, session.recorder.parts
         )
-        say(f"recording: {record}")
+        say(f"recording: {record}{session.recorder.problem and f' ({session.recorder.problem})'}")
 
 
 def both(first: Callable[[], None], second: Callable[[], None]) -> Callable[[], None]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -11,13 +11,20 @@ from nivel.cli.failures import COMPUTATION_FAILED
 from nivel.cli.options import file_argument, quiet_option, simulation_options
 from nivel.cli.progress import progress_listener
 
+if TYPE_CHECKING:
+    from nivel.live.replay import Replay
+    from nivel.results.result import Result
+
 
 @click.command(short_help="Repeat a recorded live run exactly, or by other methods.")
 @file_argument("recording")
 @simulation_options
 @click.option("--take", type=click.IntRange(1), help="Which motion of the recording, from 1; default: the longest.")
 @click.option(
-    "--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .replay.nc, here."
+    "-o",
+    "--out",
+    type=click.Path(dir_okay=False),
+    help="Result file; default: the machine's name with .replay.nc, here.",
 )
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 @quiet_option
@@ -31,9 +38,9 @@ def command(
     `nivel view one.nc other.nc` lays the results over each other.
     """
     from nivel.errors import ModelError
-    from nivel.live.recorder import read_recording
+    from nivel.live.recording import read_recording
     from nivel.live.replay import replay, rerun
-    from nivel.results.target import check_target
+    from nivel.results.frames.target import check_target
 
     stored = read_recording(recording)
     if not stored.takes:
@@ -47,21 +54,29 @@ def command(
     length = f"{chosen.ticks} ticks, {chosen.ticks * stored.pace.tick:.6g} s"
     with progress_listener(quiet) as listener:
         if settings:
-            rerun(stored, chosen, settings, out=target, force=force, listener=listener)
-            say(f"{stored.machine.name}: {length} again by other methods\nresult: {target}")
+            other = rerun(stored, chosen, settings, out=target, force=force, listener=listener)
+            say(f"{stored.machine.name}: {length} again by other methods; {_trust(other)}\nresult: {target}")
             return
         done = replay(stored, chosen, out=target, force=force, listener=listener)
-    if done.is_identical and chosen.whole:
-        say(f"{stored.machine.name}: {length}; all {done.compared} frames equal the recorded ones to the last bit")
-    elif done.is_identical:
-        say(
-            f"{stored.machine.name}: {length}; {done.compared} frames equal the recorded ones, others were not recorded"
-        )
-    else:
-        say(
-            f"{stored.machine.name}: {length}; {done.different} frames differ from the recorded ones, the first at t = {done.first:.6g} s: "
-            "another processor, another version of nivel, or ticks that were not recorded"
-        )
+    say(f"{stored.machine.name}: {length}; {_comparison(done)}; {_trust(done.result)}")
+    if not chosen.whole:
+        say("this take went on after its last tick here: the recorder could not follow, or its disk was full")
     say(f"result: {target}")
-    if not (done.is_identical and chosen.whole):
+    if not done.is_identical:
         raise SystemExit(COMPUTATION_FAILED)
+
+
+def _trust(result: Result) -> str:
+    """The verdict and its reason; nothing is green that was not run twice."""
+    trust = result.trust
+    verdict = "" if trust.verdict == "green" and trust.accuracy_estimate is None else f"{trust.verdict}, "
+    return f"trust: {verdict}{trust.headline}"
+
+
+def _comparison(done: Replay) -> str:
+    if done.is_identical:
+        return f"all {done.compared} recorded frames are repeated to the last bit"
+    return (
+        f"{done.different} of {done.compared} frames differ from the recorded ones, the first at t = {done.first:.6g} s: "
+        "another processor, another version of nivel, or another machine"
+    )

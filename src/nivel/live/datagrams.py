@@ -54,11 +54,14 @@ def packed_inputs(values: Sequence[float], sequence: int, stamp: int) -> bytes:
 
 
 def place_of(text: str, option: str) -> tuple[str, int]:
-    """HOST:PORT, or a port of this machine. Raises ModelError where it is neither."""
+    """Address and port of HOST:PORT, or a port of this machine. Raises ModelError where it is neither, or the host is not known."""
     host, _, port = text.rpartition(":")
     if not port.isdecimal() or not 0 <= int(port) <= 65535:
         raise ModelError(Fault("", 0, 0, option, f"HOST:PORT was expected, for instance 127.0.0.1:9000, got `{text}`"))
-    return host or "127.0.0.1", int(port)
+    try:
+        return socket.gethostbyname(host or "127.0.0.1"), int(port)
+    except (OSError, UnicodeError):
+        raise ModelError(Fault("", 0, 0, option, f"`{host}` is no host that is known here")) from None
 
 
 class Datagrams:

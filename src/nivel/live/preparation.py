@@ -10,20 +10,21 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.analysis.dynamics import Loop, start_loop
-from nivel.analysis.plan import Plan, plan_run
-from nivel.analysis.preparation import Prepared, prepare
+from nivel.analysis.plan.plan import Plan, plan_run
+from nivel.analysis.run.dynamics import Loop, start_loop
+from nivel.analysis.run.preparation import Prepared, prepare
 from nivel.errors import Fault, ModelError
-from nivel.integrate.loop import advance
-from nivel.integrate.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
-from nivel.integrate.run import Run
-from nivel.kernels.handle import Handle
+from nivel.integrate.loop.loop import advance
+from nivel.integrate.loop.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
+from nivel.integrate.loop.run import Run
+from nivel.kernels.core.handle import Handle
 from nivel.live.hand import COUNT, PULL, with_hand
 from nivel.live.shared import Sizes
 from nivel.machine import MachineRecord, Table
 from nivel.machine.changes import changed
 
 LONGEST: Final = 86400.0  # s of a live run
+LONGEST_TICK: Final = 0.1  # s: beyond it nobody can operate a machine
 SHORTEST_TICK: Final = 1e-3  # s: more ticks a second cost more than they tell
 FRAMES_PER_SECOND: Final = 60.0
 CAUGHT_UP: Final = 0.05  # s: a longer delay stretches time
@@ -47,11 +48,14 @@ class Pace:
 def pace_of(step: float, tick: float | None) -> Pace:
     """Ticks of whole steps, of 1 ms or the step where nothing was asked for.
 
-    Raises ModelError where the tick is no multiple of the step.
+    Raises ModelError where the tick is no multiple of the step, or too long.
     """
     wanted = max(step, SHORTEST_TICK) if tick is None else tick
     if not wanted > 0.0:
         raise ModelError(Fault("", 0, 0, "tick", f"a time greater than zero was expected, got {wanted:.6g} s"))
+    if wanted > LONGEST_TICK:
+        problem = f"{wanted:.6g} s is longer than {LONGEST_TICK:g} s: inputs and the picture would lag behind"
+        raise ModelError(Fault("", 0, 0, "step" if tick is None else "tick", problem))
     substeps = max(1, ceil(wanted / step - 1e-9)) if tick is None else max(1, round(wanted / step))
     if tick is not None and abs(substeps * step - tick) > 1e-9 * tick:
         raise ModelError(Fault("", 0, 0, "tick", f"{tick:.6g} s is not a multiple of the step {step:.6g} s"))

@@ -5,30 +5,32 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from os import PathLike
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.attributes import run_attributes
-from nivel.analysis.compilation import build, run_entries
-from nivel.analysis.dynamics import RunOutcome
-from nivel.analysis.held_friction import resting_frictions
-from nivel.analysis.listener import Listener
-from nivel.analysis.outcome import failure
-from nivel.analysis.plan import plan_run
-from nivel.analysis.simulate import close_run
+from nivel.analysis.plan.compilation import build, run_entries
+from nivel.analysis.plan.plan import plan_run
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.attributes import run_attributes
+from nivel.analysis.run.dynamics import RunOutcome, counts_of
+from nivel.analysis.run.held_friction import resting_frictions
+from nivel.analysis.run.outcome import failure
+from nivel.analysis.run.simulate import close_run
 from nivel.api import Machine
 from nivel.errors import ModelError
-from nivel.integrate.paced import DONE, FROM_TAPE, SHOWN, TICKS, drive
-from nivel.integrate.run import ACCEPTED, DONE_STEPS, EVALUATIONS, STEP
-from nivel.integrate.sink import Header
-from nivel.kernels.status import BUDGET_SPENT
-from nivel.kernels.status import DONE as ENDED
+from nivel.integrate.loop.paced import DONE, FROM_TAPE, SHOWN, TICKS, drive
+from nivel.integrate.loop.run import ACCEPTED, STEP
+from nivel.integrate.loop.sink import Header
+from nivel.kernels.core.status import BUDGET_SPENT
+from nivel.kernels.core.status import DONE as ENDED
 from nivel.live.preparation import LiveRun, prepared_run
-from nivel.live.recorder import Recording, Take
+from nivel.live.recording import Recording, Take
 from nivel.live.shared import bytes_of, live_in
 from nivel.machine import MachineRecord
+from nivel.results.frames.target import check_target
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
@@ -39,8 +41,8 @@ FRAMES_AT_ONCE: Final = 32
 
 @dataclass(frozen=True)
 class Replay:
-    """A run done again. compared : frames that the recording has. different : how many of them are not equal bit by bit; first : time of
-    the first such frame [s]."""
+    """A run done again. compared : frames that the recording has. different : how many of them are not repeated bit by bit; first : time
+    of the first such frame [s]."""
 
     result: Result
     compared: int
@@ -51,6 +53,36 @@ class Replay:
     def is_identical(self) -> bool:
         """Whether every frame is what it was."""
         return self.different == 0 and self.compared > 0
+
+
+class Comparison:
+    """Compares frames with recorded ones of the same times, bit by bit."""
+
+    def __init__(self, recorded: Array) -> None:
+        self._recorded = recorded
+        self._compared = self._different = 0
+        self._first = 0.0
+
+    def take(self, frames: Array) -> None:
+        """Frames in the order of time. A recorded one before them that was not among those that came is different."""
+        times = self._recorded[self._compared :, 0]
+        old = self._recorded[self._compared : self._compared + int(np.searchsorted(times, frames[-1, 0], "right"))]
+        places = np.minimum(np.searchsorted(frames[:, 0], old[:, 0]), len(frames) - 1)
+        wrong = np.any(_bits(old) != _bits(frames[places]), axis=1)
+        if wrong.any() and not self._different:
+            self._first = float(old[np.argmax(wrong), 0])
+        self._compared += len(old)
+        self._different += int(wrong.sum())
+
+    def replay(self, result: Result) -> Replay:
+        """What was found; recorded frames that never came are different."""
+        left = self._recorded[self._compared :]
+        first = float(left[0, 0]) if len(left) and not self._different else self._first
+        return Replay(result, len(self._recorded), self._different + len(left), first)
+
+
+def _bits(frames: Array) -> NDArray[np.uint64]:
+    return np.ascontiguousarray(frames).view(np.uint64)
 
 
 def machine_of(recording: Recording, take: Take) -> MachineRecord:
@@ -76,6 +108,8 @@ def replay(
     """
     if not take.ticks:
         raise ModelError("this take has no tick: there is nothing to replay")
+    if out is not None:
+        check_target(Path(out), "result file", force=force)
     plan = plan_run(recording.machine)
     compile_seconds = build([*run_entries(plan), drive], listener)
     again = prepared_run(plan, recording.pace)
@@ -87,19 +121,13 @@ def replay(
     )
     resting = resting_frictions(plan.machine, prepared.absolute, prepared.assembly.y)
     outcome = RunOutcome("done")
-    recorded = np.concatenate(take.frames) if take.frames else np.zeros((0, 0))
-    compared = different = 0
-    first = 0.0
-    for frames in _frames_of(again, np.concatenate(take.tape), outcome):
+    found = Comparison(take.frames)
+    for frames in _frames_of(again, take.tape, outcome):
         sink.take(frames)
-        old = recorded[compared : compared + len(frames)]
-        wrong = np.any(old.view(np.uint64) != frames[: len(old)].view(np.uint64), axis=1)
-        if wrong.any() and not different:
-            first = float(old[np.argmax(wrong), 0])
-        compared, different = compared + len(old), different + int(wrong.sum())
+        found.take(frames)
     seconds = {"prepare_seconds": 0.0, "compile_seconds": compile_seconds}
     result = close_run(sink, replace(plan, machine=machine), prepared, outcome, None, resting, seconds)
-    return Replay(result, compared, different + len(recorded) - compared, first)
+    return found.replay(result)
 
 
 def _frames_of(again: LiveRun, tape: Array, outcome: RunOutcome) -> Iterator[Array]:
@@ -120,19 +148,12 @@ def _frames_of(again: LiveRun, tape: Array, outcome: RunOutcome) -> Iterator[Arr
             yield live.frames[np.arange(shown, control[SHOWN]) % len(live.frames)]
             shown = int(control[SHOWN])
     run = again.run
-    outcome.timing = _timing(again)
+    outcome.timing = {**counts_of(again.prepared.motion.system, run), "loop_seconds": 0.0, "wall_seconds": 0.0}
     if status not in (BUDGET_SPENT, ENDED):
         at = float(run.clock[ACCEPTED])
         outcome.outcome = "failed"
         message, advice = failure(again.prepared.motion, status, at, float(run.clock[STEP]), run.previous)
         outcome.failure = message, advice, at
-
-
-def _timing(again: LiveRun) -> dict[str, float]:
-    counter = again.run.counter
-    counts = dict.fromkeys(("iterations", "factorisations", "rejected", "unconserved", "partitions"), 0)
-    done = {"steps": int(counter[DONE_STEPS]), "evaluations": int(counter[EVALUATIONS])}
-    return {**counts, **done, "loop_seconds": 0.0, "wall_seconds": 0.0}
 
 
 def rerun(

@@ -7,17 +7,19 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from multiprocessing.shared_memory import SharedMemory
+from pathlib import Path
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.plan import Plan
+from nivel.analysis.plan.plan import Plan
 from nivel.errors import Fault, ModelError
-from nivel.integrate.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
+from nivel.integrate.loop.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
 from nivel.live import hand, shared
 from nivel.live.preparation import Pace
 from nivel.live.recorder import Recorder
+from nivel.live.recording import Take, takes_of
 from nivel.live.shared import Sizes, bytes_of, copy_of, live_in
 from nivel.live.solver import Told, main
 from nivel.live.timing import Timing, timing_of
@@ -48,10 +50,12 @@ MODES: Final = {
 class Session:
     """A solver that runs in its own process. `on_frame` is called, from a thread, when there is a new frame; `on_word` with sentences."""
 
-    def __init__(self, plan: Plan, pace: Pace, *, urgent: bool = True) -> None:
+    def __init__(self, plan: Plan, pace: Pace, *, urgent: bool = True, recorded_in: Path | None = None) -> None:
+        """recorded_in : a folder with room for what is recorded while the session lasts; None: nothing is."""
         self.plan, self.pace = plan, pace
         self.on_frame: Callable[[], None] = lambda: None
         self.said: list[str] = []
+        self.parts: Mapping[str, float] = {}  # share of the computing time by part, once it has ended
         self.problem = ""
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
@@ -70,12 +74,13 @@ class Session:
             array[...] = 0
         self._pipe.send(self._memory.name)
         self._lock = threading.Lock()
-        self._saved: int | None = None
+        self._has_saved = False
         self._newest: Array | None = None
         self._closing = False
-        self.recorder = Recorder(self.live, pace)
+        self.recorder = Recorder(self.live, pace, recorded_in)
         try:
             self._await_start()
+            self._hear()
         finally:
             self._memory.unlink()  # both have it now, and it goes with them, however they end
         self._thread = threading.Thread(target=self._watch, daemon=True)
@@ -132,17 +137,30 @@ class Session:
                 self._newest = frames[-1]
                 self.on_frame()
             try:
-                while self._pipe.poll():
-                    told = self._pipe.recv()
-                    self.said.append(told.text)
-                    if told.kind == "failed" or self.mode == "ended":
-                        self.problem = told.text
-                    self.on_frame()
+                self._hear()
             except (EOFError, OSError):
                 self.problem = self.problem or "the solver's process has ended"
                 self.on_frame()
                 return
             time.sleep(POLL)
+
+    @property
+    def takes(self) -> list[Take]:
+        """All motions from the start on that were recorded."""
+        with self._lock:
+            return takes_of(self.recorder.parts, self.pace)
+
+    def _hear(self) -> None:
+        """What the solver has said since. Raises EOFError, OSError where it is gone."""
+        while self._pipe.poll():
+            told = self._pipe.recv()
+            if told.kind == "parts":
+                self.parts = told.facts
+                continue
+            self.said.append(told.text)
+            if told.kind == "failed" or self.mode == "ended":
+                self.problem = told.text
+            self.on_frame()
 
     # --- what it is told ---
 
@@ -173,18 +191,19 @@ class Session:
 
     def command(self, word: str) -> str:
         """Do one of COMMANDS; returns why it was not done, or an empty text."""
-        if word == "restore" and self._saved is None:
+        if word == "restore" and not self._has_saved:
             return "no state has been saved"
         with self._lock:
             self.recorder.gather()
             if not self._do(COMMANDS[word]):
                 return "the solver does not answer"
             if word == "save":
-                self._saved = int(self.live.control[SAVED])
+                self._has_saved = True
                 self.recorder.gather()
+                self.recorder.save(int(self.live.control[SAVED]))
             if word in ("reset", "restore"):
                 self.problem = ""
-                self.recorder.begin_again(0 if word == "reset" else self._saved or 0)
+                self.recorder.begin_again(at_start=word == "reset")
         return ""
 
     def _do(self, code: int) -> bool:

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import contextlib
 import os
+import signal
 import time
 from dataclasses import asdict, dataclass, field
 from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 from typing import Any, Final
 
-from nivel.analysis.outcome import failure
-from nivel.analysis.plan import Plan
+from nivel.analysis.plan.plan import Plan
+from nivel.analysis.run.outcome import failure
 from nivel.errors import ModelError, NivelError
-from nivel.integrate.paced import (
+from nivel.integrate.loop.paced import (
     CLOCK,
     COMMAND,
     DEADLINE,
@@ -28,23 +29,26 @@ from nivel.integrate.paced import (
     TICKS,
     Live,
 )
-from nivel.integrate.run import ACCEPTED, STOPPED, TIME
-from nivel.integrate.run import STEP as STEP_CLOCK
-from nivel.kernels import status as codes
-from nivel.kernels.observe import observe
+from nivel.integrate.loop.run import ACCEPTED, STOPPED, TIME
+from nivel.integrate.loop.run import STEP as STEP_CLOCK
+from nivel.kernels.core import status as codes
+from nivel.kernels.output.observe import observe
 from nivel.live import shared
+from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import LiveRun, Pace, prepared_run
 from nivel.live.shared import live_in
 from nivel.live.snapshot import Snapshot, arrays_of, put_back, taken
 from nivel.live.system_clock import become_urgent, clock_addresses
+from nivel.native import library
 
 ROUND: Final = 0.5  # s that the compiled loop goes on before it is looked whether the server is still there
+FIRST: Final = 20  # ticks that are done for nothing
 REST: Final = 0.004  # s between two looks at the commands while nothing moves
 
 
 @dataclass
 class Told:
-    """What the solver says over its pipe. kind : ready, said, failed, refused."""
+    """What the solver says over its pipe. kind : ready, said, failed, refused, parts."""
 
     kind: str
     text: str = ""
@@ -52,7 +56,8 @@ class Told:
 
 
 def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
-    """The life of the process: prepare, say what is needed, get the memory, tick."""
+    """The life of the process: prepare, say what is needed, get the memory, tick. Ctrl-C is for the server, which then ends it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         live_run = prepared_run(plan, pace)
     except NivelError as error:
@@ -64,7 +69,7 @@ def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
         memory = SharedMemory(pipe.recv())
     except (EOFError, FileNotFoundError):
         return
-    with contextlib.suppress(KeyboardInterrupt, BrokenPipeError):
+    with contextlib.suppress(BrokenPipeError):
         Solver(live_run, live_in(memory.buf, live_run.sizes), pipe).live(urgent)
     # the arrays still look at the memory, which goes with the process
     os._exit(0)
@@ -72,7 +77,7 @@ def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
 
 def _facts(live_run: LiveRun) -> dict[str, Any]:
     """What the server has to know of the machine as it was assembled."""
-    from nivel.analysis.attributes import run_attributes
+    from nivel.analysis.run.attributes import run_attributes
 
     system = live_run.prepared.motion.system
     attributes = run_attributes(live_run.plan.machine, "", live_run.prepared, live_run.plan.settings)
@@ -95,10 +100,10 @@ class Solver:
     def live(self, urgent: bool) -> None:
         """Tick and obey until told to end, or until the server is gone."""
         control = self._live.control
-        self._drive_once(0)
-        self._show()
         for sentence in become_urgent() if urgent else ["no real-time priority was asked for"]:
             self._pipe.send(Told("said", sentence))
+        self._warm_up()
+        self._show()
         control[MODE] = shared.PAUSED
         control[PACED] = 1
         while os.getppid() == self._parent:
@@ -113,7 +118,24 @@ class Solver:
                 self._drive_once(max(1, int(ROUND / self._its.pace.tick)))
             else:
                 time.sleep(REST)
+        self._pipe.send(Told("parts", facts=self._parts()))
         control[MODE] = shared.GONE
+
+    def _parts(self) -> dict[str, float]:
+        """Share of the computing time by part, where that can be measured without compiling."""
+        control = self._live.control
+        control[PACED] = 0
+        if control[MODE] not in (shared.RUNNING, shared.PAUSED) or library.missing(ENTRIES):
+            return {}
+        return shares(self._its, control, self._drive)
+
+    def _warm_up(self) -> None:
+        """Some ticks that leave no trace: the first ones, whose code and memory were never touched before, take longest."""
+        control = self._live.control
+        control[TICKS] = FIRST
+        self._drive()
+        put_back(self._arrays, self._start)
+        control[[DONE, SHOWN]] = 0
 
     def _drive_once(self, ticks: int) -> None:
         control = self._live.control

@@ -133,6 +133,7 @@ class LiveSource(Still):
             late=1e6 * timing.lateness[2],
             tick=1e6 * timing.tick,
             overruns=timing.overruns,
+            own=timing.own,
             dropped=dropped,
             text=session.problem,
         )

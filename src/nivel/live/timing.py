@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
-from nivel.integrate.paced import (
+from nivel.integrate.loop.paced import (
     BIN_WIDTH,
     BINS,
     COMPUTING,
@@ -22,6 +23,7 @@ from nivel.integrate.paced import (
     Live,
 )
 
+LEAST: Final = 0.005  # share of a part that is worth to be told
 PERCENTS: Final = (50.0, 90.0, 99.0, 99.9)
 
 
@@ -54,21 +56,33 @@ def timing_of(live: Live) -> Timing:
     return Timing(
         ticks=int(rows[COMPUTING].sum()),
         tick=float(live.clock[TICK]),
-        computing=(*_percentiles(rows[COMPUTING]), 1e-9 * float(control[LONGEST])),
-        lateness=(*_percentiles(rows[LATENESS]), 1e-9 * float(control[LATEST])),
+        computing=_percentiles(rows[COMPUTING], 1e-9 * float(control[LONGEST])),
+        lateness=_percentiles(rows[LATENESS], 1e-9 * float(control[LATEST])),
         overruns=int(control[OVERRUNS]),
         own=int(control[OWN]),
         stretched=1e-9 * float(control[STRETCHED]),
     )
 
 
-def _percentiles(counts: np.ndarray) -> tuple[float, ...]:
-    """Upper ends of the bins that hold the percentiles [s]: at most 2 % too long."""
+def _percentiles(counts: np.ndarray, longest: float) -> tuple[float, ...]:
+    """Upper ends of the bins that hold the percentiles [s]: at most 2 % too long; and the longest."""
     total = counts.sum()
     if not total:
-        return (0.0,) * len(PERCENTS)
+        return (0.0,) * (len(PERCENTS) + 1)
     places = np.searchsorted(np.cumsum(counts), [np.ceil(total * percent / 100.0) for percent in PERCENTS])
-    return tuple(float(1e-9 * FIRST_BIN * np.exp(BIN_WIDTH * (place + 1))) for place in places)
+    ends = (float(1e-9 * FIRST_BIN * np.exp(BIN_WIDTH * (place + 1))) for place in places)
+    return *(min(end, longest) for end in ends), longest
+
+
+def in_a_sentence(machine: str, integrator: str, timing: Timing, parts: Mapping[str, float]) -> str:
+    """What a tick costs, of which part what share, and what rate that would allow."""
+    rate, cost, median = 1.0 / timing.tick, 1e6 * timing.computing[3], 1e6 * timing.computing[0]
+    ordered = sorted(((share, name) for name, share in parts.items() if share >= LEAST), reverse=True)
+    shared = ", ".join(f"{100.0 * share:.0f} % {name}" for share, name in ordered)
+    return (
+        f"{machine} at {rate / 1e3:.4g} kHz costs {cost:.0f} µs a tick by {integrator} ({median:.0f} µs in the median"
+        f"{f', of which {shared}' if shared else ''}); it would hold {timing.rate_held / 1e3:.3g} kHz"
+    )
 
 
 def in_words(timing: Timing) -> list[str]:
@@ -83,10 +97,5 @@ def in_words(timing: Timing) -> list[str]:
     lines.append(
         f"  overruns: {timing.overruns}, {timing.own} by own computing, {machine} by the machine; "
         f"time stretched by {1e3 * timing.stretched:.4g} ms in all"
-    )
-    share = 100.0 * timing.computing[3] / timing.tick
-    lines.append(
-        f"  99.9 % of the ticks cost at most {1e6 * timing.computing[3]:.0f} µs, {share:.1f} % of a tick: "
-        f"it would hold {timing.rate_held / 1e3:.3g} kHz"
     )
     return lines

@@ -148,6 +148,9 @@ def _take_worker() -> _Worker:
 
 
 @atexit.register
-def _end_all() -> None:
-    for worker in _started:
-        worker.end()
+def end_all() -> None:
+    """End the workers, which keep their memory while they wait; what has to be compiled later starts new ones."""
+    with _lock:
+        for worker in _started:
+            worker.end()
+        _started.clear()

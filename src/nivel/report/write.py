@@ -24,9 +24,9 @@ from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
-from nivel.results.circuits import pressures_at
-from nivel.results.target import keep_sources
-from nivel.results.verdicts import RESIDUAL, RULES, THRESHOLDS
+from nivel.results.frames.target import keep_sources
+from nivel.results.trust.circuits import pressures_at
+from nivel.results.trust.verdicts import RESIDUAL, RULES, THRESHOLDS
 from nivel.view.export import scene_html
 from nivel.view.playback import SMALL
 

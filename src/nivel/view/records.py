@@ -486,7 +486,8 @@ class Status:
     """From the server, some times a second: how a live machine is.
 
     time : simulated [s]. speed : simulated over real time. driver : who operates it. operated : its inputs follow an operator.
-    computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns, dropped : ticks that took too long, messages refused.
+    computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns : ticks that ended after the next deadline, `own` of them by
+    their own computing. dropped : messages refused.
     """
 
     type: Literal["status"]
@@ -499,6 +500,7 @@ class Status:
     late: float
     tick: float
     overruns: int
+    own: int
     dropped: int
     text: str
 

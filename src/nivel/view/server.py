@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 LOOPBACK: Final = ("127.0.0.1", "localhost", "::1")
 OWN: Final = {"0.0.0.0": "127.0.0.1", "::": "::1"}  # of all addresses of a machine the one that it has for itself
-MOST_PAGES: Final = 16
+MOST_PAGES: Final = 32
 HANDSHAKE: Final = 5.0  # seconds that a connection may take to say what it wants
 PORTS: Final = range(8640, 8660)  # tried in their order
 

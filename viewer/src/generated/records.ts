@@ -319,7 +319,7 @@ export interface Refused {
   problem: string;
 }
 
-/** From the server, some times a second: how a live machine is. time : simulated [s]. speed : simulated over real time. driver : who operates it. operated : its inputs follow an operator. computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns, dropped : ticks that took too long, messages refused. */
+/** From the server, some times a second: how a live machine is. time : simulated [s]. speed : simulated over real time. driver : who operates it. operated : its inputs follow an operator. computing, late : 99th percentiles of a tick [µs]. tick : [µs]. overruns : ticks that ended after the next deadline, `own` of them by their own computing. dropped : messages refused. */
 export interface Status {
   type: "status";
   mode: string;
@@ -331,6 +331,7 @@ export interface Status {
   late: number;
   tick: number;
   overruns: number;
+  own: number;
   dropped: number;
   text: string;
 }

@@ -58,8 +58,8 @@ export class Colours {
     return out;
   }
 
-  /** Bodies that show the same have the same ends. */
-  private spread(): void {
+  /** Bodies that show the same have the same ends; of a motion that goes on these follow what was seen. */
+  spread(): void {
     for (const group of this.groups()) {
       const low = Math.min(...group.map((each) => each.ownScale.low));
       const high = Math.max(...group.map((each) => each.ownScale.high));

@@ -26,6 +26,7 @@ export class Deforming {
   exaggeration = 1;
   showsStress = false;
   scale: Ends;
+  seen = 0; // the largest displacement so far, which is the end of the colours where a motion goes on
   private readonly peak: THREE.Mesh;
   private readonly near = new WeakMap<readonly [number, number, number], number[]>(); // vertices nearest to points
   private readonly rest: Float32Array;
@@ -65,7 +66,7 @@ export class Deforming {
   /** Of this body alone. */
   get ownScale(): Ends {
     const { quantity, unit, low, high, stress } = this.record;
-    return this.showsStress && stress ? { quantity: "von Mises stress", unit: "Pa", low: 0, high: stress.high } : { quantity, unit, low, high };
+    return this.showsStress && stress ? { quantity: "von Mises stress", unit: "Pa", low: 0, high: stress.high } : { quantity, unit, low, high: high > low ? high : this.seen };
   }
 
   /** The largest stress at this moment. */
@@ -122,6 +123,7 @@ export class Deforming {
       at[3 * k + 2] = rest[3 * k + 2]! + this.exaggeration * z;
       const value = this.showsStress ? this.stressed!.values[k]! : field ? shown[k]! : Math.hypot(x, y, z);
       this.values[k] = value;
+      if (value > this.seen) this.seen = value;
       if (Number.isNaN(value)) colours.fill(UNKNOWN, 3 * k, 3 * k + 3);
       else ramp((value - low) / span, colours, 3 * k);
     }

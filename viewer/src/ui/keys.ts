@@ -19,12 +19,21 @@ const SAID: readonly [string, string][] = [
   ["?", "this list"],
 ];
 
-export function helpDialog(): HTMLDialogElement {
+const SAID_LIVE: readonly [string, string][] = [
+  ["space", "run and pause"],
+  ["R", "back to the start"],
+  ...SAID.filter(([key]) => !/^(space|← →|home end|\+ −|L)$/.test(key)),
+];
+
+/** live : what the keys of a live machine do, or null; they come before those of the page. */
+export function helpDialog(live: [string, string][] | null): HTMLDialogElement {
+  const taken = new Set(live?.flatMap(([keys]) => keys.split(" ")));
+  const page = live ? SAID_LIVE.filter(([keys]) => !keys.split(/,? /).some((key) => taken.has(key))) : SAID;
   const dialog: HTMLDialogElement = el(
     "dialog",
     { class: "help", "aria-label": "Keys and mouse" },
     el("header", {}, el("h2", {}, "Keys and mouse"), iconButton("close", "Close", () => dialog.close())),
-    el("dl", {}, ...SAID.flatMap(([key, what]) => [el("dt", {}, key), el("dd", {}, what)])),
+    el("dl", {}, ...[...(live ?? []), ...page].flatMap(([key, what]) => [el("dt", {}, key), el("dd", {}, what)])),
     el("p", { class: "note" }, "Drag to turn, right button or two fingers to move, wheel or pinch to zoom, click a part to choose it, click a plot to go to its time. Of a live machine, shift and drag pulls a body."),
   );
   return dialog;

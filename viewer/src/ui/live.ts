@@ -30,9 +30,10 @@ export class Live {
   private readonly problem = el("p", { class: "problem", role: "status" });
   private readonly hint: HTMLElement;
   private drawn = 0;
+  private resumes = false; // whether this page operated when the connection was lost
 
   constructor(
-    controls: Control[],
+    private readonly controls: Control[],
     private readonly gauges: Gauge[],
     private readonly send: (message: FromPage) => void,
   ) {
@@ -89,14 +90,24 @@ export class Live {
     this.send({ type: "command", word, number });
   }
 
-  /** The connection was lost: nobody operates from here until the server says so again. */
+  /** The connection was lost: nobody operates from here until the server says so again; it is asked when it is back. */
   lose(): void {
+    this.resumes ||= this.operator.driving;
     this.operator.driving = false;
+  }
+
+  /** What the keys do, for the page that says so. */
+  get keys(): [string, string][] {
+    return this.controls
+      .filter((each) => each.lowers || each.raises)
+      .map((each) => [[each.lowers, each.raises].filter(Boolean).map(keyInWords).join(" "), each.description ? `${each.name}: ${each.description}` : each.name]);
   }
 
   update(status: Status): void {
     this.status = status;
     this.operator.driving = status.driver === "you";
+    if (this.resumes && status.driver === "nobody") this.take(true);
+    this.resumes = false;
     const running = status.mode === "running";
     renew(this.run, running ? "pause" : "play", running ? "Pause" : "Run", "space");
     this.seat.textContent = status.driver === "you" ? "You operate" : status.driver === "other" ? "Somebody operates" : "Take the controls";
@@ -104,6 +115,7 @@ export class Live {
     this.clock.textContent = `${status.time.toFixed(2)} s`;
     const share = (100 * status.computing) / status.tick;
     this.load.textContent = `${running ? "" : `${status.mode} · `}${short(+status.computing.toPrecision(2))} µs a tick, ${share.toPrecision(2)} %${status.overruns ? `, ${status.overruns} late` : ""}`;
+    this.load.title = `99 % of the ticks are computed in at most this time, and begin at most ${short(+status.late.toPrecision(2))} µs after their deadlines. ${status.overruns} ended after the next deadline, ${status.own} of them by their own computing.`;
     this.problem.textContent = status.text;
     this.hint.hidden = status.driver === "you";
   }
@@ -112,6 +124,7 @@ export class Live {
   show(time: number, numbers: Float32Array): void {
     this.clock.textContent = `${time.toFixed(2)} s`;
     this.strips.forEach((strip, k) => strip.add(time, numbers[k] ?? NaN));
+    if (!this.operator.driving) this.operator.follow(numbers.subarray(this.gauges.length));
     const now = performance.now();
     if (now - this.drawn < DRAWN) return;
     this.drawn = now;
@@ -130,8 +143,11 @@ export class Live {
     const name = el("span", { class: "name" }, ...breakable(control.name), ...keys, meant);
     if (control.look === "button") {
       const button = el("button", { type: "button", class: "chip" }, "Press");
-      button.addEventListener("pointerdown", () => this.operator.move(k, control.high));
-      for (const end of ["pointerup", "pointerleave", "pointercancel"]) button.addEventListener(end, () => this.operator.driving && this.operator.move(k, null));
+      const press = () => this.operator.move(k, control.high);
+      const release = () => this.operator.driving && this.operator.move(k, null);
+      button.addEventListener("pointerdown", press);
+      button.addEventListener("keydown", (event) => (event.key === " " || event.key === "Enter") && press());
+      for (const end of ["pointerup", "pointerleave", "pointercancel", "keyup", "blur"]) button.addEventListener(end, release);
       el("li", {}, name, output, button);
       return { control, slider: null, output };
     }
@@ -167,9 +183,6 @@ function hintOf(controls: Control[]): string {
   return `To operate the machine, ${said}.`;
 }
 
-function stickInWords(side: string, controls: Control[]): string {
-  return controls
-    .filter((each) => each.stick.startsWith(side))
-    .map((each) => `${each.stick.endsWith("x") ? "↔" : "↕"} ${each.name}`)
-    .join(", ");
+function stickInWords(side: string, controls: Control[]): string[] {
+  return controls.filter((each) => each.stick.startsWith(side)).map((each) => `${each.stick.endsWith("x") ? "↔" : "↕"} ${each.name}`);
 }

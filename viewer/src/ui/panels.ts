@@ -38,11 +38,13 @@ export class Panels {
       { class: "top" },
       this.buttons.structure,
       el("div", { class: "title" }, el("h1", {}, stage.name), notes, status),
-      el("nav", { "aria-label": "Panels" }, iconButton("fit", "Fit everything", () => world.fit(), "F"), this.buttons.display, this.buttons.data, iconButton("help", "Keys and mouse", help, "?")),
+      el("nav", { "aria-label": "Panels" }, iconButton("fit", "Fit to the present position", () => world.fitNow(), "F"), this.buttons.display, this.buttons.data, iconButton("help", "Keys and mouse", help, "?")),
     );
     this.elements = [this.bar, ...names.map((name) => this.panels[name]), ...(timeline ? [timeline] : [])];
     document.body.classList.toggle("has-timeline", !!timeline);
-    new ResizeObserver(() => this.arrange()).observe(this.bar); // what the program says comes and goes
+    const watch = new ResizeObserver(() => this.arrange());
+    watch.observe(this.bar); // what the program says comes and goes
+    if (timeline) watch.observe(timeline); // a bar of a live machine has as many rows as it needs
     addEventListener("resize", () => {
       this.makeRoom();
       this.arrange();
@@ -119,6 +121,7 @@ export class Panels {
   private arrange(): void {
     // notes of several lines under the title stand above the list of parts, not over it
     this.panels.structure.style.setProperty("--top", `${Math.max(TOP, this.bar.offsetHeight)}px`);
+    document.body.style.setProperty("--foot", `${this.timeline?.offsetHeight ?? 0}px`);
     const free = { left: 0, top: this.bar.offsetHeight, right: 0, bottom: this.timeline?.offsetHeight ?? 0 };
     for (const name of this.open()) {
       const box = this.panels[name].getBoundingClientRect();

@@ -9,25 +9,26 @@ export class Stick {
 
   constructor(
     side: "left" | "right",
-    label: string,
+    label: string[],
     private readonly moved: (stick: string, value: number) => void,
   ) {
-    this.element = el("div", { class: "stick", role: "application", "aria-label": label, title: label }, this.knob);
+    const stick = el("div", { class: "stick", role: "application", "aria-label": label.join(", ") }, this.knob);
+    this.element = el("figure", {}, stick, el("figcaption", {}, ...label.map((each) => el("span", {}, each))));
     const to = (x: number, y: number) => {
       this.knob.style.transform = `translate(${x * REACH}px, ${-y * REACH}px)`;
       this.moved(`${side}-x`, x);
       this.moved(`${side}-y`, y);
     };
     const drag = (event: PointerEvent) => {
-      const box = this.element.getBoundingClientRect();
+      const box = stick.getBoundingClientRect();
       const limited = (value: number) => Math.min(Math.max(value, -1), 1);
       to(limited((event.clientX - box.left - box.width / 2) / REACH), limited((box.top + box.height / 2 - event.clientY) / REACH));
     };
-    this.element.addEventListener("pointerdown", (event) => {
-      this.element.setPointerCapture(event.pointerId);
+    stick.addEventListener("pointerdown", (event) => {
+      stick.setPointerCapture(event.pointerId);
       drag(event);
     });
-    this.element.addEventListener("pointermove", (event) => event.buttons && drag(event));
-    for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) this.element.addEventListener(end, () => to(0, 0));
+    stick.addEventListener("pointermove", (event) => event.buttons && drag(event));
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) stick.addEventListener(end, () => to(0, 0));
   }
 }

@@ -1,6 +1,7 @@
 """The equations of static equilibrium of one machine: r(q, 0, 0, λ, t) = 0 and C(q, t) = 0, with exact derivatives, as sparse matrices.
 
-They are the residual of implicit methods (`nivel.kernels.residual`) with all velocities and accelerations zero: the speed of a driver,
+They are the residual of implicit methods (`nivel.kernels.residual.residual`) with all velocities and accelerations zero: the speed of a
+driver,
 which stands in Ċ alone, never enters. Positions move by tangent increments: rotations of bodies after the present one, in their own axes.
 
 So that units do not matter, every number is made one without: translations in lengths of the machine, forces and moments along unknowns as
@@ -18,12 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import bmat, csc_matrix
 
-from nivel.analysis.equations import MotionEquations
+from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.statics.pattern import Block
-from nivel.kernels import static_entries, tangent_entries
+from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.volume import VOLUME
-from nivel.kernels.record import NONE
-from nivel.kernels.status import OK
+from nivel.kernels.output import static_entries
+from nivel.kernels.record.record import NONE
+from nivel.kernels.residual import tangent_entries
 from nivel.system.layout import reported
 from nivel.system.system import Array
 

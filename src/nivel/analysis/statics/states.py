@@ -140,7 +140,7 @@ def _assembled(equations: StaticEquations, state: Rest, since: Since) -> _System
     weight = np.concatenate([equations.length / equations.energy, np.ones(count), 1.0 / equations.row_scale])
     matrix = csc_matrix(diags(weight) @ equations.at_rest(*parts) @ diags(unit))
     own = abs(matrix[n : n + count]).tocsr()
-    largest = np.array([own[k].max() if own[k].nnz else 0.0 for k in range(count)])
+    largest = own.max(axis=1).toarray().ravel() if own.shape[1] else np.zeros(count)
     moving = largest > 0.0
     still = np.abs(rate) * equations.duration <= STILL * size
     for k in np.flatnonzero(~moving & ~still):

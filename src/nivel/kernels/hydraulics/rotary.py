@@ -14,16 +14,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
 from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within, slope_of_step, step
 from nivel.kernels.hydraulics.spool import clipped
 from nivel.kernels.hydraulics.transfer import DELIVERED, SUPPLIED, lose, transfer
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
 # machines: columns of `columns`; SPEED: function, or NONE; outputs: flow, torque, power, setting

@@ -11,8 +11,8 @@ from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Displacement, Leakage, PositiveNumber, Pressure, Share
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.hydraulics.component import Component, problem_of_share
-from nivel.machine.quantity import Duration, Quantity, Whole
 from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.units.quantity import Duration, Quantity, Whole
 
 Speed = Annotated[TimeFunction, varying("angular velocity")]
 Setting = Annotated[TimeFunction, varying("number")]

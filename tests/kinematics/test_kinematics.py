@@ -240,3 +240,13 @@ def test_a_frame_on_a_singular_position_is_told():
 def test_ordinary_machines_stay_on_one_branch():
     result = nivel.load(f"{EXAMPLES}/slider-crank.yaml").kinematics(drive="hinge", positions=19)
     assert [each.verdict for each in result.trust.items if each.name == "branches"] == ["green"]
+
+
+def test_states_that_keep_their_start_are_told():
+    """A controller moves on in a run, but not here: what its motor does is not what it would do."""
+    machine = nivel.load(f"{EXAMPLES}/control/servo-axis.yaml")
+    result = machine.kinematics(drive="guide", end="10 cm", positions=11)
+    assert result.trust.verdict == "amber"
+    assert any(item.name == "states" and "keep the values of the start" in item.text for item in result.trust.items)
+    found = machine.inverse(actuators="guide", motion=result)
+    assert any("keep the values of the start" in each for each in found.statements())

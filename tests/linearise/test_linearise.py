@@ -6,6 +6,7 @@ from scipy.optimize import brentq
 from scipy.signal import lsim
 
 import nivel
+from nivel.machine.control import Pid
 from references import four_bar, one_dof, slider_crank
 
 EXAMPLES = "examples"
@@ -353,3 +354,30 @@ def test_double_vibrations_without_damping_neither_grow_nor_decay():
     model = nivel.load(f"{EXAMPLES}/beams/spin-up.yaml").linearise()
     assert model.stable
     assert not np.any(model.eigenvalues.real)
+
+
+def test_a_continuous_controller_is_part_of_the_loop_and_a_sampled_one_is_refused():
+    """A PID with a filtered derivative on a pendulum: (I s² + m g h + kp)(1 + τ s) + kd s = 0."""
+    bar = nivel.Body(name="bar", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(0, 0, -0.5))
+    hinge = nivel.Joint(name="hinge", type="revolute", bodies=("ground", "bar"), point=(0, 0, 0), axis=(0, 1, 0))
+    motor = nivel.Motor(name="motor", coordinate="hinge", effort="pid.value")
+    given = {"name": "pid", "input": "0 - hinge.angle", "kp": 5, "kd": 1, "filter_time": 0.02}
+
+    def machine(**more):
+        block = Pid(**given, **more)
+        return nivel.Machine(
+            "loop", bodies=[bar], joints=[hinge], forces=[motor], control=[block], gravity=(0, 0, -9.81)
+        )
+
+    stiff = 2.0 * 9.81 * 0.5 + 5.0
+    wanted = np.roots([0.6 * 0.02, 0.6, stiff * 0.02 + 1.0, stiff])
+    found = machine().linearise(about="equilibrium")
+    np.testing.assert_allclose(np.sort_complex(found.eigenvalues), np.sort_complex(wanted), rtol=1e-9)
+    with pytest.raises(nivel.ModelError, match="a sampled block changes in jumps"):
+        machine(sample_time=0.01).linearise(about="equilibrium")
+
+
+def test_what_a_pump_has_delivered_is_no_state_of_the_loop():
+    model = nivel.load(f"{EXAMPLES}/hydraulics/cylinder-boom.yaml").linearise(about="equilibrium")
+    assert model.steady
+    assert not [name for name in model.states if name.startswith("state.hydraulics.")]

@@ -95,6 +95,11 @@ def inverse(
         violation=open_by,
         freedoms=freedoms,
         rank=rank,
+        held=tuple(
+            fact.name
+            for fact in instant.system.states
+            if not fact.integral and f"state.{fact.name}" not in motion.variables
+        ),
     )
 
 

@@ -174,6 +174,7 @@ def _close(sink: Memory | Store, prepared: Prepared, finished: RunOutcome, run: 
         passed=tuple(pair for pair in near.passed if not jammed or pair[1] < at) if near is not None else (),
         nearest=(near.least, near.time) if near is not None else None,
         split=near.joints if near is not None else (),
+        held=tuple(fact.name for fact in prepared.motion.system.states if not fact.integral),
     )
     result = sink.close(
         {

@@ -116,6 +116,8 @@ def _unrest(moment: Moment, instant: Instant, reduction: Reduction, A: Array) ->
     g = instant.value()[instant.n :][: instant.state_count]
     facts, moving = instant.system.states, len(reduction.selected) + len(reduction.moving)
     for k, fact in enumerate(facts):
+        if fact.integral:
+            continue
         if abs(g[k]) > BALANCE * (fact.scale or 1.0) * max(1.0, abs(A[moving + k]).max()):
             notes.append(
                 f"the state {fact.name} changes at a rate of {g[k]:.4g} per second: linearise about equilibrium"

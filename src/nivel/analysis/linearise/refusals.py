@@ -33,5 +33,17 @@ def refuse_jumps(machine: MachineRecord) -> None:
         for state in machine.states
         if state.update is not None
     ]
+    faults += [
+        Fault(
+            "",
+            0,
+            0,
+            f"control.{block.name}.sample_time",
+            "a sampled block changes in jumps, which linear equations in continuous time do not know: without `sample_time` it is "
+            "continuous, and without the block the loop is open",
+        )
+        for block in machine.control
+        if block.sample_time is not None
+    ]
     if faults:
         raise ModelError(faults)

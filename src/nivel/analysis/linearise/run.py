@@ -66,7 +66,8 @@ def linearise(
     linear = judged(catalogue, moment, instant, inputs, outputs)
     reduction, whole, places, rates = linear.reduction, linear.space, linear.places, linear.rates
     states = _states(instant, reduction)
-    space, states, inputs, kept = _opened(whole, states, inputs, len(places) + len(rates))
+    integrals = [k for k, fact in enumerate(instant.system.states) if fact.integral]
+    space, states, inputs, kept = _opened(whole, states, inputs, len(places) + len(rates), integrals)
     noise = reduction.noise()[np.ix_(kept, kept)]
     found = eigenvalues(space.A, _timed(states.scale, space.A, len(places), len(places) + len(rates)), noise)
     if len(space.A) == 2 * len(rates) == len(whole.A) and is_at_rest(instant):
@@ -124,11 +125,15 @@ def _states(instant: Instant, reduction: Reduction) -> _States:
 
 
 def _opened(
-    space: StateSpace, states: _States, inputs: Sequence[Input], moving: int
+    space: StateSpace, states: _States, inputs: Sequence[Input], moving: int, integrals: Sequence[int]
 ) -> tuple[StateSpace, _States, list[Input], NDArray[np.intp]]:
-    """States of elements that are inputs become columns of B; also which states are left. moving : states before them."""
+    """States of elements that are inputs become columns of B; also which states are left. moving : states before them.
+
+    integrals : states on which nothing depends, as what a pump has delivered; left out but where an output shows them.
+    """
     taken = {moving + each.place[0]: k for k, each in enumerate(inputs) if each.kind == "state"}
-    kept = np.array([k for k in range(len(space.A)) if k not in taken], dtype=np.intp)
+    idle = {moving + k for k in integrals if not np.any(space.C[:, moving + k])}
+    kept = np.array([k for k in range(len(space.A)) if k not in taken and k not in idle], dtype=np.intp)
     B, D = space.B.copy(), space.D.copy()
     for column, k in taken.items():
         B[:, k], D[:, k] = space.A[:, column], space.C[:, column]

@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 NONE_MISSING = 1e-6
 # a motion whose joints are open by more than this share of their scales is not one of the machine
 OPEN = 1e-6
+NAMED = 4  # states in a sentence
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,7 @@ class Efforts:
     missing (T,) : effort on the joint coordinate `missing_at` that would do most of what no actuator gives; missing_share (T,) of the
     generalised forces. limits (m,) : greatest magnitudes; limited : whether they hold efforts back. freedoms : of the machine without the
     efforts. rank : independent ones of the actuators. violation : by how much the motion has joints open, as a share of their scales.
+    held : first-order states that the motion does not have, which keep their values of the start.
     """
 
     name: str
@@ -47,6 +49,7 @@ class Efforts:
     freedoms: int
     rank: int
     violation: float = 0.0
+    held: tuple[str, ...] = ()
 
     @property
     def power(self) -> Array:
@@ -93,6 +96,12 @@ class Efforts:
                 f"the motion has joints open by {self.violation:.3g} of their scales, so it is not quite one of this machine: is it of "
                 "another one?"
             )
+        if self.held:
+            some = ", ".join(self.held[:NAMED]) + (
+                f" and {len(self.held) - NAMED} more" if len(self.held) > NAMED else ""
+            )
+            said = f"the motion has no history of {some}: they keep the values of the start"
+            out.append(f"{said}, and what forces make of them is not that of the motion; give the result of a run")
         if not self.complete:
             k = int(np.argmax(self.missing_share))
             where = f", most of it as {self.missing[k]:.4g} on {self.missing_at}" if self.missing_at else ""

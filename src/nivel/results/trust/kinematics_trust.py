@@ -29,6 +29,7 @@ class KinematicsFacts:
 
     passed : pairs of times [s] between which a singular position was passed. nearest : least singular value of the constraints, as a share
     of that at the start, and its time [s]; None where there are no constraints. split : joints that depend on each other most there.
+    held : first-order states, which keep their values of the start.
     """
 
     outcome: str
@@ -40,6 +41,7 @@ class KinematicsFacts:
     passed: tuple[tuple[float, float], ...] = ()
     nearest: tuple[float, float] | None = None
     split: tuple[str, ...] = ()
+    held: tuple[str, ...] = ()
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -89,6 +91,13 @@ def _items(trust: Trust, facts: KinematicsFacts, rate: float) -> Iterator[Item]:
         yield Item("steps", "green", f"{said} (said, always green)")
     if facts.nearest is not None:
         yield _singular(facts, facts.nearest)
+    if facts.held:
+        some = ", ".join(facts.held[:SHOWN]) + (
+            f" and {len(facts.held) - SHOWN} more" if len(facts.held) > SHOWN else ""
+        )
+        said = f"States: {some} have a history, which kinematics does not compute: they keep the values of the start"
+        more = "efforts and reactions that depend on them are not those of the motion"
+        yield Item("states", "amber", f"{said}, and {more} (green without states)")
     yield redundancy_item(trust)
 
 

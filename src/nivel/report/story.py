@@ -53,6 +53,7 @@ NAMES = {
     "singular": "Singular position",
     "stiffening": "Stiffening",
     "bending": "Bending",
+    "mesh": "Mesh",
     "damped": "Damped",
     "sensitivity": "Sensitivity",
     "residual": "Equilibrium",

@@ -15,7 +15,9 @@ from nivel.analysis.run.preparation import Prepared
 from nivel.analysis.run.second_run import Verified
 from nivel.integrate.loop.run import TURNED
 from nivel.machine.forces import Contact
+from nivel.machine.orientation import euler_parameters_from_matrix
 from nivel.machine.shape import Sphere
+from nivel.results.beam_mesh import BeamMesh, coarsest, turns
 from nivel.results.passed_contacts import Pair, passed_contacts
 from nivel.results.result import Result
 from nivel.results.trust.accuracy import error_from_finer, extent
@@ -60,6 +62,7 @@ def find(
         passages=tuple(passages(prepared, result)) if verified is not None else (),
         unstiffened=fastest_unstiffened(result, bending),
         bent=most_bent(result, bending),
+        coarse=coarsest(result, _meshes(plan)),
         method=settings.integrator,
         agreed=_agreed(result, verified) if verified is not None else None,
     )
@@ -81,6 +84,18 @@ def _pairs(plan: Plan) -> list[Pair]:
             first, second = [np.array(each.centre or (0.0, 0.0, 0.0)) for each in spheres if isinstance(each, Sphere)]
             reach = sum(each.radius for each in spheres if isinstance(each, Sphere))
             out.append(Pair(force.name, force.bodies, (first, second), reach))
+    return out
+
+
+def _meshes(plan: Plan) -> list[BeamMesh]:
+    """The beams whose elements are linear."""
+    out = []
+    for beam in plan.machine.beams:
+        if beam.order == 1 and beam.model != "ancf-cable":
+            axes = beam.frames(beam.shares)[1]
+            theta = np.array([euler_parameters_from_matrix(each) for each in axes])
+            length, stiffness = beam.line.length * np.diff(beam.shares), np.diag(beam.properties.stiffness)[3:]
+            out.append(BeamMesh(beam.name, beam.node_names, length, stiffness, turns(theta)))
     return out
 
 

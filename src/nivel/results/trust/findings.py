@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from nivel.results.beam_mesh import Coarse
 from nivel.results.passed_contacts import Passed
 from nivel.results.trust.bending import Bent
 from nivel.results.trust.second_look import Damped, Growth, OwnError
@@ -55,6 +56,7 @@ class Findings:
     passages: Sequence[Passage] = ()
     passed: Sequence[Passed] = ()
     bent: Bent | None = None
+    coarse: Coarse | None = None
     method: str = ""
     agreed: float | None = None
 
@@ -74,6 +76,8 @@ def finding_items(found: Findings) -> Iterator[Item]:
         yield from _told(_unstiffened_item(found.unstiffened))
     if found.bent is not None:
         yield from _told(_bent_item(found.bent))
+    if found.coarse is not None:
+        yield from _told(_coarse_item(found.coarse))
     if found.own is not None:
         yield from _told(_own_item(found.own))
     if found.damped is not None:
@@ -191,6 +195,14 @@ def _bent_item(found: Bent) -> Item:
         f"displacements: take a beam in its place, or several bodies"
     )
     return _measured("bending", said, found.value, found.time, found.body)
+
+
+def _coarse_item(coarse: Coarse) -> Item:
+    said = (
+        f"Mesh: the {coarse.elements} elements of {coarse.beam} miss {number(coarse.share)} of the largest energy at "
+        f"t = {coarse.time:.6g} s, as curvatures change within them; take twice as many, or `order: 2`"
+    )
+    return _measured("mesh", said, coarse.share, coarse.time, coarse.beam)
 
 
 def _damped_item(damped: Damped, method: str) -> Item:

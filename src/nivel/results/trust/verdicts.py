@@ -112,6 +112,12 @@ CHECKS = {
         "A body bent by the share x of its length becomes shorter by about x²/2 of it, which modes do not know: 1e-3 at 0.05, a "
         "fiftieth at 0.2.",
     ),
+    "mesh": Threshold(
+        1e-2,
+        1e-1,
+        "Displacements are too small by about the share of the energy that elements miss: a hundredth is what stiffness is known to, a "
+        "tenth is seen.",
+    ),
 }
 # what no second run of the same model and method sees, by the names of items
 BLIND = {

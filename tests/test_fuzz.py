@@ -10,10 +10,10 @@ from nivel.errors import ModelError
 from nivel.files.mesh_file import read_mesh
 
 
-@pytest.mark.parametrize("kind", ["meshes", "expressions", "machine_files"])
+@pytest.mark.parametrize("kind", ["meshes", "models", "input_tables", "expressions", "machine_files", "machine_values"])
 def test_wrong_input_is_refused_in_words(kind, tmp_path, monkeypatch):
     monkeypatch.setattr(fuzz.signal, "alarm", lambda _seconds: 0)
-    for number in range(40):
+    for number in range(25):
         wrong = fuzz.tried(fuzz.KINDS[kind](random.Random(number), tmp_path))
         assert not wrong, (number, wrong)
 

@@ -451,7 +451,15 @@ def test_interface_on_a_node_set_that_does_not_exist(solid):
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"hello", b"\x18\x00\x00\x00", b"       3       3       6       2KAA     1P,3E23.16\n"]
+    "content",
+    [
+        b"",
+        b"hello",
+        b"\x18\x00\x00\x00",
+        b"       3       3       6       2KAA     1P,3E23.16\n",
+        b"       3       3       6       2KAA     1P,3E23.16\n       1       1       2\n",
+        b"       3       3       6       2KAA     1P,3E23.16\n       1       1 9999999\n 1.0\n",
+    ],
 )
 def test_what_is_no_op4_file(tmp_path, content):
     (tmp_path / "m.op4").write_bytes(content)

@@ -285,6 +285,22 @@ def test_force_replaces_an_existing_result_and_its_readers_keep_theirs(tmp_path)
     assert (result.name, len(result.time)) == ("another", 5)
 
 
+@pytest.mark.parametrize("how", ["take", "close"])
+def test_of_two_runs_into_one_file_the_first_ends_and_leaves_it_alone(tmp_path, how):
+    path = tmp_path / "run.nc"
+    first = Store(path)
+    first.begin(pendulum.header())
+    first.take(pendulum.frames(TIME[:50]))
+    second = Store(path, force=True)
+    second.begin(pendulum.header(machine="second"))
+    second.take(pendulum.frames(TIME[:5]))
+    with pytest.raises(SolveError, match="was removed or replaced while the run went on"):
+        first.take(pendulum.frames(TIME[50:])) if how == "take" else first.close({"outcome": "done"})
+    result = second.close({"outcome": "done"})
+    assert (result.name, len(result.time)) == ("second", 5)
+    assert not list(tmp_path.glob(".*.part"))
+
+
 def test_a_run_without_any_frame_gives_an_empty_result(tmp_path):
     store = Store(tmp_path / "run.nc")
     store.begin(pendulum.header())
@@ -354,6 +370,25 @@ def test_a_damaged_result_is_refused_in_words(tmp_path):
         path.write_bytes(broken)
         with suppress(ModelError):
             Result.open(path).array("position")
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"verdict": 3}', '{"items": [{"x": 1}]}', '{"items": 5}', "null"])
+def test_a_damaged_trust_report_is_refused_in_words(tmp_path, text):
+    original = written(tmp_path)
+    with h5py.File(original, "r+") as file:
+        file.attrs["trust"] = text
+    with pytest.raises(ModelError, match=r"damaged.*trust"):
+        _ = Result.open(original).trust
+
+
+def test_names_of_a_foreign_file_are_no_formulas_in_a_table(tmp_path):
+    original = written(tmp_path)
+    with h5py.File(original, "r+") as file:
+        file.move("force.push.power", "=1+1")
+    table = Result.open(original).export_csv(tmp_path / "a.csv").read_text(encoding="utf-8")
+    names = table.splitlines()[0].split(",")
+    assert "'=1+1 [W]" in names
+    assert not any(name.startswith("=") for name in names)
 
 
 def test_a_result_that_claims_more_frames_than_it_holds_is_refused(tmp_path):

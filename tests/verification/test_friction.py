@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from references import stick_slip
 from references.rubbing import RubbingPendulum, TwoSliders
@@ -171,6 +172,32 @@ def test_stick_slip_closed_form_with_a_sharp_curve():
         r.time < sharp.first_slip + sharp.slip_duration + sharp.stick_duration - 5e-3
     )
     assert np.abs(r.array("rail.displacement.rate")[resting]).max() < 1e-9
+
+
+def test_the_time_of_coming_to_rest_after_an_abrupt_fall_of_friction_converges():
+    """The tension k s = μ_d N + (μ_s - μ_d) N cos ωτ + (v/ω) k sin ωτ after breaking away gives the block's speed v - ṡ, which an event
+    sees fall to 1 mm/s. The switch from rest to slip falls somewhere in a step: order one."""
+    pull, load = DRAWN, DRAWN.load
+    omega = np.sqrt(pull.stiffness / MASS)
+    more = (pull.static - pull.kinetic) * load / pull.stiffness
+
+    def speed(tau):
+        return pull.speed * (1.0 - np.cos(omega * tau)) + more * omega * np.sin(omega * tau)
+
+    begin = pull.static * load / (pull.stiffness * pull.speed)
+    rest = 2.0 * (np.pi - np.arctan(more * omega / pull.speed)) / omega
+    exact = begin + brentq(lambda tau: speed(tau) - 1e-3, 0.5 * rest, rest)
+    friction = {"model": "stiction", "coefficient": 0.25, "static_coefficient": 0.4, "stribeck_speed": 1e-6}
+    slow = {"slow": {"when": "rail.displacement_rate - 1 mm/s", "direction": "falling", "stop": True}}
+    sections = {**drawn(friction, pull.speed, pull.stiffness), "events": slow}
+    errors = []
+    for step in (2e-3, 5e-4, 1.25e-4):
+        r = simulate(sections, duration=2.0, step=step, output_interval=0.01)
+        assert r.stopped_by == "slow"
+        errors.append(abs(r.events[-1].time - exact))
+    assert errors[0] < 1e-2
+    assert errors[1] < errors[0] / 2
+    assert errors[2] < errors[1] / 2
 
 
 @FORMULATIONS

@@ -164,6 +164,8 @@ class Body(Checked):
             yield Problem(("shape",), f"with this density its mass is {mass:.3g} kg: a slip of a unit?")
         if self.shape is None or self.mass is None or self.density is not None:
             return
+        if self.inertia is not None:  # the shape is for looks only
+            return
         mean = self.mass / volume(self.shape)
         if not LIGHTEST <= mean <= DENSEST:
             message = f"a mass of {self.mass:.6g} kg with this shape gives a density of {mean:.3g} kg/m^3"

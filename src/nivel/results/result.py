@@ -17,7 +17,7 @@ from nivel.results.frames.contents import Contents
 from nivel.results.frames.names import Selection, selections, unknown_name
 from nivel.results.frames.occurrence import Occurrence, from_json
 from nivel.results.frames.row_units import own_units
-from nivel.results.frames.stored import StoredContents
+from nivel.results.frames.stored import StoredContents, understood
 from nivel.results.trust.estimate import ATTRIBUTE, Estimate
 from nivel.results.trust.trust import Facts, assess
 from nivel.results.trust.verdicts import Trust
@@ -72,7 +72,8 @@ class Result:
     @cached_property
     def events(self) -> tuple[Occurrence, ...]:
         """The events that came, in the order of time, each with `name`, `time` [s] and `direction`. Known when the run is over."""
-        return from_json(str(self.attributes.get("events", "[]")))
+        with understood(self._contents, "events"):
+            return from_json(str(self.attributes.get("events", "[]")))
 
     @property
     def stopped_by(self) -> str:
@@ -103,7 +104,8 @@ class Result:
     def trust(self) -> Trust:
         """How far to trust the result. A run that was killed is assessed from what it left behind."""
         if "trust" in self.attributes:
-            return Trust.from_json(str(self.attributes["trust"]))
+            with understood(self._contents, "trust"):
+                return Trust.from_json(str(self.attributes["trust"]))
         return assess(self, Facts(outcome=self.outcome, failure=self.failure))
 
     @checked_arguments
@@ -146,8 +148,9 @@ class Result:
     def marks(self) -> list[tuple[str, float]]:
         """Names of the events, and where each stands on the abscissa [s]."""
         if self.is_statics:
-            found = json.loads(str(self.attributes.get("critical_points", "[]")))
-            return [(each["kind"], float(each["path"])) for each in found]
+            with understood(self._contents, "critical_points"):
+                found = json.loads(str(self.attributes.get("critical_points", "[]")))
+                return [(each["kind"], float(each["path"])) for each in found]
         return [(event.name, event.time) for event in self.events]
 
     @property
@@ -189,7 +192,10 @@ class Result:
     @cached_property
     def _estimate(self) -> Estimate | None:
         text = self.attributes.get(ATTRIBUTE)
-        return None if text is None else Estimate.from_json(str(text))
+        if text is None:
+            return None
+        with understood(self._contents, ATTRIBUTE):
+            return Estimate.from_json(str(text))
 
     @checked_arguments
     def estimated_error(self, name: str) -> NDArray[np.float64]:

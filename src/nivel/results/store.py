@@ -22,7 +22,7 @@ from nivel.integrate.loop.sink import Header
 from nivel.results.frames.contents import resolved, shape_of
 from nivel.results.frames.space import Space
 from nivel.results.frames.stored import StoredContents, opened
-from nivel.results.frames.target import check_target
+from nivel.results.frames.target import check_target, status
 from nivel.system.layout import Variable
 
 if TYPE_CHECKING:
@@ -51,6 +51,7 @@ class Store:
         self.path = Path(path)
         self._force = force
         self._file: Any = None
+        self._own: os.stat_result | None = None  # of the file that was created
         self._space: Space | None = None
         self._chunks = 0  # bytes of one chunk of every variable, with what HDF5 needs to find it
         self._variables: list[tuple[Variable, tuple[int, ...]]] = []
@@ -67,6 +68,7 @@ class Store:
                 )  # what stood there when the run began may have been replaced
                 self.path.unlink(missing_ok=True)  # who reads the old file keeps it
             self._file = h5py.File(self.path, "x", libver="latest", locking="best-effort", track_order=True)
+            self._own = self.path.stat()
             self._space = Space(self.path, self._file)
             self._space.ensure(_header_size(header.attributes))
         except OSError as error:
@@ -85,6 +87,7 @@ class Store:
         """Append frames (n, width). The time is written last: a frame whose time can be read is complete."""
         if self._space is None:
             raise RuntimeError("a sink must begin before it takes frames")
+        self._refuse_foreign()
         try:
             self._space.ensure(2 * frames.nbytes + self._chunks + LAST_WORDS)
         except OSError as error:
@@ -94,6 +97,14 @@ class Store:
         self._file.flush()
         _append(self._file["time"], frames[:, 0])
         self._file.flush()
+
+    def _refuse_foreign(self) -> None:
+        """Raise SolveError where another run has put its file in the place of this one, which it must not touch."""
+        found = status(self.path, "result file")
+        if self._own is not None and (found is None or not os.path.samestat(found, self._own)):
+            self._finish()
+            message = f"the result file {self.path} was removed or replaced while the run went on"
+            raise SolveError(message, time=0.0, advice="Let every run write a file of its own (--out).")
 
     def _given_up(self, reason: str) -> SolveError:
         """Close the file as it is; it says why it ends there."""
@@ -124,6 +135,7 @@ class Store:
 
         if self._file is None:
             raise RuntimeError("a sink must begin before it gives a result")
+        self._refuse_foreign()
         self._finish()
         rewrite(self.path, attributes)
         return Result(StoredContents(self.path))

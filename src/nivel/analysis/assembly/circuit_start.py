@@ -41,6 +41,8 @@ NO_LOAD = 1e3
 FIRST, FACTOR, MOST, AT_REST = 1e-6, 3.0, 200, 1e-9
 # of Newton's iteration in each: most iterations, changes that end it and steps of differences as shares of the scales
 ITERATIONS, CLOSE, DIFFERENCE = 8, 1e-6, 1e-7
+# a change above this share of the last one asks for new derivatives
+FALLING = 0.1
 # A piston may stand beyond the end of its stroke by this share of it.
 BEYOND = 1e-3
 
@@ -126,6 +128,7 @@ class _Start:
         self.y[self.velocities] = 0.0
         self.pressure = np.array([self._at_first(k, node) for k, node in enumerate(self.nodes)])
         self.held = {k for k, node in enumerate(self.nodes) if node.start is not None}
+        self.gas = [node for node in self.nodes if node.energy != NONE]
 
     def _given(self, k: int) -> float:
         return float(self.circuit.pressure[k])
@@ -277,7 +280,7 @@ class _Start:
             step *= FACTOR if self._step(free, scale, step) else 1.0 / FACTOR**2
 
     def _rates(self, free: NDArray[np.intp]) -> Array | None:
-        for node in self.nodes:
+        for node in self.gas:
             self._warm(node)
         status, rate = self.motion.evaluate(0.0, self.y)
         found = rate[self.first + free]
@@ -285,10 +288,11 @@ class _Start:
 
     def _step(self, free: NDArray[np.intp], scale: Array, step: float) -> bool:
         """One step of Euler's implicit method, by Newton's iteration. Returns whether it ends; else nothing is changed."""
-        places, before = self.first + free, self.y.copy()
+        places, before, matrix, size = self.first + free, self.y.copy(), None, np.inf
         for _ in range(ITERATIONS):
             rate = self._rates(free)
-            matrix = None if rate is None else self._matrix(free, scale, rate)
+            if rate is not None and matrix is None:
+                matrix = self._matrix(free, scale, rate)
             if rate is None or matrix is None:
                 break
             try:
@@ -296,8 +300,11 @@ class _Start:
             except np.linalg.LinAlgError:  # singular for this step; for a shorter one it is not
                 break
             self.y[places] += change
-            if np.all(np.abs(change) <= CLOSE * scale):
+            size, last = float(np.max(np.abs(change) / scale)), size
+            if size <= CLOSE:
                 return True
+            if size > FALLING * last:
+                matrix = None  # of an earlier state: no longer good enough
         self.y[:] = before
         return False
 

@@ -7,7 +7,18 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.linalg import LinAlgWarning, cholesky, eig, eigh, eigvalsh, lu_factor, lu_solve, null_space, solve_triangular
+from scipy.linalg import (
+    LinAlgError,
+    LinAlgWarning,
+    cholesky,
+    eig,
+    eigh,
+    eigvalsh,
+    lu_factor,
+    lu_solve,
+    null_space,
+    solve_triangular,
+)
 from scipy.sparse import bmat, csc_matrix, diags
 from scipy.sparse.linalg import splu
 
@@ -193,8 +204,14 @@ def lowest(tangent: Tangent, count: int, metric: Sparse = None, *, nearest: bool
 
 def symmetric_modes(K: Array, M: Array) -> tuple[Array, Array]:
     """Eigenvalues and directions of K φ = ω² M φ, ascending. Every ω² is known to ε times the largest, which is nothing of the low ones
-    where rotations of hardly any inertia are stiff. Those nearest to zero are taken from Lᵀ K⁻¹ L x = x/ω², M = L Lᵀ."""
-    values, vectors = eigh(K, M)
+    where rotations of hardly any inertia are stiff. Those nearest to zero are taken from Lᵀ K⁻¹ L x = x/ω², M = L Lᵀ.
+
+    Raises PivotError where M is not positive to round-off.
+    """
+    try:
+        values, vectors = eigh(K, M)
+    except LinAlgError as error:
+        raise PivotError from error
     L, largest = cholesky(M, lower=True), float(np.max(np.abs(values), initial=0.0))
     for share in SHIFTS:
         shift = -share * largest

@@ -61,7 +61,7 @@ def columns(result: Result, select: Iterable[str] = ()) -> list[str]:
 def write_table(result: Result, chosen: list[str], file: TextIO) -> None:
     """The header (`crank.position.x [m]`) and a line per frame; numbers as short as they can be read back exactly."""
     table = csv.writer(file, lineterminator="\n")
-    table.writerow(["time [s]", *(f"{name} [{result.units(name)}]" for name in chosen)])
+    table.writerow(["time [s]", *(_harmless(f"{name} [{result.units(name)}]") for name in chosen)])
     needed = list(dict.fromkeys(result.selection(name).variable for name in chosen))
     places = [(result.selection(name).variable, result.selection(name).where[1:]) for name in chosen]
     for start in range(0, len(result.time), BLOCK):
@@ -69,6 +69,11 @@ def write_table(result: Result, chosen: list[str], file: TextIO) -> None:
         block = {name: result.array(name, frames) for name in needed}
         picked = [result.time[frames], *(block[name][:, *where] for name, where in places)]
         table.writerows(np.column_stack(picked).tolist())
+
+
+def _harmless(text: str) -> str:
+    """A text that no spreadsheet takes for a formula, whatever the file of the result calls its variables."""
+    return f"'{text}" if text.startswith(("=", "+", "-", "@")) else text
 
 
 def _scalars(result: Result) -> Iterator[tuple[str, str]]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import h5py
 import numpy as np
@@ -17,6 +18,11 @@ from nivel.system.layout import Variable
 
 # what reading a file raises whose parts are not what they should be
 DAMAGE = (AttributeError, IndexError, KeyError, TypeError, ValueError, MemoryError)
+# attributes that are JSON text
+JSON_TEXTS: Final = (
+    *("trust", "settings", "timing", "scene", "machine_record", "events", "assembly", "constraint_units"),
+    *("critical_points", "buckling", "estimated_errors", "flexible_bodies"),
+)
 # A file holds at least this share of the bytes that its frames take: no compression of times gets below.
 LEAST_SHARE = 1e-4
 
@@ -75,6 +81,8 @@ class StoredContents:
 
     def _understand(self, file: h5py.File) -> None:
         self.attributes = {key: _plain(file.attrs[key]) for key in file.attrs if not key.startswith("_")}
+        for key in JSON_TEXTS:
+            _refuse_broken(key, self.attributes.get(key))
         self.variables, self.coordinates = {}, {}
         times = _dataset(file, "time")
         self.frame_count = times.shape[0]
@@ -103,12 +111,30 @@ class StoredContents:
                 raise ModelError(f"{self.path} is damaged, `{name}` cannot be read: {error}") from None
 
 
+def _refuse_broken(key: str, text: object) -> None:
+    """Raises ValueError where the attribute is there and is no JSON."""
+    try:
+        json.loads(str(text if text is not None else "{}"))
+    except ValueError as error:
+        raise ValueError(f"the attribute `{key}`: {error}") from None
+
+
 def _datasets(file: h5py.File) -> list[tuple[str, Any]]:
     return [(str(name), item) for name, item in file.items()]
 
 
 def _dataset(file: h5py.File, name: str) -> Any:
     return file[name]
+
+
+@contextmanager
+def understood(contents: object, attribute: str) -> Iterator[None]:
+    """Inside, what an attribute lacks or has wrongly is told as damage of the file. Raises ModelError."""
+    try:
+        yield
+    except DAMAGE as error:
+        file = contents.path if isinstance(contents, StoredContents) else "the result"
+        raise ModelError(f"{file} is damaged, `{attribute}` cannot be read: {type(error).__name__}: {error}") from None
 
 
 def _plain(value: Any) -> str | float | int:

@@ -62,6 +62,10 @@ def test_result_and_report_stand_beside_each_other(folder, call):
     assert result.trust.verdict == "green"
     assert len(result.time) == 101
     assert "trust: green, within " in done.stderr
+    assert re.search(
+        r"pendulum: completed \(t = [\d.]+ s\), \d+ steps computed in [\d.]+ m?s \([\d.]+ µs per step\)", done.stderr
+    )
+    assert f"All {len(result.trust.items) - 1} numerical checks passed" in done.stderr
     assert 0 < np.nanmax(result.estimated_error("hinge.angle")) < 1e-6
 
 

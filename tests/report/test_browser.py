@@ -55,7 +55,22 @@ const marks = (name) => written.filter((text) => text === name).length;
   const choice = document.querySelector(".plot select");
   choice.value = "1"; choice.dispatchEvent(new Event("change"));
   await wait(50);
-  document.title = JSON.stringify({ painted, marked, before, zoomed, shown, legends, reset, hidden,
+  const times = Array.from({ length: 1000 }, (_, k) => 0.01 * k), turn = 2 * Math.PI;
+  const wave = times.map((t) => 3 + 0.1 * Math.sin(2 * turn * t) + 0.03 * Math.cos(10 * turn * t));
+  const { frequency, amplitude: a } = Spectra.amplitudes(wave, 0.01);
+  const peaks = a.map((v, k) => [frequency[k], v]).filter(([, v], k) => v > 0.02 && v > (a[k - 1] ?? 0) && v > a[k + 1]);
+  const fall = Spectra.waterfall(times, times.map((t) => Math.sin(turn * t * (1 + t))), 0.01);
+  const loudest = fall.rows.map((row, k) => [fall.middles[k], fall.frequency[row.indexOf(Math.max(...row))]]);
+  const views = [...document.querySelectorAll(".plot select.view:not([hidden])")];
+  const isDrawn = (c) => c.getContext("2d").getImageData(0, 0, c.width, c.height).data.some((v) => v > 0);
+  const drawn = [];
+  for (const view of ["spectrum", "waterfall", "time"]) {
+    for (const choice of views) { choice.value = view; choice.dispatchEvent(new Event("change")); }
+    await wait(50);
+    drawn.push(views.every((choice) => isDrawn(choice.closest(".plot").querySelector("canvas"))));
+  }
+  document.title = JSON.stringify({ peaks, loudest, views: views.length, drawn,
+    painted, marked, before, zoomed, shown, legends, reset, hidden,
     unit: choice.closest(".plot").querySelector(".unit").textContent,
     wide: document.documentElement.scrollWidth - document.documentElement.clientWidth });
 })();
@@ -112,6 +127,13 @@ def test_the_report_works_in_a_browser(page):
         assert re.search(rf"\d {unit}", legend), legend  # all cursors are where the first is
     assert seen["unit"] == "[rad/s]"
     assert seen["wide"] == 0
+
+    # 0.1 sin(2π 2 t) + 0.03 cos(2π 10 t); and sin(2π t (1 + t)), whose frequency is 1 + 2 t
+    np.testing.assert_allclose(seen["peaks"], [[2.0, 0.1], [10.0, 0.03]], rtol=1e-9)
+    for middle, frequency in seen["loudest"]:
+        assert frequency == pytest.approx(1 + 2 * middle, abs=1.0)
+    assert seen["views"] >= 4
+    assert all(seen["drawn"])
 
 
 def test_the_report_fits_a_phone(page):

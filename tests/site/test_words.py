@@ -1,10 +1,14 @@
 """Words that people read are the standard ones of the field: home-made terms stand in no page and no message."""
 
 import ast
+import importlib
 import re
 from pathlib import Path
 
+import click
 import pytest
+
+from nivel.cli import COMMANDS
 
 ROOT = Path(__file__).parents[2]
 PAGES = [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md"]
@@ -77,6 +81,14 @@ def test_no_page_has_a_home_made_term(path):
         f"{path.name}: line {line} of the prose: {what}"
         for line, what in home_made(prose(path.read_text("utf-8")), HOME_MADE | IN_PAGES)
     ]
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_no_help_of_a_command_has_a_home_made_term(name):
+    command = importlib.import_module(COMMANDS[name].module).command
+    text = command.get_help(click.Context(command, info_name=name))
+    wrong = [what for _, what in home_made(" ".join(text.split()), HOME_MADE | IN_PAGES)]
     assert not wrong, "\n".join(wrong)
 
 

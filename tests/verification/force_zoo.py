@@ -140,6 +140,8 @@ CASES = {
     "sphere, apart": Case(ON_FLOOR, None, False, shape("c", "sphere", radius=0.4)),
     "box": Case(ON_FLOOR, ("c", "", [-0.5, 0.9, 0.25]), True, shape("c", "box", size=[0.5, 0.6, 0.7])),
     "cylinder": Case(ON_FLOOR, ("c", "", [-0.5, 0.9, 0.3]), True, shape("c", "cylinder", radius=0.3, length=0.8)),
+    "prism": Case(ON_FLOOR, ("c", "", [-0.5, 0.9, 0.25]), True,
+                  shape("c", "extrusion", outline=[[-0.3, -0.35], [0.3, -0.35], [0.35, 0.3], [-0.2, 0.35]], length=0.5)),
     "moving floor": Case({**ON_FLOOR, "plane": "eye"}, ("c", "b", [0.05, 0.02, 0.05]), True, shape("c", "sphere", radius=0.6)),
     "spheres": Case({**CONTACT, "bodies": ["c", "ball"]}, ("c", "ball", [0.3, 0.4, 0.3]), True,
                     {"bodies": {**shape("c", "sphere", radius=0.4)["bodies"],

@@ -30,7 +30,7 @@ def command(
     of: tuple[str, ...] | None,
     as_json: bool,
 ) -> None:
-    """Check MACHINE: read it, assemble it, count its freedoms.
+    """Check MACHINE: read it, assemble it, count its degrees of freedom.
 
     Shows every joint with its first and second body, its zero and its positive direction. Exit code 2 with every fault that was found.
     """

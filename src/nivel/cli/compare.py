@@ -53,7 +53,7 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
     type=click.IntRange(1),
     default=3,
     show_default=True,
-    help="Run every cell so often; its time is the least.",
+    help="Run every combination so often; its time is the least.",
 )
 @duration_option
 @output_interval_option
@@ -100,9 +100,10 @@ def command(
 ) -> None:
     """Run MACHINE with all combinations of the given words, and say for each how fast and how exact it is.
 
-    Words are separated by commas; what is not given is as in the machine file. Every run is held against a reference solution of
-    another method, whose own error is estimated. A cell that fails or has no meaning is told and does not end the comparison. Exit
-    code 0 the grid was run, 2 the input is at fault, 3 every cell failed, 130 interrupted; what was computed is written.
+    Words are separated by commas; what is not given is as in the machine file. Every run is compared with a reference solution
+    of another method, whose own error is estimated. A combination that fails or has no meaning is reported and does not end the
+    comparison. Exit code 0 the combinations were run, 2 the input is at fault, 3 every run failed, 130 interrupted; what was computed
+    is written.
     """
     from nivel.api import load
     from nivel.errors import ModelError

@@ -25,7 +25,6 @@ SHOWN = 15  # modes in the table of the terminal
 @click.option(
     "-o",
     "--out",
-    "-o",
     type=click.Path(dir_okay=False, path_type=Path),
     help="Body file; default: the name of the model with .nc, here.",
 )

@@ -153,7 +153,9 @@ def read_bytes(path: str | FilePath) -> bytes:
             raise ModelError(Fault(file, 0, 0, file, f"the file has {size}; up to {LARGEST // 10**6} MB are read"))
         return FilePath(path).read_bytes()
     except FileNotFoundError:
-        raise ModelError(Fault(file, 0, 0, file, "there is no such file")) from None
+        near = next((each for end in (".yaml", ".yml") if FilePath(each := f"{file}{end}").is_file()), "")
+        meant = f"; did you mean `{near}`?" if near else ""
+        raise ModelError(Fault(file, 0, 0, file, f"there is no such file{meant}")) from None
     except IsADirectoryError:
         raise ModelError(Fault(file, 0, 0, file, "this is a directory; a machine file was expected")) from None
     except (OSError, ValueError) as error:

@@ -127,7 +127,8 @@
     }
   }
 
-  const plots = new Map();
+  const plots = new Map(); // over time, by their cards
+  const spectra = new Map();
 
   function setRange(min, max, from) {
     range = [min, max];
@@ -203,13 +204,70 @@
     return unit === "rad" ? `${short(v)} rad (${short(+((v * 180) / Math.PI).toPrecision(4))}°)` : `${short(v)} ${unit}`;
   }
 
+  // the curves of a group whose values are all there, over evenly spaced frames
+  const even = data.thinned > 1 || data.abscissa !== "time" ? null : Spectra.evenly(time);
+  const complete = (group) => group.curves.filter((curve) => values(curve, false).every((v) => v !== null));
+
+  // an axis of frequencies below, or at the side
+  function spectral(group, width, curves, more) {
+    const { axes, series, ...rest } = options({ log: false }, { ...group, curves, limits: [], floor: 0 }, width);
+    return { ...rest, axes, series, cursor: { drag: { x: true, y: false, dist: 6 } }, hooks: {}, ...more };
+  }
+
+  function spectrum(group, place) {
+    const curves = complete(group);
+    const found = curves.map((curve) => Spectra.amplitudes(values(curve, false).slice(0, even.count), even.dt));
+    const made = spectral(group, place.clientWidth || 400, curves, { scales: { x: { time: false }, y: { range: (u, min, max) => [0, (max || 1) * 1.08] } } });
+    made.series[0] = { label: "frequency", value: (u, v) => (v == null ? "" : `${short(v)} Hz`) };
+    return new uPlot(made, [found[0]?.frequency ?? [0], ...found.map(({ amplitude }) => amplitude)], place);
+  }
+
+  // amplitudes of one curve in colours, over time and frequency; 60 dB from the largest down to nothing
+  function waterfall(group, place) {
+    const [curve] = complete(group);
+    const { middles, frequency, rows, half } = Spectra.waterfall(time, values(curve, false).slice(0, even.count), even.dt);
+    const largest = Math.max(...rows.map((row) => Math.max(...row)), 1e-300);
+    const step = frequency[0];
+    const paint = (u) => {
+      const { ctx } = u;
+      ctx.save();
+      ctx.fillStyle = colour("accent");
+      rows.forEach((row, k) => {
+        const [left, right] = [middles[k] - half, middles[k] + half].map((t) => u.valToPos(t, "x", true));
+        row.forEach((amplitude, m) => {
+          const level = 1 + (20 * Math.log10(Math.max(amplitude / largest, 1e-9))) / 60;
+          if (level <= 0) return;
+          const [low, high] = [frequency[m] - 0.5 * step, frequency[m] + 0.5 * step].map((f) => u.valToPos(f, "y", true));
+          ctx.globalAlpha = level;
+          ctx.fillRect(left, high, right - left + 0.5, low - high + 0.5);
+        });
+      });
+      ctx.restore();
+    };
+    const made = spectral({ ...group, unit: "Hz" }, place.clientWidth || 400, [{ label: curve.label, tone: "0" }], {
+      scales: { x: { time: false, range: [whole[0], whole[1]] }, y: { range: [0, frequency[frequency.length - 1]] } },
+      hooks: { draw: [paint] },
+    });
+    made.series[1] = { label: `amplitudes of ${curve.label}, frequency`, show: true, stroke: "transparent", points: { show: false }, value: () => "" };
+    return new uPlot(made, [middles, middles.map(() => null)], place);
+  }
+
   function build(card) {
     const panel = data.panels[card.dataset.panel];
-    const [group, said] = parted(panel, panel.groups[card.querySelector("select")?.value ?? 0]);
+    const [group, said] = parted(panel, panel.groups[card.querySelector("select.group")?.value ?? 0]);
     const place = card.querySelector(".canvas");
-    plots.get(card)?.destroy();
-    card.querySelector(".unit").textContent = group.unit === "1" ? "" : `[${group.unit}]`;
+    const chosen = card.querySelector("select.view");
+    chosen.hidden = !even || panel.log || !complete(group).length;
+    const view = chosen.hidden ? "time" : chosen.value;
+    (plots.get(card) ?? spectra.get(card))?.destroy();
+    plots.delete(card);
+    spectra.delete(card);
+    card.querySelector(".unit").textContent = view === "waterfall" ? "[Hz]" : group.unit === "1" ? "" : `[${group.unit}]`;
     card.querySelector(".constant").textContent = said;
+    if (view !== "time") {
+      spectra.set(card, (view === "spectrum" ? spectrum : waterfall)(group, place));
+      return;
+    }
     const lines = [time, ...group.curves.map((curve) => values(curve, panel.log))];
     const plot = new uPlot(options(panel, group, place.clientWidth || 400), lines, place);
     plots.set(card, plot);
@@ -219,15 +277,17 @@
   // one finger moves the cursor, two fingers zoom
   function touch(place, card) {
     let pinch = null;
+    const isOverTime = () => plots.has(card);
     const at = (finger) => finger.clientX - plots.get(card).over.getBoundingClientRect().left;
     place.addEventListener("touchstart", (event) => {
-      if (event.touches.length === 2) {
+      if (event.touches.length === 2 && isOverTime()) {
         const plot = plots.get(card);
         pinch = [...event.touches].map((finger) => plot.posToVal(at(finger), "x")).sort((a, b) => a - b);
       }
     }, { passive: true });
     place.addEventListener("touchmove", (event) => {
       const plot = plots.get(card);
+      if (!plot) return;
       if (event.touches.length === 1) {
         plot.setCursor({ left: at(event.touches[0]), top: plot.over.clientHeight / 2 });
       } else if (pinch) {
@@ -247,12 +307,13 @@
     for (const { target } of entries) {
       const card = target.parentElement;
       const width = card.querySelector(".canvas").clientWidth;
-      if (width && plots.get(card).width !== width) plots.get(card).setSize({ width, height: HEIGHT });
+      const plot = plots.get(card) ?? spectra.get(card);
+      if (width && plot.width !== width) plot.setSize({ width, height: HEIGHT });
     }
   });
   for (const card of cards) {
     build(card);
-    card.querySelector("select")?.addEventListener("change", () => build(card));
+    for (const choice of card.querySelectorAll("select")) choice.addEventListener("change", () => build(card));
     const place = card.querySelector(".canvas");
     touch(place, card);
     watch.observe(card.querySelector("header"));

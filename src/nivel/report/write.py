@@ -177,6 +177,7 @@ def _bundled() -> dict[str, str]:
     names = {
         "page_style": "page.css",
         "page_script": "page.js",
+        "spectra_script": "spectra.js",
         "uplot_style": "uplot/uPlot.min.css",
         "uplot_script": "uplot/uPlot.iife.min.js",
         "uplot_licence": "uplot/LICENSE",

@@ -229,7 +229,7 @@ export class Actor {
 
   /** What the solids of the bodies are drawn by. */
   get bodyMeshes(): THREE.Object3D[] {
-    return [...this.batches.map(({ mesh }) => mesh), ...this.swept.map(({ mesh }) => mesh)];
+    return this.batches.map(({ mesh }) => mesh);
   }
 
   /** What is under a ray, of one of its hits. */

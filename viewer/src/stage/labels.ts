@@ -8,7 +8,8 @@ const LINE = 17; // pixels from one name to the next below it
 const DOWN = 3; // lines that a name goes down to where it fits; further away nobody would know what it belongs to,
 const MANY = 60; // and of so many names at once already in the next line
 const LETTER = 7; // pixels, about
-const LOOKED = 40; // bodies at most whose names are looked at whether they are covered
+const LOOKED = 40; // bodies, and triangles of them, up to which names are looked at whether they are covered
+const TRIANGLES = 20_000;
 
 type Point = readonly [number, number, number];
 export type Named = "body" | "joint" | "force";
@@ -25,12 +26,15 @@ interface Label {
 export class Labels {
   readonly shown = { body: false, joint: false, force: false };
   private readonly labels: Label[] = [];
+  private readonly looks: boolean;
 
   constructor(
     private readonly actor: Actor,
     private readonly holder: HTMLElement,
   ) {
     const { stage } = actor;
+    const triangles = actor.solids.reduce((sum, { geometry }) => sum + (geometry.index ?? geometry.getAttribute("position")).count / 3, 0);
+    this.looks = stage.bodies.length <= LOOKED && triangles <= TRIANGLES;
     const swept = new Map(stage.sweeps.flatMap((sweep) => sweep.bodies.map((body, k) => [body, k === sweep.bodies.length >> 1 ? sweep.name : ""])));
     for (const [k, body] of stage.bodies.entries()) this.add("body", swept.get(k) ?? body.name, k, body.centre_of_mass);
     for (const joint of stage.joints) this.add("joint", joint.name, joint.bodies[joint.place], joint.points[joint.place]);
@@ -52,7 +56,7 @@ export class Labels {
     for (const label of this.labels) {
       const { style } = label.element;
       const wanted = this.shown[label.kind] && taken.length < MOST && !this.actor.isBad[label.body];
-      if (wanted && label.kind === "body" && this.actor.stage.bodies.length <= LOOKED) {
+      if (wanted && label.kind === "body" && this.looks) {
         const covered = atRest && isCovered(this.actor, label.body, this.actor.place(label.body, label.point, at), camera);
         label.element.classList.toggle("covered", covered);
       }

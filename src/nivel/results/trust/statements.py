@@ -7,7 +7,17 @@ from collections.abc import Iterator, Sequence
 
 from nivel.results.trust.held import Shared, in_words
 from nivel.results.trust.unresolved import Unresolved
-from nivel.results.trust.verdicts import CLOSED, THRESHOLDS, Item, Threshold, Trust, Verdict, number, quantity
+from nivel.results.trust.verdicts import (
+    CLOSED,
+    ROUND_OFF,
+    THRESHOLDS,
+    Item,
+    Threshold,
+    Trust,
+    Verdict,
+    number,
+    quantity,
+)
 
 OUTCOMES: dict[str, tuple[Verdict, str]] = {
     "done": ("green", "Outcome: the run reached its end"),
@@ -124,6 +134,9 @@ def _accuracy_item(trust: Trust, estimate: float, blind: str) -> Item:
     fraction = estimate / trust.size
     if blind:
         said = f"Accuracy: a second run with {trust.accuracy_refinement} agrees within {number(estimate)} m, which says little: {blind}"
+        return numeric("accuracy", said, fraction, trust.accuracy_time, trust.accuracy_body)
+    if fraction < ROUND_OFF:
+        said = f"Accuracy: exact for this model, but for round-off, by a second run with {trust.accuracy_refinement}"
         return numeric("accuracy", said, fraction, trust.accuracy_time, trust.accuracy_body)
     until = f" up to t = {trust.verified_until:.6g} s" if trust.verified_until is not None else ""
     within = f"within {number(estimate)} m of the exact motion of this model{until}, {number(fraction)} of the {_size(trust)}"

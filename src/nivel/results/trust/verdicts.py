@@ -142,6 +142,7 @@ REST = 1e-3  # of the size, travelled in the time of the run: a machine that sta
 # of the potential energy, of a load times the size, of the energy of travelling by the size in the run: round-off of a machine at rest
 # is below green
 ENERGY_FLOOR = 1e-9
+ROUND_OFF = 1e-14  # of the size: an error below it is none
 CLOSED = 1e-12  # of the size: joints that are open by less are closed as well as a run closes them
 OPENING_WORK = 1e5  # times the work of the loads over what closed joints are open by: it is a decade below green
 POINT_SIZE = 1.0  # m: a single point that never moves has no size; said wherever it is used
@@ -266,6 +267,8 @@ class Trust:
         until = (
             f" up to t = {self.verified_until:.6g} s, not verified beyond" if self.verified_until is not None else ""
         )
+        if self.accuracy_estimate < ROUND_OFF * self.size:
+            return f"exact for this model, but for round-off{until}"
         return f"within {number(self.accuracy_estimate)} m of the exact motion of this model{until}{where}{when}"
 
     def lines(self) -> list[str]:

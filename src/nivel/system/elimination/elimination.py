@@ -67,7 +67,7 @@ def plan(rows: Sequence[Sequence[int]], block_row: Sequence[int], block_body: Se
     return _planned(tuple(tuple(group) for group in rows), tuple(block_row), tuple(block_body))
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=8)
 def _planned(rows: Groups, block_row: tuple[int, ...], block_body: tuple[int, ...]) -> Elimination:
     count = sum(len(group) for group in rows)
     group_of = np.empty(count, dtype=int)

@@ -56,7 +56,7 @@ def plan_tangent(
     return _planned(tuple(sizes), tuple(constraint), pairs, mirrored, frozenset(found), frozenset(alone), stages)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=8)
 def _planned(
     sizes: tuple[int, ...],
     constraint: tuple[bool, ...],

@@ -42,6 +42,7 @@ from nivel.live.system_clock import become_urgent, clock_addresses
 from nivel.native import library
 
 ROUND: Final = 0.5  # s that the compiled loop goes on before it is looked whether the server is still there
+FIRST: Final = 20  # ticks that are done for nothing
 REST: Final = 0.004  # s between two looks at the commands while nothing moves
 
 
@@ -99,10 +100,10 @@ class Solver:
     def live(self, urgent: bool) -> None:
         """Tick and obey until told to end, or until the server is gone."""
         control = self._live.control
-        self._drive_once(0)
-        self._show()
         for sentence in become_urgent() if urgent else ["no real-time priority was asked for"]:
             self._pipe.send(Told("said", sentence))
+        self._warm_up()
+        self._show()
         control[MODE] = shared.PAUSED
         control[PACED] = 1
         while os.getppid() == self._parent:
@@ -127,6 +128,14 @@ class Solver:
         if control[MODE] not in (shared.RUNNING, shared.PAUSED) or library.missing(ENTRIES):
             return {}
         return shares(self._its, control, self._drive)
+
+    def _warm_up(self) -> None:
+        """Some ticks that leave no trace: the first ones, whose code and memory were never touched before, take longest."""
+        control = self._live.control
+        control[TICKS] = FIRST
+        self._drive()
+        put_back(self._arrays, self._start)
+        control[[DONE, SHOWN]] = 0
 
     def _drive_once(self, ticks: int) -> None:
         control = self._live.control

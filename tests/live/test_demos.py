@@ -6,6 +6,8 @@ import pytest
 import nivel
 from nivel.demos.catalogue import DEMOS, FOLDER, demo_file
 from nivel.live.preparation import live_plan
+from nivel.live.recording import Recording, Take
+from nivel.live.replay import replay
 from nivel.machine import Table
 
 HYDRAULIC = {
@@ -32,6 +34,19 @@ def test_a_demo_is_live_at_one_kilohertz_and_every_input_says_what_it_does(name)
         assert each.hold or (each.keys and each.gamepad and each.stick)
     keys = [key for each in machine.inputs if each.keys for key in (each.keys.raise_, each.keys.lower)]
     assert len(set(keys)) == len(keys)
+
+
+def test_a_recorded_crane_is_replayed_with_its_trust_and_the_guard_of_its_circuit():
+    """Forty ticks in which the boom lever is pushed; without frames there is nothing to compare."""
+    plan, pace = live_plan(nivel.load(demo_file("loader-crane")).record, {}, None)
+    tape = np.zeros((40, len(plan.machine.inputs)))
+    lever = [each.name for each in plan.machine.inputs].index("lift_lever")
+    tape[:, lever] = np.minimum(0.004 * np.arange(1, 41), 1.0)
+    take = Take(tape, np.zeros((0, 1)))
+    again = replay(Recording(plan.machine, "", {}, pace, (take,)), take)
+    assert again.compared == 0
+    assert "pressure steps" in {item.name for item in again.result.trust.items}
+    assert again.result.array("lift_lever.value")[-1] == pytest.approx(tape[-1, lever], abs=0.03)
 
 
 @pytest.mark.parametrize("name", HYDRAULIC)

@@ -8,9 +8,14 @@ import numpy as np
 import pytest
 
 import cart
+import nivel
 from browsing import chromium, served, until, watched
+from nivel.demos.catalogue import demo_file
 from nivel.integrate.paced import DONE
-from nivel.live.source import LiveSource
+from nivel.live.opening import session_of
+from nivel.live.recording import Recording
+from nivel.live.replay import replay
+from nivel.live.source import LiveSource, gauges
 from nivel.live.timing import timing_of
 
 pytest.importorskip("websockets")
@@ -109,6 +114,33 @@ def test_a_stopped_browser_does_not_touch_the_loop(live, browser):
         assert done == pytest.approx(passed - stretched, abs=0.2)
         assert after.own - before.own == 0
         until(page, "nivel.app.live.status.mode === 'running'")
+
+
+@pytest.mark.full
+def test_a_crane_is_driven_with_keys_and_a_gamepad_and_its_recording_is_repeated(browser, tmp_path):
+    """The loader crane of `nivel demo`: W raises the boom, a gamepad slews, gauges follow, and the replay is equal to the last bit."""
+    crane = nivel.load(demo_file("loader-crane"))
+    with session_of(crane, {}, urgent=False, recorded_in=tmp_path) as session, served(LiveSource(session)) as viewing:
+        session.command("run")
+        layout = session.facts["layout"]
+        gauge = {name: variable.columns.start for name, variable in gauges(layout)}
+        before = session.newest[gauge["boom-angle"]]
+        with watched(browser, width=500, height=400) as seen:
+            page = seen.open(viewing.address.url)
+            page.keyboard.down("w")
+            until(page, lambda: session.newest[gauge["boom-angle"]] > before + 5.0)
+            page.keyboard.up("w")
+            shown = "Number(document.querySelectorAll('.strip output')[4].textContent.split(' ')[0].replace('−', '-'))"
+            until(page, lambda: page.evaluate(shown) > before + 4.0)
+            slewed = session.values()["slew_lever"]
+            page.evaluate("navigator.getGamepads = () => [{connected: true, axes: [1], buttons: []}]")
+            until(page, lambda: session.values()["slew_lever"] == 1.0)
+            page.evaluate("navigator.getGamepads = () => []")
+        assert slewed == 0.0
+        (take,) = session.takes
+    again = replay(Recording(session.plan.machine, "", {}, session.pace, (take,)), take)
+    assert again.is_identical
+    assert again.compared > 60
 
 
 def descendants(process):

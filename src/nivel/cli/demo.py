@@ -13,7 +13,7 @@ from nivel.demos.catalogue import DEMOS, demo_file
 @click.option("--no-browser", is_flag=True, help="Open no browser.")
 @click.pass_context
 def command(ctx: click.Context, name: str, port: int, no_browser: bool) -> None:
-    """Drive the machine NAME in the browser; without a name the harbour crane.
+    """Drive the machine NAME in the browser; without a name the loader crane.
 
     It is the same as `nivel live` with the machine file whose place is printed.
     """

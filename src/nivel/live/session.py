@@ -80,6 +80,7 @@ class Session:
         self.recorder = Recorder(self.live, pace, recorded_in)
         try:
             self._await_start()
+            self._hear()
         finally:
             self._memory.unlink()  # both have it now, and it goes with them, however they end
         self._thread = threading.Thread(target=self._watch, daemon=True)
@@ -136,15 +137,7 @@ class Session:
                 self._newest = frames[-1]
                 self.on_frame()
             try:
-                while self._pipe.poll():
-                    told = self._pipe.recv()
-                    if told.kind == "parts":
-                        self.parts = told.facts
-                        continue
-                    self.said.append(told.text)
-                    if told.kind == "failed" or self.mode == "ended":
-                        self.problem = told.text
-                    self.on_frame()
+                self._hear()
             except (EOFError, OSError):
                 self.problem = self.problem or "the solver's process has ended"
                 self.on_frame()
@@ -156,6 +149,18 @@ class Session:
         """All motions from the start on that were recorded."""
         with self._lock:
             return takes_of(self.recorder.parts, self.pace)
+
+    def _hear(self) -> None:
+        """What the solver has said since. Raises EOFError, OSError where it is gone."""
+        while self._pipe.poll():
+            told = self._pipe.recv()
+            if told.kind == "parts":
+                self.parts = told.facts
+                continue
+            self.said.append(told.text)
+            if told.kind == "failed" or self.mode == "ended":
+                self.problem = told.text
+            self.on_frame()
 
     # --- what it is told ---
 

@@ -5,9 +5,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import cart
 from cart import DAMPING, FORCE, MASS, machine, operate, running, until
+from nivel.cli.replay import command
 from nivel.errors import ModelError
 from nivel.integrate.paced import DONE, SAVED
 from nivel.live.hand import grip
@@ -15,6 +17,7 @@ from nivel.live.opening import session_of
 from nivel.live.preparation import live_plan, pace_of
 from nivel.live.recording import Recording, Take, read_recording, write_recording
 from nivel.live.replay import machine_of, replay, rerun
+from nivel.machine import PythonLaw
 
 
 @pytest.fixture(scope="module")
@@ -183,6 +186,17 @@ def test_a_file_that_is_no_recording_is_refused(tmp_path):
         read_recording(path)
     with pytest.raises(ModelError, match="there is no file"):
         read_recording(tmp_path / "none.npz")
+
+
+def test_a_recording_that_holds_code_is_replayed_only_where_that_is_allowed(tmp_path):
+    record, path = machine().record, tmp_path / "law.live.npz"
+    law = PythonLaw("def pull(x):\n    return 20.0 * x\n", "pull", ("lever.value",))
+    drive, *others = record.forces
+    for forces, has_code in (((drive.replace(effort=law), *others), True), (record.forces, False)):
+        write_recording(path, record.replace(forces=forces), "", {}, pace_of(1e-3, None), [])
+        assert read_recording(path).has_code == has_code
+        refusal = str(CliRunner().invoke(command, [str(path)]).exception)
+        assert ("--allow-code" in refusal) == has_code
 
 
 def test_integrators_that_choose_their_steps_are_refused():

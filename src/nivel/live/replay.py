@@ -157,10 +157,11 @@ def rerun(
     take: Take,
     settings: Mapping[str, Any],
     *,
+    verify: bool = False,
     out: str | PathLike[str] | None = None,
     force: bool = False,
     listener: Listener | None = None,
 ) -> Result:
-    """The inputs of the take again, by other methods. Raises ModelError, SolveError."""
+    """The inputs of the take again, by other methods. verify : as of `Machine.simulate`. Raises ModelError, SolveError."""
     machine = Machine.from_record(machine_of(recording, take))
-    return machine.simulate(**settings, out=out, force=force, listener=listener)
+    return machine.simulate(**settings, verify=verify, out=out, force=force, listener=listener)

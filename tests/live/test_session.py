@@ -2,6 +2,8 @@
 
 import time
 from itertools import pairwise
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
@@ -9,8 +11,10 @@ from click.testing import CliRunner
 
 import cart
 from cart import DAMPING, FORCE, MASS, machine, operate, running, until
+from nivel.api import Machine
 from nivel.cli.replay import command
-from nivel.errors import ModelError
+from nivel.errors import ModelError, SolveError
+from nivel.files.reader import parse_machine
 from nivel.integrate.paced import DONE, SAVED
 from nivel.live.hand import grip
 from nivel.live.opening import session_of
@@ -261,6 +265,29 @@ def test_a_body_that_is_picked_up_moves_as_the_spring_says_and_its_replay_is_the
     assert result.array("external_work")[inside][-1] == pytest.approx(
         result.array("kinetic_energy")[inside][-1], rel=1e-3
     )
+
+
+def test_a_run_that_fails_says_why_and_its_replay_fails_as_it_did():
+    """√(0.2 - x) is no number beyond 0.2 m. Only a reset goes on from there."""
+    text = cart.CART.replace("effort: 20.0*lever.value", "effort: 20.0*lever.value + 0*sqrt(0.2 - rail.displacement)")
+    assert "sqrt" in text
+    fragile = Machine.from_record(parse_machine(text))
+    with TemporaryDirectory() as folder, session_of(fragile, {}, urgent=False, recorded_in=Path(folder)) as session:
+        session.command("run")
+        while session.mode == "running":
+            operate(session, [1.0, 1.0], 0.05)
+        assert session.mode == "failed"
+        until(lambda: session.problem)
+        assert "is no longer a number" in session.problem
+        assert "go back to the start" in session.command("run")
+        at = float(session.live.control[DONE]) * session.pace.tick
+        assert session.command("reset") == ""
+        assert session.mode == "paused"
+        take = session.takes[0]
+    assert take.ticks * session.pace.tick == pytest.approx(at)
+    with pytest.raises(SolveError, match="is no longer a number") as failure:
+        replay(Recording(session.plan.machine, "", {}, session.pace, (take,)), take)
+    assert failure.value.result.array("rail.displacement")[-1] < 0.2
 
 
 def test_the_hand_lets_go_before_it_takes_another_point():

@@ -21,7 +21,7 @@ from nivel.analysis.simulate import close_run
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.integrate.paced import DONE, FROM_TAPE, SHOWN, TICKS, drive
-from nivel.integrate.run import ACCEPTED, STEP
+from nivel.integrate.run import ACCEPTED, STEP, STOPPED
 from nivel.integrate.sink import Header
 from nivel.kernels.status import BUDGET_SPENT
 from nivel.kernels.status import DONE as ENDED
@@ -143,7 +143,9 @@ def _frames_of(again: LiveRun, tape: Array, outcome: RunOutcome) -> Iterator[Arr
         if control[SHOWN] > shown:
             yield live.frames[np.arange(shown, control[SHOWN]) % len(live.frames)]
             shown = int(control[SHOWN])
-    run = again.run
+    run, events = again.run, again.prepared.motion.system.events
+    if run.counter[STOPPED]:
+        outcome.stopped_by = events[run.counter[STOPPED] - 1]
     outcome.timing = {**counts_of(again.prepared.motion.system, run), "loop_seconds": 0.0, "wall_seconds": 0.0}
     if status not in (BUDGET_SPENT, ENDED):
         at = float(run.clock[ACCEPTED])

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from nivel.kernels.constraint import constraint_rows
-from nivel.kernels.hook import apply_forces, finish_forces, measure_active
-from nivel.kernels.record import record_at
-from nivel.kernels.rigid import load_weight
-from nivel.kernels.saddle import factorise_rows, multipliers
+from nivel.kernels.bodies.constraint import constraint_rows
+from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.record.hook import apply_forces, finish_forces, measure_active
+from nivel.kernels.record.record import record_at
+from nivel.kernels.solve.saddle import factorise_rows, multipliers
 from nivel.motion import newton_euler as ne
 from nivel.motion.newton_euler_correction import correct
 from part import part

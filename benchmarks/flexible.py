@@ -15,10 +15,10 @@ from pathlib import Path
 import numpy as np
 
 import nivel
-from nivel.analysis.dynamics import march
-from nivel.analysis.plan import methods_of
-from nivel.analysis.preparation import prepare
-from nivel.analysis.settings import complete
+from nivel.analysis.plan.plan import methods_of
+from nivel.analysis.plan.settings import complete
+from nivel.analysis.run.dynamics import march
+from nivel.analysis.run.preparation import prepare
 from nivel.flexible.body_file import write_body
 from nivel.flexible.model_file import parse_model
 from nivel.flexible.reduce import reduce_model

@@ -27,8 +27,8 @@ from numba.core.registry import CPUDispatcher
 
 import nivel
 from chain import chain
-from nivel.analysis.plan import methods_of
-from nivel.analysis.preparation import Prepared, prepare
+from nivel.analysis.plan.plan import methods_of
+from nivel.analysis.run.preparation import Prepared, prepare
 from part import measure
 
 SIZE, ROUNDS = 1000, 15
@@ -108,7 +108,7 @@ def interpret(record: Any) -> None:
                 families[value.address] = value.__wrapped__
             elif name == "record_at":
                 setattr(module, name, lambda _address: record)
-    hook: Any = sys.modules["nivel.kernels.hook"]
+    hook: Any = sys.modules["nivel.kernels.record.hook"]
     hook.call_family = lambda address, *arguments: families[int(address)](*arguments)
 
 

@@ -14,13 +14,13 @@ import time
 import numpy as np
 
 import nivel
-from nivel.analysis.dynamics import march
-from nivel.analysis.plan import methods_of
-from nivel.analysis.preparation import prepare
-from nivel.analysis.settings import complete
+from nivel.analysis.plan.plan import methods_of
+from nivel.analysis.plan.settings import complete
+from nivel.analysis.run.dynamics import march
+from nivel.analysis.run.preparation import prepare
 from nivel.machine import Body, MachineRecord, SimulationSettings, SpringDamper
 from nivel.machine.marker import Marker
-from nivel.system.laws import law_address
+from nivel.system.laws.laws import law_address
 
 SPRINGS, STEPS, REPEATS = 100, 2000, 15
 LAW = """

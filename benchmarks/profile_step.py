@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 
 import nivel
-from nivel.analysis.plan import methods_of
-from nivel.analysis.preparation import prepare
-from nivel.kernels.observe import accept, observe
+from nivel.analysis.plan.plan import methods_of
+from nivel.analysis.run.preparation import prepare
+from nivel.kernels.output.observe import accept, observe
 from part import REPEATS, measure, part
 
 EXAMPLE = Path(__file__).parent.parent / "examples" / "slider-crank.yaml"

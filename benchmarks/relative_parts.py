@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.articulated import accelerate, factorise_tree, own_inertia, whiten_efforts, whiten_tree_rows
-from nivel.kernels.constraint import constraint_rows
-from nivel.kernels.hook import apply_forces, finish_forces, measure_active
-from nivel.kernels.marker import move_marker, place_marker
-from nivel.kernels.record import record_at
-from nivel.kernels.rigid import load_weight
-from nivel.kernels.saddle import factorise_rows, multipliers
-from nivel.kernels.tree import move_tree
+from nivel.kernels.bodies.constraint import constraint_rows
+from nivel.kernels.bodies.marker import move_marker, place_marker
+from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.record.hook import apply_forces, finish_forces, measure_active
+from nivel.kernels.record.record import record_at
+from nivel.kernels.solve.saddle import factorise_rows, multipliers
+from nivel.kernels.tree.articulated import accelerate, factorise_tree, own_inertia, whiten_efforts, whiten_tree_rows
+from nivel.kernels.tree.tree import move_tree
 from nivel.motion import relative
 from nivel.motion.relative_correction import correct
 from nivel.motion.tree_motion import write_positions

@@ -12,10 +12,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
+from nivel.kernels.algebra.sparse_lu import factorise_sparse_lu, solve_sparse_lu
 from nivel.native.function import leaf
-from nivel.system.elimination_hubs import waiting
-from nivel.system.factor_plan import FactorPlan, plan_factor
+from nivel.system.elimination.elimination_hubs import waiting
+from nivel.system.elimination.factor_plan import FactorPlan, plan_factor
 
 LINKS = (1, 8, 64, 256, 2000)
 

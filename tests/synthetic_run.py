@@ -8,7 +8,7 @@ import json
 
 import numpy as np
 
-from nivel.integrate.sink import Header
+from nivel.integrate.loop.sink import Header
 from nivel.system.layout import FrameLayout, frame_layout
 
 MASS, LENGTH, GRAVITY, SWING = 2.0, 0.5, 9.81, 0.3

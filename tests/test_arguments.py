@@ -14,9 +14,9 @@ from nivel.api import Machine
 from nivel.arguments import checked_arguments
 from nivel.errors import ModelError
 from nivel.results import Memory, Result
-from nivel.results.comparison import Comparison, Row
-from nivel.results.recovered import RecoveredBody
-from nivel.results.trust import Facts, assess
+from nivel.results.comparison.comparison import Comparison, Row
+from nivel.results.stress.recovered import RecoveredBody
+from nivel.results.trust.trust import Facts, assess
 from wrong_values import ODD, WRONG, told_or_done
 
 ARM = {"name": "arm", "mass": 1, "inertia": [1, 1, 1]}
@@ -165,7 +165,7 @@ def test_numpy_scalars_are_numbers(machine, step):
 
 
 def test_steps_of_a_grid_may_be_arrays():
-    from nivel.analysis.compare_grid import Axes
+    from nivel.analysis.compare.compare_grid import Axes
 
     assert Axes(steps=np.array([0.5, 0.25])).steps == (0.5, 0.25)
     assert Axes(steps=np.float32(0.5), tolerances=[np.float32(0.5)]).steps == (0.5,)

@@ -26,8 +26,8 @@ from nivel.flexible.records import (
 )
 from nivel.flexible.reduce import reduce, reduce_model
 from nivel.flexible.solid_records import Part, Solid
+from nivel.machine.beams.section import Material, SectionRecord
 from nivel.machine.record import field_words
-from nivel.machine.section import Material, SectionRecord
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "flexible-bodies.md").read_text(encoding="utf-8")

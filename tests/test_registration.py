@@ -2,9 +2,10 @@
 
 from typing import get_args
 
-from nivel.integrate import variable_workspace, workspace
 from nivel.integrate.catalogue import INTEGRATORS
+from nivel.integrate.loop import workspace
 from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.integrate.variable_order import variable_workspace
 from nivel.machine.forces import FORCES as RECORDS
 from nivel.machine.joint import JOINT_COORDINATES, JointType
 from nivel.machine.settings import CHOOSING, EITHER, SimulationSettings

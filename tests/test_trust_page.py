@@ -8,9 +8,9 @@ import pytest
 from click.testing import CliRunner
 
 from nivel.cli import main
-from nivel.results.findings import _damped_item, _growth_item
-from nivel.results.second_look import Damped, Growth
-from nivel.results.verdicts import CHECKS
+from nivel.results.trust.findings import _damped_item, _growth_item
+from nivel.results.trust.second_look import Damped, Growth
+from nivel.results.trust.verdicts import CHECKS
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "trust.md").read_text(encoding="utf-8")

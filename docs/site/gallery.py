@@ -10,9 +10,9 @@ EXAMPLES = ROOT / "examples"
 
 
 def examples() -> list[Path]:
-    """The machine files among the examples that need no other file to be made first."""
-    found = sorted(EXAMPLES.rglob("*.yaml"))
-    return [path for path in found if "\nbodies:" in path.read_text("utf-8") or "\nbeams:" in path.read_text("utf-8")]
+    """The machine files among the examples; parts of others have no simulation."""
+    found = ((path, path.read_text("utf-8")) for path in sorted(EXAMPLES.rglob("*.yaml")))
+    return [path for path, text in found if "\nsimulation:" in text and ("\nbodies:" in text or "\nbeams:" in text)]
 
 
 def gallery(pictures: bool) -> tuple[str, dict[str, str]]:
@@ -34,8 +34,9 @@ def gallery(pictures: bool) -> tuple[str, dict[str, str]]:
         if pictures:
             svg = _picture(path)
             if svg:
-                drawn[f"pictures/gallery/{name}.svg"] = svg
-                lines.append(f"![{name}](pictures/gallery/{name}.svg)")
+                picture = f"pictures/gallery/{'-'.join(path.relative_to(EXAMPLES).with_suffix('').parts)}.svg"
+                drawn[picture] = svg
+                lines.append(f"![{name}]({picture})")
         lines += [f"<figcaption markdown>[{name}](files/{place}) {_first_sentence(path)}</figcaption>", "</figure>"]
     lines += ["", "</div>", ""]
     del nivel
@@ -55,11 +56,14 @@ def _picture(path: Path) -> str:
     import nivel
     from nivel.report.picture import machine_picture
 
-    try:
-        posed = nivel.load(path, allow_code=True).with_settings({"start": "as-given"}).start()
-    except nivel.NivelError:
-        return ""
-    return machine_picture(posed.scene, posed["position"], posed["orientation"])
+    # steps are fixed where a machine is stepped
+    for settings in ({"start": "as-given"}, {"start": "as-given", "integrator": "extrapolated-euler"}):
+        try:
+            posed = nivel.load(path, allow_code=True).with_settings(settings).start()
+        except nivel.NivelError:
+            continue
+        return machine_picture(posed.scene, posed["position"], posed["orientation"])
+    return ""
 
 
 def moving_picture(name: str) -> str:

@@ -60,7 +60,7 @@ if TYPE_CHECKING:
     from nivel.machine import ThreeAxisSpring as ThreeAxisSpring
     from nivel.machine import Torque as Torque
     from nivel.machine import TorsionalSpringDamper as TorsionalSpringDamper
-    from nivel.results.comparison import Comparison as Comparison
+    from nivel.results.comparison.comparison import Comparison as Comparison
     from nivel.results.result import Result as Result
 
 _HOME = {
@@ -106,7 +106,7 @@ _HOME = {
     "Torque": "nivel.machine",
     "ThreeAxisSpring": "nivel.machine",
     "TorsionalSpringDamper": "nivel.machine",
-    "Comparison": "nivel.results.comparison",
+    "Comparison": "nivel.results.comparison.comparison",
     "Result": "nivel.results.result",
 }
 

@@ -9,8 +9,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from nivel.analysis.compare_grid import Axes, compile_grid, lay_out
-from nivel.analysis.compilation import (
+from nivel.analysis.compare.compare_grid import Axes, compile_grid, lay_out
+from nivel.analysis.plan.compilation import (
     assembly_entries,
     build,
     kinematics_entries,
@@ -19,9 +19,9 @@ from nivel.analysis.compilation import (
     run_entries,
     statics_entries,
 )
-from nivel.analysis.listener import Listener
-from nivel.analysis.plan import Plan, methods_of, plan_run
-from nivel.analysis.settings import waiting_time
+from nivel.analysis.plan.plan import Plan, methods_of, plan_run
+from nivel.analysis.plan.settings import waiting_time
+from nivel.analysis.progress.listener import Listener
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.files.origin import Origin
@@ -52,17 +52,19 @@ from nivel.wording import shown
 if TYPE_CHECKING:
     import xarray
 
-    from nivel.analysis.check import Check
+    from nivel.analysis.assembly.mass import MassProperties
+    from nivel.analysis.check.check import Check
+    from nivel.analysis.interactive.posing import Posing
     from nivel.analysis.inverse.mechanics import Mechanics
-    from nivel.analysis.posing import Posing
-    from nivel.analysis.stepping import Simulation
+    from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
     from nivel.native.entry import Entry
-    from nivel.results.comparison import Comparison
-    from nivel.results.efforts import Efforts
-    from nivel.results.joint_path import JointPath
-    from nivel.results.linear_model import LinearModel
-    from nivel.results.mechanism import Range
+    from nivel.results.analyses.efforts import Efforts
+    from nivel.results.analyses.linear_model import LinearModel
+    from nivel.results.analyses.mechanism import Range
+    from nivel.results.comparison.comparison import Comparison
+    from nivel.results.configuration_curve import ConfigurationCurve
+    from nivel.results.frames.joint_path import JointPath
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine
 
@@ -132,16 +134,27 @@ class Machine(Model):
         """Assemble the machine and say what it is: degrees of freedom, redundant rows, conventions of its joints."""
         plan = self._plan(self.origin.settings_outside)
         build(preparation_entries(plan.methods), listener)
-        from nivel.analysis.check import check
+        from nivel.analysis.check.check import check
 
         with self._faults_in_file():
             return check(plan)
 
     @checked_arguments
+    def mass_properties(
+        self, about: str = "ground", bodies: Sequence[str] | str = (), *, listener: Listener | None = None
+    ) -> MassProperties:
+        """Mass, centre of mass and inertia of these bodies, or of all, as assembled, about a marker or body and along its axes."""
+        build(assembly_entries(self.record), listener)
+        from nivel.analysis.assembly.mass import mass_properties
+
+        with self._faults_in_file():
+            return mass_properties(self.record, about, (bodies,) if isinstance(bodies, str) else tuple(bodies))
+
+    @checked_arguments
     def posed(self, *, listener: Listener | None = None) -> Posing:
         """The assembled machine, to be moved by hand. Raises ModelError where it cannot be assembled."""
         build(assembly_entries(self.record), listener)
-        from nivel.analysis.posing import Posing
+        from nivel.analysis.interactive.posing import Posing
 
         with self._faults_in_file():
             return Posing(self.record)
@@ -230,13 +243,11 @@ class Machine(Model):
         limit = None if verify_limit is None else waiting_time("verify_limit", verify_limit)
         chosen = self.with_inputs(inputs or {}).with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
+        self._refuse_target(out, force)
         compile_seconds = build(_entries_of(plan, chosen.record), listener)
         # what follows takes longer to import
-        from nivel.analysis.simulate import simulate
-        from nivel.results.target import keep_sources
+        from nivel.analysis.run.simulate import simulate
 
-        if out is not None and self.origin.file:
-            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
         with chosen._faults_in_file():
             return simulate(
                 plan,
@@ -295,7 +306,7 @@ class Machine(Model):
         chosen = self.with_settings(given)
         plan = chosen._plan({*given, *self.origin.settings_outside})
         build(_entries_of(plan, chosen.record), listener)
-        from nivel.analysis.stepping import Simulation
+        from nivel.analysis.run.stepping import Simulation
 
         with chosen._faults_in_file():
             return Simulation(plan, source=self.origin.source, record=record)
@@ -375,13 +386,11 @@ class Machine(Model):
         neutral, chosen = for_statics(self.record, settings)
         with self._faults_in_file():
             methods = methods_of(neutral, "newton-euler", chosen)
+        self._refuse_target(out, force)
         compile_seconds = build(statics_entries(methods), listener)
         # what follows takes longer to import
         from nivel.analysis.statics.run import statics
-        from nivel.results.target import keep_sources
 
-        if out is not None and self.origin.file:
-            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
         with self._faults_in_file():
             return statics(
                 self.record,
@@ -419,25 +428,23 @@ class Machine(Model):
         """
         from nivel.analysis.kinematics.refusals import refuse_what_bends
         from nivel.analysis.kinematics.settings import kinematics_settings
-        from nivel.analysis.neutral import neutral
+        from nivel.analysis.plan.neutral import neutral
 
         given = {"drive": drive, "start": start, "end": end, "duration": duration, "positions": positions}
         settings = kinematics_settings(self.record, {**given, "coordinates": coordinates})
         with self._faults_in_file():
             refuse_what_bends(self.record)
-            build(assembly_entries(self.record), listener or Listener())
+            build(assembly_entries(self.record), listener)
             from nivel.analysis.kinematics.drive import driven
 
             machine, settings = driven(self.record, settings)
             plain, chosen = neutral(machine, settings.coordinates)
             methods = methods_of(plain, "newton-euler", chosen)
-        compile_seconds = build(kinematics_entries(methods), listener or Listener())
+        self._refuse_target(out, force)
+        compile_seconds = build(kinematics_entries(methods), listener)
         # what follows takes longer to import
         from nivel.analysis.kinematics.run import kinematics
-        from nivel.results.target import keep_sources
 
-        if out is not None and self.origin.file:
-            keep_sources(Path(fspath(out)), "result file", [Path(self.origin.file)])
         with self._faults_in_file():
             return kinematics(
                 machine,
@@ -471,7 +478,7 @@ class Machine(Model):
         settings = kinematics_settings(
             self.record, {"drive": coordinate, "end": 0.0, "positions": positions, "coordinates": coordinates}
         )
-        build(assembly_entries(self.record), listener or Listener())
+        build(assembly_entries(self.record), listener)
         with self._faults_in_file():
             from nivel.analysis.kinematics.drive import present_value
 
@@ -486,6 +493,21 @@ class Machine(Model):
                 drive=name, start=begin, end=end, positions=positions, coordinates=coordinates, listener=listener
             ),
         )
+
+    @checked_arguments
+    def configuration_curve(self, coordinate: str, *, listener: Listener | None = None) -> ConfigurationCurve:
+        """All positions of a machine with one free motion, by arc length, also beyond the turning points of a coordinate, which are given.
+
+        Raises ModelError where more motions are free, or none; SolveError where the positions cannot be followed.
+        """
+        from nivel.analysis.kinematics.settings import kinematics_settings
+
+        name = kinematics_settings(self.record, {"drive": coordinate, "end": 0.0}).drive
+        build(assembly_entries(self.record), listener)
+        from nivel.analysis.kinematics.continuation import configuration_curve
+
+        with self._faults_in_file():
+            return configuration_curve(self.record, name)
 
     @checked_arguments
     def inverse(
@@ -506,13 +528,15 @@ class Machine(Model):
         prescribe. motion : a result, or its file; default: that of the machine's drivers. trajectory : CSV file of `time` and joint
         coordinates, in place of it. limits, weights : by actuator; of more actuators than needed the least Σ (weight · effort)² is taken
         within the limits, weights being one over the limit where there is one. hold : drivers that keep holding what they prescribe.
-        positions : of the motion of the drivers or the trajectory, default 361.
+        positions : of the motion of the drivers or the trajectory, default 361. Of machines with friction drivers or the trajectory
+        prescribe the coordinates of the actuators.
         Raises ModelError (nothing was computed), SolveError where the drivers' motion cannot be had.
         """
         from nivel.analysis.inverse.refusals import refuse_for_inverse
+        from nivel.analysis.inverse.rubbing import acting_drivers, driven_alone, efforts_of_drivers, rubs
         from nivel.analysis.inverse.settings import inverse_settings
         from nivel.analysis.inverse.trajectory import along_trajectory
-        from nivel.analysis.neutral import neutral
+        from nivel.analysis.plan.neutral import neutral
 
         given = {"actuators": actuators, "limits": limits, "weights": weights, "hold": hold}
         if motion is not None and trajectory is not None:
@@ -521,11 +545,15 @@ class Machine(Model):
             refuse_for_inverse(self.record)
             record = self.record if trajectory is None else along_trajectory(self.record, trajectory)
             settings = inverse_settings(record, given)
+            if rubs(record):
+                drivers = acting_drivers(record, settings, recorded=motion is not None)
+                driven = Machine.from_record(driven_alone(record, settings), self.origin)
+                return efforts_of_drivers(settings, drivers, driven.kinematics(positions=positions, listener=listener))
             from nivel.analysis.inverse.run import inverse, without_actuators
 
             plain, _ = neutral(without_actuators(record, settings), "absolute")
             methods = methods_of(plain, "newton-euler", "absolute")
-        build(linear_entries(methods), listener or Listener())
+        build(linear_entries(methods), listener)
         if motion is None:
             followed = Machine.from_record(record, self.origin).kinematics(positions=positions, listener=listener)
         else:
@@ -546,15 +574,15 @@ class Machine(Model):
         coordinates : relative (default where there are joints) or absolute. Raises ModelError where the machine cannot be assembled.
         """
         from nivel.analysis.linearise.refusals import refuse_jumps
-        from nivel.analysis.neutral import neutral
+        from nivel.analysis.plan.neutral import neutral
 
         with self._faults_in_file():
             refuse_jumps(self.record)
             plain, chosen = neutral(self.record, coordinates or "auto")
             methods = methods_of(plain, "newton-euler", chosen)
-        build(linear_entries(methods), listener or Listener())
+        build(linear_entries(methods), listener)
         from nivel.analysis.inverse.mechanics import Mechanics
-        from nivel.analysis.moment import at_start
+        from nivel.analysis.run.moment import at_start
 
         with self._faults_in_file():
             return Mechanics(plain, at_start(methods))
@@ -630,7 +658,7 @@ class Machine(Model):
         """
         from nivel.analysis.linearise.refusals import refuse_jumps
         from nivel.analysis.linearise.settings import linearise_settings
-        from nivel.analysis.neutral import neutral
+        from nivel.analysis.plan.neutral import neutral
 
         simulation = self.record.simulation
         wanted = simulation.coordinates if coordinates is None else coordinates
@@ -656,10 +684,10 @@ class Machine(Model):
         if settings.time > 0.0:
             run = self.with_settings({"duration": settings.time})._plan(())
             entries += run_entries(run)
-        build(entries, listener or Listener())
+        build(entries, listener)
         # what follows takes longer to import
         from nivel.analysis.linearise.run import linearise
-        from nivel.analysis.moment import run_until
+        from nivel.analysis.run.moment import run_until
 
         with self._faults_in_file():
             posture = None if run is None else run_until(run, listener or Listener())
@@ -708,7 +736,7 @@ class Machine(Model):
         grid = lay_out(chosen.record, axes, given)
         compile_grid(chosen.record, grid, listener)
         # what follows takes longer to import
-        from nivel.analysis.compare import compare
+        from nivel.analysis.compare.compare import compare
 
         with chosen._faults_in_file():
             return compare(chosen.record, grid, repeat=repeat, listener=listener)
@@ -718,6 +746,14 @@ class Machine(Model):
         meet the beams that they slide along."""
         with self._faults_in_file():
             return plan_run(self.record, given)
+
+    def _refuse_target(self, out: str | PathLike[str] | None, force: bool) -> None:
+        """Refuse a result file that cannot be written, before anything is compiled. Raises ModelError."""
+        from nivel.results.frames.target import check_target  # results take long to import
+
+        if out is not None:
+            sources = [Path(self.origin.file)] if self.origin.file else []
+            check_target(Path(fspath(out)), "result file", force=force, sources=sources)
 
     @contextmanager
     def _faults_in_file(self) -> Iterator[None]:

@@ -165,6 +165,12 @@ class Model(Elements):
         machine.origin = origin or Origin()
         return machine
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in MachineRecord.model_fields:
+            message = f"nothing changes a machine; write `machine = machine.replace({name}=…)`, which gives another one"
+            raise ModelError(Fault("", 0, 0, name, message))
+        object.__setattr__(self, name, value)
+
     @property
     def name(self) -> str:
         """Name of the machine."""

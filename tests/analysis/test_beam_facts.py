@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 import machines
 from checking import check
-from nivel.analysis.beam_facts import beam_facts
+from nivel.analysis.plan.beam_facts import beam_facts
 from nivel.cli import main
 from nivel.files import parse_machine
 from nivel.machine import Beam

@@ -5,8 +5,8 @@ import pytest
 
 import machines
 from checking import check
-from nivel.analysis.choice import _absolute_cost, _relative_cost, choose_coordinates
-from nivel.analysis.settings import complete
+from nivel.analysis.plan.choice import _absolute_cost, _relative_cost, choose_coordinates
+from nivel.analysis.plan.settings import complete
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.machine import Body, MachineRecord, SimulationSettings
@@ -37,8 +37,8 @@ def test_redundancy_is_said_with_names():
     text = str(check(machines.four_bar(second="revolute", third="revolute")))
     assert "redundant: " in text
     assert (
-        "reactions are not in: hinge, pin, pivot, sleeve" in text
-        or "reactions are not in: hinge, pin, sleeve, pivot" in text
+        "reactions are not unique in: hinge, pin, pivot, sleeve" in text
+        or "reactions are not unique in: hinge, pin, sleeve, pivot" in text
     )
 
 

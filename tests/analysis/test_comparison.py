@@ -7,11 +7,11 @@ import signal
 import numpy as np
 import pytest
 
-from nivel.analysis.compare_grid import Axes, lay_out
-from nivel.analysis.listener import Listener
+from nivel.analysis.compare.compare_grid import Axes, lay_out
+from nivel.analysis.progress.listener import Listener
 from nivel.errors import ModelError
-from nivel.results.comparison import Comparison
-from nivel.results.motion import Motion, distance
+from nivel.results.comparison.comparison import Comparison
+from nivel.results.trust.motion import Motion, distance
 from simulating import hinge, machine, slide, solid, wheel
 
 G = (0, -9.81, 0)
@@ -104,7 +104,7 @@ def test_the_error_of_the_motion_is_that_of_the_closed_form():
 
 
 def test_the_error_of_the_reference_is_below_what_it_says():
-    from nivel.analysis.reference import solve
+    from nivel.analysis.compare.reference import solve
 
     record = oscillator().record
     grid = lay_out(record, Axes(steps=[0.02, 0.01]))

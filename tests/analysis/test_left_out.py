@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from nivel.analysis import preparation
-from nivel.analysis.redundancy import dependent_rows
-from nivel.kernels.saddle import LEFT_OUT, PIVOTED, RANK
+from nivel.analysis.assembly.redundancy import dependent_rows
+from nivel.analysis.run import preparation
+from nivel.kernels.solve.saddle import LEFT_OUT, PIVOTED, RANK
 from nivel.machine import Body, Joint, MachineRecord, SimulationSettings
 from preparing import prepare
 from running import run

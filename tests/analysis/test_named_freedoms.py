@@ -1,5 +1,9 @@
 """`nivel check` names every freedom, says what removes an idle one, and which joints an exactly constrained machine would have."""
 
+import re
+
+import pytest
+
 import nivel
 
 BODY = "{mass: 1, inertia: [1, 1, 1], position: [%s]}"
@@ -77,18 +81,31 @@ FOUR_BAR = {
 BARS = {"crank": "0, 0.5, 0", "coupler": "1.5, 1.5, 0", "rocker": "3, 1, 0"}
 
 
-def test_the_joints_proposed_for_a_four_bar_make_it_exactly_constrained(tmp_path):
-    facts = checked(tmp_path, BARS, {name: text.format("revolute") for name, text in FOUR_BAR.items()})
-    assert len(facts.redundant_rows) == 3
+@pytest.mark.parametrize("count", [1, 3])
+def test_the_joints_proposed_for_four_bars_make_them_exactly_constrained(tmp_path, count):
+    """Those of each loop are found by themselves: three loops have nine rows too many."""
+    bars, joints = several_four_bars(count)
+    facts = checked(tmp_path, bars, {name: text.format("revolute") for name, text in joints.items()})
+    assert len(facts.redundant_rows) == 3 * count
     proposed = dict(change.split() for change in facts.exact)
-    joints = {name: text.format(proposed.get(name, "revolute")) for name, text in FOUR_BAR.items()}
+    joints = {name: text.format(proposed.get(name, "revolute")) for name, text in joints.items()}
     joints = {
         name: text if "spherical" not in text else text.replace(", axis: [0, 0, 1]", "")
         for name, text in joints.items()
     }
-    after = checked(tmp_path, BARS, joints)
+    after = checked(tmp_path, bars, joints)
     assert after.redundant_rows == ()
-    assert after.degrees_of_freedom == facts.degrees_of_freedom == 1
+    assert after.degrees_of_freedom == facts.degrees_of_freedom == count
+
+
+def several_four_bars(count):
+    """Bodies and joints of some four-bars that share nothing but the ground."""
+    bars = {f"{name}{k}": at for k in range(count) for name, at in BARS.items()}
+    joints = {}
+    for k in range(count):
+        for name, text in FOUR_BAR.items():
+            joints[f"{name}{k}"] = re.sub("crank|coupler|rocker", lambda body, k=k: f"{body[0]}{k}", text)
+    return bars, joints
 
 
 def test_a_door_on_two_hinges_gets_a_ball_and_a_point_on_a_line(tmp_path):

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import nivel
-from nivel.analysis import posing
-from nivel.analysis.posing import Posing
-from nivel.analysis.turned_frame import cardan, nearest_angles, rates_of_angles
+from nivel.analysis.assembly.turned_frame import cardan, nearest_angles, rates_of_angles
+from nivel.analysis.interactive import posing
+from nivel.analysis.interactive.posing import Posing
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 OPEN = 1e-9

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.plan import plan_run
+from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
 from nivel.machine import Body, Contact, Driver, Friction, Joint, MachineRecord, Marker, SimulationSettings, Stop
 from nivel.machine.time_function import Expression, PythonLaw, Table

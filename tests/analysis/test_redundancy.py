@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import machines
+from nivel.analysis.assembly.redundancy import dependent_rows
 from preparing import prepare
 from running import run
 
@@ -59,3 +60,20 @@ def test_overconstrained_spatial_linkage_moves_and_keeps_its_energy(formulation)
     assert np.ptp(result.joint_coordinate[:, 0]) > 0.5
     assert np.abs(result.constraint_violation).max() < 1e-9
     assert np.abs(result.energy_error).max() < 1e-7 * result.kinetic_energy.max()
+
+
+@pytest.mark.parametrize(("rows", "columns"), [(30, 40), (40, 30), (12, 4)])
+def test_multipliers_without_effect_are_told_from_those_of_little_effect(rows, columns):
+    """Singular values of 1e-6 are none of redundant rows, those of 1e-11 are; by a matrix that is made of its singular values."""
+    rng = np.random.default_rng(rows)
+    rank = min(rows, columns)
+    sizes = np.ones(rank)
+    sizes[-1], sizes[-2] = 1e-11, 1e-6
+    left, _ = np.linalg.qr(rng.standard_normal((rows, rows)))
+    right, _ = np.linalg.qr(rng.standard_normal((columns, columns)))
+    J = left[:, :rank] @ np.diag(sizes) @ right[:, :rank].T
+    dependent, N = dependent_rows(J)
+    assert len(dependent) == N.shape[1] == rows - rank + 1
+    assert np.abs(N.T @ J).max() < 1e-9
+    assert np.abs(N.T @ N - np.eye(N.shape[1])).max() < 1e-12
+    assert np.linalg.matrix_rank(np.delete(J, dependent, axis=0), tol=1e-8) == rank - 1

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.assemble import assemble
-from nivel.analysis.equations import equations
+from nivel.analysis.assembly.assemble import assemble
+from nivel.analysis.assembly.equations import equations
 from nivel.errors import ModelError
 from nivel.machine import AssemblySettings, Body, Driver, Joint, MachineRecord, Marker
 from nivel.machine.time_function import Expression

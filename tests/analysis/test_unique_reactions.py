@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.analysis.unique_reactions import COMPONENTS
+from nivel.analysis.assembly.unique_reactions import COMPONENTS
 
 FOUR_BAR = Path(__file__).parents[2] / "examples" / "four-bar-revolutes.yaml"
 
@@ -48,3 +48,30 @@ def test_unique_components_are_those_of_the_exactly_constrained_machine(redundan
             np.testing.assert_allclose(
                 np.linalg.norm(force[:, :2], axis=1), np.linalg.norm(other[:, :2], axis=1), rtol=1e-6
             )
+
+
+def test_ranges_of_a_door_are_those_of_one_hinge_or_the_other():
+    """A door of weight W, its centre of mass b from hinges 2 a apart: one hinge alone carries W and W b, or both the couple W b/2a."""
+    weight, b, a = 100.0, 0.5, 1.0
+    door = nivel.Body(name="door", mass=weight / 10.0, inertia=(1, 2, 1), position=(b, 0, 0))
+    hinges = [
+        nivel.Joint(name=name, type="revolute", bodies=("ground", "door"), point=(0, 0, z), axis=(0, 0, 1))
+        for name, z in (("low", -a), ("high", a))
+    ]
+    machine = nivel.Machine("door", bodies=[door], joints=hinges, gravity=(0, 0, -10))
+    couple = weight * b / (2.0 * a)
+    for each, side in zip(machine.check().reactions, (-1.0, 1.0), strict=True):
+        x = (-couple, 0.0) if side < 0.0 else (0.0, couple)
+        assert each.others == ("force x", "force y", "force z", "moment x", "moment y")
+        wanted = [x, (0, 0), (-weight, 0), (0, 0), (0, weight * b)]
+        np.testing.assert_allclose(each.ranges, wanted, atol=1e-9)
+    # what a run shows lies between
+    run = machine.simulate(duration=0.01, coordinates="absolute")
+    shown = run.array("joint_force_local")[0]
+    assert np.all(np.abs(shown[:, 2] + 0.5 * weight) <= 0.5 * weight)
+    assert "force z (-100 to 0 N)" in str(machine.check())
+
+
+def test_a_planar_loop_carries_nothing_out_of_its_plane_without_preload(redundant):
+    for each in redundant.check().reactions:
+        np.testing.assert_allclose(each.ranges, np.zeros((3, 2)), atol=1e-9)

@@ -3,7 +3,7 @@
 import pytest
 
 import machines
-from nivel.analysis.unknowns import unknown_name
+from nivel.analysis.assembly.unknowns import unknown_name
 from nivel.machine import Friction
 from preparing import prepare
 from running import run

@@ -13,7 +13,7 @@ import pytest
 
 import nivel
 from nivel.demos.catalogue import demo_file
-from nivel.results.csv_table import columns
+from nivel.results.frames.csv_table import columns
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 CASES = {

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from nivel.cli import main
-from nivel.results.comparison import Comparison
+from nivel.results.comparison.comparison import Comparison
 
 PENDULUM = """\
 format: 1
@@ -26,7 +26,7 @@ simulation: {duration: 0.5, step: 5 ms}
 BURST = 'forces:\n  burst: {type: torque, body: bar, vector: [0, 0, "log(0.2 - time)"]}\n'
 # `nivel` that writes a letter for every run it makes
 TELLING = """
-from nivel.analysis import compare
+from nivel.analysis.compare import compare
 from nivel.cli import main
 
 run = compare.run_in_memory

@@ -61,8 +61,8 @@ FREE = ("name", "sensors.sum.units")  # texts in which anything may stand
 
 
 def examples(count):
-    """So many examples, or of the default tests a third."""
-    return settings(max_examples=count if ALL_EXAMPLES else count // 3)
+    """So many examples, or of the default tests a sixth."""
+    return settings(max_examples=count if ALL_EXAMPLES else count // 6)
 
 
 @pytest.fixture(scope="module")
@@ -197,13 +197,14 @@ LEAVES_OF_PART = [
 VARIED = [*LEAVES, *LEAVES_OF_PART]
 
 
-def test_no_misspelt_key_is_passed_over(full):
+@parts(3)
+def test_no_misspelt_key_is_passed_over(full, part):
     def misspell(container, key):
         container[f"{key}x"] = container.pop(key)
 
     keys = [path for path in TREE.keys if not (len(path) == 2 and path[0] in NAMED)]
     assert len(keys) > 200
-    assert not [path for path in keys if not refused(full, spoilt(path, misspell))]
+    assert not [path for path in keys[part::3] if not refused(full, spoilt(path, misspell))]
 
 
 ANY_QUANTITY = (
@@ -231,14 +232,16 @@ def changed(value):
     return f"{value}x" if isinstance(value, str) else 1
 
 
-def test_no_value_is_without_effect(full):
+@parts(3)
+def test_no_value_is_without_effect(full, part):
     machine = full()
     assert len(VARIED) > 300
     idle = []
-    for name, _, value in VARIED:
+    for name, _, value in VARIED[part::3]:
         try:
             if full(overrides={name: changed(value)}) == machine:
                 idle.append(name)
         except ModelError:
             pass
-    assert idle == ["assemblies.right.orientation.axis.2"]
+    same_direction = {"assemblies.right.orientation.axis.2"}
+    assert set(idle) == same_direction & {name for name, _, _ in VARIED[part::3]}

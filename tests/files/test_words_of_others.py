@@ -91,6 +91,63 @@ def test_a_typical_mistake_is_answered_with_what_to_write(name):
     assert any(fault.line == line and answer in fault.message for fault in caught.value.faults), str(caught.value)
 
 
+CIRCUIT = """\
+format: 1
+bodies: {ram: {mass: 3, inertia: [1, 1, 1]}}
+joints: {guide: {type: translational, bodies: [ground, ram], point: [0, 0, 0], axis: [0, 0, 1]}}
+fluids: {oil: {type: %s}}
+hydraulics: {part: {type: %s}}
+control: {block: {type: %s}, other: {type: gain, gain: 2, %s}}
+inputs: {lever: {%s}}
+sensors: {seen: {%s}}
+simulation: {%s}
+"""
+# words of other programs in these places, and the answers
+ELSEWHERE = [
+    ("isothermal_liquid", RATHER.format("liquid")),
+    ("double_acting_cylinder", RATHER.format("cylinder")),
+    ("saturation", RATHER.format("limit")),
+    ("u: guide.displacement", RATHER.format("input")),
+    ("min: -1", "write `range: [MIN, MAX]`"),
+    ("type: accelerometer", "a sensor is said by what it measures"),
+    ("tspan: 3", "write `duration: 5 s`"),
+]
+
+
+def test_words_of_others_are_answered_in_every_section():
+    with pytest.raises(ModelError) as caught:
+        parse_machine(CIRCUIT % tuple(word for word, _ in ELSEWHERE), "machine.yaml")
+    for word, answer in ELSEWHERE:
+        name = word.partition(":")[0]
+        assert any(f"`{name}`" in fault.message and answer in fault.message for fault in caught.value.faults), word
+
+
+@pytest.mark.parametrize(
+    ("word", "kind"),
+    [
+        ("4/3", "directional-valve"),
+        ("pressure_relief_valve", "relief-valve"),
+        ("fixed displacement pump", "pump"),
+        ("throttle", "orifice"),
+        ("reservoir", "tank"),
+        ("non return valve", "check-valve"),
+    ],
+)
+def test_components_of_hydraulics_are_known_by_their_other_names(word, kind):
+    kinds = [
+        "volume",
+        "tank",
+        "orifice",
+        "pipe",
+        "check-valve",
+        "relief-valve",
+        "directional-valve",
+        "pump",
+        "cylinder",
+    ]
+    assert translated(word, kinds) == RATHER.format(kind)
+
+
 def test_the_machine_that_is_spoilt_here_is_right():
     assert parse_machine(BASE, "machine.yaml").name == "machine"
 

@@ -11,7 +11,7 @@ def observed(motion, t, y):
     """Status, frame, and copies of what the record has of bodies and modes."""
     status, _ = motion.evaluate(t, y)
     frame = np.zeros(motion.system.layout.width)
-    import_module("nivel.kernels.observe").observe(motion.handle.address, t, y, frame)
+    import_module("nivel.kernels.output.observe").observe(motion.handle.address, t, y, frame)
     record = motion.system.record
     frames, own, count = record.frames, record.flexible, len(record.bodies.mass)
     parts = {name: getattr(frames, name)[:count].copy() for name in ("R", "theta", "Rdot", "Rddot")}

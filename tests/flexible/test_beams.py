@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from nivel.flexible.beam import Beam, end_stress, geometric_stiffness, mass_matrix, mass_points, stiffness
-from nivel.machine.section import Box, Circle, IBeam, Material, Rectangle, Tube, Values
-from nivel.machine.section_properties import section_of
+from nivel.machine.beams.section import Box, Circle, IBeam, Material, Rectangle, Tube, Values
+from nivel.machine.beams.section_properties import section_of
 
 STEEL = Material(youngs_modulus=210e9, poisson_ratio=0.3, density=7850.0)
 RECTANGLE = section_of(Rectangle(width=0.04, height=0.06), 0.3)

@@ -9,8 +9,8 @@ from models import STEEL, bar, block, needs, reduced
 from nivel.errors import ModelError
 from nivel.flexible.beam import Beam, mass_matrix, stiffness
 from nivel.flexible.model_file import parse_model
-from nivel.machine.section import Material, Rectangle
-from nivel.machine.section_properties import section_of
+from nivel.machine.beams.section import Material, Rectangle
+from nivel.machine.beams.section_properties import section_of
 
 
 def faults_of(text, folder="."):

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from models import bar, reduced
-from nivel.analysis.implicit import evaluate_residual, find_tangent
+from nivel.analysis.assembly.implicit import evaluate_residual, find_tangent
 from nivel.errors import ModelError
 from nivel.flexible import reference
 from nivel.flexible.body_file import write_body

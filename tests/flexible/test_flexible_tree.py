@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import simulating
-from nivel.analysis.choice import choose_coordinates
-from nivel.analysis.implicit import evaluate_residual
-from nivel.analysis.plan import plan_run
-from nivel.analysis.simulate import simulate
+from nivel.analysis.assembly.implicit import evaluate_residual
+from nivel.analysis.plan.choice import choose_coordinates
+from nivel.analysis.plan.plan import plan_run
+from nivel.analysis.run.simulate import simulate
 from nivel.analysis.statics.newton import Iteration
 from nivel.analysis.statics.run import prepare_statics
 from nivel.analysis.statics.search import settle

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 import gradient_beams
 import simulating
 from mixed_machines import mixed, sprung
-from nivel.kernels.record import TANGENT
+from nivel.kernels.record.record import TANGENT
 from observing import assert_same_frame, observed, of_absolute
 from preparing import prepare
 from test_rails import KINDS

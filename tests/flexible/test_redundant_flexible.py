@@ -5,8 +5,8 @@ import pytest
 from scipy.linalg import block_diag
 
 from models import bar, reduced
-from nivel.analysis.mobility import mobility
-from nivel.analysis.modal_rows import modal_rows
+from nivel.analysis.assembly.mobility import mobility
+from nivel.analysis.assembly.modal_rows import modal_rows
 from nivel.errors import ModelError
 from nivel.flexible import reference
 from nivel.flexible.body_file import write_body

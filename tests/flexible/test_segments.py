@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from beams import flying, general
 from checking import check
-from nivel.analysis.beam_facts import beam_facts
+from nivel.analysis.plan.beam_facts import beam_facts
 from nivel.errors import ModelError
 from nivel.machine import Beam
 from nivel.system.beam_elements import skew

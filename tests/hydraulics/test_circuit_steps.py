@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from hydraulic_zoo import machine_whose_commands_wait
-from nivel.analysis.dynamics import start_loop
-from nivel.analysis.implicit import ResidualOptions, find_tangent, with_residual
-from nivel.analysis.plan import plan_run
-from nivel.analysis.preparation import prepare
-from nivel.integrate.run import BUDGET
-from nivel.kernels.record import NONE
-from nivel.kernels.status import BUDGET_SPENT, OK
+from nivel.analysis.assembly.implicit import ResidualOptions, find_tangent, with_residual
+from nivel.analysis.plan.plan import plan_run
+from nivel.analysis.run.dynamics import start_loop
+from nivel.analysis.run.preparation import prepare
+from nivel.integrate.loop.run import BUDGET
+from nivel.kernels.core.status import BUDGET_SPENT, OK
+from nivel.kernels.record.record import NONE
 from simulating import hinge, machine, solid
 
 FAST = {"integrator": "extrapolated-euler", "coordinates": "relative"}

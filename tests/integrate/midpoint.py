@@ -1,7 +1,7 @@
 """The integrator of docs/extending.md, "An integrator"."""
 
-from nivel.integrate.run import EVALUATIONS, STEP, STEP_SIGNATURE, TIME, run_at
-from nivel.kernels.hook import call_evaluate
+from nivel.integrate.loop.run import EVALUATIONS, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.kernels.record.hook import call_evaluate
 from nivel.native.entry import entry
 
 

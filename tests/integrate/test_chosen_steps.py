@@ -14,7 +14,7 @@ NEWTON = {"corrector": {"iteration": "newton"}}
 
 @CHOOSING
 def test_result_is_bit_identical_for_every_chunk_and_buffer(integrator, monkeypatch):
-    from nivel.analysis import history
+    from nivel.analysis.run import history
 
     settings = {"duration": 0.5, "integrator": integrator, "tolerance": 1e-5, "output_interval": 7e-3}
     whole = run(machines.slider_crank(), chunk_steps=10_000, **settings)

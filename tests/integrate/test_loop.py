@@ -19,7 +19,7 @@ def test_result_is_bit_identical_for_every_chunk_length(formulation, stabilisati
 
 
 def test_full_output_buffers_lose_nothing(monkeypatch):
-    from nivel.analysis import history
+    from nivel.analysis.run import history
 
     whole = run(machines.slider_crank(), duration=0.1, step=1e-3, output_interval=1e-3)
     monkeypatch.setattr(history, "BUFFER_BYTES", 1)

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.analysis.history import start_history
-from nivel.analysis.settings import complete
+from nivel.analysis.plan.settings import complete
+from nivel.analysis.run.history import start_history
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.integrate.multistep import remember
-from nivel.integrate.run import RESTART, STEP
-from nivel.integrate.workspace import SHARE
-from nivel.kernels.handle import Handle
+from nivel.integrate.loop.run import RESTART, STEP
+from nivel.integrate.loop.workspace import SHARE
+from nivel.integrate.multistep.multistep import remember
+from nivel.kernels.core.handle import Handle
 from nivel.machine import Body, Joint, MachineRecord, SpringDamper
 from preparing import prepare
 from references import stick_slip

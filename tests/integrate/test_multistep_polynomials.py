@@ -5,7 +5,7 @@ from math import factorial
 import numpy as np
 import pytest
 
-from nivel.integrate.multistep_polynomials import ADAMS, BDF, correction, monic
+from nivel.integrate.variable_order.multistep_polynomials import ADAMS, BDF, correction, monic
 
 P = np.polynomial.polynomial
 # Hairer, Nørsett, Wanner 1993, table III.1.2 and eq. III.2.7: rate at the new time of Adams–Moulton, its error constants

@@ -5,9 +5,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from nivel.integrate.adams_weights import BASHFORTH, MOULTON
-from nivel.integrate.diagonal import GAMMA, MATRIX, NODES
-from nivel.integrate.gear import BACKWARD, EXTRAPOLATED, RATE_WEIGHT
+from nivel.integrate.multistep.adams_weights import BASHFORTH, MOULTON
+from nivel.integrate.multistep.diagonal import GAMMA, MATRIX, NODES
+from nivel.integrate.multistep.gear import BACKWARD, EXTRAPOLATED, RATE_WEIGHT
 
 
 def product(p, q):

@@ -7,8 +7,8 @@ from itertools import combinations_with_replacement
 import numpy as np
 import pytest
 
-from nivel.integrate import dop853_coefficients as eight
-from nivel.integrate import dormand_prince as five
+from nivel.integrate.explicit import dop853_coefficients as eight
+from nivel.integrate.explicit import dormand_prince as five
 
 
 @cache

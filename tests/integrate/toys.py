@@ -5,12 +5,12 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from nivel.analysis.equations import equations
-from nivel.integrate import run as names
+from nivel.analysis.assembly.equations import equations
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.kernels.handle import Handle
-from nivel.kernels.record import EVALUATE
-from nivel.kernels.status import OK
+from nivel.integrate.loop import run as names
+from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.record import EVALUATE
 from nivel.machine import Body, MachineRecord
 from nivel.native.entry import entry
 
@@ -108,7 +108,7 @@ def march(integrator, evaluate, start, end, *, tolerance=1e-6, step=1e-2, fixed=
 
 
 def between(inside, theta):
-    """The state at the share θ of a step, from its dense output: `nivel.integrate.dense`."""
+    """The state at the share θ of a step, from its dense output: `nivel.integrate.loop.dense`."""
     previous, rows, powers = inside
     value = np.zeros_like(previous)
     for k in reversed(range(len(rows))):

@@ -96,7 +96,7 @@ def install():
     Signature.function_at = lambda _, address: FUNCTIONS[int(address)]
     library.missing = lambda _: []
     library.address_of_law = lambda text, _: address_of(noted(law_of(text, "<law>")))
-    from nivel.kernels import handle
+    from nivel.kernels.core import handle
 
     handles = WeakValueDictionary()
     make = handle.Handle.__init__

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numba.core.errors import NumbaError
 
-from nivel.analysis.compilation import all_entries
+from nivel.analysis.plan.compilation import all_entries
 from nivel.native.function import OPTIONS, leaf
 
 

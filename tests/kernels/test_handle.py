@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from nivel.kernels.arrays import A1, F1, F2, F3, I1, U1, U2
-from nivel.kernels.handle import Handle, reader
+from nivel.kernels.core.arrays import A1, F1, F2, F3, I1, U1, U2
+from nivel.kernels.core.handle import Handle, reader
 from nivel.native.function import leaf
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nivel.kernels.lu import factorise_lu, solve_lu
+from nivel.kernels.algebra.lu import factorise_lu, solve_lu
 
 
 def solved(matrix, b):

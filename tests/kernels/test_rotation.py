@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from nivel.kernels.rotation import angular_velocity, rates_of_parameters, rotation_matrix, transformation
+from nivel.kernels.algebra.rotation import angular_velocity, rates_of_parameters, rotation_matrix, transformation
 
 number = st.floats(-2, 2)
 parameters = st.tuples(number, number, number, number).filter(lambda e: np.linalg.norm(e) > 0.1).map(np.array)

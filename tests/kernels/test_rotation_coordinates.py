@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from nivel.kernels import euler_angles, rotation_vector
-from nivel.kernels.rotation import product, rotation_matrix
-from nivel.kernels.rotation_vector import coefficients
-from nivel.kernels.spatial import solve
+from nivel.kernels.algebra import euler_angles, rotation_vector
+from nivel.kernels.algebra.rotation import product, rotation_matrix
+from nivel.kernels.algebra.rotation_vector import coefficients
+from nivel.kernels.algebra.spatial import solve
 
 pytestmark = pytest.mark.compiles
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from nivel.kernels.dense import factorise_pivoted, gather, solve_pivoted
-from nivel.kernels.record import Saddle
-from nivel.kernels.sparse import DEPENDENT, factorise, solve
-from nivel.system.elimination import plan
+from nivel.kernels.algebra.dense import factorise_pivoted, gather, solve_pivoted
+from nivel.kernels.algebra.sparse import DEPENDENT, factorise, solve
+from nivel.kernels.record.record import Saddle
+from nivel.system.elimination.elimination import plan
 
 pytestmark = pytest.mark.compiles
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from numba import njit, types
 
-from nivel.kernels.sparse_lu import SparseLU, factorise_sparse_lu, solve_sparse_lu
+from nivel.kernels.algebra.sparse_lu import SparseLU, factorise_sparse_lu, solve_sparse_lu
 from nivel.native.function import OPTIONS
 from nivel.native.with_numba.kinds import record_type
-from nivel.system.factor_plan import plan_factor
+from nivel.system.elimination.factor_plan import plan_factor
 from saddle_points import chain, entries, linkage, matrix, random_linkage, ring, solved, sparse, star
 
 pytestmark = pytest.mark.compiles

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numba import njit
 
-from nivel.kernels.trigonometry import cosine_and_sine
+from nivel.kernels.algebra.trigonometry import cosine_and_sine
 
 ULP = 2.0**-53
 

@@ -141,9 +141,41 @@ def test_bad_options_are_explained(crank, given, said):
         crank.inverse(**given)
 
 
-def test_friction_is_refused():
-    with pytest.raises(nivel.ModelError, match="depend on the efforts"):
-        nivel.load(f"{EXAMPLES}/friction-brake.yaml").inverse()
+def rubbing(value="0.3*sin(4*time)"):
+    """A block of 2 kg on a rail at 30 degrees, rubbed with μ = 0.2, and a motor of its own that must not act besides."""
+    slope = np.radians(30.0)
+    along = (np.cos(slope), np.sin(slope), 0.0)
+    block = nivel.Body(name="block", mass=2.0, inertia=(0.1, 0.1, 0.1))
+    rail = nivel.Joint(name="rail", type="translational", bodies=("ground", "block"), point=(0, 0, 0), axis=along)
+    forces = [
+        nivel.Friction(name="sole", coordinate="rail", model="coulomb", coefficient=0.2, transition_speed=1e-3),
+        nivel.Motor(name="pull", coordinate="rail", effort=1000.0),
+    ]
+    driver = nivel.Driver(name="way", coordinate="rail", value=value)
+    machine = {"joints": [rail], "forces": forces, "drivers": [driver], "gravity": (0, -9.81, 0)}
+    return nivel.Machine("rubbing", bodies=[block], simulation={"duration": 1.5}, **machine)
+
+
+def test_friction_is_overcome_by_the_efforts():
+    """m s̈ + m g sin 30° + μ m g cos 30° tanh(ṡ/v)."""
+    found = rubbing().inverse(positions=61)
+    t = found.time
+    rate, slope = 1.2 * np.cos(4 * t), np.radians(30.0)
+    weight = 2.0 * 9.81
+    wanted = -2.0 * 4.8 * np.sin(4 * t) + weight * np.sin(slope)
+    wanted += 0.2 * weight * np.cos(slope) * np.tanh(rate / 1e-3)
+    np.testing.assert_allclose(found.effort[:, 0], wanted, rtol=1e-9)
+    np.testing.assert_allclose(found.rate[:, 0], rate, atol=1e-12)
+    assert found.actuators == ("pull",)
+    assert found.complete
+    assert found.unique
+
+
+def test_friction_is_refused_where_its_load_is_not_known():
+    with pytest.raises(nivel.ModelError, match=r"depend on the efforts.*with a recorded motion they are not found"):
+        rubbing().inverse(motion=rubbing().kinematics(positions=5))
+    with pytest.raises(nivel.ModelError, match="with limits they are not found"):
+        rubbing().inverse(limits={"pull": "5 N"})
 
 
 # --- matrices ---
@@ -224,3 +256,43 @@ def test_positions_that_cannot_be_closed_are_told(crank):
         mechanics.mass_matrix([0.0])
     with pytest.raises(nivel.ModelError, match="no marker or body `sliderr`"):
         mechanics.jacobian("sliderr")
+
+
+# --- whole turns ---
+
+
+def wound(sign):
+    """A bar on a hinge with springs of 2 and 5 N m/rad: on the coordinate, slack at 1 rad, and between two markers; in its second turn."""
+    bodies = ("ground", "bar") if sign > 0 else ("bar", "ground")
+    bar = nivel.Body(name="bar", mass=2.0, inertia=(0.1, 0.1, 0.1))
+    hinge = nivel.Joint(
+        name="hinge", type="revolute", bodies=bodies, point=(0, 0, 0), axis=(0, 0, 1), start={"angle": "370 deg"}
+    )
+    base = nivel.Marker(name="base", body=bodies[0], axis=(0, 0, 1))
+    end = nivel.Marker(name="end", body=bodies[1], axis=(0, 0, 1))
+    springs = [
+        nivel.JointSpringDamper(name="coil", coordinate="hinge", stiffness=2.0, free_value=1.0),
+        nivel.TorsionalSpringDamper(name="band", markers=("base", "end"), stiffness=5.0),
+    ]
+    return nivel.Machine(
+        "wound", bodies=[bar], joints=[hinge], markers=[base, end], forces=springs[: 2 if sign > 0 else 1]
+    )
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_bias_counts_whole_turns(sign):
+    mechanics = wound(sign).mechanics()
+    np.testing.assert_allclose(mechanics.start, [np.radians(370)], rtol=1e-12)
+    if sign < 0:
+        for angle in (*mechanics.start, 0.3, 4.0, -9.0):
+            np.testing.assert_allclose(mechanics.bias([angle]), [2.0 * (angle - 1.0)], rtol=1e-11, atol=1e-11)
+
+
+def test_efforts_count_whole_turns():
+    machine = wound(1)
+    motion = machine.kinematics(drive="hinge", start="1 rev", end="-2 rev", positions=61)
+    found = machine.inverse(actuators="hinge", motion=motion)
+    angle = motion["hinge.angle"].to_numpy()
+    near = 5.0 * (angle - 2.0 * np.pi)  # the band is slack as the machine is placed, in the turn of the file
+    assert np.ptp(found.effort[:, 0] - 2.0 * (angle - 1.0) - near) < 1e-9
+    np.testing.assert_allclose(found.effort[:, 0], motion["driver.drive.effort"], atol=1e-10)

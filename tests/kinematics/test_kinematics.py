@@ -5,6 +5,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import nivel
+from nivel.results.analyses.mechanism import joint_place
 from references import four_bar, one_dof, slider_crank
 
 EXAMPLES = "examples"
@@ -93,6 +94,16 @@ def test_a_run_has_the_multipliers_of_kinematics():
 FOUR_BAR = (0.08, np.hypot(0.23, 0.105), np.hypot(0.03, 0.185), 0.26)  # crank, coupler, rocker, ground of the example
 
 
+def test_the_transmission_angle_of_a_slider_is_that_against_the_normal_of_its_slide():
+    """sin μ = x/l, x the part of the rod of length l along the slide; joints in one place have no line."""
+    result = nivel.load(f"{EXAMPLES}/slider-crank.yaml").kinematics(drive="hinge", positions=31)
+    rod = result.array("slider.position") - joint_place(result, "pin")
+    wanted = np.arcsin(np.abs(rod[:, 0]) / np.linalg.norm(rod, axis=1))
+    np.testing.assert_allclose(result.transmission_angle("pin", "wrist", "slide"), wanted, atol=1e-7)
+    with pytest.raises(nivel.ModelError, match="in one place"):
+        result.transmission_angle("slide", "wrist", "pin")
+
+
 def test_a_rocker_goes_as_far_as_crank_and_coupler_are_in_line():
     """Dead centres of a crank-rocker: the pin is at a + b and at b - a from the crank's pivot."""
     machine = nivel.load(f"{EXAMPLES}/four-bar-revolutes.yaml")
@@ -105,6 +116,7 @@ def test_a_rocker_goes_as_far_as_crank_and_coupler_are_in_line():
     np.testing.assert_allclose([found.low, found.high], lows, atol=1e-6)
     assert not found.full_turn
     assert "drive is held by" in found.low_reason
+    assert f"rocker_pivot.angle is {found.low:.6g} rad" in found.low_reason
 
 
 def test_a_crank_that_can_turns_right_round():
@@ -121,6 +133,7 @@ def test_a_locked_machine_keeps_its_positions_and_says_what_holds_it():
     assert len(result.time) > 10
     assert result.trust.verdict == "red"
     assert np.abs(result.array("constraint_violation")).max() < 1e-12
+    assert not any("is passed" in item.text for item in result.trust.items)  # it ends in the singular position
 
 
 def test_the_transmission_angle_is_that_of_the_cosine_law():

@@ -5,7 +5,7 @@ import pytest
 from test_linearise import C_ROTOR, GRAVITY, gyroscope, nutation_and_precession
 
 import nivel
-from nivel.results.linear_sweep import LinearSweep
+from nivel.results.analyses.linear_sweep import LinearSweep
 
 INERTIA, MOMENT = 1.7, 2.0 * GRAVITY
 

@@ -152,10 +152,11 @@ def test_the_angle_and_speed_of_a_rotor_are_structural_zeros():
 
 
 def test_turns_about_the_axes_of_a_spinning_body_are_not_taken_for_constant_coefficients():
-    """An unsymmetrical rotor in body axes: A(t) turns with it."""
+    """An unsymmetrical rotor on an unsymmetrical arm has constant coefficients neither in its axes nor in those of the ground."""
     machine = gyroscope()
-    rotor = machine.record.bodies[1].replace(inertia=(0.1, 0.15, 0.2))
-    machine = nivel.Machine.from_record(machine.record.replace(bodies=(machine.record.bodies[0], rotor)))
+    arm, rotor = machine.record.bodies
+    bodies = (arm.replace(inertia=(0.1, 0.4, 0.4)), rotor.replace(inertia=(0.1, 0.15, 0.2)))
+    machine = nivel.Machine.from_record(machine.record.replace(bodies=bodies))
     for coordinates in ("absolute", "relative"):
         model = machine.linearise(coordinates=coordinates)
         assert not model.steady

@@ -5,7 +5,7 @@ import pytest
 
 import cart
 from nivel.files.reader import parse_machine
-from nivel.integrate.paced import BIN_WIDTH, BINS, COMPUTING, FIRST_BIN, LONGEST, count_into
+from nivel.integrate.loop.paced import BIN_WIDTH, BINS, COMPUTING, FIRST_BIN, LONGEST, count_into
 from nivel.live.budget import costs, swept
 from nivel.live.shared import Sizes, bytes_of, live_in
 from nivel.live.timing import PERCENTS, in_a_sentence, timing_of

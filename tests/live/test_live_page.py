@@ -11,7 +11,7 @@ import cart
 import nivel
 from browsing import chromium, served, until, watched
 from nivel.demos.catalogue import demo_file
-from nivel.integrate.paced import DONE
+from nivel.integrate.loop.paced import DONE
 from nivel.live.opening import session_of
 from nivel.live.recording import Recording
 from nivel.live.replay import replay

@@ -14,7 +14,7 @@ import pytest
 import cart
 from browsing import served
 from nivel.errors import ModelError
-from nivel.integrate.paced import BIN_WIDTH, BINS, COMPUTING, DONE
+from nivel.integrate.loop.paced import BIN_WIDTH, BINS, COMPUTING, DONE
 from nivel.live.datagrams import Counts, Datagrams, packed_inputs, place_of
 from nivel.live.source import LiveSource
 from nivel.view.records import FRAME

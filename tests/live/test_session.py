@@ -15,7 +15,7 @@ from nivel.api import Machine
 from nivel.cli.replay import command
 from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine
-from nivel.integrate.paced import DONE, SAVED
+from nivel.integrate.loop.paced import DONE, SAVED
 from nivel.live.hand import grip
 from nivel.live.opening import session_of
 from nivel.live.preparation import live_plan, pace_of

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nivel.machine.arithmetic import (
+from nivel.machine.units.arithmetic import (
     FUNCTIONS,
     ExpressionError,
     Number,
@@ -20,7 +20,7 @@ from nivel.machine.arithmetic import (
     signals,
     varies,
 )
-from nivel.machine.grammar import parse
+from nivel.machine.units.grammar import parse
 
 PYTHON = {
     "__builtins__": {},

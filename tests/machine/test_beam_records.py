@@ -7,7 +7,7 @@ import pytest
 from refusals import refused
 
 from nivel.machine import Beam
-from nivel.machine.beam import _divided
+from nivel.machine.beams.beam import _divided
 
 STEEL = {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850.0}
 ROUND = {"type": "circle", "radius": 0.01}

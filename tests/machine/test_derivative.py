@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from nivel.machine import Expression
-from nivel.machine.arithmetic import (
+from nivel.machine.units.arithmetic import (
     Call,
     ExpressionError,
     Name,
@@ -22,8 +22,8 @@ from nivel.machine.arithmetic import (
     fold,
     render,
 )
-from nivel.machine.derivative import derivative
-from nivel.machine.grammar import parse
+from nivel.machine.units.derivative import derivative
+from nivel.machine.units.grammar import parse
 
 SMOOTH = ["sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "exp", "log"]
 COMPLEX = {"__builtins__": {}, **{name: getattr(cmath, name) for name in SMOOTH}}

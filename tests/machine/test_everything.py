@@ -16,7 +16,7 @@ from nivel.machine.hydraulics import COMPONENTS
 from nivel.machine.index import SECTIONS
 
 MACHINE = MachineRecord(**EVERYTHING)
-PARTS = 8
+PARTS = 16
 GARBAGE = (
     None,
     True,
@@ -94,10 +94,10 @@ def test_garbage_anywhere_gives_a_machine_or_faults(section, part):
                 assert error.faults, (path, garbage)  # noqa: PT017
 
 
-@parts(3)
+@parts(6)
 @pytest.mark.parametrize("section", SECTIONS)
 def test_what_is_missing_gives_a_machine_or_faults(section, part):
-    for path in list(places(EVERYTHING[section], (section,)))[part::3]:
+    for path in list(places(EVERYTHING[section], (section,)))[part::6]:
         data = deepcopy(EVERYTHING)
         container = data
         for step in path[:-1]:

@@ -7,9 +7,9 @@ from everything import EVERYTHING
 
 from nivel.machine import MachineRecord
 from nivel.machine.control.block import Block
-from nivel.machine.expression import Expression
 from nivel.machine.functions import functions_of
 from nivel.machine.record import Record
+from nivel.machine.units.expression import Expression
 
 MACHINE = MachineRecord(**EVERYTHING)
 MARK, OTHER = Expression("sin(3*time)"), Expression("cos(2*time)")

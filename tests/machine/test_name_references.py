@@ -165,15 +165,15 @@ def test_the_machine_of_these_tests_is_right():
         ),
         (
             {"forces": ({**CONTACT, "body": "plain", "plane": "base"},)},
-            "forces.c.body: the body `plain` has no shape; a contact here needs a sphere, box or cylinder",
+            "forces.c.body: the body `plain` has no shape; a contact here needs a sphere, box, cylinder, extrusion or mesh",
         ),
         (
             {"forces": ({**CONTACT, "body": "pipe", "plane": "base"},)},
-            "forces.c.body: the body `pipe` is a tube; a contact here needs a sphere, box or cylinder",
+            "forces.c.body: the shape of `pipe` is `tube`; a contact here needs a sphere, box, cylinder, extrusion or mesh",
         ),
         (
             {"forces": ({**CONTACT, "bodies": ("rod", "slab")},)},
-            "forces.c.bodies.1: the body `slab` is a box; a contact here needs a sphere",
+            "forces.c.bodies.1: the shape of `slab` is `box`; a contact here needs a sphere",
         ),
         ({"forces": ({**CONTACT, "body": "rod", "plane": "tip"},)}, "forces.c.plane: the plane is on `rod` itself"),
         ({"forces": ({**CONTACT, "body": "rod", "plane": "flor"},)}, "forces.c.plane: there is no marker `flor`"),
@@ -188,7 +188,7 @@ def test_the_machine_of_these_tests_is_right():
                     },
                 )
             },
-            "forces.c.materials: `materials` give the stiffness of spheres (Hertz); `slab` is a box: give its `stiffness`",
+            "forces.c.materials: `materials` give the stiffness of spheres (Hertz); the shape of `slab` is `box`: give its `stiffness`",
         ),
         (
             {"sensors": ({"name": "s", "marker": "tap", "quantity": "position"},)},

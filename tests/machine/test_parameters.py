@@ -2,9 +2,9 @@
 
 import pytest
 
-from nivel.machine.arithmetic import Number
-from nivel.machine.dimension import dimension
 from nivel.machine.parameters import resolve
+from nivel.machine.units.arithmetic import Number
+from nivel.machine.units.dimension import dimension
 
 
 def test_order_does_not_matter():

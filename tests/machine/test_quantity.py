@@ -7,10 +7,10 @@ import sys
 import numpy as np
 import pytest
 
-from nivel.machine.arithmetic import ExpressionError, Number
-from nivel.machine.dimension import KINDS, dimension, symbol
-from nivel.machine.quantity import read_quantity
-from nivel.machine.unit import UNITS, _ask_pint, unit
+from nivel.machine.units.arithmetic import ExpressionError, Number
+from nivel.machine.units.dimension import KINDS, dimension, symbol
+from nivel.machine.units.quantity import read_quantity
+from nivel.machine.units.unit import UNITS, _ask_pint, unit
 
 
 @pytest.mark.parametrize("name", [name for name in UNITS if name not in ("°", "rev", "Nm", "kNm")])

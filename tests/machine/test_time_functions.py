@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from nivel.errors import ModelError
-from nivel.machine.arithmetic import ExpressionError, Number
 from nivel.machine.record import Record
 from nivel.machine.time_function import (
     Expression,
@@ -25,6 +24,7 @@ from nivel.machine.time_function import (
     signals_of,
     varying,
 )
+from nivel.machine.units.arithmetic import ExpressionError, Number
 
 AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]
 LengthMotion = Annotated[TimeFunction, varying("length", smooth=True)]
@@ -136,7 +136,7 @@ def test_where_nothing_varies_symbols_are_refused():
         length: Annotated[TimeFunction, varying("length")] = 0.0
 
     assert Plain(length="2 cm").length == 0.02
-    from nivel.machine.quantity import read_quantity
+    from nivel.machine.units.quantity import read_quantity
 
     for text, part in [
         (

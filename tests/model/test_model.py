@@ -100,6 +100,16 @@ def test_elements_are_replaced_added_and_taken_away(crank):
     assert crank.replace(crank["rod"].replace(mass=3))["rod.mass"] == 3
 
 
+def test_assigning_is_refused_with_the_line_to_write(crank):
+    body = next(iter(crank.bodies))
+    with pytest.raises(ModelError, match=rf"machine\.with_values\(\{{'{body}\.mass': 3\}}\)"):
+        crank.bodies[body].mass = 3
+    with pytest.raises(ModelError, match=r"machine = machine\.replace\(gravity=…\)"):
+        crank.gravity = (0, 0, 0)
+    with pytest.raises(AttributeError, match=r"write \['rod'\]"):
+        _ = crank.bodies.rod
+
+
 def test_a_part_written_in_python_is_placed_like_that_of_a_file(walker, tmp_path):
     leg = nivel.load(tmp_path / "leg.yaml")
     alone = nivel.Machine("trunk", bodies=[walker["trunk"]])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nivel
-from nivel.analysis.stepping import Snapshot
+from nivel.analysis.run.stepping import Snapshot
 from nivel.errors import ModelError, SolveError
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

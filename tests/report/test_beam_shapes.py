@@ -5,12 +5,12 @@ import re
 
 import numpy as np
 
-from nivel.integrate.sink import Header
+from nivel.integrate.loop.sink import Header
 from nivel.report.beam_shapes import SHAPES, beam_shapes
 from nivel.report.panels import panels
 from nivel.report.story import facts
 from nivel.results import Memory
-from nivel.results.beam_nodes import beam_nodes, stations
+from nivel.results.beams.beam_nodes import beam_nodes, stations
 from nivel.system.layout import frame_layout
 from synthetic_run import header
 

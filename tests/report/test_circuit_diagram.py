@@ -9,10 +9,10 @@ import pytest
 
 import nivel
 from nivel.files import parse_machine
+from nivel.looks.circuit.drawing import circuit_diagram, laid_out
+from nivel.looks.circuit.parts import circuit_of
+from nivel.looks.circuit.symbols import SYMBOLS
 from nivel.machine.hydraulics import COMPONENTS
-from nivel.report.circuit.drawing import circuit_diagram, laid_out
-from nivel.report.circuit.parts import circuit_of
-from nivel.report.circuit.symbols import SYMBOLS
 
 FILES = sorted((Path(__file__).parents[2] / "examples" / "hydraulics").glob("*.yaml"))
 WITHOUT_SYMBOL = {"volume"}  # a line with a name

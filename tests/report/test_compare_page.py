@@ -12,7 +12,7 @@ import pytest
 from nivel.report.compare_page import COLUMNS, comparison_html
 from nivel.report.log_axis import LogAxis, power_of_ten
 from nivel.report.work_precision import WIDE, curves, diagram
-from nivel.results.comparison import Comparison, Reference, Row, Spread
+from nivel.results.comparison.comparison import Comparison, Reference, Row, Spread
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
 VOID = {"meta", "link", "br", "hr", "img", "input"}

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import synthetic_run as pendulum
-from nivel.integrate.sink import Header
+from nivel.integrate.loop.sink import Header
 from nivel.report.panel import TOGETHER
 from nivel.report.panels import panels
 from nivel.report.write import report_html
 from nivel.results import Memory
-from nivel.results.trust import Facts, assess
+from nivel.results.trust.trust import Facts, assess
 from nivel.system.layout import frame_layout
 
 TIME = np.linspace(0.0, 2.0, 21)

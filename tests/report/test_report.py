@@ -14,7 +14,7 @@ from nivel.report.peaks import peak_reactions
 from nivel.report.thinning import Thinning
 from nivel.report.write import number, quantity, report_html
 from nivel.results import Memory
-from nivel.results.trust import Facts, assess
+from nivel.results.trust.trust import Facts, assess
 
 TIME = np.linspace(0.0, 2.0, 201)
 
@@ -56,7 +56,7 @@ def test_the_report_answers_in_order():
     ]
     places = [text.index(each) for each in order]
     assert places == sorted(places)
-    assert "2 s simulated in 12.3 ms of computing" in text
+    assert "2 s simulated, computed in 12.3 ms" in text
     assert "1 body 1 joint 1 force 1 degree of freedom step 1 ms rk4 newton-euler" in text
     assert "of the largest kinetic energy 0.441 J (green below 1e-4, amber below 1e-2)" in text
 
@@ -302,7 +302,7 @@ def test_numbers_read_well(value, text):
 
 def test_passed_checks_are_one_line_and_what_is_not_green_stands_open():
     good = report_html(run())
-    assert re.search(r"All \d checks passed", words(good))
+    assert re.search(r"All \d numerical checks passed", words(good))
     assert '<li class="green">' not in good.split('<details class="passed">')[0]
     assert not re.search(r"All \d", words(report_html(run(outcome="failed"))))
     huge = {name: values * 1e300 for name, values in pendulum.histories(TIME).items() if name != "orientation"}

@@ -13,7 +13,7 @@ import synthetic_run as pendulum
 from nivel.cli import main
 from nivel.errors import ModelError
 from nivel.results import Result, Store
-from nivel.results.trust import Facts, assess
+from nivel.results.trust.trust import Facts, assess
 
 TIME = np.linspace(0.0, 1.0, 11)
 

@@ -10,7 +10,7 @@ import pytest
 import synthetic_run as pendulum
 from nivel.errors import ModelError
 from nivel.results import Memory, Result, Store
-from nivel.results.trust import Facts, assess
+from nivel.results.trust.trust import Facts, assess
 
 TIME = np.linspace(0.0, 2.0, 201)
 EXPECTED = pendulum.histories(TIME)
@@ -183,7 +183,7 @@ import sys, numpy as np
 sys.path[:0] = {sys.path!r}
 import synthetic_run as pendulum
 from nivel.results import Store
-from nivel.results.trust import Facts, assess
+from nivel.results.trust.trust import Facts, assess
 import nivel.report.write
 sink = Store({str(tmp_path / "run.nc")!r})
 sink.begin(pendulum.header())

@@ -233,12 +233,12 @@ def test_nothing_is_computed_for_a_path_that_cannot_work(tmp_path):
         Store(tmp_path / "there.nc" / "run.nc")
     with pytest.raises(ModelError, match="is a folder; the name of a result file was expected"):
         Store(tmp_path)
-    with pytest.raises(ModelError, match="exists already; it is replaced with --force"):
+    with pytest.raises(ModelError, match="exists already; use --force to overwrite it"):
         Store(tmp_path / "there.nc")
     assert (tmp_path / "there.nc").stat().st_size == 0
     with pytest.raises(ModelError, match="cannot be written: file name too long"):
         Store(tmp_path / f"{'x' * 300}.nc")
-    with pytest.raises(ModelError, match="there is no folder"):
+    with pytest.raises(ModelError, match="cannot be written: file name too long"):
         Store(tmp_path / ("x" * 300) / "run.nc")
 
 

@@ -7,10 +7,10 @@ import pytest
 
 import synthetic_run as pendulum
 from nivel.results import Memory
-from nivel.results.accuracy import MARGIN, error_from_finer
-from nivel.results.neglected import Cost
-from nivel.results.trust import Facts, Peak, Trust, assess
-from nivel.results.verdicts import THRESHOLDS, Item
+from nivel.results.trust.accuracy import MARGIN, error_from_finer
+from nivel.results.trust.neglected import Cost
+from nivel.results.trust.trust import Facts, Peak, Trust, assess
+from nivel.results.trust.verdicts import THRESHOLDS, Item
 
 TIME = np.linspace(0.0, 2.0, 201)
 

@@ -7,7 +7,7 @@ import pytest
 
 import synthetic_run as pendulum
 from nivel.results import Memory
-from nivel.results.trust import Facts, assess
+from nivel.results.trust.trust import Facts, assess
 
 TIME = np.linspace(0.0, 10.0, 101)
 MASS, GYRATION, WEIGHT = 1.5, 0.08, 1.5 * 9.81

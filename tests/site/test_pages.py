@@ -11,7 +11,7 @@ import pytest
 import yaml
 
 from checking import check
-from nivel.analysis.plan import plan_run
+from nivel.analysis.plan.plan import plan_run
 from nivel.files import parse_machine
 
 ROOT = Path(__file__).parents[2]

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from nivel.kernels import program
-from nivel.kernels.function import call_law
-from nivel.machine.expression import Expression
+from nivel.kernels.record import program
+from nivel.kernels.record.function import call_law
 from nivel.machine.python_law import PythonLaw
+from nivel.machine.units.expression import Expression
 from nivel.native.function import leaf
-from nivel.system.analytic_text import analytic_text
-from nivel.system.laws import complex_address, law_address
-from nivel.system.program import expression_program, motion_program
+from nivel.system.laws.analytic_text import analytic_text
+from nivel.system.laws.laws import complex_address, law_address
+from nivel.system.laws.program import expression_program, motion_program
 
 STEP = 1e-30
 TIMES = (-2.3, -1.0, -0.4, 0.0, 0.3, 1.0, 2.7)

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nivel.system.elimination import minimum_degree, plan
+from nivel.system.elimination.elimination import minimum_degree, plan
 
 
 @given(

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nivel.system.factor_plan import minimum_degree, plan_factor
+from nivel.system.elimination.factor_plan import minimum_degree, plan_factor
 from saddle_points import chain, ring, star
 
 pairs = st.lists(st.tuples(st.integers(0, 9), st.integers(0, 9)), max_size=25)

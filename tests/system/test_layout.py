@@ -1,8 +1,8 @@
 """Where the variables of a frame stand, and whether its writer knows."""
 
 from machines import slider_crank
-from nivel.analysis.equations import equations
-from nivel.kernels import observe
+from nivel.analysis.assembly.equations import equations
+from nivel.kernels.output import observe
 from nivel.system.layout import OF_MODES, VARIABLES, reported
 
 

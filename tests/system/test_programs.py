@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 
-from nivel.kernels import program
-from nivel.machine.arithmetic import Call, ExpressionError, Negative, Number, Operation, Signal, Time
-from nivel.machine.expression import Expression, expression_of
-from nivel.system.program import OPERATIONS, expression_program, motion_program
+from nivel.kernels.record import program
+from nivel.machine.units.arithmetic import Call, ExpressionError, Negative, Number, Operation, Signal, Time
+from nivel.machine.units.expression import Expression, expression_of
+from nivel.system.laws.program import OPERATIONS, expression_program, motion_program
 
 SIGNALS = ("time", "a.angle", "b.rate")
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
 
-from nivel.system.topology import CARRIERS, FREE, Edge, spanning_tree
+from nivel.system.elimination.topology import CARRIERS, FREE, Edge, spanning_tree
 
 # what carries nothing whatever the tree: links, couplings of two freedoms, points on lines
 NEVER = ("distance", "point-on-line", "revolute-cylindrical")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nivel.system.elimination_hubs import waiting
+from nivel.system.elimination.elimination_hubs import waiting
 
 
 def test_joints_of_a_tree_wait_for_their_outer_bodies():

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from nivel.analysis.closing import close_positions
-from nivel.analysis.equations import moved
+from nivel.analysis.assembly.closing import close_positions
+from nivel.analysis.assembly.equations import moved
 
 TIME = 0.02
 

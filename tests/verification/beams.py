@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from nivel.analysis import implicit
+from nivel.analysis.assembly import implicit
 from preparing import prepare
 from simulating import machine
 

@@ -14,12 +14,14 @@ from scipy.special import erf
 
 from nivel.machine import (
     Body,
+    Contact,
     Friction,
     Joint,
     JointSpringDamper,
     MachineRecord,
     PointForce,
     SimulationSettings,
+    Sphere,
     Table,
 )
 
@@ -29,16 +31,13 @@ ABOUT_Z = {"type": "revolute", "point": (0, 0, 0), "axis": (0, 0, 1)}
 
 @dataclass(frozen=True)
 class Deceiving:
-    """machine(harmless) : with settings of its own. quantity : of its result; exact(time, harmless) : what that is. arm : metres a unit.
-    round_off : [m] what the rounding of times may make of the load; the headline may be short of it, since both runs have it.
-    """
+    """machine(harmless) : with settings of its own. quantity : of its result; exact(time, harmless) : what that is. arm : metres a unit."""
 
     name: str
     machine: Callable[[bool], MachineRecord]
     quantity: str
     exact: Callable[[np.ndarray, bool], np.ndarray]
     arm: float = 1.0
-    round_off: float = 0.0
 
     def error(self, result, harmless=False):
         """The largest error of a run [m]."""
@@ -76,9 +75,7 @@ def pulse(width):
         place = w * (2.0 / 3.0 * rising**3 + 0.5 * falling + falling**2 - 2.0 / 3.0 * falling**3)
         return 0.5 + place + np.maximum(time - begin - w, 0.0)
 
-    # a step over each half of the push, 4/w² N/s, with times rounded by 0.5 ulp(0.7) and dop853's weights, Σ|b| = 13; 1.3 s of travel
-    round_off = 2.0 * 13.0 * (width / 2.0) * 4.0 / width**2 * (0.5 * np.spacing(begin)) * 1.3
-    return Deceiving(f"pulse-of-{width:g}-s", machine, "slide.position.x", exact, round_off=round_off)
+    return Deceiving(f"pulse-of-{width:g}-s", machine, "slide.position.x", exact)
 
 
 def gaussian(width):
@@ -99,6 +96,87 @@ def gaussian(width):
         return 0.5 + integral(time) - integral(0.0) - rest * time
 
     return Deceiving(f"gaussian-of-{width:g}-s", machine, "slide.position.x", exact)
+
+
+def glitch():
+    """A push of 10 N, and a small one of 1 N more within 20 µs, which is nothing in its impulse; harmless within 0.3 s."""
+
+    def machine(harmless):
+        w = 0.3 if harmless else 2e-5
+        return slide(f"10 + exp(-((time - 1.2003)/{w!r})**2)")
+
+    def exact(time, harmless):
+        w = 0.3 if harmless else 2e-5
+
+        def integral(t):
+            u = (t - 1.2003) / w
+            return 0.5 * np.sqrt(np.pi) * w * (w * (u * erf(u) + np.exp(-(u**2)) / np.sqrt(np.pi)))
+
+        rest = 0.5 * np.sqrt(np.pi) * w * erf(-1.2003 / w)  # of the speed at t = 0
+        return 0.5 + 5.0 * time**2 + integral(time) - integral(0.0) - rest * time
+
+    return Deceiving("glitch-of-a-push", machine, "slide.position.x", exact)
+
+
+def narrow_drag():
+    """A push of 10 N, at speeds within 5 mm/s of 3 m/s almost none, in steps of 5 ms; harmless within 1 m/s."""
+    width = {False: 0.005, True: 1.0}
+
+    def machine(harmless):
+        record = slide(f"10 - 9.5*exp(-((slide.vx - 3)/{width[harmless]})**2)", duration=1.0)
+        return record.replace(simulation=record.simulation.replace(step=5e-3))
+
+    @cache
+    def solution(harmless):
+        def rates(_t, y):
+            return y[1], 10.0 - 9.5 * np.exp(-(((y[1] - 3.0) / width[harmless]) ** 2))
+
+        options = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-12, "max_step": 1e-3, "dense_output": True}
+        return solve_ivp(rates, (0.0, 1.0), (0.5, 0.0), **options).sol
+
+    def exact(time, harmless):
+        return solution(harmless)(time)[0]
+
+    return Deceiving("narrow-drag", machine, "slide.position.x", exact)
+
+
+def bullet():
+    """A ball at 80 m/s that hits another one like it, in steps of 3 ms that lead through it; harmlessly it flies by."""
+    radius, mass, speed, stiffness = 0.01, 0.03, 80.0, 1e9
+
+    def machine(harmless):
+        ball = {"mass": mass, "inertia": (1e-6, 1e-6, 1e-6), "shape": Sphere(radius=radius)}
+        aside = 0.05 if harmless else 0.0
+        return MachineRecord(
+            name="bullet",
+            bodies=(
+                Body(name="ball", position=(-1.03, aside, 0), velocity=(speed, 0, 0), **ball),
+                Body(name="post", **ball),
+            ),
+            forces=(Contact(name="hit", bodies=("ball", "post"), stiffness=stiffness, restitution=1),),
+            simulation=SimulationSettings(duration=0.06, step=3e-3),
+        )
+
+    @cache
+    def solution():
+        begin = (1.03 - 2 * radius) / speed  # they touch
+        options = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-14, "max_step": 1e-6, "dense_output": True}
+
+        def rates(_t, y):
+            push = stiffness * max(y[0] - y[2] + 2 * radius, 0.0) ** 1.5 / mass
+            return y[1], -push, y[3], push
+
+        return begin, solve_ivp(rates, (0.0, 2e-4), (-2 * radius, speed, 0.0, 0.0), **options).sol
+
+    def exact(time, harmless):
+        begin, touching = solution()
+        x, v, *_ = touching(2e-4)
+        after = np.where(
+            time < begin + 2e-4, touching(np.clip(time - begin, 0.0, 2e-4))[0], x + v * (time - begin - 2e-4)
+        )
+        return np.where(harmless | (time < begin), -1.03 + speed * time, after)
+
+    return Deceiving("bullet", machine, "ball.position.x", exact)
 
 
 def hum():
@@ -386,8 +464,11 @@ KINDS = (
     *(pulse(width) for width in (0.4, 2e-2, 1e-3, 2e-5)),
     gaussian(1e-2),
     gaussian(2e-5),
+    glitch(),
+    narrow_drag(),
     hum(),
     wall(),
+    bullet(),
     far(1e7),
     far(1e9),
     flywheel(1000.0),

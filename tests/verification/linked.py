@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from machines import GRAVITY, random_body
 from nivel.machine import Joint, MachineRecord, Marker, PointForce
-from nivel.system.topology import CARRIERS
+from nivel.system.elimination.topology import CARRIERS
 from simulating import G, hinge, machine, slide, solid
 
 PITCH = -0.6

@@ -1,7 +1,7 @@
 """A machine ready to run, whatever its settings say about formulation and coordinates."""
 
-from nivel.analysis import preparation
-from nivel.analysis.plan import methods_of
+from nivel.analysis.plan.plan import methods_of
+from nivel.analysis.run import preparation
 
 
 def prepare(machine, formulation="newton-euler", coordinates="absolute"):

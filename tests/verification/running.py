@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from nivel.analysis.dynamics import march
-from nivel.analysis.settings import complete
+from nivel.analysis.plan.settings import complete
+from nivel.analysis.run.dynamics import march
 from preparing import prepare
 
 

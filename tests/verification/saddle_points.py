@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse
 
-from nivel.kernels.sparse_lu import factorise_sparse_lu, solve_sparse_lu
-from nivel.system.elimination_hubs import waiting
-from nivel.system.factor_plan import plan_factor
+from nivel.kernels.algebra.sparse_lu import factorise_sparse_lu, solve_sparse_lu
+from nivel.system.elimination.elimination_hubs import waiting
+from nivel.system.elimination.factor_plan import plan_factor
 
 
 @dataclass(frozen=True)

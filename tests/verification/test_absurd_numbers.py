@@ -45,6 +45,29 @@ def test_numbers_whose_squares_cannot_be_held_are_refused(changes, element):
     assert caught.value.faults[0].path == element
 
 
+@pytest.mark.parametrize(
+    ("body", "element"),
+    [
+        ({"mass": 1e-299, "inertia": [1, 1, 1]}, "bodies.speck.mass"),
+        ({"mass": 1e-299, "point_mass": True}, "bodies.speck.mass"),
+        ({"density": 7850, "shape": {"type": "box", "size": [1e-300, 1, 1]}}, "bodies.speck.shape"),
+    ],
+)
+def test_a_mass_that_no_body_has_is_refused(body, element):
+    with pytest.raises(ModelError, match="a slip of a unit") as caught:
+        machine({"bodies": {"speck": body}})
+    assert caught.value.faults[0].path == element
+
+
+@pytest.mark.parametrize("radius", [1e-12, 1e9, 1e101])
+def test_a_section_of_no_beam_is_refused(radius):
+    rod = {"from": [0, 0, 0], "to": [1, 0, 0], "section": {"type": "circle", "radius": radius}, "elements": 2}
+    steel = {"youngs_modulus": 2.1e11, "poisson_ratio": 0.3, "density": 7850}
+    with pytest.raises(ModelError, match="is no size of a beam's section") as caught:
+        machine({"beams": {"rod": {**rod, "material": steel}}})
+    assert caught.value.faults[0].path == "beams.rod.section.radius"
+
+
 @pytest.mark.parametrize("coordinates", ["absolute", "relative"])
 @pytest.mark.parametrize("integrator", ["rk4", "dopri5", "generalised-alpha", "radau", "bdf"])
 @pytest.mark.parametrize(

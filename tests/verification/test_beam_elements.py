@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
 from beams import disturb, flying, forces, general, hinged, prepared, trust
-from nivel.analysis import implicit
-from nivel.machine.beam import Beam
+from nivel.analysis.assembly import implicit
+from nivel.machine.beams.beam import Beam
 from nivel.system.beam_elements import masses_of
 from simulating import simulate
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from nivel.analysis import history
+from nivel.analysis.run import history
 from references import impact
 from simulating import G, simulate, slide, solid
 

@@ -307,6 +307,31 @@ def test_a_state_machine_moves_on_at_the_first_sample_at_which_its_guards_hold()
     np.testing.assert_allclose(result["control.cycle.time"], since, atol=1e-12)
 
 
+SEVERAL = """
+control:
+  choice:
+    type: state-machine
+    sample_time: 10 ms
+    states:
+      wait: {next: {later: time > 0.305, first: rail.displacement > 0.105, second: rail.displacement > 0.055}}
+      second: {next: {wait: choice.time > 0.025, first: choice.time > 0.045}}
+      first: {next: {wait: time > 10, later: choice.time > 0.055}}
+      later: {}
+simulation: {duration: 0.4, step: 1 ms, output_interval: 10 ms}
+"""
+
+
+def test_the_first_transition_that_holds_is_taken_of_several():
+    """The rail moves at 1 m/s. From 0.06 s on `second`, back after 30 ms, `second` again; from 0.12 s on `first` comes before it."""
+    result = simulated(START + SEVERAL)
+    k = np.arange(41)  # of samples
+    wait, second, first, later = 0.0, 1.0, 2.0, 3.0
+    expected = np.select(
+        [k < 6, k < 9, k < 10, k < 13, k < 14, k < 20], [wait, second, wait, second, wait, first], later
+    )
+    np.testing.assert_array_equal(result["control.choice.state"], expected)
+
+
 PYTHON = """
 control:
   filtered:

@@ -8,9 +8,9 @@ from scipy.integrate import solve_ivp
 
 import machines
 import nivel
-from nivel.analysis.assemble import assemble
-from nivel.analysis.equations import equations
-from nivel.analysis.redundancy import analyse
+from nivel.analysis.assembly.assemble import assemble
+from nivel.analysis.assembly.equations import equations
+from nivel.analysis.assembly.redundancy import analyse
 from nivel.errors import ModelError
 from nivel.files import parse_machine
 from nivel.machine import Joint, MachineRecord

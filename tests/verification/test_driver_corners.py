@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from nivel.analysis.plan import plan_run
+from nivel.analysis.plan.plan import plan_run
 from nivel.errors import ModelError
 from nivel.machine import Body, Driver, Joint, MachineRecord, SimulationSettings, Table
 from running import run

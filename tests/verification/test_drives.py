@@ -119,6 +119,32 @@ def test_the_torque_of_a_servo_motor_is_limited_over_its_speed():
     assert 99 < speed[-1] < 100
 
 
+ACTUATOR = """
+format: 1
+gravity: [0, -9.81, 0]
+bodies:
+  boom: {position: [0, 1, 0], mass: 300, centre_of_mass: [2, 0, 0], inertia: [20, 400, 400]}
+joints:
+  hinge: {type: revolute, bodies: [ground, boom], point: [0, 1, 0], axis: [0, 0, 1]}
+  screw: {type: variable-distance, bodies: [ground, boom], points: [[0.6, 0.2, 0], [0.6, 1, 0]]}
+control:
+  hold: {type: pid, reference: 0.8, measured: screw.distance, kp: 1e6, ki: 1e6, kd: 1e5}
+forces:
+  drive: {type: servo-motor, coordinate: screw.distance, effort: hold, gear: 1256 rad/m}
+simulation: {duration: 0.1, step: 1 ms, integrator: radau, tolerance: 1e-8, start: equilibrium}
+"""
+
+
+def test_a_drive_between_two_points_carries_the_moment_of_a_load():
+    """A length between two points is a coordinate too: force m g 2.0/0.6 m, upright under the boom, and torque at the screw over the
+    gear."""
+    result = Machine.from_record(parse_machine(ACTUATOR)).simulate()
+    force = 300 * 9.81 * 2.0 / 0.6
+    assert np.asarray(result["force.drive.magnitude"]) == pytest.approx(force, rel=1e-6)
+    assert np.asarray(result["force.drive.torque"]) == pytest.approx(force / 1256, rel=1e-6)
+    assert np.ptp(np.asarray(result["hinge.angle"])) < 1e-9
+
+
 def test_exact_tangents_of_drives():
     drive = f"{DC}, inductance: 20 uH, {ELASTIC}, friction_torque: 0.02, current_limit: 12 A"
     plain = run(drive, omega=1.0, integrator="dop853", interval=1e-2)

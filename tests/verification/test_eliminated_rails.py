@@ -6,11 +6,11 @@ from numpy.testing import assert_allclose
 
 import beams
 from assembled import TIME, random_states
-from nivel.analysis.choice import choose_coordinates
-from nivel.analysis.equations import MotionEquations
-from nivel.analysis.implicit import ResidualOptions, with_residual
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.implicit import ResidualOptions, with_residual
+from nivel.analysis.plan.choice import choose_coordinates
 from nivel.errors import SolveError
-from nivel.kernels.observe import observe
+from nivel.kernels.output.observe import observe
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.states.relative import arrange
 from preparing import prepare

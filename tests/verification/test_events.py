@@ -7,7 +7,7 @@ import pytest
 from scipy.special import ellipj, ellipk, ellipkinc
 
 import machines
-from nivel.analysis import history
+from nivel.analysis.run import history
 from nivel.errors import SolveError
 from nivel.machine import Event
 from running import run

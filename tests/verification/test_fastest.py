@@ -3,7 +3,7 @@
 import pytest
 
 from nivel import SolveError
-from nivel.analysis.fastest import fastest
+from nivel.analysis.run.fastest import fastest
 from preparing import prepare
 from simulating import machine, solid
 
@@ -51,6 +51,16 @@ def test_rate_of_a_spring_is_its_frequency():
     found = fastest(prepared.motion, 0.0, prepared.start)
     assert found.part == "spring"
     assert found.rate == pytest.approx((1e5 / inertia()) ** 0.5, rel=1e-4)
+
+
+def test_a_law_that_overflows_with_the_motion_is_not_blamed():
+    """A spring by a law, 1e9 N/m at 3 kg: it is no number any more where the place is none."""
+    law = {"type": "force", "body": "cart", "vector": ["-1e9*(rail.displacement - 0.01)", 0, 0]}
+    with pytest.raises(SolveError) as caught:
+        machine(cart(law=law)).simulate(coordinates="relative")
+    assert "the motion has grown without bound" in caught.value.message
+    assert "of law: rk4 holds it with steps below" in caught.value.advice
+    assert "division by zero" not in caught.value.advice
 
 
 def test_a_run_that_fails_for_another_reason_names_no_force():

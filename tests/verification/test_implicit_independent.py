@@ -10,13 +10,13 @@ from scipy.spatial.transform import Rotation
 
 import machines
 from assembled import TIME, random_states
-from nivel.analysis.dynamics import march
-from nivel.analysis.equations import moved
-from nivel.analysis.implicit import evaluate_residual, find_tangent
-from nivel.analysis.settings import complete
+from nivel.analysis.assembly.equations import moved
+from nivel.analysis.assembly.implicit import evaluate_residual, find_tangent
+from nivel.analysis.plan.settings import complete
+from nivel.analysis.run.dynamics import march
 from nivel.errors import ModelError, SolveError
-from nivel.kernels.record import DEPENDENT
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.record import DEPENDENT
 from preparing import prepare
 from references import slider_crank
 from running import Frames, reference_run, run

@@ -8,9 +8,9 @@ from scipy.spatial.transform import Rotation
 import machines
 from assembled import TIME, random_states
 from lanes import tail
-from nivel.analysis.implicit import find_tangent
+from nivel.analysis.assembly.implicit import find_tangent
 from nivel.errors import ModelError
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
 from preparing import prepare
 from references import heavy_top, slider_crank
 from running import reference_run, run

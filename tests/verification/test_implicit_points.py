@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import linked
-from nivel.analysis.implicit import find_tangent
+from nivel.analysis.assembly.implicit import find_tangent
 from running import reference_run, run
 from simulating import G
 from tangent_zoo import COORDINATES

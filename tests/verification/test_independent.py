@@ -11,13 +11,13 @@ import pytest
 import machines
 import nivel
 from assembled import TIME, mass_matrix, random_states
-from nivel.analysis.dynamics import march
-from nivel.analysis.equations import change_between, moved
-from nivel.analysis.settings import complete
+from nivel.analysis.assembly.equations import change_between, moved
+from nivel.analysis.plan.settings import complete
+from nivel.analysis.run.dynamics import march
 from nivel.errors import ModelError, SolveError
 from nivel.files.reader import parse_machine
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
 from preparing import prepare
 from running import Frames, run
 from simulating import simulate

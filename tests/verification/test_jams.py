@@ -6,7 +6,7 @@ from math import acos, cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from nivel.analysis import dynamics
+from nivel.analysis.run import dynamics
 from nivel.errors import SolveError
 from nivel.results.result import Result
 from simulating import hinge, simulate, slide, solid
@@ -64,27 +64,37 @@ def crank_that_cannot_turn():
 
 ABSOLUTE, RELATIVE, INDEPENDENT = ({"coordinates": name} for name in ("absolute", "relative", "independent"))
 BAUMGARTE = {"stabilisation": "baumgarte", "baumgarte": {"alpha": 20, "beta": 20}}
+METHODS = [
+    *({"integrator": "rk4", **each} for each in (ABSOLUTE, RELATIVE, INDEPENDENT)),
+    *({"integrator": "rk4", **each, "stabilisation": "none"} for each in (ABSOLUTE, RELATIVE)),
+    *({"integrator": "rk4", **each, **BAUMGARTE} for each in (ABSOLUTE, RELATIVE)),
+    {"integrator": "abm4", **ABSOLUTE},
+    {"integrator": "dopri5", **ABSOLUTE},
+    *({"integrator": "ros2", **each} for each in (ABSOLUTE, RELATIVE)),
+    {"integrator": "ros2", **RELATIVE, "stabilisation": "none"},
+    {"integrator": "radau", **ABSOLUTE},
+    *({"integrator": name, **ABSOLUTE} for name in ("newmark", "hht", "generalised-alpha")),
+    {"integrator": "hht", **ABSOLUTE, "step_control": "error", "tolerance": 1e-4},
+    {"integrator": "rk4", **ABSOLUTE, "formulation": "lagrange"},
+    {"integrator": "rk4", **ABSOLUTE, "formulation": "penalty"},
+    {"integrator": "ros2", **ABSOLUTE, "formulation": "augmented-lagrangian"},
+]
+# the dearest of the crank are for the full tests
+CASES = [
+    *((distance_rod, methods) for methods in METHODS),
+    *((crank_that_cannot_turn, methods) for methods in METHODS[:3]),
+    *(pytest.param(crank_that_cannot_turn, methods, marks=pytest.mark.full) for methods in METHODS[3:]),
+]
 
 
-@pytest.mark.parametrize("made", [distance_rod, crank_that_cannot_turn])
 @pytest.mark.parametrize(
-    "methods",
-    [
-        *({"integrator": "rk4", **each} for each in (ABSOLUTE, RELATIVE, INDEPENDENT)),
-        *({"integrator": "rk4", **each, "stabilisation": "none"} for each in (ABSOLUTE, RELATIVE)),
-        *({"integrator": "rk4", **each, **BAUMGARTE} for each in (ABSOLUTE, RELATIVE)),
-        {"integrator": "abm4", **ABSOLUTE},
-        {"integrator": "dopri5", **ABSOLUTE},
-        *({"integrator": "ros2", **each} for each in (ABSOLUTE, RELATIVE)),
-        {"integrator": "ros2", **RELATIVE, "stabilisation": "none"},
-        {"integrator": "radau", **ABSOLUTE},
-        *({"integrator": name, **ABSOLUTE} for name in ("newmark", "hht", "generalised-alpha")),
-        {"integrator": "hht", **ABSOLUTE, "step_control": "error", "tolerance": 1e-4},
-        {"integrator": "rk4", **ABSOLUTE, "formulation": "lagrange"},
-        {"integrator": "rk4", **ABSOLUTE, "formulation": "penalty"},
-        {"integrator": "ros2", **ABSOLUTE, "formulation": "augmented-lagrangian"},
-    ],
-    ids=lambda methods: "-".join(str(each) for each in methods.values() if not isinstance(each, dict)),
+    ("made", "methods"),
+    CASES,
+    ids=lambda each: (
+        "-".join(str(value) for value in each.values() if not isinstance(value, dict))
+        if isinstance(each, dict)
+        else each.__name__
+    ),
 )
 def test_a_jam_is_named_with_its_time_its_joints_and_its_driver(made, methods):
     """The time follows from the triangle whose sides lie in line; the run keeps what it found up to there, and nothing after."""

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 import machines
-from nivel.analysis.implicit import evaluate_residual, find_tangent, with_residual
+from nivel.analysis.assembly.implicit import evaluate_residual, find_tangent, with_residual
 from preparing import prepare
 
 

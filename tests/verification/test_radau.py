@@ -11,7 +11,7 @@ import machines
 import nivel
 from lanes import tail
 from nivel.errors import ModelError
-from nivel.integrate.radau_constants import BEND, GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
+from nivel.integrate.radau.radau_constants import BEND, GAMMA, LEFT, LEFT_PAIR, MU, POWERS, RIGHT, RIGHT_PAIR, C
 from nivel.machine import (
     Body,
     Event,

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 import beams
 from assembled import random_states
-from nivel.analysis.equations import equations, moved
+from nivel.analysis.assembly.equations import equations, moved
 from nivel.errors import ModelError, SolveError
 from nivel.system.beam_nodes import with_nodes
 from simulating import machine, simulate, solid

@@ -9,12 +9,12 @@ import linked
 import machines
 import nivel
 from assembled import TIME, mass_matrix, random_states
-from nivel.analysis.equations import MotionEquations
-from nivel.kernels.observe import observe
-from nivel.kernels.status import OK
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.kernels.core.status import OK
+from nivel.kernels.output.observe import observe
 from nivel.motion import relative as equations_in_relative
+from nivel.system.elimination.topology import CARRIERS, FREE
 from nivel.system.states.relative import arrange, tree_of
-from nivel.system.topology import CARRIERS, FREE
 from preparing import prepare
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nivel.analysis.implicit import find_tangent
+from nivel.analysis.assembly.implicit import find_tangent
 from tangent_zoo import EACH, FORMULATED, state_of
 from unknowns import TIME, value_at
 

@@ -88,6 +88,7 @@ def test_a_swaying_coin_moves_the_same_by_every_method(swaying, methods):
     np.testing.assert_allclose(r.array("position"), swaying.array("position"), atol=3e-7)
     assert np.abs(r.array("constraint_rate_violation")).max() < 1e-6
     assert r.trust.degrees_of_freedom == 3
+    assert "3 degrees of freedom of velocities, 5 of positions" in str(r.trust)
 
 
 def test_energy_of_a_swaying_coin_is_kept_to_order_four():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import machines
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
 from nivel.machine import Body, Bushing, Friction, Joint, MachineRecord, Marker, SpringDamper
 from preparing import prepare
 from unknowns import ROTATIONS
@@ -91,7 +91,10 @@ def test_solutions_satisfy_the_equations(make, coordinates, rng):
     r, imaginary = rng.standard_normal(len(y)), rng.standard_normal(len(y))
     shifted, s, z = motion.system.record.newton.shifted, 0.08, 0.05 - 0.06j
     shifted.real.r[:], shifted.pair.r[:] = r, r + 1j * imaginary
-    assert import_module("nivel.kernels.tangent_entries").solve_shifted(motion.handle.address, 0.0, y, rate, s, z) == OK
+    assert (
+        import_module("nivel.kernels.residual.tangent_entries").solve_shifted(motion.handle.address, 0.0, y, rate, s, z)
+        == OK
+    )
     for shift, x, b in ((s, shifted.real.r, r), (z, shifted.pair.r, r + 1j * imaginary)):
         expected = np.linalg.solve(np.eye(len(J)) - shift * J, b[:-2])
         np.testing.assert_allclose(x[:-2], expected, rtol=0, atol=1e-6 * np.abs(expected).max())
@@ -118,7 +121,7 @@ def test_feedback_and_penalties_are_part_of_them(make, formulation, coordinates,
     r = rng.standard_normal(len(y))
     shifted, s = motion.system.record.newton.shifted, 0.08
     shifted.real.r[:], shifted.pair.r[:] = r, r
-    solve = import_module("nivel.kernels.tangent_entries").solve_shifted
+    solve = import_module("nivel.kernels.residual.tangent_entries").solve_shifted
     assert solve(motion.handle.address, 0.0, y, rate, s, complex(s)) == OK
     expected = np.linalg.solve(np.eye(len(J)) - s * J, r[:-2])
     for x in (shifted.real.r, shifted.pair.r):

@@ -6,7 +6,7 @@ import numpy as np
 
 import linked
 from assembled import mass_matrix
-from nivel.analysis.implicit import evaluate_residual, find_tangent
+from nivel.analysis.assembly.implicit import evaluate_residual, find_tangent
 from nivel.system.tables import index_array
 from simulating import G, solid
 from tangent_zoo import COORDINATES, EACH, state_of

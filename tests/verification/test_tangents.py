@@ -3,7 +3,7 @@
 import numpy as np
 
 from force_zoo import CASES
-from nivel.integrate.newton_state import set_state
+from nivel.integrate.newmark.newton_state import set_state
 from tangent_zoo import COORDINATES, EACH, EVERY_FORMULATED, state_of
 from unknowns import SHARES, Unknowns
 

@@ -14,7 +14,7 @@ import nivel
 from lanes import tail
 from nivel.api import Machine
 from nivel.machine import Body, Joint, MachineRecord, Marker, PairForce, SimulationSettings
-from nivel.results.accuracy import error_from_finer
+from nivel.results.trust.accuracy import error_from_finer
 from references import andrews, four_bar, heavy_top, kepler, pendulum, slider_crank
 from running import run
 from test_mechanisms import EXAMPLES

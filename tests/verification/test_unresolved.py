@@ -5,7 +5,7 @@ import pytest
 
 from nivel.errors import SolveError
 from nivel.results.result import Result
-from nivel.results.unresolved import unresolved_force
+from nivel.results.trust.unresolved import unresolved_force
 from simulating import G, simulate, slide, solid
 from test_growth import stiff_pair
 

@@ -9,10 +9,10 @@ from scipy.spatial.transform import Rotation
 
 from assembled import TIME, random_states
 from lanes import FULL
-from nivel.analysis.equations import MotionEquations
-from nivel.analysis.implicit import ResidualOptions, evaluate_residual, find_tangent, with_residual
-from nivel.kernels.record import EULER_ANGLES, NONE, ROTATION_VECTOR
-from nivel.kernels.status import OK
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.implicit import ResidualOptions, evaluate_residual, find_tangent, with_residual
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.record import EULER_ANGLES, NONE, ROTATION_VECTOR
 from nivel.motion.catalogue import path_of
 from nivel.system.states import parameters
 from nivel.system.states.relative import arrange
@@ -150,7 +150,8 @@ def tangent_of_vector(psi):
 
 
 class Unknowns:
-    """The state as a function of z = (v̇, ẋ, λ), as `nivel.integrate.residual_newton` has it: at z of the state given, positions are turned
+    """The state as a function of z = (v̇, ẋ, λ), as `nivel.integrate.newmark.residual_newton` has it: at z of the state given, positions
+    are turned
     from the base by `change` (n,) [m or rad]."""
 
     def __init__(self, here, change=None):

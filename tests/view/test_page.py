@@ -162,7 +162,7 @@ def test_fit_finds_a_machine_that_was_moved_away(browser):
         page = seen.open(viewing.address.url)
         page.get_by_role("slider", name="kite.x", exact=True).fill("1")
         until(page, "Math.abs(nivel.app.actor.bodies[0].position.x - 1) < 1e-5")
-        page.get_by_role("button", name="Fit everything").click()
+        page.get_by_role("button", name="Fit to the present position").click()
         until(page, "nivel.app.world.controls.target.distanceTo(nivel.app.actor.bodies[0].position) < 0.01")
 
 

@@ -10,6 +10,7 @@ import { Arrows } from "./stage/arrows";
 import { Colours } from "./stage/colours";
 import { cloudNow, cloudOf } from "./stage/cloud";
 import type { Extra } from "./stage/extras";
+import { Compass } from "./stage/compass";
 import { Labels } from "./stage/labels";
 import { Follower } from "./stage/follower";
 import { Hand } from "./stage/hand";
@@ -23,6 +24,7 @@ import { World } from "./stage/world";
 import { Coordinates } from "./ui/coordinates";
 import { Display } from "./ui/display";
 import { el, short } from "./ui/dom";
+import { Circuit } from "./ui/circuit";
 import { Inspector } from "./ui/inspector";
 import { Legend } from "./ui/legend";
 import { helpDialog, listenToKeys } from "./ui/keys";
@@ -48,6 +50,7 @@ export class App {
   readonly traces: Traces;
   readonly violations: Violations;
   readonly labels: Labels;
+  private readonly compass: Compass;
   readonly plots: Plots;
   private readonly follower: Follower;
   private readonly handled: Handled;
@@ -55,6 +58,7 @@ export class App {
   private readonly timeline: Timeline | null = null;
   private readonly tree: Tree;
   private readonly inspector: Inspector;
+  private readonly circuit: Circuit | null;
   private readonly coordinates: Coordinates | null = null;
   readonly live: Live | null = null;
   private trails: Trails | null = null;
@@ -103,11 +107,13 @@ export class App {
     this.follower = new Follower(this.world, this.actor);
     this.handled = new Handled(this.world, this.actor);
     this.world.scene.add(this.actor.root, this.arrows.root, this.traces.root, this.violations.root);
-    holder.append(names, this.legend.element);
+    this.compass = new Compass(this.world);
+    holder.append(names, this.compass.element, this.legend.element);
     const columns = new Columns(opened, connection);
     const ghostTime = this.ghosts[0]?.motion.time ?? null;
     const times = { main: this.motion?.time ?? new Float64Array(), ghost: ghostTime, ghostTitle: others[0]?.title ?? "", isPath: !!this.motion?.load };
     this.plots = new Plots(columns, times, (time) => this.goTo(time), () => this.inspector?.refresh(), (time) => this.motion?.says(time, short) ?? short(time));
+    this.circuit = stage.circuit ? new Circuit(stage.circuit, columns, this.plots) : null;
     this.inspector = new Inspector(stage, columns, this.plots, this.traces, {
       follow: () => this.followOrFit(),
       isFollowed: (picked) => this.follower.name === picked.name,
@@ -145,6 +151,7 @@ export class App {
       this.live = live;
       this.hand = hand;
     }
+    if (this.circuit) this.inspector.put(this.circuit.element);
     this.dialog = helpDialog(this.live?.keys ?? null);
     const data = el("div", {}, this.live?.panel ?? null, this.coordinates?.element ?? null, this.inspector.element);
     const display = new Display(this).element;
@@ -161,6 +168,7 @@ export class App {
     else if (this.motion) this.motion.sample(this.motion.start, this.actor.frame);
     this.refreshFrame();
     if (this.live) this.handled.watchAll();
+    this.world.now = () => cloudNow(this.actor);
     if (content.mode === "machine" || this.live) this.world.around = () => cloudNow(this.actor);
     const first = columns.list().find((column) => /\.(angle|displacement)$/.test(column.name));
     if (first && this.player) void this.plots.show([first.name]);
@@ -188,6 +196,7 @@ export class App {
     this.timeline?.tick();
     this.plots.moveTo(player.time);
     this.inspector.moveTo(player.frame);
+    this.circuit?.moveTo(player.frame);
   }
 
   /** A frame from the server; it is acknowledged when it is drawn. */
@@ -234,7 +243,8 @@ export class App {
     }
     const { clientWidth, clientHeight } = this.world.holder;
     for (const actor of [this.actor, ...this.ghosts.map((ghost) => ghost.actor)]) actor.look(this.world.camera, clientHeight);
-    this.labels.update(this.world.camera, clientWidth, clientHeight);
+    this.labels.update(this.world.camera, clientWidth, clientHeight, !this.world.running);
+    this.compass.update();
   }
 
   /** Everything that depends on the frame that is shown. */
@@ -263,7 +273,7 @@ export class App {
     if (this.picked?.kind === "body") this.follower.toggle(this.picked.name);
     else {
       this.follower.stop();
-      this.world.fit();
+      this.world.fitNow();
     }
     this.inspector.refresh();
   }
@@ -297,7 +307,8 @@ export class App {
   }
 
   /** The picture alone, without controls. */
-  bare(side: View): void {
+  bare(side: View, fine: boolean): void {
+    if (fine) this.world.drawFinely();
     document.body.classList.add("bare");
     this.panels.close();
     this.world.keepFree({ left: 0, top: 0, right: 0, bottom: 0 });

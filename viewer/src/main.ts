@@ -23,8 +23,8 @@ function inWords(error: unknown): string {
 /** What programs that drive the page use: tests, `nivel view --still` and `--export film.mp4`. */
 interface Remote {
   app: App;
-  /** Hide all controls and look from a side. */
-  bare(side: View): void;
+  /** Hide all controls and look from a side; fine : draw smoothly, however slowly. */
+  bare(side: View, fine: boolean): void;
   /** First and last time. */
   span(): [number, number];
   /** Show a moment; done when it is on the screen. */
@@ -41,7 +41,7 @@ declare global {
 function present(app: App): void {
   window.nivel = {
     app,
-    bare: (side) => app.bare(side),
+    bare: (side, fine) => app.bare(side, fine),
     span: () => [app.motion?.start ?? 0, app.motion?.end ?? 0],
     pose: (time) => {
       app.goTo(time);

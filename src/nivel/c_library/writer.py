@@ -9,25 +9,25 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from nivel.analysis.attributes import run_attributes
-from nivel.analysis.compilation import run_entries
-from nivel.analysis.dynamics import Loop, start_loop
-from nivel.analysis.plan import Plan
-from nivel.analysis.preparation import Prepared, prepare
+from nivel.analysis.plan.compilation import run_entries
+from nivel.analysis.plan.plan import Plan
+from nivel.analysis.run.attributes import run_attributes
+from nivel.analysis.run.dynamics import Loop, start_loop
+from nivel.analysis.run.preparation import Prepared, prepare
 from nivel.c_library.image import WORD, Image, UnknownAddressError
 from nivel.c_library.templates import EXAMPLE, HEADER, INPUTS, INPUTS_DECLARED, MAKEFILE, SOURCE
 from nivel.errors import Fault, ModelError
-from nivel.integrate.loop import advance
-from nivel.integrate.run import ALL_STEPS, BUDGET, END, EVENTS, EVERY, FRAMES, RESTART, TIME
-from nivel.integrate.sink import Header
-from nivel.kernels.function import CONSTANT
-from nivel.kernels.handle import Handle
-from nivel.kernels.status import BUDGET_SPENT
+from nivel.integrate.loop.loop import advance
+from nivel.integrate.loop.run import ALL_STEPS, BUDGET, END, EVENTS, EVERY, FRAMES, RESTART, TIME
+from nivel.integrate.loop.sink import Header
+from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.status import BUDGET_SPENT
+from nivel.kernels.record.function import CONSTANT
 from nivel.machine import Input
 from nivel.native import library
 from nivel.native.entry import Entry
 from nivel.native.workers import CompilationError
-from nivel.results.csv_table import columns
+from nivel.results.frames.csv_table import columns
 from nivel.results.memory import Memory
 
 # as many frames as a step may leave: its own, and that of the start

@@ -35,6 +35,7 @@ COMMANDS: Final[dict[str, CommandPlace]] = {
     "reduce": CommandPlace("nivel.cli.reduce", "Make a flexible body of a finite-element model."),
     "view": CommandPlace("nivel.cli.view", "Play a result, or move a machine, in the browser."),
     "explain": CommandPlace("nivel.cli.explain", "Say how far a result can be trusted, and why."),
+    "loads": CommandPlace("nivel.cli.loads", "Peak reactions, power and work, cycles of any signal."),
     "stress": CommandPlace("nivel.cli.stress", "Say where and when a flexible body is stressed most."),
     "export": CommandPlace("nivel.cli.export", "Write a result as a table, or a machine as a C library."),
     "warmup": CommandPlace("nivel.cli.warmup", "Compile all kernels ahead of the first run."),
@@ -67,6 +68,10 @@ class LazyGroup(click.Group):
     def invoke(self, ctx: click.Context) -> object:
         with told():
             return super().invoke(ctx)
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        with told():  # help, too, may find no room
+            return super().parse_args(ctx, args)
 
 
 def _say_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:

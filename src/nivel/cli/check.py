@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from nivel.cli.options import allow_code_option, file_argument, override_option
+from nivel.cli.options import allow_code_option, file_argument, override_option, separated
 
 
 @click.command(short_help="Check and assemble a machine; say what it is.")
@@ -16,26 +16,44 @@ from nivel.cli.options import allow_code_option, file_argument, override_option
 @override_option
 @allow_code_option
 @click.option("--circuit", type=click.Path(dir_okay=False), help="Draw the hydraulic circuit into this SVG file.")
+@click.option(
+    "--mass", metavar="MARKER", help="Also mass, centre of mass and inertia about a marker, a body's frame or ground."
+)
+@click.option("--of", metavar="BODIES", multiple=True, callback=separated, help="Bodies of --mass; default: all.")
 @click.option("--json", "as_json", is_flag=True, help="Print the facts as JSON on standard output.")
-def command(machine: str, overrides: dict[str, str], allow_code: bool, circuit: str | None, as_json: bool) -> None:
+def command(
+    machine: str,
+    overrides: dict[str, str],
+    allow_code: bool,
+    circuit: str | None,
+    mass: str | None,
+    of: tuple[str, ...] | None,
+    as_json: bool,
+) -> None:
     """Check MACHINE: read it, assemble it, count its freedoms.
 
     Shows every joint with its first and second body, its zero and its positive direction. Exit code 2 with every fault that was found.
     """
-    from nivel.analysis.listener import Listener
+    from nivel.analysis.progress.listener import Listener
     from nivel.api import load
 
     loaded = load(machine, overrides, allow_code=allow_code)
     facts = loaded.check(listener=Listener(lambda text, _total: click.echo(text, err=True)))
     if circuit is not None:
-        from nivel.report.circuit.drawing import circuit_diagram
+        from nivel.looks.circuit.drawing import circuit_diagram
 
         drawn = circuit_diagram(loaded.record.model_dump(mode="json"), facts.pressures)
         if not drawn:
             raise click.UsageError("the machine has no `hydraulics` that could be drawn with --circuit")
         Path(circuit).write_text(drawn, encoding="utf-8")
+    if of and mass is None:
+        raise click.UsageError("--of belongs to --mass, e.g. --mass ground")
+    weighed = None if mass is None else loaded.mass_properties(mass, of or ())
     if as_json:
         out = dataclasses.asdict(facts) | {"settings": facts.settings.as_dict()}
+        out |= {} if weighed is None else {"mass_properties": weighed.summary()}
         click.echo(json.dumps(out, indent=2))
     else:
         click.echo(str(facts))
+        if weighed is not None:
+            click.echo(str(weighed))

@@ -24,7 +24,7 @@ from nivel.cli.progress import progress_listener
 
 if TYPE_CHECKING:
     from nivel.errors import ModelError
-    from nivel.results.comparison import Comparison
+    from nivel.results.comparison.comparison import Comparison
 
 FORMATS: Final = (".csv", ".json")
 WIDEST: Final = 1000  # a line of the table is a line also in a narrow terminal or a pipe
@@ -62,6 +62,7 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
 @override_option
 @allow_code_option
 @click.option(
+    "-o",
     "--out",
     multiple=True,
     type=click.Path(dir_okay=False, path_type=Path),
@@ -156,7 +157,7 @@ def _refuse_other_kinds(tables: tuple[Path, ...]) -> None:
 def _refuse_to_replace(tables: tuple[Path, ...], page: Path | None, force: bool, machine: Path) -> None:
     """Refuse, before anything is run, files that cannot be written or exist and may not be replaced."""
     from nivel.errors import ModelError
-    from nivel.results.target import check_text_target
+    from nivel.results.frames.target import check_text_target
 
     for path in tables:
         check_text_target(path, "table", force=force, sources=[machine])
@@ -190,7 +191,7 @@ def _print(comparison: Comparison) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    from nivel.results.comparison_table import columns, lines
+    from nivel.results.comparison.comparison_table import columns, lines
 
     shown = columns(comparison)
     table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False)

@@ -37,7 +37,7 @@ def _print(result: Result) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    from nivel.results.verdicts import CHECKS, RULES, THRESHOLDS
+    from nivel.results.trust.verdicts import CHECKS, RULES, THRESHOLDS
 
     console, trust = Console(highlight=False), result.trust
     time = result.time

@@ -64,8 +64,8 @@ def _write_table(result: str, target: str | None, select: tuple[str, ...], force
     import sys
 
     from nivel.results import Result
-    from nivel.results.csv_table import columns, write_table
-    from nivel.results.target import check_target
+    from nivel.results.frames.csv_table import columns, write_table
+    from nivel.results.frames.target import check_target
 
     if target is None:
         raise click.UsageError("say in which form: --csv [FILE] of a result, --c FOLDER of a machine")

@@ -6,6 +6,8 @@ What is neither is a defect of nivel and keeps its traceback.
 
 from __future__ import annotations
 
+import errno
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Final
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 INPUT_AT_FAULT: Final = 2
 COMPUTATION_FAILED: Final = 3
 INTERRUPTED: Final = 130
+NO_ROOM: Final = (errno.ENOSPC, errno.EDQUOT)
 
 
 @contextmanager
@@ -36,6 +39,11 @@ def told() -> Iterator[None]:
     except KeyboardInterrupt:
         _say("interrupted")
         raise SystemExit(INTERRUPTED) from None
+    except OSError as error:
+        if error.errno not in NO_ROOM:
+            raise
+        _say(f"{error.filename or 'the output'} cannot be written: {os.strerror(error.errno).lower()}")
+        raise SystemExit(COMPUTATION_FAILED) from None
 
 
 def say_faults(error: ModelError) -> None:

@@ -60,7 +60,7 @@ def _named(_context: click.Context, parameter: click.Parameter, values: tuple[st
 @click.option("--point", metavar="MARKER", help="Marker, or body, that is led along --path.")
 @override_option
 @allow_code_option
-@click.option("--out", metavar="FILE.nc", type=click.Path(), help="Histories. Default: NAME-inverse.nc, here.")
+@click.option("-o", "--out", metavar="FILE.nc", type=click.Path(), help="Histories. Default: NAME-inverse.nc, here.")
 @click.option("--force", is_flag=True, help="Replace existing files.")
 @click.option("--no-report", is_flag=True, help="Write no HTML page.")
 @quiet_option
@@ -119,7 +119,7 @@ def _lead(
     """Inverse kinematics: write the table of joint coordinates."""
     from nivel.analysis.inverse.path_file import read_path
     from nivel.errors import Fault, ModelError
-    from nivel.results.target import check_target
+    from nivel.results.frames.target import check_target
 
     if path is None or point is None:
         missing = "path" if path is None else "point"

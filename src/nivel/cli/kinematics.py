@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from nivel.cli.ending import COLOURS, computed_in, ended, say_checks
 from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
 from nivel.cli.progress import progress_listener
-from nivel.cli.run import COLOURS, assembly_lines, beside, refuse_to_replace
+from nivel.cli.run import assembly_lines, beside, refuse_to_replace
 
 if TYPE_CHECKING:
-    from nivel.results.mechanism import Range
+    from nivel.results.analyses.mechanism import Range
+    from nivel.results.configuration_curve import ConfigurationCurve
     from nivel.results.result import Result
 
 
@@ -23,6 +25,11 @@ if TYPE_CHECKING:
 @click.option("--from", "start", metavar="VALUE", help="Where it begins, e.g. '10 deg'; default: where it is.")
 @click.option("--to", "end", metavar="VALUE", help="Where it ends; default: one turn further.")
 @click.option("--range", "ranged", is_flag=True, help="Find how far the coordinate of --drive can go both ways.")
+@click.option(
+    "--through",
+    is_flag=True,
+    help="Follow all positions, past turning points of the coordinate of --drive; a table NAME-way.nc.",
+)
 @click.option("--duration", metavar="TIME", help="Of the motion; default that of the machine, 1 s with --drive.")
 @click.option("--positions", metavar="NUMBER", help="So many, both ends included; default 361.")
 @click.option(
@@ -37,7 +44,9 @@ if TYPE_CHECKING:
 @click.option("--coordinates", metavar="NAME", help="What the equations are written in: auto, absolute, relative.")
 @override_option
 @allow_code_option
-@click.option("--out", metavar="FILE.nc", type=click.Path(), help="Result file. Default: NAME-kinematics.nc, here.")
+@click.option(
+    "-o", "--out", metavar="FILE.nc", type=click.Path(), help="Result file. Default: NAME-kinematics.nc, here."
+)
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 @click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
 @quiet_option
@@ -52,6 +61,7 @@ def command(
     quiet: bool,
     as_json: bool,
     ranged: bool,
+    through: bool,
     transmission: tuple[str, ...],
     curve: tuple[str, ...],
     **options: Any,
@@ -63,13 +73,16 @@ def command(
     """
     from nivel.api import load
     from nivel.errors import ModelError, SolveError
-    from nivel.results.mechanism import add_studies, read_curve, read_transmission
+    from nivel.results.analyses.mechanism import add_studies, read_curve, read_transmission
 
     loaded = load(machine, overrides, allow_code=allow_code)
     angles = [read_transmission(loaded.record, each) for each in transmission]
     points = [read_curve(loaded.record, each) for each in curve]
     if ranged:
         _tell_range(loaded, options, quiet, as_json)
+        return
+    if through:
+        _tell_way(loaded, options, Path(out or f"{loaded.name}-way.nc"), force, quiet, as_json)
         return
     target = Path(out) if out is not None else Path(f"{loaded.name}-kinematics.nc")
     report = None if no_report else beside(target)
@@ -106,13 +119,7 @@ def command(
 
 def _tell_range(loaded: Any, options: dict[str, Any], quiet: bool, as_json: bool) -> None:
     """Both ends of the way of a coordinate."""
-    from nivel.errors import Fault, ModelError
-
-    given = [name for name in ("start", "end", "duration") if options[name] is not None]
-    if options["drive"] is None:
-        raise ModelError(Fault("", 0, 0, "kinematics.drive", "--range needs a coordinate: name it with --drive"))
-    if given:
-        raise ModelError(Fault("", 0, 0, f"kinematics.{given[0]}", "has no part in --range, which finds both ends"))
+    _alone(options, ("start", "end", "duration"), "--range")
     with progress_listener(quiet) as listener:
         found: Range = loaded.range_of_motion(
             options["drive"], coordinates=options["coordinates"], positions=options["positions"], listener=listener
@@ -123,19 +130,42 @@ def _tell_range(loaded: Any, options: dict[str, Any], quiet: bool, as_json: bool
         click.echo(str(found), err=True)
 
 
+def _tell_way(loaded: Any, options: dict[str, Any], target: Path, force: bool, quiet: bool, as_json: bool) -> None:
+    """All positions, and where the coordinate turns back."""
+    from nivel.results.frames.target import check_target
+
+    _alone(options, ("start", "end", "duration", "positions", "coordinates"), "--through")
+    check_target(target, "table", force=force, sources=[])
+    with progress_listener(quiet) as listener:
+        found: ConfigurationCurve = loaded.configuration_curve(options["drive"], listener=listener)
+        found.save(target, force=force)
+    if as_json:
+        click.echo(json.dumps(found.summary(), indent=2))
+    if not quiet:
+        click.echo(f"{found}\ndata: {target}", err=True)
+
+
+def _alone(options: dict[str, Any], others: tuple[str, ...], option: str) -> None:
+    """Raises ModelError where a coordinate is missing, or other options say how it moves."""
+    from nivel.errors import Fault, ModelError
+
+    if options["drive"] is None:
+        raise ModelError(Fault("", 0, 0, "kinematics.drive", f"{option} needs a coordinate: name it with --drive"))
+    given = [name for name in others if options[name] is not None]
+    if given:
+        raise ModelError(
+            Fault("", 0, 0, f"kinematics.{given[0]}", f"has no part in {option}, which finds the way itself")
+        )
+
+
 def _say(result: Result, target: Path, report: Path | None) -> None:
     from rich.console import Console
 
     console = Console(stderr=True, highlight=False)
     time, timing = result.time, result.timing
-    reached = f"t = {time[-1]:.6g} s" if len(time) else "no position"
-    console.print(
-        f"[bold]{result.name}[/bold]: {result.outcome}, {len(time)} positions up to {reached}, "
-        f"{timing.get('loop_seconds', 0.0):.3g} s of computing"
-    )
+    console.print(f"{ended(result)}, {len(time)} positions {computed_in(timing.get('loop_seconds', 0.0))}")
     for line in assembly_lines(result):
         console.print(line)
     console.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
-    for item in result.trust.items:
-        console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
+    say_checks(console, result.trust)
     console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)

@@ -13,7 +13,7 @@ from nivel.cli.progress import progress_listener
 from nivel.cli.run import beside, refuse_to_replace
 
 if TYPE_CHECKING:
-    from nivel.results.linear_model import LinearModel
+    from nivel.results.analyses.linear_model import LinearModel
 
 SHOWN = 20  # modes in the terminal
 MOST = 1000  # values of a parameter
@@ -44,7 +44,7 @@ MOST = 1000  # values of a parameter
 @override_option
 @allow_code_option
 @click.option(
-    "--out", metavar="FILE.nc", type=click.Path(), help="Matrices and eigenvalues. Default: NAME-linear.nc, here."
+    "-o", "--out", metavar="FILE.nc", type=click.Path(), help="Matrices and eigenvalues. Default: NAME-linear.nc, here."
 )
 @click.option("--mode", "shown", type=int, multiple=True, metavar="N", help="Also write mode N as a page to be played.")
 @click.option("--force", is_flag=True, help="Replace existing files.")
@@ -75,7 +75,7 @@ def command(
     """
     from nivel.api import load
     from nivel.errors import Fault, ModelError
-    from nivel.results.target import check_target
+    from nivel.results.frames.target import check_target
 
     asked = {"about": about, "inputs": inputs, "outputs": outputs, "coordinates": coordinates}
     if over is not None:
@@ -119,7 +119,7 @@ def _sweep(
     import numpy as np
 
     from nivel.api import load
-    from nivel.results.linear_sweep import LinearSweep
+    from nivel.results.analyses.linear_sweep import LinearSweep
 
     path, values, unit = read_range(wanted[0])
     orders = read_orders(wanted[1])
@@ -182,7 +182,7 @@ def read_orders(words: tuple[str, ...] | None) -> list[float]:
 def _say(model: LinearModel, target: Path, report: Path | None) -> None:
     from rich.console import Console
 
-    from nivel.results.linear_model import mode_in_words
+    from nivel.results.analyses.linear_model import mode_in_words
 
     console = Console(stderr=True, highlight=False, soft_wrap=True, markup=False)
     judged = ("stable" if model.stable else "unstable") if model.steady else "not judged"

@@ -65,7 +65,7 @@ def command(
     from nivel.live.recording import write_recording
     from nivel.live.source import LiveSource
     from nivel.live.timing import in_a_sentence, in_words
-    from nivel.results.target import check_folder, check_target
+    from nivel.results.frames.target import check_target
     from nivel.view.opening import serve
 
     def say(text: str) -> None:
@@ -73,7 +73,6 @@ def command(
             click.echo(text, err=True)
 
     if record is not None:
-        check_folder(Path(record), "recording")
         check_target(Path(record), "recording", force=force, sources=[Path(machine)])
     settings = {name: value for name, value in methods.items() if value is not None}
     listen, send = udp and place_of(udp, "udp"), udp_to and place_of(udp_to, "udp_to")

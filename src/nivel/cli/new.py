@@ -65,6 +65,6 @@ def _write(target: Path, text: str, force: bool) -> None:
         with target.open("w" if force else "x", encoding="utf-8") as file:
             file.write(text)
     except FileExistsError:
-        raise ModelError(f"{target} exists already; use --force to replace it, or another name") from None
+        raise ModelError(f"{target} exists already; use --force to overwrite it, or another name") from None
     except OSError as error:
         raise ModelError(f"{target} cannot be written: {error.strerror}") from None

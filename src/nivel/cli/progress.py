@@ -7,13 +7,13 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from nivel.analysis.listener import Listener
+    from nivel.analysis.progress.listener import Listener
 
 
 @contextmanager
 def progress_listener(quiet: bool) -> Iterator[Listener]:
     """Hears what is being done: says nothing where `quiet`, else stages and a progress bar."""
-    from nivel.analysis.listener import Listener
+    from nivel.analysis.progress.listener import Listener
 
     if quiet:
         yield Listener()

@@ -23,6 +23,7 @@ SHOWN = 15  # modes in the table of the terminal
 @file_argument("model")
 @override_option
 @click.option(
+    "-o",
     "--out",
     "-o",
     type=click.Path(dir_okay=False, path_type=Path),
@@ -92,7 +93,7 @@ def command(
 
 def _refuse_to_replace(target: Path, page: Path | None, vtk: Path | None, force: bool, model: Path) -> None:
     from nivel.errors import ModelError
-    from nivel.results.target import check_folder, check_target
+    from nivel.results.frames.target import check_target
 
     if page == target:
         raise ModelError(
@@ -100,7 +101,6 @@ def _refuse_to_replace(target: Path, page: Path | None, vtk: Path | None, force:
         )
     for path, what in ((target, "body file"), (page, "report"), (vtk, "VTK file")):
         if path is not None:
-            check_folder(path, what)
             check_target(path, what, force=force, sources=[model])
 
 

@@ -21,7 +21,10 @@ if TYPE_CHECKING:
 @simulation_options
 @click.option("--take", type=click.IntRange(1), help="Which motion of the recording, from 1; default: the longest.")
 @click.option(
-    "--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .replay.nc, here."
+    "-o",
+    "--out",
+    type=click.Path(dir_okay=False),
+    help="Result file; default: the machine's name with .replay.nc, here.",
 )
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 @allow_code_option
@@ -44,7 +47,7 @@ def command(
     from nivel.errors import ModelError
     from nivel.live.recording import read_recording
     from nivel.live.replay import replay, rerun
-    from nivel.results.target import check_target
+    from nivel.results.frames.target import check_target
 
     stored = read_recording(recording)
     if stored.has_code and not allow_code:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from nivel.cli.ending import COLOURS, computed_in, ended, say_checks
 from nivel.cli.failures import say_faults
 from nivel.cli.options import (
     allow_code_option,
@@ -20,11 +22,11 @@ from nivel.cli.options import (
 )
 from nivel.cli.progress import progress_listener
 
+ROUND_OFF = 1e-14  # m, rad or per second: smaller changes of the start are not reported
+
 if TYPE_CHECKING:
     from nivel.results import Result
-    from nivel.results.verdicts import Trust
-
-COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
+    from nivel.results.trust.verdicts import Trust
 
 
 @click.command(short_help="Simulate a machine: result file, report, summary.")
@@ -33,7 +35,9 @@ COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
 @override_option
 @input_option
 @allow_code_option
-@click.option("--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here.")
+@click.option(
+    "-o", "--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here."
+)
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 @click.option("--no-verify", is_flag=True, help="Make no second run, and say nothing of how exact the result is.")
 @click.option(
@@ -123,7 +127,7 @@ def beside(target: Path) -> Path:
 def refuse_to_replace(report: Path | None, target: Path, force: bool, machine: Path) -> None:
     """Refuse files that exist, unless they may be replaced; the machine file is never written over."""
     from nivel.errors import ModelError
-    from nivel.results.target import check_target
+    from nivel.results.frames.target import check_target
 
     if report is not None and report == target:
         raise ModelError(
@@ -137,23 +141,21 @@ def refuse_to_replace(report: Path | None, target: Path, force: bool, machine: P
 def _say(result: Result, target: Path, report: Path | None) -> None:
     from rich.console import Console
 
-    from nivel.results.occurrence import in_words
+    from nivel.results.frames.occurrence import in_words
 
     console = Console(stderr=True, highlight=False)
     trust = result.trust
     timing = result.timing
-    done = f"[bold]{result.name}[/bold]: {result.outcome}, {result.time[-1] if len(result.time) else 0:.6g} s simulated"
+    done = ended(result)
     if timing:  # not where the run was broken off
-        per_step = 1e6 * timing["loop_seconds"] / max(timing["steps"], 1)
-        done += f" in {timing['steps']} steps, {timing['loop_seconds']:.3g} s of computing ({per_step:.1f} µs a step)"
+        done += f", {timing['steps']} steps {computed_in(timing['loop_seconds'], timing['steps'])}"
     console.print(done)
     for line in assembly_lines(result):
         console.print(line)
     for line in in_words(result.events, result.stopped_by):
         console.print(f"event: {line}", markup=False)
     console.print(f"trust: {said_in_colour(trust)}", soft_wrap=True)
-    for item in trust.items:
-        console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
+    say_checks(console, trust)
     console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
 
 
@@ -167,8 +169,17 @@ def said_in_colour(trust: Trust) -> str:
 def assembly_lines(result: Result) -> Iterator[str]:
     """What the start differs from the file in: nothing is changed silently."""
     assembly = json.loads(str(result.attributes.get("assembly", "{}")))
-    for name, distance, angle in assembly.get("moved", []):
+    moved, changed = (
+        [each for each in assembly.get(kind, []) if max(each[1:]) > ROUND_OFF] for kind in ("moved", "velocity_change")
+    )
+    for name, distance, angle in moved:
         why = f"to close {assembly['gap_row']}, open by {assembly['gap']:.3g} as given"
-        yield f"assembly: {name} was moved by {distance:.3g} m and {angle:.3g} rad {why}"
-    for name, speed, rate in assembly.get("velocity_change", []):
-        yield f"assembly: the velocity of {name} was changed by {speed:.3g} m/s and {rate:.3g} rad/s to fit the joints"
+        yield f"assembly: {name} was moved by {_amounts((distance, 'm'), (math.degrees(angle), 'deg'))} {why}"
+    for name, speed, rate in changed:
+        yield f"assembly: the velocity of {name} was changed by {_amounts((speed, 'm/s'), (rate, 'rad/s'))} to fit the joints"
+
+
+def _amounts(*amounts: tuple[float, str]) -> str:
+    """Amounts with their units, those at round-off left out."""
+    largest = max(amount for amount, _ in amounts)
+    return " and ".join(f"{amount:.3g} {unit}" for amount, unit in amounts if amount > 1e-9 * largest)

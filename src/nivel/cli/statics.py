@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
+from nivel.cli.ending import COLOURS, computed_in, ended, say_checks
 from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
 from nivel.cli.progress import progress_listener
-from nivel.cli.run import COLOURS, assembly_lines, beside, refuse_to_replace
+from nivel.cli.run import assembly_lines, beside, refuse_to_replace
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -36,6 +37,7 @@ SHOWN: Final = 12  # vibrations in the terminal
 @override_option
 @allow_code_option
 @click.option(
+    "-o",
     "--out",
     metavar="FILE.nc",
     type=click.Path(),
@@ -100,11 +102,9 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
 
     console = Console(stderr=True, highlight=False)
     time, timing = result.time, result.timing
-    reached = f"t = {time[-1]:.6g} s" if len(time) else "no state"
     states = f"{len(time)} state{'s' * (len(time) != 1)}"
     console.print(
-        f"[bold]{result.name}[/bold]: {result.outcome}, {states} up to {reached}, {timing.get('iterations', 0)} iterations, "
-        f"{timing.get('loop_seconds', 0.0):.3g} s of computing"
+        f"{ended(result)}, {states}, {timing.get('iterations', 0)} iterations {computed_in(timing.get('loop_seconds', 0.0))}"
     )
     for line in assembly_lines(result):
         console.print(line)
@@ -115,8 +115,7 @@ def _say(result: Result, target: Path, report: Path | None) -> None:
             f"buckling: at t = {each['time']:.6g} s by extrapolation; most moves: {each['moves']}", markup=False
         )
     console.print(f"trust: [{COLOURS[result.trust.verdict]}]{result.trust.verdict}[/]")
-    for item in result.trust.items:
-        console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
+    say_checks(console, result.trust)
     console.print(f"result: {target}" + (f"\nreport: {report}" if report is not None else ""), soft_wrap=True)
 
 

@@ -12,7 +12,7 @@ from nivel.cli.options import file_argument, quiet_option, separated
 from nivel.cli.progress import progress_stage
 
 if TYPE_CHECKING:
-    from nivel.results.recovered import RecoveredBody
+    from nivel.results.stress.recovered import RecoveredBody
 
 FILE = click.Path(dir_okay=False, path_type=Path)
 
@@ -75,7 +75,7 @@ def command(
     if strains and table is None:
         raise click.UsageError("--strain needs --csv: the table in which the strains stand")
     from nivel.results import Result
-    from nivel.results.stress_facts import facts
+    from nivel.results.stress.stress_facts import facts
 
     opened = Result.open(result)
     moments = _times(times or ())
@@ -110,7 +110,7 @@ def _refuse_without_nodes(nodes: tuple[str, ...] | None, needing: dict[str, Any]
 def _times(words: tuple[str, ...]) -> list[float]:
     """[s] of `0.5`, `500 ms`."""
     from nivel.errors import Fault, ModelError
-    from nivel.machine.quantity import read_quantity
+    from nivel.machine.units.quantity import read_quantity
 
     out, faults = [], []
     for word in words:
@@ -141,7 +141,7 @@ def _known_nodes(found: RecoveredBody, words: tuple[str, ...]) -> list[int]:
 
 
 def _refuse_to_replace(targets: tuple[Path | None, ...], force: bool, sources: list[Path]) -> None:
-    from nivel.results.target import check_text_target
+    from nivel.results.frames.target import check_text_target
 
     for path, what in zip(targets, ("table", "table of cycles", "plot", "VTK file"), strict=True):
         if path is not None:
@@ -158,7 +158,7 @@ def _write(
     cycles: Path | None,
     picture: Path | None,
 ) -> None:
-    from nivel.results.stress_tables import write_cycles, write_envelope, write_history, write_states
+    from nivel.results.stress.stress_tables import write_cycles, write_envelope, write_history, write_states
 
     if table is not None:
         if nodes:
@@ -170,7 +170,7 @@ def _write(
     if cycles is not None:
         write_cycles(cycles, found, nodes)
     if picture is not None:
-        from nivel.results.stress_plot import save_plot
+        from nivel.results.stress.stress_plot import save_plot
 
         save_plot(picture, found, nodes)
 

@@ -113,7 +113,7 @@ def command(
 def _refuse_targets(targets: list[str], sources: list[str], force: bool) -> None:
     """Refuse, before anything is computed, files that may not be written, and kinds that are not known."""
     from nivel.errors import Fault, ModelError
-    from nivel.results.target import check_folder, check_target
+    from nivel.results.frames.target import check_target
     from nivel.view.capture import FILMS
 
     faults = []
@@ -125,7 +125,6 @@ def _refuse_targets(targets: list[str], sources: list[str], force: bool) -> None
             )
             continue
         try:
-            check_folder(Path(target), "file")
             check_target(Path(target), "file", force=force, sources=[Path(source) for source in sources])
         except ModelError as error:
             faults += error.faults

@@ -19,7 +19,7 @@ def command(quiet: bool) -> None:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-    from nivel.analysis.compilation import all_entries
+    from nivel.analysis.plan.compilation import all_entries
     from nivel.native import library, store
 
     console = Console(stderr=True, highlight=False, quiet=quiet)

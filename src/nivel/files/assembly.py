@@ -15,12 +15,12 @@ from nivel.files.placed import NotRepresentableError, placed
 from nivel.files.placement import Placement
 from nivel.files.tree import Tree
 from nivel.machine import MachineRecord, Orientation, Record
-from nivel.machine.arithmetic import Number, Parameters
-from nivel.machine.dimension import Dimension, symbol
 from nivel.machine.parameters import resolve
-from nivel.machine.quantity import FAULT, Position, fault, shown
 from nivel.machine.record import entry, unknown_word
 from nivel.machine.references import SECTIONS
+from nivel.machine.units.arithmetic import Number, Parameters
+from nivel.machine.units.dimension import Dimension, symbol
+from nivel.machine.units.quantity import FAULT, Position, fault, shown
 
 _PREFIX = re.compile(r"([^\W\d_][\w-]*)?")
 

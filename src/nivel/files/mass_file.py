@@ -8,8 +8,8 @@ from nivel.errors import ModelError
 from nivel.files.outline import section_of
 from nivel.files.sources import Sources
 from nivel.files.tree import Tree, read_tree
-from nivel.machine.quantity import shown
 from nivel.machine.record import unknown_word
+from nivel.machine.units.quantity import shown
 
 KEY: Final = "mass_properties"
 WORDS: Final = ("mass", "centre_of_mass", "inertia", "inertia_about")

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any, Final, NamedTuple
 
 import yaml
@@ -66,8 +67,9 @@ Node = Scalar | Sequence | Mapping
 _Loader: Any = yaml.CSafeLoader if yaml.__with_libyaml__ else yaml.SafeLoader
 
 
+@lru_cache(maxsize=8)
 def compose(text: str) -> Node | None:
-    """The root node of the one document in `text`; None if there is nothing in it.
+    """The root node of the one document in `text`; None if there is nothing in it. Nodes are only read: the last texts are kept.
 
     Raises NotYamlError.
     """

@@ -7,9 +7,9 @@ from typing import Any, Final
 from nivel.errors import Fault, ModelError
 from nivel.files.tree import Tree
 from nivel.machine import MachineRecord
-from nivel.machine.quantity import shown
 from nivel.machine.record import field_words, unknown_word
 from nivel.machine.references import SECTIONS
+from nivel.machine.units.quantity import shown
 
 FORMAT: Final = 1
 VALUES: Final = ("parameters", "functions")  # sections of what has no keys of its own

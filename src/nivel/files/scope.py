@@ -26,12 +26,12 @@ from nivel.files.python_laws import read_python_laws
 from nivel.files.sources import Sources
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.machine import MachineRecord, Record
-from nivel.machine.arithmetic import Number, Parameters, Signal
 from nivel.machine.control.problems import can_be_named
 from nivel.machine.named_function import resolve_functions
 from nivel.machine.parameters import resolve
-from nivel.machine.quantity import FAULT
 from nivel.machine.references import SECTIONS
+from nivel.machine.units.arithmetic import Number, Parameters, Signal
+from nivel.machine.units.quantity import FAULT
 
 Elements = dict[str, dict[str, Record]]
 

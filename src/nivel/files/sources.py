@@ -12,7 +12,7 @@ from typing import Final, TypeVar
 from nivel.errors import Fault, ModelError
 from nivel.files.foreign import foreign_content
 from nivel.files.tree import Path, Tree
-from nivel.machine.quantity import shown
+from nivel.machine.units.quantity import shown
 
 Content = TypeVar("Content", str, bytes)
 

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.section import Material
-from nivel.machine.section_properties import Section
+from nivel.machine.beams.section import Material
+from nivel.machine.beams.section_properties import Section
 
 Array = NDArray[np.float64]
 

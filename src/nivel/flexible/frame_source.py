@@ -11,7 +11,7 @@ from nivel.flexible.beam import Beam
 from nivel.flexible.frame import Mesh, assembled, local_axes
 from nivel.flexible.model import FiniteElementModel
 from nivel.flexible.model_file import Located
-from nivel.machine.section_properties import section_of
+from nivel.machine.beams.section_properties import section_of
 
 
 def frame_model(located: Located) -> FiniteElementModel:

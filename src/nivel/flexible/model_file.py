@@ -13,10 +13,10 @@ from nivel.files.overrides import override
 from nivel.files.sources import read_text
 from nivel.files.tree import Path, Tree, read_tree
 from nivel.flexible.records import ModelRecord
-from nivel.machine.arithmetic import Parameters
 from nivel.machine.parameters import resolve
-from nivel.machine.quantity import FAULT, shown
 from nivel.machine.record import field_words
+from nivel.machine.units.arithmetic import Parameters
+from nivel.machine.units.quantity import FAULT, shown
 
 FORMAT: Final = 1
 TOP_WORDS: Final = ("format", "parameters", *field_words(ModelRecord))

@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 
 from nivel.flexible.model import Array
-from nivel.machine.arithmetic import ExpressionError, FaultyParameterError, Parameters, bind, evaluate
-from nivel.machine.grammar import parse
+from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError, Parameters, bind, evaluate
+from nivel.machine.units.grammar import parse
 
 PLACES: Final = ("x", "y", "z")
 

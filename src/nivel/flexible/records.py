@@ -8,12 +8,22 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator, Field
 
 from nivel.flexible.solid_records import Part, Solid
+from nivel.machine.beams.section import Material, SectionRecord
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Truth
 from nivel.machine.machine_record import Title
-from nivel.machine.quantity import Direction, Length, Mass, Position, PositiveLength, Quantity, Whole, fault, shown
 from nivel.machine.record import Name, unknown_word
-from nivel.machine.section import Material, SectionRecord
+from nivel.machine.units.quantity import (
+    Direction,
+    Length,
+    Mass,
+    Position,
+    PositiveLength,
+    Quantity,
+    Whole,
+    fault,
+    shown,
+)
 
 FORMATS: Final = ("nastran", "op4", "abaqus", "calculix", "matrix-market")
 LENGTHS: Final = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 1e-3, "in": 0.0254, "ft": 0.3048}

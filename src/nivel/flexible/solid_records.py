@@ -9,8 +9,8 @@ from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Truth
-from nivel.machine.quantity import Position, PositiveLength, fault, shown
 from nivel.machine.record import Name
+from nivel.machine.units.quantity import Position, PositiveLength, fault, shown
 
 
 def _file(value: Any) -> str:

@@ -18,7 +18,7 @@ from nivel.flexible.model_file import Located
 from nivel.flexible.selection import NodeSets
 from nivel.flexible.sparse import Sparse
 from nivel.flexible.tetrahedra import Tetrahedra, inverted, surface
-from nivel.machine.section import Material
+from nivel.machine.beams.section import Material
 
 # degree of the polynomials that are integrated exactly: products of two shape functions, and of their derivatives
 MASS_DEGREE, STIFFNESS_DEGREE = 4, 2

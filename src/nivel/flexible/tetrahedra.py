@@ -15,7 +15,7 @@ import scipy.sparse as sp
 
 from nivel.flexible.model import Array, Whole
 from nivel.flexible.sparse import Sparse
-from nivel.machine.section import Material
+from nivel.machine.beams.section import Material
 
 EDGES: Final = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))
 FACES: Final = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))  # outwards

@@ -11,15 +11,15 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.compilation import build, run_entries
-from nivel.analysis.listener import Listener
-from nivel.analysis.plan import Plan
+from nivel.analysis.plan.compilation import build, run_entries
+from nivel.analysis.plan.plan import Plan
+from nivel.analysis.progress.listener import Listener
 from nivel.errors import ModelError
 from nivel.integrate.catalogue import INTEGRATORS
-from nivel.integrate.paced import CLOCK, DEADLINE, DONE, FROM_TAPE, HEARD, NOW, PACED, SLEEP, SPEED, TICKS, drive
-from nivel.integrate.run import TIME
-from nivel.kernels.observe import observe
-from nivel.kernels.status import BUDGET_SPENT
+from nivel.integrate.loop.paced import CLOCK, DEADLINE, DONE, FROM_TAPE, HEARD, NOW, PACED, SLEEP, SPEED, TICKS, drive
+from nivel.integrate.loop.run import TIME
+from nivel.kernels.core.status import BUDGET_SPENT
+from nivel.kernels.output.observe import observe
 from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import LiveRun, Pace, live_plan, prepared_run
 from nivel.live.shared import bytes_of, live_in

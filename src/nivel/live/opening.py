@@ -7,11 +7,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from nivel.analysis.compilation import build, run_entries
-from nivel.analysis.listener import Listener
+from nivel.analysis.plan.compilation import build, run_entries
+from nivel.analysis.progress.listener import Listener
 from nivel.api import Machine
 from nivel.errors import ModelError
-from nivel.integrate.paced import drive
+from nivel.integrate.loop.paced import drive
 from nivel.live.parts import ENTRIES
 from nivel.live.preparation import live_plan, pace_of
 from nivel.live.session import Session

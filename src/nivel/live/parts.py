@@ -8,11 +8,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.integrate.paced import TICKS
-from nivel.integrate.repeated import halt, repeat_evaluation, repeat_family, repeat_rows
-from nivel.integrate.run import BUDGET, DONE_STEPS, EVALUATIONS, EVENTS, FRAMES, TIME
-from nivel.kernels.observe import observe
-from nivel.kernels.status import BUDGET_SPENT
+from nivel.integrate.loop.paced import TICKS
+from nivel.integrate.loop.repeated import halt, repeat_evaluation, repeat_family, repeat_rows
+from nivel.integrate.loop.run import BUDGET, DONE_STEPS, EVALUATIONS, EVENTS, FRAMES, TIME
+from nivel.kernels.core.status import BUDGET_SPENT
+from nivel.kernels.output.observe import observe
 from nivel.live.preparation import LiveRun
 from nivel.native.entry import Entry
 from nivel.system.hydraulics.components import families_of

@@ -10,14 +10,14 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.analysis.dynamics import Loop, start_loop
-from nivel.analysis.plan import Plan, plan_run
-from nivel.analysis.preparation import Prepared, prepare
+from nivel.analysis.plan.plan import Plan, plan_run
+from nivel.analysis.run.dynamics import Loop, start_loop
+from nivel.analysis.run.preparation import Prepared, prepare
 from nivel.errors import Fault, ModelError
-from nivel.integrate.loop import advance
-from nivel.integrate.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
-from nivel.integrate.run import Run
-from nivel.kernels.handle import Handle
+from nivel.integrate.loop.loop import advance
+from nivel.integrate.loop.paced import BOUND, HIGH, LOW, RATE, REST, SPEED, SUBSTEPS, TICK, WATCHDOG, Live, drive
+from nivel.integrate.loop.run import Run
+from nivel.kernels.core.handle import Handle
 from nivel.live.hand import COUNT, PULL, with_hand
 from nivel.live.shared import Sizes
 from nivel.machine import MachineRecord, Table

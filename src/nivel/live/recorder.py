@@ -10,7 +10,7 @@ from weakref import finalize
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.integrate.paced import DONE, SHOWN, Live
+from nivel.integrate.loop.paced import DONE, SHOWN, Live
 from nivel.live.preparation import Pace
 from nivel.live.recording import Part, Take
 

@@ -5,30 +5,32 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from os import PathLike
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.attributes import run_attributes
-from nivel.analysis.compilation import build, run_entries
-from nivel.analysis.dynamics import RunOutcome, counts_of
-from nivel.analysis.held_friction import resting_frictions
-from nivel.analysis.listener import Listener
-from nivel.analysis.outcome import failure
-from nivel.analysis.plan import plan_run
-from nivel.analysis.simulate import close_run
+from nivel.analysis.plan.compilation import build, run_entries
+from nivel.analysis.plan.plan import plan_run
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.attributes import run_attributes
+from nivel.analysis.run.dynamics import RunOutcome, counts_of
+from nivel.analysis.run.held_friction import resting_frictions
+from nivel.analysis.run.outcome import failure
+from nivel.analysis.run.simulate import close_run
 from nivel.api import Machine
 from nivel.errors import ModelError
-from nivel.integrate.paced import DONE, FROM_TAPE, SHOWN, TICKS, drive
-from nivel.integrate.run import ACCEPTED, STEP, STOPPED
-from nivel.integrate.sink import Header
-from nivel.kernels.status import BUDGET_SPENT
-from nivel.kernels.status import DONE as ENDED
+from nivel.integrate.loop.paced import DONE, FROM_TAPE, SHOWN, TICKS, drive
+from nivel.integrate.loop.run import ACCEPTED, STEP, STOPPED
+from nivel.integrate.loop.sink import Header
+from nivel.kernels.core.status import BUDGET_SPENT
+from nivel.kernels.core.status import DONE as ENDED
 from nivel.live.preparation import LiveRun, prepared_run
 from nivel.live.recording import Recording, Take
 from nivel.live.shared import bytes_of, live_in
 from nivel.machine import MachineRecord
+from nivel.results.frames.target import check_target
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
@@ -106,6 +108,8 @@ def replay(
     """
     if not take.ticks:
         raise ModelError("this take has no tick: there is nothing to replay")
+    if out is not None:
+        check_target(Path(out), "result file", force=force)
     plan = plan_run(recording.machine)
     compile_seconds = build([*run_entries(plan), drive], listener)
     again = prepared_run(plan, recording.pace)

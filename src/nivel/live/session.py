@@ -13,9 +13,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.plan import Plan
+from nivel.analysis.plan.plan import Plan
 from nivel.errors import Fault, ModelError
-from nivel.integrate.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
+from nivel.integrate.loop.paced import COMMAND, HEARD, LOST, MODE, SAVED, SPEED, Live
 from nivel.live import hand, shared
 from nivel.live.preparation import Pace
 from nivel.live.recorder import Recorder

@@ -6,7 +6,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from nivel.integrate.paced import BINS, CLOCKS, CONTROLS, Live
+from nivel.integrate.loop.paced import BINS, CLOCKS, CONTROLS, Live
 
 TAPE_ROWS: Final = 1 << 16  # a minute of ticks of 1 ms: what the recorder may be late by
 FRAME_ROWS: Final = 64

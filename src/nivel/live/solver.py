@@ -11,10 +11,10 @@ from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 from typing import Any, Final
 
-from nivel.analysis.outcome import failure
-from nivel.analysis.plan import Plan
+from nivel.analysis.plan.plan import Plan
+from nivel.analysis.run.outcome import failure
 from nivel.errors import ModelError, NivelError
-from nivel.integrate.paced import (
+from nivel.integrate.loop.paced import (
     CLOCK,
     COMMAND,
     DEADLINE,
@@ -29,10 +29,10 @@ from nivel.integrate.paced import (
     TICKS,
     Live,
 )
-from nivel.integrate.run import ACCEPTED, STOPPED, TIME
-from nivel.integrate.run import STEP as STEP_CLOCK
-from nivel.kernels import status as codes
-from nivel.kernels.observe import observe
+from nivel.integrate.loop.run import ACCEPTED, STOPPED, TIME
+from nivel.integrate.loop.run import STEP as STEP_CLOCK
+from nivel.kernels.core import status as codes
+from nivel.kernels.output.observe import observe
 from nivel.live import shared
 from nivel.live.parts import ENTRIES, shares
 from nivel.live.preparation import LiveRun, Pace, prepared_run
@@ -77,7 +77,7 @@ def main(pipe: Connection, plan: Plan, pace: Pace, urgent: bool) -> None:
 
 def _facts(live_run: LiveRun) -> dict[str, Any]:
     """What the server has to know of the machine as it was assembled."""
-    from nivel.analysis.attributes import run_attributes
+    from nivel.analysis.run.attributes import run_attributes
 
     system = live_run.prepared.motion.system
     attributes = run_attributes(live_run.plan.machine, "", live_run.prepared, live_run.plan.settings)

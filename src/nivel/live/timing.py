@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from nivel.integrate.paced import (
+from nivel.integrate.loop.paced import (
     BIN_WIDTH,
     BINS,
     COMPUTING,

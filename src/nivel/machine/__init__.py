@@ -1,12 +1,11 @@
 """Machines in words: frozen, typed records with units, defaults and bounds. Nothing here computes a motion."""
 
 from nivel.machine.assembly_settings import AssemblySettings
-from nivel.machine.beam import Beam
+from nivel.machine.beams.beam import Beam
 from nivel.machine.body import Body
 from nivel.machine.control import Block
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.coupling import Belt, Coupling, Gear, LinearCoupling, Rack
-from nivel.machine.dimension import KINDS
 from nivel.machine.driver import Driver
 from nivel.machine.event import Event
 from nivel.machine.forces import (
@@ -42,6 +41,7 @@ from nivel.machine.shape import Box, Capsule, Cylinder, Extrusion, Mesh, Shape, 
 from nivel.machine.state import State
 from nivel.machine.symbols import find_symbol
 from nivel.machine.time_function import Expression, PythonLaw, Table, TimeFunction
+from nivel.machine.units.dimension import KINDS
 
 __all__ = [
     "GROUND",

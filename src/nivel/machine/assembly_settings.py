@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from nivel.machine.quantity import PositiveLength
 from nivel.machine.record import Record
+from nivel.machine.units.quantity import PositiveLength
 
 
 class AssemblySettings(Record):

@@ -12,13 +12,14 @@ from nivel.machine.coefficient import PositiveNumber, Truth
 from nivel.machine.flexibility import FlexibleBody
 from nivel.machine.inertia import InertiaTensor, impossible, mass_properties
 from nivel.machine.orientation import Orientation
-from nivel.machine.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector, listed
 from nivel.machine.record import GROUND, Name
 from nivel.machine.shape import Mesh, Shape, Sphere
 from nivel.machine.solids import volume, why_not_solid
+from nivel.machine.units.quantity import AngularVelocityVector, Density, Mass, Position, VelocityVector, listed
 
 LIGHTEST: Final = 1e-2  # [kg/m³] mean density below which a unit must have slipped: a hundredth of that of air
 DENSEST: Final = 1e5  # [kg/m³] and above which: four times that of the densest metal
+LIGHTEST_BODY: Final = 1e-40  # [kg] squares of inertias of lighter bodies leave the range of numbers
 
 _OF_A_RIGID_BODY: Final = (
     "centre_of_mass",
@@ -72,6 +73,8 @@ class Body(Checked):
     def problems(self) -> Iterator[Problem]:
         if self.name == GROUND:
             yield Problem((), f"`{GROUND}` is the fixed world and cannot be a body")
+        if self.mass is not None and self.mass < LIGHTEST_BODY:
+            yield Problem(("mass",), f"a mass of {self.mass:.3g} kg: a slip of a unit?")
         yield from self._problems_of_looks()
         if self.point_mass:
             yield from self._problems_of_point_mass()
@@ -156,6 +159,9 @@ class Body(Checked):
                 yield Problem(("shape",), f"{why}; close it, or give `mass` and `inertia`")
             if why:
                 return
+        if self.shape is not None and self.density is not None and self.density * volume(self.shape) < LIGHTEST_BODY:
+            mass = self.density * volume(self.shape)
+            yield Problem(("shape",), f"with this density its mass is {mass:.3g} kg: a slip of a unit?")
         if self.shape is None or self.mass is None or self.density is not None:
             return
         mean = self.mass / volume(self.shape)

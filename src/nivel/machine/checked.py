@@ -9,8 +9,8 @@ from pydantic import ModelWrapValidatorHandler, ValidationError, ValidationInfo,
 from pydantic_core import InitErrorDetails
 
 from nivel.machine.partial import problems_beside
-from nivel.machine.quantity import fault
 from nivel.machine.record import Record, restated
+from nivel.machine.units.quantity import fault
 
 Place = tuple[str | int, ...]
 

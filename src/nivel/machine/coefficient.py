@@ -21,10 +21,10 @@ from pydantic import (
 from pydantic_core import CoreSchema, InitErrorDetails, core_schema
 
 from nivel.arguments import plain
-from nivel.machine.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.coordinate_reference import kind_of
-from nivel.machine.dimension import KINDS
-from nivel.machine.quantity import (
+from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
+from nivel.machine.units.dimension import KINDS
+from nivel.machine.units.quantity import (
     Quantity,
     expression_fault,
     fault,
@@ -34,6 +34,9 @@ from nivel.machine.quantity import (
     reported,
     shown,
 )
+
+THINNEST: Final = 1e-9  # [m] of a section; fourth powers of smaller numbers, and of larger ones, are lost in round-off
+THICKEST: Final = 1e6
 
 Bound = Literal["", "positive", "not negative"]
 
@@ -49,6 +52,14 @@ COORDINATE_DAMPING: Final = ("damping", "torsional damping")
 def _not_negative(value: float) -> float:
     if value < 0:
         raise fault(f"zero or more was expected, got `{value:g}`")
+    return value
+
+
+def _size_of_section(value: float) -> float:
+    if not THINNEST <= value <= THICKEST:
+        raise fault(
+            f"{value:.3g} m is no size of a beam's section: between {THINNEST:g} and {THICKEST:g} m was expected"
+        )
     return value
 
 
@@ -146,6 +157,7 @@ NotNegative = AfterValidator(_not_negative)
 PositiveNumber = Annotated[float, Quantity("number", positive=True)]
 NotNegativeNumber = Annotated[float, Quantity("number"), NotNegative]
 NotNegativeLength = Annotated[float, Quantity("length"), NotNegative]
+SectionLength = Annotated[float, Quantity("length", positive=True), AfterValidator(_size_of_section)]
 PositiveForce = Annotated[float, Quantity("force", positive=True)]
 NotNegativeForce = Annotated[float, Quantity("force"), NotNegative]
 ForceValue = Annotated[float, Quantity("force")]

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Final
 
 from pydantic import BeforeValidator, WithJsonSchema
 
-from nivel.machine.quantity import fault, shown
+from nivel.machine.units.quantity import fault, shown
 
 NAMED: Final = {
     "yellow": "#e3b02b",

@@ -9,8 +9,8 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator, WithJsonSchema
 
 from nivel.machine.joint import JOINT_COORDINATES, Joint
-from nivel.machine.quantity import fault, shown
 from nivel.machine.record import NAME, unknown_word
+from nivel.machine.units.quantity import fault, shown
 from nivel.vocabulary import translated
 
 Kind = Literal["angle", "length"]

@@ -13,8 +13,8 @@ from pydantic import Field
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import PositiveNumber, Truth
 from nivel.machine.coordinate_reference import CoordinateReference, Kind
-from nivel.machine.quantity import Length, PositiveLength, Scalar
 from nivel.machine.record import Name
+from nivel.machine.units.quantity import Length, PositiveLength, Scalar
 
 Terms = tuple[tuple[str, float], ...]
 _TWO = Field(description="two joint coordinates, or joints that have one of the kind")

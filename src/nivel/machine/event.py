@@ -7,14 +7,14 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, ValidationInfo
 
-from nivel.machine.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Truth
-from nivel.machine.measure import refuse_unlike_terms
-from nivel.machine.quantity import bound_tree, expression_fault, fault, parameters_of, shown
 from nivel.machine.record import Name
 from nivel.machine.table import Table
 from nivel.machine.time_function import Measured
+from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
+from nivel.machine.units.measure import refuse_unlike_terms
+from nivel.machine.units.quantity import bound_tree, expression_fault, fault, parameters_of, shown
 
 _COMPARISONS = ("<", ">", "=")
 

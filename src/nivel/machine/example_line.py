@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Final
 
-from nivel.machine.unit import UNITS
+from nivel.machine.units.unit import UNITS
 from nivel.vocabulary import plain
 
 # of fields that are lists: an entry that shows what is meant

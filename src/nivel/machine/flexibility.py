@@ -7,8 +7,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from nivel.machine.quantity import Real, Whole, fault, shown
 from nivel.machine.record import Record
+from nivel.machine.units.quantity import Real, Whole, fault, shown
 
 Invariant = Literal["I5", "I8", "I9"]
 

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 
 from nivel.machine.control.block import Block
 from nivel.machine.driver import Driver
-from nivel.machine.expression import Expression
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.record import Record
 from nivel.machine.state import State
 from nivel.machine.table import Table
+from nivel.machine.units.expression import Expression
 
 AXES = "xyz"
 

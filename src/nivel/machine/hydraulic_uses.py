@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
-from nivel.machine.arithmetic import Parameters
 from nivel.machine.coordinate_reference import UnknownCoordinateError, find, unknown_name
 from nivel.machine.hydraulic_fluids import fluid_faults
 from nivel.machine.hydraulics import COMPONENT_OF
 from nivel.machine.index import Index, Place, as_list, elements
 from nivel.machine.record import entry
 from nivel.machine.symbols import paths_in, symbol_faults
+from nivel.machine.units.arithmetic import Parameters
 
 Faults = Iterator[tuple[Place, str]]
 SENSING: Final = ("LS", "X")  # ports that feel a pressure and take no flow

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, ValidationInfo
 
-from nivel.machine.arithmetic import ExpressionError, FaultyParameterError
-from nivel.machine.quantity import InertiaComponent, fault, listed, parameters_of, read_quantity, reported, shown
 from nivel.machine.record import Record
 from nivel.machine.solids import centroid, squared_gyration, volume
+from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
+from nivel.machine.units.quantity import InertiaComponent, fault, listed, parameters_of, read_quantity, reported, shown
 
 if TYPE_CHECKING:
     from nivel.machine.body import Body

@@ -9,10 +9,10 @@ from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import Truth
-from nivel.machine.quantity import ANY, Quantity, Real, Whole, fault, listed, shown
 from nivel.machine.record import Name, Record
 from nivel.machine.table import Table
 from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.units.quantity import ANY, Quantity, Real, Whole, fault, listed, shown
 
 Number = Annotated[float, Quantity(ANY)]
 Stick = Literal["left-x", "left-y", "right-x", "right-y"]

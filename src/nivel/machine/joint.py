@@ -17,8 +17,8 @@ from nivel.machine.axes import Triple, bad_axis_pair, no_direction, parallel
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.marker import TwoMarkers
 from nivel.machine.placement import angle_between
-from nivel.machine.quantity import Angle, AngularVelocity, Direction, Length, Position, PositiveLength, Velocity
 from nivel.machine.record import BodyName, Name, Record, unknown_word
+from nivel.machine.units.quantity import Angle, AngularVelocity, Direction, Length, Position, PositiveLength, Velocity
 
 JointType = Literal[
     "spherical",

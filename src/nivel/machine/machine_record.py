@@ -19,7 +19,7 @@ from pydantic import (
 from pydantic_core import InitErrorDetails
 
 from nivel.machine.assembly_settings import AssemblySettings
-from nivel.machine.beam import Beam
+from nivel.machine.beams.beam import Beam
 from nivel.machine.body import Body
 from nivel.machine.checked import Checked, Problem, lines_of
 from nivel.machine.control import ControlBlock
@@ -37,12 +37,12 @@ from nivel.machine.marker import Marker
 from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.machine.placement import placement
 from nivel.machine.point_masses import problems_of_points
-from nivel.machine.quantity import AccelerationVector, fault, parameters_of, shown
 from nivel.machine.record import entry, restated
 from nivel.machine.references import reference_faults
 from nivel.machine.sensor import Sensor
 from nivel.machine.settings import SimulationSettings
 from nivel.machine.state import State
+from nivel.machine.units.quantity import AccelerationVector, fault, parameters_of, shown
 
 LONGEST_NAME: Final = 100  # characters: the files of a run are named after the machine
 
@@ -108,6 +108,10 @@ class MachineRecord(Checked):
     def marker_named(self) -> Mapping[str, Marker]:
         """The markers that have a place of their own, by name."""
         return {marker.name: marker for marker in self.markers if marker.name is not None}
+
+    def with_simulation(self, simulation: SimulationSettings) -> Self:
+        """The same machine with other settings, which name no joints that these did not: nothing is checked again."""
+        return self.model_copy(update={"simulation": simulation})
 
     @model_validator(mode="wrap")
     @classmethod

@@ -10,8 +10,8 @@ from pydantic import BeforeValidator, Field
 from nivel.machine.axes import bad_axis_pair
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.orientation import Orientation
-from nivel.machine.quantity import Direction, Position, fault, shown
 from nivel.machine.record import GROUND, BodyName, Name
+from nivel.machine.units.quantity import Direction, Position, fault, shown
 
 
 class Marker(Checked):

@@ -30,6 +30,10 @@ class Named(Mapping[str, Element], Generic[Element]):
             raise ModelError(Fault("", 0, 0, "", unknown_word(name, list(self._records), self._singular)))
         return self._records[name]
 
+    def __getattr__(self, name: str) -> Element:
+        message = f"elements are read by their names: write [{name!r}]" if not name.startswith("_") else name
+        raise AttributeError(message)
+
     def __contains__(self, name: object) -> bool:
         return name in self._records
 

@@ -15,7 +15,8 @@ from typing import Final
 
 from pydantic import ValidationError
 
-from nivel.machine.arithmetic import (
+from nivel.machine.table import read_table
+from nivel.machine.units.arithmetic import (
     RESERVED,
     Call,
     ExpressionError,
@@ -31,10 +32,9 @@ from nivel.machine.arithmetic import (
     bind,
     given,
 )
-from nivel.machine.grammar import parse
-from nivel.machine.quantity import ANY, FAULT, shown
-from nivel.machine.table import read_table
-from nivel.machine.unit import UNITS
+from nivel.machine.units.grammar import parse
+from nivel.machine.units.quantity import ANY, FAULT, shown
+from nivel.machine.units.unit import UNITS
 
 _HEAD: Final = re.compile(r"([^\W\d]\w*)\s*(?:\(\s*([^()]*?)\s*\))?")
 _OF_CURVE: Final = "argument"

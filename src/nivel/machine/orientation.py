@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, model_validator
 
-from nivel.machine.quantity import Angle, Direction, Scalar, fault, listed, shown
 from nivel.machine.record import Record, unknown_word
+from nivel.machine.units.quantity import Angle, Direction, Scalar, fault, listed, shown
 
 Array = NDArray[np.float64]
 

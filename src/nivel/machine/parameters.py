@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from nivel.machine.arithmetic import (
+from nivel.machine.units.arithmetic import (
     RESERVED,
     ExpressionError,
     FaultyParameterError,
@@ -16,9 +16,9 @@ from nivel.machine.arithmetic import (
     names,
     varies,
 )
-from nivel.machine.grammar import parse
-from nivel.machine.measure import measure
-from nivel.machine.unit import UNITS
+from nivel.machine.units.grammar import parse
+from nivel.machine.units.measure import measure
+from nivel.machine.units.unit import UNITS
 
 
 def resolve(given: Mapping[str, object]) -> tuple[dict[str, Number | None], dict[str, str]]:

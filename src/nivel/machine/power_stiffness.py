@@ -6,11 +6,19 @@ from typing import Annotated, Any, Final
 
 from pydantic import PlainValidator, ValidationInfo, WithJsonSchema
 
-from nivel.machine.arithmetic import ExpressionError, FaultyParameterError, Parameters, evaluate
 from nivel.machine.coefficient import COORDINATE, COORDINATE_EFFORT, kind_for
-from nivel.machine.dimension import KINDS, Dimension, described, is_angular, without_angle
-from nivel.machine.measure import measure
-from nivel.machine.quantity import constant_tree, expression_fault, fault, parameters_of, read_quantity, reported, shown
+from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError, Parameters, evaluate
+from nivel.machine.units.dimension import KINDS, Dimension, described, is_angular, without_angle
+from nivel.machine.units.measure import measure
+from nivel.machine.units.quantity import (
+    constant_tree,
+    expression_fault,
+    fault,
+    parameters_of,
+    read_quantity,
+    reported,
+    shown,
+)
 
 _HERTZ: Final = 1.5
 

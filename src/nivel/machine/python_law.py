@@ -12,9 +12,10 @@ from pydantic import ValidationError
 from pydantic_core import InitErrorDetails
 
 from nivel.arguments import checked_arguments, checked_fields
-from nivel.machine.arithmetic import TIME, ExpressionError, FaultyParameterError, Parameters, Signal, Time, varies
 from nivel.machine.python_source import source_of
-from nivel.machine.quantity import (
+from nivel.machine.record import unknown_word
+from nivel.machine.units.arithmetic import TIME, ExpressionError, FaultyParameterError, Parameters, Signal, Time, varies
+from nivel.machine.units.quantity import (
     ANY,
     bound_tree,
     expression_fault,
@@ -24,7 +25,6 @@ from nivel.machine.quantity import (
     reported,
     shown,
 )
-from nivel.machine.record import unknown_word
 
 KEYS: Final = ("source", "function", "arguments", "file")
 

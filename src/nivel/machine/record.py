@@ -20,8 +20,8 @@ from pydantic_core import ErrorDetails, InitErrorDetails
 from nivel.arguments import checked_arguments
 from nivel.errors import Fault, ModelError
 from nivel.machine.example_line import list_line, mapping_line
-from nivel.machine.quantity import FAULT, REPORTED, fault, reported
 from nivel.machine.signature import PlainSignature
+from nivel.machine.units.quantity import FAULT, REPORTED, fault, reported
 from nivel.wording import shown, unknown_word
 
 NAME = re.compile(r"[^\W\d_][\w-]*")
@@ -80,6 +80,15 @@ class Record(BaseModel):
         """A copy in which `changes` hold, checked like a new record."""
         given = {name: getattr(self, name) for name in self.model_fields_set}
         return type(self)(**(given | changes))
+
+    def __setattr__(self, field: str, value: Any) -> None:
+        """Refused: nothing changes a record. Raises ModelError with the line to write."""
+        own = str(getattr(self, "name", None) or self.collection)
+        line = (
+            f"machine = machine.with_values({{'{own}.{field}': {value!r}}})" if own else f"replace({field}={value!r})"
+        )
+        message = f"a record never changes; write `{line}`, which gives another one"
+        raise ModelError(Fault("", 0, 0, f"{own}.{field}" if own else field, message))
 
     def __str__(self) -> str:
         return repr(self)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, Final
 
-from nivel.machine.arithmetic import Parameters
 from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.coordinate_uses import coordinate_faults
 from nivel.machine.forces import Contact
@@ -16,6 +15,7 @@ from nivel.machine.joint import JOINT_KINDS
 from nivel.machine.point_masses import point_mass_faults
 from nivel.machine.record import GROUND, Record, entry, unknown_word
 from nivel.machine.symbols import outputs_of, states_of, symbol_faults
+from nivel.machine.units.arithmetic import Parameters
 
 __all__ = ["SECTIONS", "reference_faults"]
 
@@ -137,7 +137,7 @@ def _of_contact(contact: Any, index: Index, place: Place) -> Faults:
         yield (*place, "plane"), f"the plane is on `{body}` itself; it needs another body, or `{GROUND}`"
     shape = index.bodies.get(body, "") if isinstance(body, str) else ""
     if entry(contact, "materials") is not None and shape in SHAPES_ON_PLANE and shape != "sphere":
-        message = f"`materials` give the stiffness of spheres (Hertz); `{body}` is a {shape}: give its `stiffness`"
+        message = f"`materials` give the stiffness of spheres (Hertz); the shape of `{body}` is `{shape}`: give its `stiffness`"
         yield (*place, "materials"), message
 
 
@@ -151,7 +151,7 @@ def _of_shape(body: Any, index: Index, allowed: tuple[str, ...], place: Place) -
     if not shape:
         yield place, f"the body `{body}` has no shape; a contact here needs a {wanted}"
     elif shape in _SHAPES and shape not in allowed:
-        yield place, f"the body `{body}` is a {shape}; a contact here needs a {wanted}"
+        yield place, f"the shape of `{body}` is `{shape}`; a contact here needs a {wanted}"
 
 
 def _of_sensor(sensor: Any, index: Index, place: Place) -> Faults:

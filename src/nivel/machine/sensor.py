@@ -11,9 +11,9 @@ from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.marker import TwoMarkers
 from nivel.machine.orientation import AxisSequence
-from nivel.machine.quantity import fault, shown
 from nivel.machine.record import Name, unknown_word
 from nivel.machine.time_function import Measured
+from nivel.machine.units.quantity import fault, shown
 
 MARKER_QUANTITIES: Final = (
     "position",

@@ -10,8 +10,8 @@ from pydantic import Field, field_validator
 
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coordinate_reference import CoordinateReference
-from nivel.machine.quantity import Duration, Rate, Real, Whole, fault
 from nivel.machine.record import Record
+from nivel.machine.units.quantity import Duration, Rate, Real, Whole, fault
 
 Integrator = Literal[
     "euler", "heun", "rk4", "rkn4",

@@ -17,9 +17,9 @@ from pydantic import BeforeValidator, Field, model_validator
 from nivel.machine.colour import Colour
 from nivel.machine.orientation import Orientation
 from nivel.machine.polygon import bad_outline
-from nivel.machine.quantity import Length, Position, PositiveLength, fault, listed
 from nivel.machine.record import Record
 from nivel.machine.surface import surface_arrays
+from nivel.machine.units.quantity import Length, Position, PositiveLength, fault, listed
 
 Along = Literal["x", "y", "z"]
 _NEAR: Final = 1e-9  # [m] two end points closer than this have no direction

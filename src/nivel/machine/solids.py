@@ -116,6 +116,15 @@ def _of_extrusion(shape: Extrusion) -> Array:
     return np.trace(second) * np.eye(3) - second
 
 
+def extrusion_corners(shape: Extrusion) -> Array:
+    """(2 n, 3) [m] the corners of both ends in the body frame."""
+    axis, a, b = axes_of(shape.along)
+    out = np.zeros((2, len(shape.outline), 3))
+    out[:, :, axis] = np.array([[-0.5], [0.5]]) * length(shape)
+    out[:, :, [a, b]] = np.array(shape.outline)
+    return out.reshape(-1, 3) + np.array(shape.centre or (0.0, 0.0, 0.0))
+
+
 # --- meshes ---
 
 

@@ -8,9 +8,9 @@ from typing import Annotated, ClassVar
 from pydantic import Field
 
 from nivel.machine.checked import Checked, Problem, superfluous
-from nivel.machine.quantity import ANY, Duration, Quantity
 from nivel.machine.record import Name
 from nivel.machine.time_function import Measured
+from nivel.machine.units.quantity import ANY, Duration, Quantity
 
 
 class State(Checked):

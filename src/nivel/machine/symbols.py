@@ -11,17 +11,8 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any, Final, Literal
 
-from nivel.machine.arithmetic import (
-    LOCAL_SYMBOLS,
-    ExpressionError,
-    FaultyParameterError,
-    Parameters,
-    bind,
-    signals,
-)
 from nivel.machine.control import BLOCK_TYPES
 from nivel.machine.forces import FORCES
-from nivel.machine.grammar import parse
 from nivel.machine.hydraulics import COMPONENT_OF
 from nivel.machine.hydraulics.signals import signals_of
 from nivel.machine.index import Index, Place
@@ -29,6 +20,15 @@ from nivel.machine.joint import JOINT_COORDINATES
 from nivel.machine.record import entry
 from nivel.machine.table import SIGNAL_PATH
 from nivel.machine.time_function import Expression, PythonLaw, Table
+from nivel.machine.units.arithmetic import (
+    LOCAL_SYMBOLS,
+    ExpressionError,
+    FaultyParameterError,
+    Parameters,
+    bind,
+    signals,
+)
+from nivel.machine.units.grammar import parse
 
 Section = Literal["joints", "inputs", "states", "control", "forces", "hydraulics", "sensors", "markers", "bodies"]
 

@@ -13,11 +13,12 @@ from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from nivel.arguments import checked_arguments, checked_fields
-from nivel.machine.arithmetic import TIME, ExpressionError, FaultyParameterError, Parameters
-from nivel.machine.dimension import KINDS
-from nivel.machine.interpolation import FEWEST, INTERPOLATIONS, Interpolation, interpolated, pieces
-from nivel.machine.measure import signal_dimensions
-from nivel.machine.quantity import (
+from nivel.machine.record import unknown_word
+from nivel.machine.units.arithmetic import TIME, ExpressionError, FaultyParameterError, Parameters
+from nivel.machine.units.dimension import KINDS
+from nivel.machine.units.interpolation import FEWEST, INTERPOLATIONS, Interpolation, interpolated, pieces
+from nivel.machine.units.measure import signal_dimensions
+from nivel.machine.units.quantity import (
     ANY,
     Kind,
     expression_fault,
@@ -27,7 +28,6 @@ from nivel.machine.quantity import (
     reported,
     shown,
 )
-from nivel.machine.record import unknown_word
 
 SIGNAL_PATH: Final = re.compile(r"[^\W\d_][\w-]*\.[^\W\d]\w*")
 

@@ -13,13 +13,14 @@ from typing import Annotated, Any, Final
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
-from nivel.machine.arithmetic import ExpressionError, FaultyParameterError, Node, Parameters, fold, render, varies
-from nivel.machine.derivative import derivative
-from nivel.machine.expression import Expression
-from nivel.machine.interpolation import INTERPOLATIONS
-from nivel.machine.measure import measure, readings
 from nivel.machine.python_law import PythonLaw, read_python_law
-from nivel.machine.quantity import (
+from nivel.machine.table import Table, read_table
+from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError, Node, Parameters, fold, render, varies
+from nivel.machine.units.derivative import derivative
+from nivel.machine.units.expression import Expression
+from nivel.machine.units.interpolation import INTERPOLATIONS
+from nivel.machine.units.measure import measure, readings
+from nivel.machine.units.quantity import (
     ANY,
     Kind,
     bound_tree,
@@ -30,7 +31,6 @@ from nivel.machine.quantity import (
     read_quantity,
     reported,
 )
-from nivel.machine.table import Table, read_table
 
 TimeFunction = float | Table | Expression | PythonLaw
 

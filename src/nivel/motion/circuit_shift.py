@@ -17,8 +17,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import NOT_CONVERGED, OK
+from nivel.kernels.core.status import NOT_CONVERGED, OK
+from nivel.kernels.record.record import NONE, record_at
 from nivel.motion.tree_motion import write_positions
 from nivel.native.function import leaf
 

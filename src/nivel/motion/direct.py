@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
-from nivel.kernels.record import record_at
-from nivel.kernels.saddle import CONTRADICTORY, PIVOTED, RANK, correction, exceeds
-from nivel.kernels.status import NOT_CLOSED, OK
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import NOT_CLOSED, OK
+from nivel.kernels.record.record import record_at
+from nivel.kernels.solve.saddle import CONTRADICTORY, PIVOTED, RANK, correction, exceeds
 from nivel.native.function import shared, stage
 
 # Passes for the positions; and as many where they are visibly open after these, in a step too long or a position that there is not.
@@ -25,7 +25,7 @@ def are_open(machine, limit):
     """Whether positions are open by more than `limit`, a share of the scales of their rows, that the passes are to close.
 
     Of redundant rows those count that were kept in the last factor: what the others are open by is left to the loop
-    (`nivel.kernels.saddle.contradicts`). Penalties close no rows that contradict each other, and leave them as far open.
+    (`nivel.kernels.solve.saddle.contradicts`). Penalties close no rows that contradict each other, and leave them as far open.
     """
     record = record_at(machine)
     saddle, constraints = record.saddle, record.constraints

@@ -17,18 +17,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
-from nivel.kernels.flexible_over_step import begin_flexible_interval, push_modes
-from nivel.kernels.floating_frame import modes_of
-from nivel.kernels.hook import apply_forces, family
-from nivel.kernels.locked_motion import internal_motion, locked_motion
-from nivel.kernels.record import record_at
-from nivel.kernels.residual import load_multipliers
-from nivel.kernels.rigid import load_weight
-from nivel.kernels.shared_mass import transposed_product
-from nivel.kernels.shared_over_step import begin_shared_interval, change_shared_momenta
-from nivel.kernels.spatial import cross, dot, multiply
-from nivel.kernels.status import OK
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import cross, dot, multiply
+from nivel.kernels.bodies.floating_frame import modes_of
+from nivel.kernels.bodies.locked_motion import internal_motion, locked_motion
+from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.bodies.shared_mass import transposed_product
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import apply_forces, family
+from nivel.kernels.record.record import record_at
+from nivel.kernels.residual.flexible_over_step import begin_flexible_interval, push_modes
+from nivel.kernels.residual.residual import load_multipliers
+from nivel.kernels.residual.shared_over_step import begin_shared_interval, change_shared_momenta
 from nivel.motion.newton_euler import read_markers, read_state
 from nivel.native.function import leaf, stage
 

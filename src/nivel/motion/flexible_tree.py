@@ -1,20 +1,24 @@
 """Relative coordinates with flexible bodies: joint coordinates of a spanning tree and modal coordinates of its flexible bodies.
 
-As `nivel.motion.relative`, whose recursion also passes through the modes: see `nivel.kernels.flexible_articulated`.
+As `nivel.motion.relative`, whose recursion also passes through the modes: see `nivel.kernels.tree.flexible_articulated`.
 """
 
 from __future__ import annotations
 
-from nivel.kernels.flexible_articulated import factorise_flexible_tree
-from nivel.kernels.flexible_tree import clear_frames, move_flexible_tree
-from nivel.kernels.flexible_whitening import accelerate_flexible, whiten_flexible_efforts, whiten_flexible_tree_rows
-from nivel.kernels.floating_dynamics import load_modes
-from nivel.kernels.hook import apply_forces
-from nivel.kernels.record import CORRECT, EVALUATE, record_at
-from nivel.kernels.rigid import load_weight
-from nivel.kernels.saddle import factorise_rows
-from nivel.kernels.status import OK
-from nivel.kernels.tree_markers import read_markers
+from nivel.kernels.bodies.floating_dynamics import load_modes
+from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import apply_forces
+from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
+from nivel.kernels.solve.saddle import factorise_rows
+from nivel.kernels.tree.flexible_articulated import factorise_flexible_tree
+from nivel.kernels.tree.flexible_tree import clear_frames, move_flexible_tree
+from nivel.kernels.tree.flexible_whitening import (
+    accelerate_flexible,
+    whiten_flexible_efforts,
+    whiten_flexible_tree_rows,
+)
+from nivel.kernels.tree.tree_markers import read_markers
 from nivel.motion.tree_motion import WIDTH, evaluate_tree, normalise
 from nivel.native.entry import entry
 from nivel.native.function import stage
@@ -50,7 +54,7 @@ def factorise_flexible(machine):
 
 @entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
-    """ẏ. Leaves everything else in the record but what `nivel.kernels.tree_outputs_flexible` adds for frames."""
+    """ẏ. Leaves everything else in the record but what `nivel.kernels.tree.tree_outputs_flexible` adds for frames."""
     return evaluate_tree(
         machine,
         t,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from nivel.kernels.flexible_whitening import accelerate_flexible
-from nivel.kernels.record import CORRECT
+from nivel.kernels.record.record import CORRECT
+from nivel.kernels.tree.flexible_whitening import accelerate_flexible
 from nivel.motion.flexible_tree import factorise_flexible, read_flexible_tree
 from nivel.motion.tree_correction import correct_tree
 from nivel.native.entry import entry

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.articulated import hand_wrench
-from nivel.kernels.flexible_whitening import accelerate_flexible, bend_by, hand_efforts_inwards
-from nivel.kernels.floating_frame import modes_of
-from nivel.kernels.record import MODAL, OUTWARD, record_at
+from nivel.kernels.bodies.floating_frame import modes_of
+from nivel.kernels.record.record import MODAL, OUTWARD, record_at
+from nivel.kernels.tree.articulated import hand_wrench
+from nivel.kernels.tree.flexible_whitening import accelerate_flexible, bend_by, hand_efforts_inwards
 from nivel.motion.unit_efforts import hold_rows
 from nivel.native.function import stage
 

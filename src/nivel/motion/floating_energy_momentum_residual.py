@@ -5,7 +5,8 @@ Rigid bodies as in `nivel.motion.energy_momentum_residual`. Of a flexible one, w
     m (ċ₁ - ċ₀)/h = F        (A₁ Π̄₁ - A₀ Π̄₀)/h = T        (π₁ - π₀)/h = G + Q
 
 with F, T and Q of the applied forces and of the joints at the mean place and G in place of the velocity forces
-(`nivel.kernels.flexible_over_step`), and c, A and p moved by the means of their rates. So F, T and Q do exactly the work by which the
+(`nivel.kernels.residual.flexible_over_step`), and c, A and p moved by the means of their rates. So F, T and Q do exactly the work by
+which the
 kinetic energy changes; elastic and damping forces and weight do exactly theirs. Nodes at interfaces meet at one mean place, so momenta are
 kept.
 What is missed by axes that turn with nodes, by forces on springs, and by G with geometric stiffening is done along the mean motion as
@@ -14,8 +15,14 @@ between rigid bodies, where the momenta belonging to that motion are those of th
 
 from __future__ import annotations
 
-from nivel.kernels.analytic import real
-from nivel.kernels.flexible_over_step import (
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.bodies.floating_dynamics import gather_frames
+from nivel.kernels.bodies.floating_frame import bend_body, modes_of
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import apply_forces, family
+from nivel.kernels.record.record import record_at
+from nivel.kernels.residual.flexible_over_step import (
     balance_modes,
     central_momentum,
     load_mean_modes,
@@ -24,13 +31,7 @@ from nivel.kernels.flexible_over_step import (
     modal_elastic_energy,
     note_central_inertia,
 )
-from nivel.kernels.floating_dynamics import gather_frames
-from nivel.kernels.floating_frame import bend_body, modes_of
-from nivel.kernels.hook import apply_forces, family
-from nivel.kernels.record import record_at
-from nivel.kernels.shared_over_step import change_shared_momenta
-from nivel.kernels.spatial import dot
-from nivel.kernels.status import OK
+from nivel.kernels.residual.shared_over_step import change_shared_momenta
 from nivel.motion.energy_momentum_residual import (
     STEP,
     balance_bodies,

@@ -5,13 +5,18 @@ State y = (R, θ of every body; p; Ṙ, ω̄ of every body; ṗ; states of force
 
 from __future__ import annotations
 
-from nivel.kernels.floating_dynamics import gather, unwhiten_flexible, whiten_flexible_forces, whiten_flexible_rows
-from nivel.kernels.floating_frame import accelerate_frames, add_bias, bend
-from nivel.kernels.hook import apply_forces, finish_forces
-from nivel.kernels.record import CORRECT, EVALUATE, record_at
-from nivel.kernels.rigid import load_weight
-from nivel.kernels.saddle import factorise_rows, multipliers
-from nivel.kernels.status import OK
+from nivel.kernels.bodies.floating_dynamics import (
+    gather,
+    unwhiten_flexible,
+    whiten_flexible_forces,
+    whiten_flexible_rows,
+)
+from nivel.kernels.bodies.floating_frame import accelerate_frames, add_bias, bend
+from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import apply_forces, finish_forces
+from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
+from nivel.kernels.solve.saddle import factorise_rows, multipliers
 from nivel.motion.newton_euler import (
     WIDTH,
     normalise,

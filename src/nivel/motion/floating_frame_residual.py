@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from nivel.kernels.floating_dynamics import flexible_wrench, gather
-from nivel.kernels.floating_frame import move_frames
-from nivel.kernels.hook import apply_forces, call_hook, family
-from nivel.kernels.record import POINTS, record_at
-from nivel.kernels.residual import inertial_wrenches, load_multipliers, write_rows
-from nivel.kernels.rigid import load_weight
-from nivel.kernels.spatial import multiply
-from nivel.kernels.status import OK
+from nivel.kernels.algebra.spatial import multiply
+from nivel.kernels.bodies.floating_dynamics import flexible_wrench, gather
+from nivel.kernels.bodies.floating_frame import move_frames
+from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import apply_forces, call_hook, family
+from nivel.kernels.record.record import POINTS, record_at
+from nivel.kernels.residual.residual import inertial_wrenches, load_multipliers, write_rows
 from nivel.motion.floating_frame import read_flexible_state
 
 
 @family
 def residual(machine, job, t):
-    """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual`."""
+    """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual.residual`."""
     record = record_at(machine)
     bodies, flexible, own = record.bodies, record.flexible, record.residual
     status = read_flexible_state(machine, t, own.y)

@@ -6,12 +6,12 @@ velocities. The state is that of `nivel.motion.floating_frame`, which finds the 
 
 from __future__ import annotations
 
-from nivel.kernels.floating_dynamics import factorise_frames, gather
-from nivel.kernels.floating_frame import accelerate_frames
-from nivel.kernels.hook import apply_forces, finish_forces
-from nivel.kernels.record import CORRECT, EVALUATE, record_at
-from nivel.kernels.rigid import load_weight
-from nivel.kernels.status import OK
+from nivel.kernels.bodies.floating_dynamics import factorise_frames, gather
+from nivel.kernels.bodies.floating_frame import accelerate_frames
+from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import apply_forces, finish_forces
+from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
 from nivel.motion.floating_frame import evaluate as evaluate_newton_euler
 from nivel.motion.floating_frame import read_flexible_state, write_rates
 from nivel.motion.independent import embedded_accelerations, keep_independent, take_accelerations

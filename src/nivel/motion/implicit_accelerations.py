@@ -1,12 +1,13 @@
-"""Equations of motion of machines with beams of consistent mass, in any coordinates that have a residual: see `nivel.kernels.balance`."""
+"""Equations of motion of machines with beams of consistent mass, in any coordinates that have a residual: see
+`nivel.kernels.residual.balance`."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.balance import balance, write_balanced_rates
-from nivel.kernels.record import CORRECT, EVALUATE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
+from nivel.kernels.residual.balance import balance, write_balanced_rates
 from nivel.native.entry import entry
 from nivel.native.function import stage
 

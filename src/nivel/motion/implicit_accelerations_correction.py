@@ -1,17 +1,17 @@
 """Direct correction of states whose accelerations are found by the residual (report 44, §5.5), for machines that no recursion factorises.
-Changes are least in the mass metric, by the matrix [M, C_qᵀ; C_q, 0] of the accelerations (`nivel.kernels.balance`).
+Changes are least in the mass metric, by the matrix [M, C_qᵀ; C_q, 0] of the accelerations (`nivel.kernels.residual.balance`).
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.balance import find_matrix
-from nivel.kernels.hook import call_hook
-from nivel.kernels.newton_matrix import solve_entries
-from nivel.kernels.record import CORRECT, NONE, RESIDUAL, record_at
-from nivel.kernels.rotation import rates_of_parameters
-from nivel.kernels.status import OK
+from nivel.kernels.algebra.rotation import rates_of_parameters
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import call_hook
+from nivel.kernels.record.record import CORRECT, NONE, RESIDUAL, record_at
+from nivel.kernels.residual.balance import find_matrix
+from nivel.kernels.solve.newton_matrix import solve_entries
 from nivel.motion.direct import LOST, MOST_CORRECTIONS, NOTHING, POSITIONS, VELOCITIES, name_lost, open_level
 from nivel.motion.implicit_accelerations import normalise
 from nivel.native.entry import entry

@@ -12,14 +12,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
-from nivel.kernels.embedding import embed, generalised_forces
-from nivel.kernels.hook import apply_forces, finish_forces
-from nivel.kernels.partition import divide, solve_dependent, solve_multipliers
-from nivel.kernels.record import CORRECT, EVALUATE, record_at
-from nivel.kernels.rigid import load_weight
-from nivel.kernels.rotation import rates_of_parameters
-from nivel.kernels.status import OK, SINGULAR
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rotation import rates_of_parameters
+from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.core.status import OK, SINGULAR
+from nivel.kernels.record.hook import apply_forces, finish_forces
+from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
+from nivel.kernels.solve.embedding import embed, generalised_forces
+from nivel.kernels.solve.partition import divide, solve_dependent, solve_multipliers
 from nivel.motion.newton_euler import evaluate as evaluate_newton_euler
 from nivel.motion.newton_euler import normalise, read_state, write_rate
 from nivel.native.entry import entry

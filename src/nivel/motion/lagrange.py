@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.hook import apply_forces, finish_forces
-from nivel.kernels.record import CORRECT, EVALUATE, NONE, record_at
-from nivel.kernels.rigid import load_weight, place_body
-from nivel.kernels.rotation import angular_velocity, transformation
-from nivel.kernels.saddle import factorise_rows, multipliers
-from nivel.kernels.spatial import dot, multiply
-from nivel.kernels.status import OK
+from nivel.kernels.algebra.rotation import angular_velocity, transformation
+from nivel.kernels.algebra.spatial import dot, multiply
+from nivel.kernels.bodies.rigid import load_weight, place_body
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import apply_forces, finish_forces
+from nivel.kernels.record.record import CORRECT, EVALUATE, NONE, record_at
+from nivel.kernels.solve.saddle import factorise_rows, multipliers
 from nivel.motion.newton_euler import read_markers
 from nivel.native.entry import entry
 from nivel.native.function import leaf, stage

@@ -8,13 +8,13 @@ the Newton–Euler equations, and so are the multipliers. Ḡ appears where the 
 
 from __future__ import annotations
 
-from nivel.kernels import euler_angles, rotation_vector
-from nivel.kernels.analytic import real
-from nivel.kernels.record import CORRECT, EULER_ANGLES, EVALUATE, record_at
-from nivel.kernels.rigid import set_axes
-from nivel.kernels.rotation import product
-from nivel.kernels.spatial import multiply, solve
-from nivel.kernels.status import OK, ROTATION_SINGULAR
+from nivel.kernels.algebra import euler_angles, rotation_vector
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.rotation import product
+from nivel.kernels.algebra.spatial import multiply, solve
+from nivel.kernels.bodies.rigid import set_axes
+from nivel.kernels.core.status import OK, ROTATION_SINGULAR
+from nivel.kernels.record.record import CORRECT, EULER_ANGLES, EVALUATE, record_at
 from nivel.motion.newton_euler import accelerate, read_markers, unwhiten
 from nivel.native.entry import entry
 from nivel.native.function import leaf, stage

@@ -5,11 +5,11 @@
 
 from __future__ import annotations
 
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.residual import find_wrenches, write_rows
-from nivel.kernels.spatial import multiply
-from nivel.kernels.status import OK
+from nivel.kernels.algebra.spatial import multiply
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
+from nivel.kernels.residual.residual import find_wrenches, write_rows
 from nivel.motion.lagrange_three import read_state
 from nivel.native.function import stage
 
@@ -46,7 +46,7 @@ def write_bodies(machine):
 
 @family
 def residual(machine, job, t):
-    """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual`."""
+    """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual.residual`."""
     record = record_at(machine)
     status = read_state(machine, t, record.residual.y)
     if status == OK:

@@ -12,10 +12,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.flexible_whitening import accelerate_flexible, hand_efforts_inwards
-from nivel.kernels.floating_frame import modes_of
-from nivel.kernels.record import MODAL, record_at
-from nivel.kernels.saddle import solve_rows, subtract_rows
+from nivel.kernels.bodies.floating_frame import modes_of
+from nivel.kernels.record.record import MODAL, record_at
+from nivel.kernels.solve.saddle import solve_rows, subtract_rows
+from nivel.kernels.tree.flexible_whitening import accelerate_flexible, hand_efforts_inwards
 from nivel.motion.flexible_tree import factorise_flexible
 from nivel.motion.tree_motion import WIDTH, write_positions
 from nivel.native.function import stage

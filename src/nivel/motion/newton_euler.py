@@ -6,15 +6,15 @@ diag(m, J̄_c): the same equations, and its factor costs nothing.
 
 from __future__ import annotations
 
-from nivel.kernels.constraint import constraint_rows
-from nivel.kernels.hook import apply_forces, finish_forces, measure_active
-from nivel.kernels.marker import move_markers, place_markers
-from nivel.kernels.record import CORRECT, EVALUATE, record_at
-from nivel.kernels.rigid import load_weight, place_body
-from nivel.kernels.rotation import normalise_parameters, rates_of_parameters
-from nivel.kernels.saddle import factorise_rows, multipliers
-from nivel.kernels.spatial import dot, multiply
-from nivel.kernels.status import OK
+from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parameters
+from nivel.kernels.algebra.spatial import dot, multiply
+from nivel.kernels.bodies.constraint import constraint_rows
+from nivel.kernels.bodies.marker import move_markers, place_markers
+from nivel.kernels.bodies.rigid import load_weight, place_body
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import apply_forces, finish_forces, measure_active
+from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
+from nivel.kernels.solve.saddle import factorise_rows, multipliers
 from nivel.native.entry import entry
 from nivel.native.function import shared, stage
 

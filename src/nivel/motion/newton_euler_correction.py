@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.record import CORRECT, record_at
+from nivel.kernels.record.record import CORRECT, record_at
 from nivel.motion.direct import POSITIONS, correct_levels
 from nivel.motion.newton_euler import WIDTH, change_body, factorise, normalise, read_state, unwhiten
 from nivel.native.entry import entry

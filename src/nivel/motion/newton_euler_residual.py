@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.residual import find_wrenches, write_rows
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
+from nivel.kernels.residual.residual import find_wrenches, write_rows
 from nivel.motion.newton_euler import read_state
 
 
 @family
 def residual(machine, job, t):
-    """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual`."""
+    """Fill `residual.value` for `residual.y`, `vdot` and `lam`; see `nivel.kernels.residual.residual`."""
     record = record_at(machine)
     bodies, own = record.bodies, record.residual
     count = bodies.mass.shape[0]

@@ -6,14 +6,14 @@ articulated-body recursion, which gives W and z; multipliers of the cut joints f
 
 from __future__ import annotations
 
-from nivel.kernels.articulated import accelerate, factorise_tree, whiten_efforts, whiten_tree_rows
-from nivel.kernels.hook import apply_forces
-from nivel.kernels.record import CORRECT, EVALUATE, record_at
-from nivel.kernels.rigid import load_weight
-from nivel.kernels.saddle import factorise_rows
-from nivel.kernels.status import OK
-from nivel.kernels.tree import move_tree
-from nivel.kernels.tree_markers import read_markers
+from nivel.kernels.bodies.rigid import load_weight
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import apply_forces
+from nivel.kernels.record.record import CORRECT, EVALUATE, record_at
+from nivel.kernels.solve.saddle import factorise_rows
+from nivel.kernels.tree.articulated import accelerate, factorise_tree, whiten_efforts, whiten_tree_rows
+from nivel.kernels.tree.tree import move_tree
+from nivel.kernels.tree.tree_markers import read_markers
 from nivel.motion.tree_motion import WIDTH, evaluate_tree, normalise
 from nivel.native.entry import entry
 from nivel.native.function import stage
@@ -47,7 +47,7 @@ def factorise(machine):
 
 @entry(EVALUATE)
 def evaluate(machine, t, y, ydot):
-    """ẏ. Leaves everything else in the record but what `nivel.kernels.tree_outputs` adds for frames."""
+    """ẏ. Leaves everything else in the record but what `nivel.kernels.tree.tree_outputs` adds for frames."""
     return evaluate_tree(machine, t, y, ydot, read_state, load_tree, factorise, whiten_efforts, accelerate)
 
 

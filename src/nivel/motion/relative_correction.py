@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from nivel.kernels.articulated import accelerate
-from nivel.kernels.record import CORRECT
+from nivel.kernels.record.record import CORRECT
+from nivel.kernels.tree.articulated import accelerate
 from nivel.motion.relative import factorise, read_state
 from nivel.motion.tree_correction import correct_tree
 from nivel.native.entry import entry

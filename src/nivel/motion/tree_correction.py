@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.record import record_at
 from nivel.motion.direct import (
     LOST,
     MOST_CORRECTIONS,

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.hook import finish_forces
-from nivel.kernels.record import FREE, SPHERICAL, record_at
-from nivel.kernels.rotation import normalise_parameters, rates_of_parameters
-from nivel.kernels.saddle import multipliers
-from nivel.kernels.status import OK
+from nivel.kernels.algebra.rotation import normalise_parameters, rates_of_parameters
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import finish_forces
+from nivel.kernels.record.record import FREE, SPHERICAL, record_at
+from nivel.kernels.solve.saddle import multipliers
 from nivel.native.function import shared, stage
 
 WIDTH = 1

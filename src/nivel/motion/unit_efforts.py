@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.articulated import accelerate, hand_wrench, transmit
-from nivel.kernels.record import record_at
-from nivel.kernels.saddle import solve_rows, subtract_rows
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.record import record_at
+from nivel.kernels.solve.saddle import solve_rows, subtract_rows
+from nivel.kernels.tree.articulated import accelerate, hand_wrench, transmit
 from nivel.motion.tree_motion import WIDTH
 from nivel.native.function import leaf, shared, stage
 

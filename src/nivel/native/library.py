@@ -52,7 +52,7 @@ def build(entries: Iterable[Entry], done: Callable[[str], None] = lambda name: N
 
 def address_of_law(text: str, signature: Signature) -> int:
     """Address of the function `nivel_law` of the text of a module, for `LAW` or `COMPLEX_LAW`. Raises CompilationError."""
-    made_by = fingerprint("nivel.kernels.analytic"), fingerprint("nivel.native.with_numba.laws")
+    made_by = fingerprint("nivel.kernels.algebra.analytic"), fingerprint("nivel.native.with_numba.laws")
     path = store.path_of("nivel_law", text, str(signature), *made_by)
     if (found := _loaded.get(path.name)) is not None:
         return found
@@ -85,8 +85,8 @@ def _job(entry: Entry) -> dict[str, Any]:
     return job_of(entry, [(str(_path(entry)), None)])
 
 
-def job_of(entry: Entry, targets: list[tuple[str, tuple[str, str] | None]]) -> dict[str, Any]:
-    """What a worker is told: the files to write, each with the name and features of a processor, or for this one."""
+def job_of(entry: Entry, targets: list[tuple[str, tuple[str, str, str] | None]]) -> dict[str, Any]:
+    """What a worker is told: the files to write, each with what LLVM compiles for (processor, features, system), or for this one."""
     sources = fingerprint(entry.name.partition(":")[0])
     return {"entry": entry.name, "symbol": entry.symbol, "sources": sources, "targets": targets}
 

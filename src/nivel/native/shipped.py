@@ -1,4 +1,4 @@
-"""The library that wheels bring along: all entries in machine code, one file for each level of processors.
+"""The library that wheels bring along: all entries in machine code, one file for each level of a family of processors.
 
 `manifest.json` beside it says of which sources each entry was made. An entry whose sources have changed since is not taken from it.
 """
@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import ctypes
 import json
+import platform
 import sys
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from nivel.native.entry import Entry
 from nivel.native.sources import fingerprint
@@ -18,10 +19,32 @@ from nivel.native.store import processor_flags
 
 FOLDER = Path(__file__).parent / "shipped"
 MANIFEST = "manifest.json"
-# what a processor must have for the code of a level, beyond that of the level below, as Linux names it; the best level first
-LEVELS: dict[str, tuple[str, ...]] = {
-    "x86-64-v4": ("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl", "avx2", "fma", "bmi2"),
-    "x86-64-v3": ("avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe"),
+
+
+class Level(NamedTuple):
+    """Processors that a library is for. machine : their family, as `platform.machine()` names it. flags : what a processor must have
+    beyond the level below, as Linux names it. target : what LLVM compiles for (processor, features, system).
+    """
+
+    machine: str
+    flags: frozenset[str]
+    target: tuple[str, str, str]
+
+
+# the best level of a family first
+LEVELS = {
+    "x86-64-v4": Level(
+        "x86_64",
+        frozenset({"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl", "avx2", "fma", "bmi2"}),
+        ("x86-64-v4", "", "x86_64-unknown-linux-gnu"),
+    ),
+    "x86-64-v3": Level(
+        "x86_64",
+        frozenset({"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe"}),
+        ("x86-64-v3", "", "x86_64-unknown-linux-gnu"),
+    ),
+    # every processor on which Linux calls itself so has floating point and vectors of 128 bits
+    "armv8-a": Level("aarch64", frozenset(), ("generic", "+fp-armv8,+neon", "aarch64-unknown-linux-gnu")),
 }
 
 
@@ -41,8 +64,11 @@ def fits(entry: Entry) -> bool:
 @cache
 def level() -> str:
     """The level of the library that is used; empty: none."""
-    has = processor_flags()
-    return next((name for name in manifest()["levels"] if has.issuperset(LEVELS[name])), "")
+    return next((name for name in manifest()["levels"] if _runs_here(LEVELS[name])), "")
+
+
+def _runs_here(level: Level) -> bool:
+    return level.machine == platform.machine() and processor_flags() >= level.flags
 
 
 @cache

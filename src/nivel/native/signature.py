@@ -8,7 +8,7 @@ complex   a complex number                     double, double
 count     an integer                           int64_t
 vector    a row of real numbers                double *, int64_t
 pairs     a row of complex numbers             double *, int64_t
-status    of `nivel.kernels.status`            int64_t
+status    of `nivel.kernels.core.status`            int64_t
 nothing   0, for Python nothing                int64_t
 """
 

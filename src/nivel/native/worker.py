@@ -12,6 +12,7 @@ import json
 import os
 import signal
 import sys
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -82,6 +83,8 @@ def _compile(job: dict[str, Any]) -> None:
     seen.check(job["entry"].partition(":")[0], job["sources"])
     entry = entry_of(job["entry"])
     module = translate.linked(entry.py_func, entry.signature, job["symbol"])
+    if any(processor for _, processor in job["targets"]):
+        _all_targets()
     codes = [
         (path, translate.optimised(module, translate.target_machine(*(processor or translate.host()))))
         for path, processor in job["targets"]
@@ -89,6 +92,15 @@ def _compile(job: dict[str, Any]) -> None:
     seen.check(job["entry"].partition(":")[0], job["sources"])
     for path, code in codes:
         store.write(Path(path), code)
+
+
+@cache
+def _all_targets() -> None:
+    """Let LLVM make code for other systems than this one."""
+    from llvmlite import binding
+
+    binding.initialize_all_targets()
+    binding.initialize_all_asmprinters()
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ from nivel.looks.viewpoint import choose_view
 from nivel.report.aids import aid_places, bar_strip, scale_bar, triad_sign
 from nivel.report.frame import WIDTH, Frame, fit
 from nivel.report.labels import Label, place
-from nivel.results.beam_nodes import beam_nodes, stations
+from nivel.results.beams.beam_nodes import beam_nodes, stations
 
 if TYPE_CHECKING:
     from nivel.results.result import Result

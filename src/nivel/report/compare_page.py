@@ -8,10 +8,19 @@ from pathlib import Path
 from typing import NamedTuple
 
 from nivel.report.work_precision import NARROW, WIDE, curves, diagram, legend_mark
-from nivel.results.comparison import CONVERGED, Comparison, Row
-from nivel.results.comparison_files import write_text
-from nivel.results.comparison_table import fineness, motion, not_converged, number, order, seconds, simulated, stops
-from nivel.results.motion import DEFINITION
+from nivel.results.comparison.comparison import CONVERGED, Comparison, Row
+from nivel.results.comparison.comparison_files import write_text
+from nivel.results.comparison.comparison_table import (
+    fineness,
+    motion,
+    not_converged,
+    number,
+    order,
+    seconds,
+    simulated,
+    stops,
+)
+from nivel.results.trust.motion import DEFINITION
 
 HERE = Path(__file__).parent
 WANTED = (1e-3, 1e-6, 1e-9)  # errors to which the cheapest cell is told

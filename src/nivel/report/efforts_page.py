@@ -6,7 +6,7 @@ from pathlib import Path
 
 from nivel import __version__
 from nivel.report.plots import TONES, Line, curves
-from nivel.results.efforts import Efforts
+from nivel.results.analyses.efforts import Efforts
 
 HERE = Path(__file__).parent
 

@@ -10,7 +10,7 @@ import numpy as np
 from nivel import __version__
 from nivel.errors import ModelError
 from nivel.report.plots import Line, curves, points
-from nivel.results.linear_model import ROUND_OFF, LinearModel
+from nivel.results.analyses.linear_model import ROUND_OFF, LinearModel
 
 HERE = Path(__file__).parent
 MOST_MODES: Final = 60

@@ -8,7 +8,7 @@ import numpy as np
 
 from nivel import __version__
 from nivel.report.plots import Line, curves, path_drawing
-from nivel.results.mechanism import Studies
+from nivel.results.analyses.mechanism import Studies
 
 HERE = Path(__file__).parent
 NOTE = "Transmission angles are between the lines from one joint to two others; 90° transmits best."

@@ -11,9 +11,9 @@ from nivel.report.control_panel import control
 from nivel.report.element_panels import couplings, drivers, forces, sensors
 from nivel.report.panel import GROUPS, TOGETHER, Array, Curve, Group, Panel, components, left_out
 from nivel.report.peaks import NEGLIGIBLE, negligible
-from nivel.results.beam_nodes import beam_nodes, stations
-from nivel.results.scales import bodies, rotated
-from nivel.results.verdicts import THRESHOLDS
+from nivel.results.beams.beam_nodes import beam_nodes, stations
+from nivel.results.trust.scales import bodies, rotated
+from nivel.results.trust.verdicts import THRESHOLDS
 
 if TYPE_CHECKING:
     from nivel.results.result import Result

@@ -11,7 +11,7 @@ from nivel.flexible.body import ReducedBody
 from nivel.flexible.findings import Findings
 from nivel.report.mode_picture import mode_pictures
 from nivel.report.shading import between
-from nivel.results.comparison_files import write_text
+from nivel.results.comparison.comparison_files import write_text
 
 HERE = Path(__file__).parent
 PICTURES: Final = 12

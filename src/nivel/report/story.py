@@ -8,9 +8,9 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from nivel.results.beam_nodes import beam_nodes
-from nivel.results.occurrence import in_words
-from nivel.results.verdicts import Item, Trust, Verdict
+from nivel.results.beams.beam_nodes import beam_nodes
+from nivel.results.frames.occurrence import in_words
+from nivel.results.trust.verdicts import Item, Trust, Verdict
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -45,6 +45,7 @@ NAMES = {
     "verified": "Verified",
     "loads": "Loads",
     "sampling": "Sampling",
+    "contact": "Contact",
     "steps": "Steps",
     "turn": "Turning",
     "rounding": "Round-off",
@@ -105,7 +106,7 @@ def headline(result: Result) -> Headline:
     verdict, outcome = HEADLINES.get(result.outcome, ("red", result.outcome))
     reached = _reached(result)
     seconds = result.timing.get("loop_seconds")
-    took = f" in {_seconds(float(seconds))} of computing" if seconds else ""
+    took = f", computed in {_seconds(float(seconds))}" if seconds else ""
     if result.stopped_by:
         took += f", until the event {result.stopped_by}"
     text = {

@@ -10,8 +10,8 @@ import numpy as np
 
 from nivel import __version__
 from nivel.report.plots import Line, curves
-from nivel.results.linear_model import ROUND_OFF
-from nivel.results.linear_sweep import TURN, LinearSweep
+from nivel.results.analyses.linear_model import ROUND_OFF
+from nivel.results.analyses.linear_sweep import TURN, LinearSweep
 
 HERE = Path(__file__).parent
 NOTE = "Modes are followed by their eigenvectors. A vibration meets a multiple of a speed where its line crosses that of the order."

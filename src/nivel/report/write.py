@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError
+from nivel.looks.circuit.drawing import circuit_diagram
 from nivel.looks.poses import upwards
 from nivel.report.beam_shapes import beam_shapes
-from nivel.report.circuit.drawing import circuit_diagram
 from nivel.report.control_diagram import control_diagram
 from nivel.report.load_path import load_paths, vibration_table
 from nivel.report.panel import Group, Panel
@@ -24,8 +24,9 @@ from nivel.report.picture import STYLE, machine_picture
 from nivel.report.story import assembly_lines, event_lines, facts, headline, settings_table, timing_table, trust_lines
 from nivel.report.symbols import joint_icon
 from nivel.report.thinning import Thinning
-from nivel.results.target import keep_sources
-from nivel.results.verdicts import RESIDUAL, RULES, THRESHOLDS
+from nivel.results.frames.target import keep_sources
+from nivel.results.trust.circuits import pressures_at
+from nivel.results.trust.verdicts import RESIDUAL, RULES, THRESHOLDS
 from nivel.view.export import scene_html
 from nivel.view.playback import SMALL
 
@@ -84,7 +85,7 @@ def report_html(result: Result) -> str:
         shapes=beam_shapes(result),
         peaks=peak_reactions(result),
         diagram=control_diagram(record),
-        circuit=circuit_diagram(record, _pressures(result)),
+        circuit=circuit_diagram(record, pressures_at(result, 0) if len(result.time) else {}),
         icon=joint_icon,
         panels=shown,
         data=_data(result, shown),
@@ -120,12 +121,6 @@ def _picture(result: Result, record: dict[str, Any]) -> str:
     first = slice(0, 1)
     position, orientation = result.array("position", first)[0], result.array("orientation", first)[0]
     return machine_picture(result.scene, position, orientation, upwards(record.get("gravity")))
-
-
-def _pressures(result: Result) -> dict[str, float]:
-    """Pressures of circuits [Pa] in the first frame."""
-    names = [name for name in result.variables if name.startswith("hydraulics.") and ".pressure" in name]
-    return {name: float(result.array(name, slice(0, 1))[0]) for name in names} if len(result.time) else {}
 
 
 def _motion(result: Result) -> tuple[str, str]:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.integrate.sink import Header
-from nivel.results.contents import resolved, shape_of
+from nivel.integrate.loop.sink import Header
+from nivel.results.frames.contents import resolved, shape_of
 from nivel.system.layout import Variable
 
 if TYPE_CHECKING:

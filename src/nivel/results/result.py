@@ -13,21 +13,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.arguments import checked_arguments
-from nivel.results.contents import Contents
-from nivel.results.estimate import ATTRIBUTE, Estimate
-from nivel.results.names import Selection, selections, unknown_name
-from nivel.results.occurrence import Occurrence, from_json
-from nivel.results.row_units import own_units
-from nivel.results.stored import StoredContents
-from nivel.results.trust import Facts, assess
-from nivel.results.verdicts import Trust
+from nivel.results.frames.contents import Contents
+from nivel.results.frames.names import Selection, selections, unknown_name
+from nivel.results.frames.occurrence import Occurrence, from_json
+from nivel.results.frames.row_units import own_units
+from nivel.results.frames.stored import StoredContents
+from nivel.results.trust.estimate import ATTRIBUTE, Estimate
+from nivel.results.trust.trust import Facts, assess
+from nivel.results.trust.verdicts import Trust
 from nivel.system.layout import Variable
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from nivel.results.recovered import RecoveredBody
+    from nivel.results.stress.recovered import RecoveredBody
     from nivel.view.inline import Inline
 
 
@@ -108,8 +108,8 @@ class Result:
 
     @checked_arguments
     def sections(self, beam: str) -> xarray.Dataset:
-        """Strains, forces and moments along a beam at all times; see `nivel.results.beam_sections`."""
-        from nivel.results.beam_sections import beam_sections
+        """Strains, forces and moments along a beam at all times; see `nivel.results.beams.beam_sections`."""
+        from nivel.results.beams.beam_sections import beam_sections
 
         return beam_sections(self, beam)
 
@@ -225,14 +225,14 @@ class Result:
 
     @checked_arguments
     def __getitem__(self, name: str) -> xarray.DataArray:
-        from nivel.results.labelled import data_array
+        from nivel.results.frames.labelled import data_array
 
         return data_array(self, name)
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
         """Everything as one xarray dataset; read from the file when used where the run is over."""
-        from nivel.results.labelled import dataset
+        from nivel.results.frames.labelled import dataset
 
         return dataset(self)
 
@@ -243,7 +243,7 @@ class Result:
         file : where the file of the body is now, if it was moved. Raises ModelError where the body is not flexible, or its file is gone
         or was changed since the run.
         """
-        from nivel.results.recovered import RecoveredBody
+        from nivel.results.stress.recovered import RecoveredBody
 
         return RecoveredBody(self, body, file)
 
@@ -255,14 +255,14 @@ class Result:
 
         band : the estimated error of each curve around it, where the run was verified.
         """
-        from nivel.results.plot import plot
+        from nivel.results.frames.plot import plot
 
         return plot(self, names, band)
 
     @checked_arguments
     def mode(self, number: int, frame: int = -1) -> Result:
         """Vibration `number` (from 1) about an equilibrium of a statics run as a motion of its own, slow and large enough to be seen."""
-        from nivel.results.mode_motion import mode_motion
+        from nivel.results.analyses.mode_motion import mode_motion
 
         return mode_motion(self, number, frame)
 
@@ -289,34 +289,36 @@ class Result:
 
     def reactions(self) -> xarray.Dataset:
         """Peak and RMS force and torque of every joint, and when."""
-        from nivel.results.loads import reactions
+        from nivel.results.frames.loads import reactions
 
         return reactions(self)
 
-    def powers(self) -> xarray.Dataset:
-        """Peak power, work done and work taken back of every driver, coupling and force that reports its power."""
-        from nivel.results.loads import powers
+    @checked_arguments
+    def powers(self, *, period: float | str | None = None) -> xarray.Dataset:
+        """Peak power, work done and work taken back of every driver, coupling and force that reports its power; with the period of a cycle
+        [s] the work in the last whole one, and its mean power."""
+        from nivel.results.frames.loads import powers
 
-        return powers(self)
+        return powers(self, period)
 
     @checked_arguments
     def cycles(self, name: str, *, repeating: bool = False) -> xarray.Dataset:
         """Rainflow cycles of a signal, e.g. `hinge.force.x`: range, mean and count. repeating : the history goes on as it began."""
-        from nivel.results.loads import cycles
+        from nivel.results.frames.loads import cycles
 
         return cycles(self, name, repeating=repeating)
 
     @checked_arguments
     def coupler_curve(self, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
         """The path of a point of a body, given in the body's frame [m]: its motion, curvature and cusps."""
-        from nivel.results.mechanism import coupler_curve
+        from nivel.results.analyses.mechanism import coupler_curve
 
         return coupler_curve(self, body, position)
 
     @checked_arguments
     def transmission_angle(self, first: str, at: str, last: str) -> xarray.DataArray:
         """[rad] angle at the joint `at` between the lines to the joints `first` and `last`; π/2 transmits best."""
-        from nivel.results.mechanism import transmission_angle
+        from nivel.results.analyses.mechanism import transmission_angle
 
         return transmission_angle(self, first, at, last)
 
@@ -326,22 +328,22 @@ class Result:
 
         An existing file is replaced.
         """
-        from nivel.results.csv_table import write_csv
+        from nivel.results.frames.csv_table import write_csv
 
         return write_csv(self, path, select)
 
     def summary(self) -> dict[str, Any]:
         """The run in a few words and numbers, as `nivel run --json` prints it."""
-        from nivel.results.summary import summary
+        from nivel.results.frames.summary import summary
 
         return summary(self)
 
     def __repr__(self) -> str:
-        from nivel.results.summary import summary_text
+        from nivel.results.frames.summary import summary_text
 
         return summary_text(self)
 
     def _repr_html_(self) -> str:
-        from nivel.results.summary import summary_html
+        from nivel.results.frames.summary import summary_html
 
         return summary_html(self)

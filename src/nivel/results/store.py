@@ -18,11 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.errors import ModelError, SolveError
-from nivel.integrate.sink import Header
-from nivel.results.contents import resolved, shape_of
-from nivel.results.space import Space
-from nivel.results.stored import StoredContents, opened
-from nivel.results.target import check_folder, check_target
+from nivel.integrate.loop.sink import Header
+from nivel.results.frames.contents import resolved, shape_of
+from nivel.results.frames.space import Space
+from nivel.results.frames.stored import StoredContents, opened
+from nivel.results.frames.target import check_target
 from nivel.system.layout import Variable
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class Store:
         self._space: Space | None = None
         self._chunks = 0  # bytes of one chunk of every variable, with what HDF5 needs to find it
         self._variables: list[tuple[Variable, tuple[int, ...]]] = []
-        _check_path(self.path, force)
+        check_target(self.path, "result file", force=force)
 
     def begin(self, header: Header) -> None:
         """Create all variables and attributes, then let readers in."""
@@ -62,7 +62,9 @@ class Store:
         self._variables = [(variable, shape_of(variable, coordinates)) for variable in variables.values()]
         try:
             if self._force:
-                _check_path(self.path, force=True)  # what stood there when the run began may have been replaced
+                check_target(
+                    self.path, "result file", force=True
+                )  # what stood there when the run began may have been replaced
                 self.path.unlink(missing_ok=True)  # who reads the old file keeps it
             self._file = h5py.File(self.path, "x", libver="latest", locking="best-effort", track_order=True)
             self._space = Space(self.path, self._file)
@@ -252,11 +254,6 @@ def _copy(old: Any, new: Any, count: int, space: Space) -> None:
 def _header_size(attributes: Attributes) -> int:
     """Bytes that are enough for the attributes and all that is created before the first frame."""
     return HEADER + sum(4 * len(str(value)) for value in attributes.values())
-
-
-def _check_path(path: Path, force: bool) -> None:
-    check_folder(path, "result file")
-    check_target(path, "result file", force=force)
 
 
 def _reason(error: OSError) -> str:

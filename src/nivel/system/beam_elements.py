@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.beam import Beam
+from nivel.machine.beams.beam import Beam
 
 Array = NDArray[np.float64]
 
@@ -40,7 +40,8 @@ class Masses:
 
     mass : (N,) [kg] and inertia : (N, 3, 3) [kg m²] about the mass centre, section axes, lumped at the nodes.
     pairs : (m, 2) nodes that share mass, shared : (m,) [kg] how much, moment : (m, 3, 3) [kg m²] J_ab and turn : (m, 3, 3) from the axes of
-    the first node to those of the second: a consistent mass is the lumped one, less what `nivel.kernels.shared_mass` does with these.
+    the first node to those of the second: a consistent mass is the lumped one, less what `nivel.kernels.bodies.shared_mass` does with
+    these.
     """
 
     mass: Array

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.machine.beam import Beam
+from nivel.machine.beams.beam import Beam
 from nivel.machine.body import Body
 from nivel.machine.inertia import Inertia
 from nivel.machine.machine_record import MachineRecord

@@ -14,8 +14,8 @@ from itertools import pairwise
 import numpy as np
 
 from nivel.kernels.forces import bushing
-from nivel.kernels.record import NONE
-from nivel.machine.beam import Beam
+from nivel.kernels.record.record import NONE
+from nivel.machine.beams.beam import Beam
 from nivel.system.beam_elements import Array, gauss, relative_turns
 from nivel.system.builder import SystemBuilder
 from nivel.system.state_facts import Coupled

@@ -8,16 +8,16 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.beam_record import BeamTangent
 from nivel.kernels.forces.elastic_beam import apply as elastic_beam
-from nivel.kernels.hook import FAMILIES
-from nivel.kernels.record import FREE, NONE, Record
+from nivel.kernels.record.beam_record import BeamTangent
+from nivel.kernels.record.hook import FAMILIES
+from nivel.kernels.record.record import FREE, NONE, Record
 from nivel.system.beams import empty_tangent
+from nivel.system.elimination.tangent_plan import TangentPlan
 from nivel.system.system import System
 from nivel.system.tables import index_array
-from nivel.system.tangent_plan import TangentPlan
 
-# columns of an element in `Elements.columns`, see `nivel.kernels.beam_element`
+# columns of an element in `Elements.columns`, see `nivel.kernels.elements.beam_element`
 COUNT = 4
 Index = NDArray[np.integer]
 

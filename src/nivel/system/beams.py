@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nivel.kernels.beam_record import BeamTangent, SharedMass
 from nivel.kernels.forces.beam import apply as beam_family
 from nivel.kernels.forces.bushing import apply as bushing
 from nivel.kernels.forces.elastic_beam import apply as elastic_beam
-from nivel.kernels.hook import FAMILIES as COMPILED
-from nivel.kernels.hook import Family
-from nivel.kernels.record import NONE, Record
-from nivel.machine.beam import Beam
+from nivel.kernels.record.beam_record import BeamTangent, SharedMass
+from nivel.kernels.record.hook import FAMILIES as COMPILED
+from nivel.kernels.record.hook import Family
+from nivel.kernels.record.record import NONE, Record
+from nivel.machine.beams.beam import Beam
 from nivel.machine.orientation import matrix_from_euler_parameters
 from nivel.machine.placement import placement
 from nivel.system.beam_elements import elements_of, masses_of

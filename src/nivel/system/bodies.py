@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels.record import Bodies, Markers
+from nivel.kernels.record.record import Bodies, Markers
 from nivel.machine.body import Body
 from nivel.machine.inertia import mass_properties
 from nivel.machine.machine_record import MachineRecord

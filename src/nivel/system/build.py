@@ -7,12 +7,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from nivel.kernels import friction, rail, sensor
-from nivel.kernels import point_inertia as points
-from nivel.kernels.control import apply as compute
-from nivel.kernels.input import apply as read_inputs
-from nivel.kernels.measure import measure
-from nivel.kernels.record import (
+from nivel.kernels.bodies import rail
+from nivel.kernels.bodies.measure import measure
+from nivel.kernels.elements import friction
+from nivel.kernels.record.record import (
     BOTH,
     ENDS_RUN,
     ENDS_STEP,
@@ -35,12 +33,18 @@ from nivel.kernels.record import (
     Sensors,
     Watched,
 )
-from nivel.kernels.sampling import sample
+from nivel.kernels.residual import point_inertia as points
+from nivel.kernels.signals import sensor
+from nivel.kernels.signals.control import apply as compute
+from nivel.kernels.signals.input import apply as read_inputs
+from nivel.kernels.signals.sampling import sample
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beams import add_beam, no_tangent, shared_mass
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
 from nivel.system.builder import SystemBuilder
 from nivel.system.control import add_control
+from nivel.system.elimination.partition import no_partition
+from nivel.system.elimination.tree_tables import empty_tree
 from nivel.system.flexible import no_flexible, no_modal_tree
 from nivel.system.forces import FORCES
 from nivel.system.gradient_beams import point_inertia
@@ -50,14 +54,12 @@ from nivel.system.inputs import add_inputs
 from nivel.system.interfaces import refuse_unknown_interfaces
 from nivel.system.layout import first_columns, frame_layout
 from nivel.system.located import located
-from nivel.system.partition import no_partition
 from nivel.system.rows import RowTable, add_couplings, add_drivers, add_joint, coordinate_units
 from nivel.system.saddle import friction_parts, friction_tables, saddle_tables
 from nivel.system.sensors import sensor_columns
 from nivel.system.states.three_coordinates import no_rotations
 from nivel.system.system import Equations, System
 from nivel.system.tables import index_array
-from nivel.system.tree_tables import empty_tree
 from nivel.system.user_states import add_states, sampled_states
 
 DIRECTIONS = {"both": BOTH, "rising": RISING, "falling": FALLING}

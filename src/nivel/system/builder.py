@@ -8,20 +8,20 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from nivel.kernels.coordinate import DISTANCE, ROTATION
-from nivel.kernels.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
+from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
+from nivel.kernels.record.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
 from nivel.machine.coordinate_reference import Kind, resolve
 from nivel.machine.forces import End, GlobalPoint
 from nivel.machine.index import Index
-from nivel.machine.linear_function import LinearFunction
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
 from nivel.machine.symbols import find_symbol, is_output
 from nivel.machine.time_function import TimeFunction
+from nivel.machine.units.linear_function import LinearFunction
 from nivel.system.circuit import CircuitTable
-from nivel.system.functions import FunctionTable, Signal
 from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import Placed, seen_from
+from nivel.system.laws.functions import FunctionTable, Signal
 from nivel.system.state_facts import Coupled, StateFact
 from nivel.system.tables import CoordinateTable, ElementTable, MarkerTable, OutputTable
 
@@ -35,7 +35,8 @@ class SystemBuilder:
     """Tables of a machine and the indices of what has a name in it. Body number len(machine.bodies) is the ground.
 
     joint_coordinates : index of every joint coordinate by `JOINT.COORDINATE`, once the joints are built.
-    frictions : (columns of index, of number) of `nivel.kernels.friction`. owners : `joints.hinge`, `markers.tip`, …: what made each
+    frictions : (columns of index, of number) of `nivel.kernels.elements.friction`. owners : `joints.hinge`, `markers.tip`, …: what made
+    each
     marker. noted : the bodies and states used in each `noting`. inputs : the signal of every input. input_functions : the function of
     each, in the order of the machine. control : the signal of every part of a block by its path.
     behind_signals : what a part that is no state depends on. functions_of : the function of every part.

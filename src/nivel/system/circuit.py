@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.circuit_record import CircuitTangent
 from nivel.kernels.hydraulics.volume import VOLUME
-from nivel.kernels.record import NONE, Circuit
+from nivel.kernels.record.circuit_record import CircuitTangent
+from nivel.kernels.record.record import NONE, Circuit
 from nivel.system.state_facts import Coupled
 from nivel.system.tables import Array, index_array
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from nivel.kernels.control import apply as compute
 from nivel.kernels.forces.state_rate import apply as state_rate
-from nivel.kernels.function import OUTPUT, STATE
-from nivel.kernels.record import NONE
+from nivel.kernels.record.function import OUTPUT, STATE
+from nivel.kernels.record.record import NONE
+from nivel.kernels.signals.control import apply as compute
 from nivel.machine.control.order import PartOf, in_order, parts_of
 from nivel.machine.control.part import VALUE
 from nivel.machine.index import Index

@@ -14,8 +14,8 @@ from nivel.errors import Fault, ModelError
 from nivel.flexible.body import Interface, ReducedBody
 from nivel.flexible.body_file import read_body
 from nivel.flexible.invariants import Invariants
-from nivel.kernels.flexible_record import Flexible, ModalTree
-from nivel.kernels.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
+from nivel.kernels.bodies.geometric_stiffening import FIRST_AXIS, SECOND_AXIS
+from nivel.kernels.record.flexible_record import Flexible, ModalTree
 from nivel.machine.body import Body
 from nivel.machine.inertia import MassProperties
 from nivel.machine.machine_record import MachineRecord

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nivel.kernels.beam_record import PointInertia
 from nivel.kernels.forces.ancf_beam import apply as ancf_beam
 from nivel.kernels.forces.ancf_cable import apply as ancf_cable
-from nivel.kernels.hook import Family
-from nivel.kernels.record import NONE
-from nivel.machine.beam import Beam
+from nivel.kernels.record.beam_record import PointInertia
+from nivel.kernels.record.hook import Family
+from nivel.kernels.record.record import NONE
+from nivel.machine.beams.beam import Beam
 from nivel.system.beam_elements import gauss
 from nivel.system.builder import SystemBuilder
 from nivel.system.gradient_elements import (
@@ -86,14 +86,22 @@ def _beam_numbers(beam: Beam) -> list[list[float]]:
     out = []
     for e, length in enumerate(lengths_of(beam).tolist()):
         table = np.column_stack([unstressed.weight[e], xi, hermite(xi, length, 1), unstressed.value[e]])
-        section = section_stiffness(C)
+        section = section_stiffness(C, length)
         out.append([length, *C.ravel().tolist(), *section.tolist(), *table.ravel().tolist()])
     return out
 
 
-def section_stiffness(C: Array) -> Array:
-    """(3,) [N] what the deformation of a section of stiffness C costs, yy, zz and yz: as much as stretch and shear of the beam do."""
-    return np.array([C[0, 0], C[0, 0], 0.5 * (C[1, 1] + C[2, 2])])
+def section_stiffness(C: Array, length: float) -> Array:
+    """(3,) [N] what the deformation of a section of stiffness C costs in an element of this length [m], yy, zz and yz.
+
+    As much as stretch and shear of the beam do, and more in elements that are shorter than the section is high. A moment M feels
+    -M d·Y': where the slopes of elements lean by ±g in turn and sections stretch by ±b, they store 2 (GA g²/4 + k b²/4) a unit of length
+    and M gains 2 M g b/length, so that M = ½ length √(GA k) would be a critical load that falls with every refinement. With
+    k = EA + 144 EI/length² it is at least 6 √(GA EI), where fibres are strained by more than one.
+    """
+    stretch, shear = C[0, 0], 0.5 * (C[1, 1] + C[2, 2])
+    turns = 144.0 * np.array([C[5, 5], C[4, 4], np.sqrt(C[4, 4] * C[5, 5]) * shear / stretch]) / length**2
+    return np.asarray(np.array([stretch, stretch, shear]) + turns, dtype=float)
 
 
 def point_inertia(draft: SystemBuilder, beams: Sequence[Beam]) -> PointInertia:

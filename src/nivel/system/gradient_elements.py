@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.beam import Beam
-from nivel.machine.beam_section import BeamSection
+from nivel.machine.beams.beam import Beam
+from nivel.machine.beams.beam_section import BeamSection
 from nivel.system.beam_elements import gauss
 
 Array = NDArray[np.float64]

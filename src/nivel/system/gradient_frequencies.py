@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from nivel.machine.beam import Beam
+from nivel.machine.beams.beam import Beam
 from nivel.system.beam_elements import gauss
 from nivel.system.gradient_beams import section_stiffness
 from nivel.system.gradient_elements import (
@@ -56,7 +56,7 @@ def _beam_stiffness(beam: Beam, length: float) -> Array:
     K = np.einsum("iga,ab,jgb,g->ij", B, beam.properties.stiffness, B, strains.weight[0])
     Y, Z = moved[:, :, 2], moved[:, :, 3]
     squares = 0.5 * np.sum(Y * Y, axis=-1), 0.5 * np.sum(Z * Z, axis=-1), np.sum(Y * Z, axis=-1)
-    for share, value in zip(section_stiffness(beam.properties.stiffness), squares, strict=True):
+    for share, value in zip(section_stiffness(beam.properties.stiffness, length), squares, strict=True):
         b = value.imag / STEP
         K += 0.5 * length * share * b @ b.T
     return np.asarray(K, dtype=float)

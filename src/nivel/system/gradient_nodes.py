@@ -16,7 +16,7 @@ from pydantic import InstanceOf
 
 from nivel.flexible.body import Interface, ReducedBody
 from nivel.flexible.invariants import of_points
-from nivel.machine.beam import Beam
+from nivel.machine.beams.beam import Beam
 from nivel.machine.flexibility import Flexibility
 from nivel.system.gradient_elements import as_points, lengths_of, lumped_mass, reach_of, vectors_of_node
 

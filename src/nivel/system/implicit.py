@@ -8,12 +8,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.implicit_record import ComplexFactors, Coupled, Newton, RealFactors, Residual, Shifted, StepResidual
-from nivel.kernels.record import NONE, Record
-from nivel.system.factor_plan import FactorPlan
+from nivel.kernels.record.implicit_record import (
+    ComplexFactors,
+    Coupled,
+    Newton,
+    RealFactors,
+    Residual,
+    Shifted,
+    StepResidual,
+)
+from nivel.kernels.record.record import NONE, Record
+from nivel.system.elimination.factor_plan import FactorPlan
+from nivel.system.elimination.tangent_plan import TangentPlan, plan_tangent
 from nivel.system.system import Array, StateMap
 from nivel.system.tables import index_array
-from nivel.system.tangent_plan import TangentPlan, plan_tangent
 
 # share of the places of a full matrix that its factors need: above it exchanges of rows cost nothing
 MOSTLY_FULL = 0.6

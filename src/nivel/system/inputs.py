@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from nivel.kernels.function import OUTPUT
-from nivel.kernels.input import apply
+from nivel.kernels.record.function import OUTPUT
+from nivel.kernels.signals.input import apply
 from nivel.machine.table import Table
 from nivel.system.builder import SystemBuilder
 from nivel.system.located import located

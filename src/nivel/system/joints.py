@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import Final, Literal
 
-from nivel.kernels.coordinate import (
+from nivel.kernels.bodies.coordinate import (
     ACROSS_Y,
     ACROSS_Z,
     ALONG,
@@ -27,7 +27,7 @@ from nivel.kernels.coordinate import (
     TRANSLATION,
     TWIST,
 )
-from nivel.kernels.rolling import CONTACT, SLIP
+from nivel.kernels.bodies.rolling import CONTACT, SLIP
 from nivel.machine.joint import Joint
 
 AXES: Final = {"x": 0, "y": 1, "z": 2}
@@ -71,7 +71,7 @@ class PerpendicularDistance:
 
 @dataclass(frozen=True)
 class Measured:
-    """A coordinate between the joint's markers, see `nivel.kernels.coordinate`."""
+    """A coordinate between the joint's markers, see `nivel.kernels.bodies.coordinate`."""
 
     kind: int
     axis: int = 0

@@ -1,4 +1,4 @@
-"""Where each number of an output frame stands, and what it is called; `nivel.kernels.observe` fills it."""
+"""Where each number of an output frame stands, and what it is called; `nivel.kernels.output.observe` fills it."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def with_modal_coordinates(layout: FrameLayout, modes: Sequence[str]) -> FrameLa
 
 
 def first_columns(layout: FrameLayout, states: Sequence[StateFact]) -> list[int]:
-    """First columns of what elements report, their states, VARIABLES and OF_MODES, as `nivel.kernels.observe` numbers them."""
+    """First columns of what elements report, their states, VARIABLES and OF_MODES, as `nivel.kernels.output.observe` numbers them."""
     start = {variable.name: variable.columns.start for variable in layout.variables}
     reports = layout.variables[len(VARIABLES) - 1].columns.stop
     of_states = start[states[0].result] if states else layout.width

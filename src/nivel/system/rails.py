@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from nivel.errors import Fault, ModelError
-from nivel.machine.beam import Beam
+from nivel.machine.beams.beam import Beam
 from nivel.machine.checked import Problem
 from nivel.machine.joint import JOINT_KINDS, Joint
 from nivel.system.tables import Array

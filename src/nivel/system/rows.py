@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from nivel.kernels.coordinate import LAST_ANGLE, ROTATION, TRANSLATION
-from nivel.kernels.record import NONE, Constraints
+from nivel.kernels.bodies.coordinate import LAST_ANGLE, ROTATION, TRANSLATION
+from nivel.kernels.record.record import NONE, Constraints
 from nivel.machine.coordinate_reference import COORDINATE_KINDS
 from nivel.machine.driver import Driver
 from nivel.machine.joint import Joint

@@ -6,9 +6,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from nivel.kernels.record import NONE, Friction, Saddle
+from nivel.kernels.record.record import NONE, Friction, Saddle
 from nivel.system.builder import SystemBuilder
-from nivel.system.elimination import plan
+from nivel.system.elimination.elimination import plan
 from nivel.system.rows import RowTable
 from nivel.system.system import Equations
 from nivel.system.tables import index_array, padded

@@ -38,7 +38,7 @@ from typing import Any, Final
 import numpy as np
 
 from nivel.flexible.picture import moving_surface
-from nivel.machine.beam import Beam
+from nivel.machine.beams.beam import Beam
 from nivel.machine.body import Body
 from nivel.machine.colour import digits_of
 from nivel.machine.forces import Between, BetweenMarkers, Contact, Force, Rope, TorsionalSpringDamper

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from nivel.errors import Fault, ModelError
-from nivel.kernels import sensor as kernel
-from nivel.kernels.coordinate import DISTANCE, LAST_ANGLE, ROTATION
-from nivel.kernels.record import NONE
+from nivel.kernels.bodies.coordinate import DISTANCE, LAST_ANGLE, ROTATION
+from nivel.kernels.record.record import NONE
+from nivel.kernels.signals import sensor as kernel
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.sensor import Sensor
 from nivel.system.builder import SystemBuilder
@@ -24,7 +24,7 @@ PER_SECOND = {"value": "", "rate": "/s", "acceleration": "/s^2"}
 
 
 def sensor_columns(draft: SystemBuilder) -> list[list[int]]:
-    """Columns of `nivel.kernels.sensor` for all sensors; their outputs are added."""
+    """Columns of `nivel.kernels.signals.sensor` for all sensors; their outputs are added."""
     columns: list[list[int]] = []
     if draft.machine.sensors:
         quantities = ("position", "velocity", "acceleration", "angular_velocity", "angular_acceleration")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.record import Control, Record
+from nivel.kernels.record.record import Control, Record
 from nivel.system.circuit import Node
 from nivel.system.layout import FrameLayout
 from nivel.system.rails import element_of

@@ -9,9 +9,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.coordinate import ALONG, LAST_ANGLE
-from nivel.kernels.hook import Family
-from nivel.kernels.record import NONE, Coordinates, Elements, Markers
+from nivel.kernels.bodies.coordinate import ALONG, LAST_ANGLE
+from nivel.kernels.record.hook import Family
+from nivel.kernels.record.record import NONE, Coordinates, Elements, Markers
 from nivel.system.state_facts import StateFact
 
 Array = NDArray[np.float64]
@@ -89,7 +89,7 @@ class CoordinateTable:
     _index: dict[tuple[int, int, int, int], int] = field(default_factory=dict)
 
     def add(self, kind: int, first: int, second: int, axis: int = 0) -> int:
-        """Index of the coordinate of this `kind` (see `nivel.kernels.coordinate`) between two markers."""
+        """Index of the coordinate of this `kind` (see `nivel.kernels.bodies.coordinate`) between two markers."""
         entry = (kind, first, second, axis)
         if entry not in self._index:
             self._index[entry] = len(self.what)

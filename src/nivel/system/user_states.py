@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nivel.kernels.forces.state_rate import apply as state_rate
-from nivel.kernels.record import NONE, Sampled
+from nivel.kernels.record.record import NONE, Sampled
 from nivel.machine.state import State
 from nivel.system.builder import SystemBuilder
 from nivel.system.control import ONCE, SampleTable, add_samples

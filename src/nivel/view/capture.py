@@ -62,7 +62,7 @@ class Look:
 
 def still(source: Source, path: Path, look: Look, moment: float | None = None) -> None:
     """Write a picture (PNG) of the moment [s], default the start."""
-    with _opened(source, look) as page:
+    with _opened(source, look, fine=True) as page:
         start, end = _span(page)
         if moment is not None and not start <= moment <= end:
             raise ModelError(f"the motion goes from {start:g} s to {end:g} s; there is no moment {moment:g} s")
@@ -94,13 +94,13 @@ def film(source: Source, path: Path, look: Look, progress: Callable[[int, int], 
 
 
 @contextmanager
-def _opened(source: Source, look: Look) -> Iterator[Tab]:
-    """The page of the source in a browser, without controls."""
+def _opened(source: Source, look: Look, *, fine: bool = False) -> Iterator[Tab]:
+    """The page of the source in a browser, without controls; fine : with smooth edges, which take several times as long."""
     with tempfile.TemporaryDirectory(prefix="nivel-page-") as folder:
         page = Path(folder) / "page.html"
         page.write_text(page_of(source), encoding="utf-8")
         with tab(page, look.width, look.height, dark=look.dark) as opened:
-            opened.run(f"nivel.bare('{look.side}')")
+            opened.run(f"nivel.bare('{look.side}', {json.dumps(fine)})")
             if look.colours and not opened.run(f"nivel.app.colour({json.dumps(look.colours)})"):
                 known = opened.run("nivel.app.colours.all")
                 missing = opened.run("nivel.app.stage.colourless")

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from nivel.errors import ModelError
+from nivel.results.frames.target import keep_sources
 from nivel.results.result import Result
-from nivel.results.target import keep_sources
 from nivel.view.page import page_alone
 from nivel.view.playback import ALONE, Budget, playback
 from nivel.view.sources import Source

@@ -115,6 +115,7 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
         columns=columns(result, frames, block, budget.columns)
         if budget.plots and (number == 0 or budget.columns)
         else [],
+        circuit=_circuit(result, record) if number == 0 else "",
         moments=[Moment(name, float(at)) for name, at in _marks(result)],
         notes=_notes(result, rows[:, : 7 * bodies], frames),
         motion=Motion(
@@ -125,6 +126,16 @@ def stage(result: Result, budget: Budget, block: Block, number: int = 0) -> Stag
             block.add(result.time[frames], "f8") if result.is_statics else None,
         ),
     )
+
+
+def _circuit(result: Result, record: dict[str, Any]) -> str:
+    """The diagram of its hydraulic circuits; empty without one. Machines without load nothing for it."""
+    if not record.get("hydraulics") or not len(result.time):
+        return ""
+    from nivel.looks.circuit.drawing import circuit_diagram
+    from nivel.results.trust.circuits import pressures_at
+
+    return circuit_diagram(record, pressures_at(result, 0))
 
 
 def _coloured(

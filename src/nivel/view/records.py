@@ -377,6 +377,7 @@ class Stage:
 
     up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by.
     notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why.
+    circuit : SVG of its hydraulic circuits, empty without any; `data-pressure` of a text names the variable that it shows.
     """
 
     name: str
@@ -402,6 +403,7 @@ class Stage:
     columns: list[Column] = field(default_factory=list)
     moments: list[Moment] = field(default_factory=list)
     coordinates: list[Coordinate] = field(default_factory=list)
+    circuit: str = ""
     notes: list[str] = field(default_factory=list)
     motion: Motion | None = None
 

@@ -13,9 +13,9 @@ from nivel.errors import ModelError
 from nivel.flexible.body import ReducedBody
 from nivel.flexible.picture import moving_surface
 from nivel.flexible.recovery import stress, von_mises
-from nivel.results.body_sources import ATTRIBUTE
-from nivel.results.recovered import RecoveredBody
 from nivel.results.result import Result
+from nivel.results.stress.body_sources import ATTRIBUTE
+from nivel.results.stress.recovered import RecoveredBody
 from nivel.view.package import Block
 from nivel.view.records import Flexible, Stress
 

@@ -234,7 +234,7 @@ export interface Motion {
   load: Packed | null;
 }
 
-/** Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted. up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by. notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why. */
+/** Everything that is drawn of one machine. origin : the point of the global frame from which all positions are counted. up : direction against gravity. low, high : corners of the box around the whole motion. size : a length to measure signs by. notes : what the user has to know, for instance that the run failed. colourless : in sentences, what has no colours by stress, and why. circuit : SVG of its hydraulic circuits, empty without any; `data-pressure` of a text names the variable that it shows. */
 export interface Stage {
   name: string;
   title: string;
@@ -259,6 +259,7 @@ export interface Stage {
   columns: Column[];
   moments: Moment[];
   coordinates: Coordinate[];
+  circuit: string;
   notes: string[];
   motion: Motion | null;
 }

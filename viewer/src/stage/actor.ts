@@ -11,6 +11,7 @@ import type { Instances } from "./instances";
 import { Palette, TONES, type Look, type Tone } from "./look";
 import { Nearness } from "./nearness";
 import { jointSigns } from "./signs";
+import { markColour, markOf } from "./marks";
 import { ball, bar, edgesOf, partGeometry } from "./solids";
 import { coupled } from "./coupled";
 import { stretching, type Stretching } from "./stretching";
@@ -226,6 +227,11 @@ export class Actor {
     }
   }
 
+  /** What the solids of the bodies are drawn by. */
+  get bodyMeshes(): THREE.Object3D[] {
+    return [...this.batches.map(({ mesh }) => mesh), ...this.swept.map(({ mesh }) => mesh)];
+  }
+
   /** What is under a ray, of one of its hits. */
   said(hit: THREE.Intersection): Picked | null {
     const batch = [...this.batches, ...this.signBatches].find(({ mesh }) => mesh === hit.object);
@@ -254,6 +260,8 @@ export class Actor {
     };
     for (const part of body.parts) {
       add((facets) => partGeometry(part, arrays, 2 * facets), part.kind === "mesh" ? ROUGH : ROUND, false, part.colour);
+      const mark = this.isGhost || this.isLarge ? null : markOf(part);
+      if (mark && (part.colour || colour)) add(() => mark, ROUGH, true, markColour(part.colour || colour!));
       const edges = edgesOf(part, partGeometry(part, arrays));
       if (edges) {
         const lines = new THREE.LineSegments(edges, this.palette.edge);

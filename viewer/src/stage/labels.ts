@@ -1,12 +1,14 @@
 // Names over the picture, as text of the page: sharp, selectable by machines that read, and never in the way of the mouse.
 import * as THREE from "three";
 import type { Actor } from "./actor";
+import { isCovered } from "./covered";
 
 const MOST = 80; // names that are shown at once
 const LINE = 17; // pixels from one name to the next below it
 const DOWN = 3; // lines that a name goes down to where it fits; further away nobody would know what it belongs to,
 const MANY = 60; // and of so many names at once already in the next line
 const LETTER = 7; // pixels, about
+const LOOKED = 40; // bodies at most whose names are looked at whether they are covered
 
 type Point = readonly [number, number, number];
 export type Named = "body" | "joint" | "force";
@@ -41,14 +43,19 @@ export class Labels {
     }
   }
 
-  /** Names that would lie on each other go down, one line each; those that still do not fit are left out. */
-  update(camera: THREE.PerspectiveCamera, width: number, height: number): void {
+  /** Names that would lie on each other go down, one line each; those that still do not fit are left out. At rest, those of bodies behind
+   *  others are faint. */
+  update(camera: THREE.PerspectiveCamera, width: number, height: number, atRest: boolean): void {
     const at = new THREE.Vector3();
     const taken: [number, number, number][] = [];
     const lines = this.labels.length > MANY ? 0 : DOWN;
     for (const label of this.labels) {
       const { style } = label.element;
       const wanted = this.shown[label.kind] && taken.length < MOST && !this.actor.isBad[label.body];
+      if (wanted && label.kind === "body" && this.actor.stage.bodies.length <= LOOKED) {
+        const covered = atRest && isCovered(this.actor, label.body, this.actor.place(label.body, label.point, at), camera);
+        label.element.classList.toggle("covered", covered);
+      }
       if (wanted) this.actor.place(label.body, label.point, at).project(camera);
       const wide = LETTER * label.text.length;
       const place = (0.5 + 0.5 * at.x) * width;

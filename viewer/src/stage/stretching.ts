@@ -11,6 +11,7 @@ const COIL = 0.021;
 const ROD = 0.0075;
 const BARREL = 0.0135;
 const ROPE = 0.0016; // of the machine's size
+const FOOT = 0.012;
 const TURNS = 9;
 const BETWEEN = ["spring", "damper", "spring-damper", "cylinder"];
 const MANY = 20; // springs from which on each is drawn with fewer facets
@@ -77,6 +78,7 @@ function rod(actor: Actor, joint: Joint, out: Stretched): void {
   const size = actor.nearness.atMost(distance(actor, joint.bodies, joint.points));
   const said: Picked = { kind: "joint", name: joint.name };
   const group = new THREE.Group();
+  feet(actor, joint.bodies, joint.points, said, out);
   const shaft = part(group, "foot", unit(ROD * size), said, out);
   const ends = [0, 1].map(() => part(group, "sign", new THREE.SphereGeometry(0.016 * size, 20, 14), said, out));
   out.moving.push(
@@ -87,9 +89,33 @@ function rod(actor: Actor, joint: Joint, out: Stretched): void {
   );
 }
 
+/** The ground under the ends of what pulls or pushes there: a cone with its tip at the end, turned away from the other one. */
+function feet(actor: Actor, bodies: readonly number[], points: readonly Point[], said: Picked, out: Stretched): void {
+  const ends = points.map((point, k) => actor.place(bodies[k]!, point, new THREE.Vector3()));
+  bodies.forEach((body, k) => {
+    if (body >= 0) return;
+    const other = bodies.findIndex((each, n) => each >= 0 && Math.abs(n - k) === 1);
+    const away = other < 0 ? new THREE.Vector3(...actor.stage.up).negate() : ends[k]!.clone().sub(ends[other]!);
+    const size = actor.nearness.atMost(away.length());
+    for (const geometry of groundSign(FOOT * size)) {
+      const turn = new THREE.Quaternion().setFromUnitVectors(Z, away.clone().normalize());
+      geometry.applyMatrix4(new THREE.Matrix4().compose(new THREE.Vector3(...points[k]!), turn, new THREE.Vector3(1, 1, 1)));
+      out.pieces.foot.push({ geometry, body: -1, holder: actor.ground, said });
+    }
+  });
+}
+
+/** A cone with its tip at the origin on a plate across z. */
+function groundSign(s: number): THREE.BufferGeometry[] {
+  const cone = new THREE.ConeGeometry(1.5 * s, 2.5 * s, 4, 1).rotateX(-Math.PI / 2).rotateZ(Math.PI / 4).translate(0, 0, 1.25 * s);
+  const plate = new THREE.BoxGeometry(3.4 * s, 3.4 * s, 0.3 * s).translate(0, 0, 2.65 * s);
+  return [cone, plate];
+}
+
 /** A rope: a thin round bar from each of its points to the next. */
 function rope(actor: Actor, force: Force, out: Stretched): void {
   const said: Picked = { kind: "force", name: force.name };
+  feet(actor, force.bodies, force.points, said, out);
   for (let k = 1; k < force.points.length; k++) {
     const bodies = force.bodies.slice(k - 1, k + 1);
     const points = force.points.slice(k - 1, k + 1);
@@ -120,6 +146,7 @@ function between(actor: Actor, force: Force, out: Stretched): void {
   const size = actor.nearness.atMost(natural);
   const said: Picked = { kind: "force", name: force.name };
   const group = new THREE.Group();
+  feet(actor, force.bodies, force.points, said, out);
   const sprung = force.look === "spring" || force.look === "spring-damper";
   const hydraulic = force.look === "cylinder";
   const many = actor.stage.forces.length > MANY;

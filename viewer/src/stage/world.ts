@@ -24,6 +24,7 @@ export class World {
   onEdges: (on: boolean) => void = () => {};
   onRecolour: (look: Look) => void = () => {};
   around: (() => THREE.Vector3[]) | null = null; // points around a machine that is moved by hand, as it stands now
+  now: (() => THREE.Vector3[]) | null = null; // points around the machine as it stands now
   frameCount = 0;
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
   private readonly sky = new THREE.HemisphereLight(0xffffff, 0x8893a0, 1.55);
@@ -33,7 +34,7 @@ export class World {
   private cloud: THREE.Vector3[];
   private free = { left: 0, top: 0, right: 0, bottom: 0 };
   private dirty = true;
-  private readonly finest: number; // pixels of the picture for one of the page
+  private finest: number; // pixels of the picture for one of the page
   private ratio: number;
   private shadows = true; // as the user wants
   private fitted = true; // everything is in sight, and stays so when the room changes
@@ -106,6 +107,17 @@ export class World {
     this.invalidate();
   }
 
+  /** Smooth edges and soft shadows whatever they cost: for pictures that are kept. */
+  drawFinely(): void {
+    document.body.classList.remove("plain");
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.finest = this.ratio = 2;
+    this.scene.traverse((each) => {
+      if (each instanceof THREE.Mesh) for (const material of [each.material].flat()) material.needsUpdate = true;
+    });
+    this.resize();
+  }
+
   /** Look from one of the standard sides, far enough to see everything. */
   view(name: View, animate = true): void {
     const { towards, up } = sideOf(name, this.stage.viewpoint, this.up);
@@ -119,6 +131,16 @@ export class World {
     if (this.around) this.see(this.around());
     const towards = this.camera.position.clone().sub(this.controls.target).normalize();
     this.flyTo(towards, this.up, this.middle(), this.distance(towards), animate);
+  }
+
+  /** What stands there at this moment is in sight, as large as it can be; the standard views have the whole motion in sight. */
+  fitNow(): void {
+    if (this.around || !this.now) return this.fit();
+    const whole = this.cloud;
+    this.see(this.now());
+    this.fit();
+    this.cloud = whole;
+    this.fitted = false;
   }
 
   /** Everything is in sight, as long as nobody looks closer. */
@@ -260,7 +282,7 @@ export class World {
     this.sun.position.copy(middle).addScaledVector(from, 3 * reach);
     this.sun.target.position.copy(middle);
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(1024, 1024);
+    this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 3;
     this.sun.shadow.normalBias = 0.004 * this.stage.size;
     const frustum = this.sun.shadow.camera;

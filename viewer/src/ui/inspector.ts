@@ -37,6 +37,11 @@ export class Inspector {
     this.select(null);
   }
 
+  /** Show something between the plots and the variables. */
+  put(element: HTMLElement): void {
+    this.plots.element.after(element);
+  }
+
   select(picked: Picked | null): void {
     this.picked = picked;
     this.describe();

@@ -38,7 +38,7 @@ export class Panels {
       { class: "top" },
       this.buttons.structure,
       el("div", { class: "title" }, el("h1", {}, stage.name), notes, status),
-      el("nav", { "aria-label": "Panels" }, iconButton("fit", "Fit everything", () => world.fit(), "F"), this.buttons.display, this.buttons.data, iconButton("help", "Keys and mouse", help, "?")),
+      el("nav", { "aria-label": "Panels" }, iconButton("fit", "Fit to the present position", () => world.fitNow(), "F"), this.buttons.display, this.buttons.data, iconButton("help", "Keys and mouse", help, "?")),
     );
     this.elements = [this.bar, ...names.map((name) => this.panels[name]), ...(timeline ? [timeline] : [])];
     document.body.classList.toggle("has-timeline", !!timeline);

@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.analysis.instant import Complex, Instant
+from nivel.analysis.assembly.instant import Complex, Instant
+from nivel.analysis.assembly.user_frames import frame_axes, frame_place, point_acceleration, point_velocity
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue
 from nivel.analysis.linearise.reduction import Ports, Reduction
-from nivel.analysis.moment import Moment
+from nivel.analysis.run.moment import Moment
 from nivel.analysis.statics.equations import turned
-from nivel.analysis.user_frames import frame_axes, frame_place, point_acceleration, point_velocity
 from nivel.errors import ModelError
 from nivel.machine.coordinate_reference import unknown_name
 from nivel.machine.machine_record import MachineRecord
@@ -47,7 +47,18 @@ class Mechanics:
         self.names = tuple(named[own.free[k]][0] for k in self._selected)
         self.position_names = _position_names(own, [name for name, _ in named])
         self.start: Array = moment.y[: own.positions].copy()
-        self._signs = self._directions(Catalogue(machine, own))
+        catalogue = Catalogue(machine, own)
+        self._signs = self._directions(catalogue)
+        # angles of the spanning tree count whole turns, as results do
+        units = own.system.coordinate_units
+        counted = [
+            (self.position_names.index(name), k)
+            for name, k, unit in zip(catalogue.coordinates, catalogue.index.tolist(), units, strict=True)
+            if unit == "rad" and name in self.position_names
+        ]
+        self._angles, self._counted = np.array(counted, dtype=np.intp).reshape(-1, 2).T
+        self.start *= self._position_signs()
+        self.start[self._angles] = own.record.coordinates.reference[self._counted]
 
     def _directions(self, catalogue: Catalogue) -> Array:
         """(n,) -1 where a joint coordinate of the results grows against the velocity of the same name, else 1."""
@@ -75,6 +86,7 @@ class Mechanics:
         y = self._moment.y.copy()
         y[: own.positions] = self._checked(q, own.positions, "q") * self._position_signs()
         y[own.positions : own.first_state] = 0.0
+        self._count_turns(q)
         dependent = np.setdiff1d(np.arange(len(own.free)), self._selected)
         for _ in range(MOST):
             y[: own.positions] = _normalised(own, y[: own.positions])
@@ -108,8 +120,9 @@ class Mechanics:
     def _at(self, q: Array | None, v: Array | None) -> Reduction:
         """The equations at positions q (closed first) and velocities v, with accelerations for a = 0."""
         own = self._instant
-        y = self._moment.y.copy()
-        y[: own.positions] = self.close(self.start if q is None else q) * self._position_signs()
+        y, closed = self._moment.y.copy(), self.close(self.start if q is None else q)
+        y[: own.positions] = closed * self._position_signs()
+        self._count_turns(closed)
         y[own.positions : own.first_state] = 0.0
         own.move_to(0.0, y, np.zeros(own.n))
         reduction = self._reduction()
@@ -189,6 +202,10 @@ class Mechanics:
     @property
     def _chosen_signs(self) -> Array:
         return self._signs[self._instant.free[self._selected]]
+
+    def _count_turns(self, q: Array) -> None:
+        """The turn in which each angle of the tree is, for the forces that depend on it."""
+        self._instant.record.coordinates.reference[self._counted] = np.asarray(q, dtype=float).ravel()[self._angles]
 
     def _position_signs(self) -> Array:
         own, out = self._instant, np.ones(self._instant.positions)

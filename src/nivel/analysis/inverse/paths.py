@@ -20,11 +20,11 @@ from scipy.spatial.transform import Rotation
 
 from nivel.analysis.inverse.mechanics import Mechanics
 from nivel.errors import Fault, ModelError
-from nivel.machine.arithmetic import ExpressionError
 from nivel.machine.coordinate_reference import COORDINATE_KINDS, unknown_name
-from nivel.machine.quantity import expression_fault, read_quantity, shown
-from nivel.results.joint_path import JointPath
-from nivel.results.rotations import rotation_matrices
+from nivel.machine.units.arithmetic import ExpressionError
+from nivel.machine.units.quantity import expression_fault, read_quantity, shown
+from nivel.results.frames.joint_path import JointPath
+from nivel.results.frames.rotations import rotation_matrices
 from nivel.system.system import Array
 
 # a place is reached where position and orientation err by less than these [machine lengths, rad]

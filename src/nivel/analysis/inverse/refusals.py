@@ -1,10 +1,9 @@
-"""What has no inverse dynamics here: bodies that bend, friction whose load depends on the efforts that are sought."""
+"""What has no inverse dynamics here: bodies that bend, wheels that roll."""
 
 from __future__ import annotations
 
-from nivel.analysis.rolling import refuse_rolling
+from nivel.analysis.plan.rolling import refuse_rolling
 from nivel.errors import Fault, ModelError
-from nivel.machine.forces import Friction
 from nivel.machine.machine_record import MachineRecord
 
 
@@ -25,18 +24,6 @@ def refuse_for_inverse(machine: MachineRecord) -> None:
     faults += [
         Fault("", 0, 0, f"beams.{beam.name}", "the motion of a beam that bends is not given by drivers: leave it out")
         for beam in machine.beams
-    ]
-    faults += [
-        Fault(
-            "",
-            0,
-            0,
-            f"forces.{force.name}",
-            "friction is loaded by the reactions, which depend on the efforts that are sought: drive the coordinates and read the "
-            "drivers' efforts from `nivel kinematics`, which knows friction",
-        )
-        for force in machine.forces
-        if isinstance(force, Friction)
     ]
     if faults:
         raise ModelError(faults)

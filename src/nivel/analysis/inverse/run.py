@@ -16,16 +16,16 @@ from collections import Counter
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.instant import Instant
+from nivel.analysis.assembly.instant import Instant
 from nivel.analysis.inverse.least import Least, least_efforts
 from nivel.analysis.inverse.settings import InverseSettings
-from nivel.analysis.inverse.states import MovingState, moving_states
-from nivel.analysis.listener import Listener
-from nivel.analysis.moment import at_start
-from nivel.analysis.plan import Methods
-from nivel.kernels.observe import observe
+from nivel.analysis.kinematics.states import MovingState, moving_states
+from nivel.analysis.plan.plan import Methods
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.moment import at_start
+from nivel.kernels.output.observe import observe
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.efforts import Efforts
+from nivel.results.analyses.efforts import Efforts
 from nivel.results.result import Result
 from nivel.system.system import Array
 
@@ -64,6 +64,7 @@ def inverse(
     times, efforts, rates, missing, shares, worst = [], [], [], [], [], Counter[str]()
     limited, rank, freedoms, open_by = False, 0, 0, 0.0
     for state in moving_states(instant.system, motion):
+        _count_turns(instant, state, index)
         found, b, speed, named = _at(instant, state, settings, places, index, names)
         limited |= found.limited
         open_by = max(open_by, _violation(instant))
@@ -125,6 +126,14 @@ def _at(
     if names and np.abs(found.missing).max(initial=0.0) > MISSING * max(float(np.abs(b).max(initial=0.0)), 1e-300):
         named = _where(every_coordinate, found.missing, column, names)
     return found, b, rates[column], named
+
+
+def _count_turns(instant: Instant, state: MovingState, index: NDArray[np.int64]) -> None:
+    """Whole turns of all angles: of joint coordinates those of the motion, of others those nearest to the state before."""
+    coordinates = instant.record.coordinates
+    coordinates.reference[:] = coordinates.value
+    if len(state.coordinates) == len(index):
+        coordinates.reference[index] = state.coordinates
 
 
 def _where(columns: Array, missing: Array, actuators: list[int], names: list[str]) -> tuple[str, float]:

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from nivel.analysis.assemble import assemble
-from nivel.analysis.equations import equations
+from nivel.analysis.assembly.assemble import assemble
+from nivel.analysis.assembly.equations import equations
 from nivel.analysis.kinematics.settings import KinematicsSettings
 from nivel.errors import Fault, ModelError
-from nivel.kernels.observe import observe
+from nivel.kernels.output.observe import observe
 from nivel.machine.driver import Driver
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord

@@ -8,7 +8,7 @@ from math import pi
 import numpy as np
 
 from nivel.errors import SolveError
-from nivel.results.mechanism import Range
+from nivel.results.analyses.mechanism import Range
 from nivel.results.result import Result
 
 # a coordinate that comes this near to a whole turn, and is there again, turns right round

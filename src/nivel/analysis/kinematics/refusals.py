@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.analysis.equations import equations
-from nivel.analysis.freedoms import coordinate_derivatives, freedoms
-from nivel.analysis.preparation import Prepared
-from nivel.analysis.rolling import refuse_rolling
+from nivel.analysis.assembly.equations import equations
+from nivel.analysis.assembly.freedoms import coordinate_derivatives, freedoms
+from nivel.analysis.plan.rolling import refuse_rolling
+from nivel.analysis.run.preparation import Prepared
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.beam_nodes import with_nodes

@@ -11,31 +11,31 @@ from os import PathLike
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.attributes import run_attributes
-from nivel.analysis.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
-from nivel.analysis.history import start_history
 from nivel.analysis.kinematics.refusals import refuse_free_motions, refuse_what_bends
 from nivel.analysis.kinematics.settings import KinematicsSettings
 from nivel.analysis.kinematics.singular import singular_positions
-from nivel.analysis.listener import Listener
-from nivel.analysis.lockup import find_jam
-from nivel.analysis.outcome import failure
-from nivel.analysis.plan import Methods
-from nivel.analysis.preparation import Prepared, prepare
-from nivel.analysis.settings import RunSettings, complete
+from nivel.analysis.plan.plan import Methods
+from nivel.analysis.plan.settings import RunSettings, complete
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.attributes import run_attributes
+from nivel.analysis.run.dynamics import GOES_ON, RunOutcome, keep_last, march_in_chunks
+from nivel.analysis.run.history import start_history
+from nivel.analysis.run.lockup import find_jam
+from nivel.analysis.run.outcome import failure
+from nivel.analysis.run.preparation import Prepared, prepare
 from nivel.errors import SolveError
 from nivel.integrate.catalogue import IntegratorFacts
-from nivel.integrate.positions import follow_positions
-from nivel.integrate.run import ACCEPTED, DONE_STEPS, EVALUATIONS, REJECTED, STEP, Run
-from nivel.integrate.sink import Header, Sink
+from nivel.integrate.loop.positions import follow_positions
+from nivel.integrate.loop.run import ACCEPTED, DONE_STEPS, EVALUATIONS, REJECTED, STEP, Run
+from nivel.integrate.loop.sink import Header, Sink
 from nivel.integrate.stabilise import direct
-from nivel.kernels.handle import Handle
-from nivel.kernels.status import CONTRADICTION, DONE
+from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.status import CONTRADICTION, DONE
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.kinematics_trust import KinematicsFacts, assess_kinematics
 from nivel.results.memory import Memory
 from nivel.results.result import Result
 from nivel.results.store import Store
+from nivel.results.trust.kinematics_trust import KinematicsFacts, assess_kinematics
 from nivel.system.layout import FrameLayout, laid_out
 from nivel.system.system import Array
 
@@ -43,7 +43,7 @@ from nivel.system.system import Array
 STUCK = 1e-4
 # histories that only the integration of a motion has
 INTEGRATED = frozenset({"external_work", "dissipated_energy", "energy_error"})
-FACTS = IntegratorFacts("nivel.integrate.positions", "follow_positions", stages=0, order=1, numbers=1)
+FACTS = IntegratorFacts("nivel.integrate.loop.positions", "follow_positions", stages=0, order=1, numbers=1)
 
 
 @dataclass
@@ -159,7 +159,8 @@ def _close(sink: Memory | Store, prepared: Prepared, finished: RunOutcome, run: 
     message, advice, at = finished.failure or ("", "", 0.0)
     redundancy = prepared.redundancy
     near = singular_positions(prepared, sink.result())
-    if finished.failure is not None and "jams" not in message and near is not None and near.least < STUCK:
+    jammed = finished.failure is not None and "jams" in message
+    if finished.failure is not None and not jammed and near is not None and near.least < STUCK:
         message = f"a position at t = {near.time:.6g} s is singular: the rows of {', '.join(near.joints)} depend on each other there"
         advice = "Branches of positions meet in it. Take another number of positions, so that none falls on it: it is then stepped over."
     facts = KinematicsFacts(
@@ -169,7 +170,8 @@ def _close(sink: Memory | Store, prepared: Prepared, finished: RunOutcome, run: 
         redundant_rows=redundancy.redundant_rows,
         non_unique_joints=redundancy.non_unique_joints,
         halved=int(run.counter[REJECTED]),
-        passed=near.passed if near is not None else (),
+        # a machine that jams has come to the singular position, not past it
+        passed=tuple(pair for pair in near.passed if not jammed or pair[1] < at) if near is not None else (),
         nearest=(near.least, near.time) if near is not None else None,
         split=near.joints if near is not None else (),
     )

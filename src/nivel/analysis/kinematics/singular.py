@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import qr
 
-from nivel.analysis.inverse.states import moving_states
-from nivel.analysis.preparation import Prepared
-from nivel.analysis.redundancy import scaled_jacobian
+from nivel.analysis.assembly.redundancy import scaled_jacobian
+from nivel.analysis.kinematics.states import moving_states
+from nivel.analysis.run.preparation import Prepared
 from nivel.results.result import Result
+from nivel.system.system import Array
 
 # positions that are looked at, at most, evenly over the frames
 LOOKED_AT = 72
@@ -42,26 +43,34 @@ def singular_positions(prepared: Prepared, result: Result) -> Singularity | None
     if not rank or not len(result.time):
         return None
     every = max(1, -(-len(result.time) // LOOKED_AT))
-    kept: NDArray[np.intp] | None = None
-    signs, sizes, times = [], [], []
+    sizes, times, passed = [], [], []
+    before: tuple[NDArray[np.intp], float] | None = None
     lost, least = np.zeros((0, 0)), np.inf
     for state in moving_states(system, result, every):
         motion.evaluate(state.time, state.y)
         rows = scaled_jacobian(motion)
         rows = rows[:, np.abs(rows).max(axis=0, initial=0.0) > 0.0] if system.point_masses.any() else rows
-        if kept is None:
-            pivoted: Any = qr(rows.T, mode="r", pivoting=True)
-            kept = np.sort(pivoted[1][:rank])
-        own = rows[kept]
-        size = float(np.linalg.svd(own, compute_uv=False)[-1])
+        size = float(np.linalg.svd(rows, compute_uv=False)[rank - 1])
+        if before is not None and before[1] * determinant_sign(rows[before[0]]) < 0.0:
+            passed.append((times[-1], state.time))
+        kept = independent_rows(rows, rank)
+        before = (kept, determinant_sign(rows[kept]))
         sizes.append(size)
         times.append(state.time)
-        signs.append(float(np.linalg.slogdet(own)[0]) if rank == rows.shape[1] else 0.0)
         if size < least:
-            least, lost = size, own
-    assert kept is not None
-    share = np.abs(np.linalg.svd(lost)[0][:, -1])
-    owners = dict.fromkeys(system.row_owner[row] for row in kept[share >= TAKES_PART * share.max()])
-    passed = [(times[k], times[k + 1]) for k in range(len(times) - 1) if signs[k] * signs[k + 1] < 0.0]
+            least, lost = size, rows
+    share = np.abs(np.linalg.svd(lost)[0][:, rank - 1])
+    owners = dict.fromkeys(system.row_owner[row] for row in np.flatnonzero(share >= TAKES_PART * share.max()))
     k = int(np.argmin(sizes))
     return Singularity(tuple(passed), sizes[k] / sizes[0] if sizes[0] > 0.0 else 0.0, times[k], tuple(owners))
+
+
+def independent_rows(rows: Array, rank: int) -> NDArray[np.intp]:
+    """Rows that are well apart here: others may be so elsewhere, where constraints repeat each other."""
+    pivoted: Any = qr(rows.T, mode="r", pivoting=True)
+    return np.sort(pivoted[1][:rank])
+
+
+def determinant_sign(rows: Array) -> float:
+    """Of the determinant; 0 where motions are free."""
+    return float(np.linalg.slogdet(rows)[0]) if rows.shape[0] == rows.shape[1] else 0.0

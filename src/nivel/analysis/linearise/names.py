@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.record import MODAL, NONE
+from nivel.kernels.record.record import MODAL, NONE
 from nivel.system.system import System
 
 UNITS = {"m": "m", "1": "rad", "kg^0.5 m": "kg^0.5 m"}

@@ -9,12 +9,12 @@ from typing import TypeVar
 
 import numpy as np
 
-from nivel.analysis.instant import Complex, Instant
+from nivel.analysis.assembly.instant import Complex, Instant
+from nivel.analysis.assembly.user_frames import frame_place, frame_velocity
 from nivel.analysis.linearise.reduction import Ports
-from nivel.analysis.user_frames import frame_place, frame_velocity
 from nivel.errors import Fault, ModelError
-from nivel.kernels import sensor
-from nivel.kernels.record import SENSE
+from nivel.kernels.record.record import SENSE
+from nivel.kernels.signals import sensor
 from nivel.machine.forces import Motor
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.layout import reported

@@ -13,7 +13,7 @@ The matrix K holds ∂(C_qᵀ λ)/∂q, the stiffness of the reactions.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -21,7 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lstsq, qr
 
-from nivel.analysis.instant import Instant, Reader, Slopes
+from nivel.analysis.assembly.instant import Instant, Reader, Slopes
+from nivel.analysis.linearise.axes import TurnedAxes
 from nivel.system.system import Array
 
 # singular values of the constraints below this share of the largest are zero
@@ -54,37 +55,56 @@ class StateSpace:
 
 class Reduction:
     """The linear equations of a machine at an instant; reader : of its outputs. chosen : places of the independent coordinates and of the
-    independent velocities; None: chosen here."""
+    independent velocities; None: chosen here. axes : in which the changes of spinning bodies are resolved; all unknowns here, rows of r
+    with them, are those in these axes."""
 
     def __init__(
-        self, instant: Instant, ports: Ports, reader: Reader, chosen: tuple[Index, Index] | None = None
+        self,
+        instant: Instant,
+        ports: Ports,
+        reader: Reader,
+        chosen: tuple[Index, Index] | None = None,
+        axes: TurnedAxes | None = None,
     ) -> None:
-        self.instant, self.ports, self._chosen, self._reader = instant, ports, chosen, reader
+        self.instant, self.ports, self._chosen, self._reader, self._axes = instant, ports, chosen, reader, axes
+
+    def _slopes(self, what: str, *, turned: bool) -> Slopes:
+        """Derivatives with respect to `what`; turned : whether that is resolved in the axes."""
+        found = self.instant.along(what, self._reader)
+        if self._axes is None:
+            return found
+        T, free = self._axes.turn, self.instant.free
+        r = found.r.copy()
+        r[free] = T @ r[free]
+        out = replace(found, r=r)
+        if not turned:
+            return out
+        return Slopes(*(getattr(out, part) @ T.T for part in ("r", "g", "C", "Cdot", "Cddot", "seen")))
 
     @cached_property
     def by_q(self) -> Slopes:
         """Derivatives with respect to positions."""
-        return self.instant.along("q", self._reader)
+        return self._slopes("q", turned=True)
 
     @cached_property
     def by_v(self) -> Slopes:
         """Derivatives with respect to velocities."""
-        return self.instant.along("v", self._reader)
+        return self._slopes("v", turned=True)
 
     @cached_property
     def by_x(self) -> Slopes:
         """Derivatives with respect to states of elements."""
-        return self.instant.along("x", self._reader)
+        return self._slopes("x", turned=False)
 
     @cached_property
     def by_rate(self) -> Slopes:
         """Derivatives with respect to accelerations."""
-        return self.instant.along("vdot", self._reader)
+        return self._slopes("vdot", turned=True)
 
     @cached_property
     def by_force(self) -> Slopes:
         """Derivatives with respect to multipliers."""
-        return self.instant.along("lam", self._reader)
+        return self._slopes("lam", turned=False)
 
     @cached_property
     def J(self) -> Array:
@@ -167,12 +187,28 @@ class Reduction:
 
     @cached_property
     def E(self) -> Array:
-        """(f, f) δq̇ = δv + E δq: -ω̃̄ on the turns of bodies, else zero."""
+        """(f, f) δq̇ = δv + E δq: -ω̃̄ on the turns of bodies, else zero; in turning axes T E Tᵀ + Ṫ Tᵀ."""
         own, out = self.instant, np.zeros((self.instant.n, self.instant.n))
         for first in np.flatnonzero(own.place[:, 1] == 0):
             x, y, z = own.y[own.positions + first :][:3]
             out[first : first + 3, first : first + 3] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
-        return out[np.ix_(own.free, own.free)]
+        found = out[np.ix_(own.free, own.free)]
+        return found if self._axes is None else self._axes.turn @ found @ self._axes.turn.T + self._axes.rate
+
+    @property
+    def force(self) -> Array:
+        """(f, p) generalised forces of the inputs."""
+        force = self.ports.force[self.instant.free]
+        return force if self._axes is None else self._axes.turn @ force
+
+    def shifted(self, velocities: Array) -> Array:
+        """What the turning of the axes adds to accelerations in them: δv̇' = T δv̇ + Ṫ Tᵀ v'."""
+        return velocities * 0.0 if self._axes is None else self._axes.rate @ velocities
+
+    @property
+    def positions(self) -> Array:
+        """(f, m) change of all positions of the instant, not in turned axes, for a unit of each independent one."""
+        return self.Zq if self._axes is None else self._axes.turn.T @ self.Zq
 
     def state_space(self) -> StateSpace:
         """A, B, C, D for the states (s, w, x)."""
@@ -186,6 +222,7 @@ class Reduction:
         qdot = v + self.E @ q
         xdot = self._combined("g", q, v, x, rate, lam)
         seen = self._combined("seen", q, v, x, rate, lam)
+        rate = rate + self.shifted(v)
         whole = np.vstack([qdot[self.selected], rate[self.moving], xdot])
         count = m + w + S
         return StateSpace(whole[:, :count], whole[:, count:], seen[:, :count], seen[:, count:])
@@ -215,7 +252,7 @@ class Reduction:
     def _accelerations(self, q: Array, v: Array, x: Array, u: Array) -> tuple[Array, Array]:
         """(δv̇, δλ) for changes of positions, velocities, states and inputs."""
         free = self.instant.free
-        forces = self.ports.force[free] @ u - self._moved("r", q, v, x)[free]
+        forces = self.force @ u - self._moved("r", q, v, x)[free]
         rows = self.ports.held @ u - self._moved("Cddot", q, v, x)
         out = self._saddle_inverse @ np.vstack([forces, rows])
         return out[: len(free)], out[len(free) :]
@@ -239,6 +276,7 @@ class Reduction:
         rate, lam = unknown[: len(free)], unknown[len(free) :]
         xdot = moved("g") + np.abs(self.by_rate.g) @ rate + np.abs(self.by_force.g) @ lam
         qdot = v + np.abs(self.E) @ q
+        rate = rate + np.abs(self.shifted(v))
         return ROUND_OFF * np.vstack([qdot[self.selected], rate[self.moving], xdot])
 
     def _moved(self, part: str, q: Array, v: Array, x: Array) -> Array:

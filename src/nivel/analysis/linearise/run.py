@@ -9,26 +9,25 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from nivel.analysis.attributes import run_attributes
-from nivel.analysis.instant import Instant
+from nivel.analysis.assembly.instant import Instant
+from nivel.analysis.assembly.user_frames import frame_axes, frame_place
 from nivel.analysis.linearise.eigenvalues import Complex, Eigen, eigenvalues, with_squares
+from nivel.analysis.linearise.judged import judged, nothing
 from nivel.analysis.linearise.names import velocity_names
 from nivel.analysis.linearise.ports import Catalogue, Input
 from nivel.analysis.linearise.reduction import Ports, Reduction, StateSpace
 from nivel.analysis.linearise.refusals import MOST, refuse_jumps
 from nivel.analysis.linearise.settings import LineariseSettings
-from nivel.analysis.linearise.steady import BALANCE, acceleration_of, is_at_rest, keeps_its_equations
-from nivel.analysis.listener import Listener
-from nivel.analysis.moment import Moment, Posture, at_posture, at_start
-from nivel.analysis.plan import Methods
+from nivel.analysis.linearise.steady import is_at_rest
+from nivel.analysis.plan.plan import Methods
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.attributes import run_attributes
+from nivel.analysis.run.moment import Moment, Posture, at_posture, at_start
 from nivel.analysis.statics.linear import symmetric, symmetric_modes
-from nivel.analysis.unknowns import unknown_name
-from nivel.analysis.user_frames import frame_axes, frame_place
 from nivel.errors import Fault, ModelError
-from nivel.kernels.record import NONE
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.linear_model import LinearModel
-from nivel.results.linear_motion import Posed
+from nivel.results.analyses.linear_model import LinearModel
+from nivel.results.analyses.linear_motion import Posed
 from nivel.system.system import Array
 
 NAMED = 6  # states in a sentence
@@ -64,18 +63,15 @@ def linearise(
     _refuse_large(instant)
     catalogue = Catalogue(machine, instant)
     inputs, outputs = catalogue.chosen(settings.inputs, settings.outputs)
-    reduction = Reduction(instant, catalogue.ports(inputs), catalogue.reader(outputs))
-    places, rates = (_signs(catalogue, instant)[each] for each in reduction.chosen)
-    signs = np.concatenate([places, rates])
-    whole = _signed(reduction.state_space(), signs)
+    linear = judged(catalogue, moment, instant, inputs, outputs)
+    reduction, whole, places, rates = linear.reduction, linear.space, linear.places, linear.rates
     states = _states(instant, reduction)
-    space, states, inputs, kept = _opened(whole, states, inputs, len(signs))
+    space, states, inputs, kept = _opened(whole, states, inputs, len(places) + len(rates))
     noise = reduction.noise()[np.ix_(kept, kept)]
-    found = eigenvalues(space.A, _timed(states.scale, space.A, len(places), len(signs)), noise)
+    found = eigenvalues(space.A, _timed(states.scale, space.A, len(places), len(places) + len(rates)), noise)
     if len(space.A) == 2 * len(rates) == len(whole.A) and is_at_rest(instant):
         found = _undamped(found, *_held(instant, reduction).second_order())
     shift, turn = _shapes(instant, reduction, found, places)
-    steady, notes = _judged(catalogue, moment, instant, reduction, inputs, whole.A, signs)
     second = [rates[:, None] * each * rates for each in reduction.second_order()]
     posed = _posed(machine, source, moment, instant, settings)
     return LinearModel(
@@ -103,8 +99,8 @@ def linearise(
         shift=shift,
         turn=turn,
         structural_zeros=_zeros(found, states),
-        steady=steady,
-        notes=tuple(notes),
+        steady=linear.steady,
+        notes=tuple(linear.notes),
         posed=posed,
     )
 
@@ -113,27 +109,6 @@ def _refuse_large(instant: Instant) -> None:
     if instant.n > MOST:
         message = f"{instant.n} velocities are more than the {MOST} of which full matrices are made: use `nivel statics --modes`"
         raise ModelError(Fault("", 0, 0, "linearise", message))
-
-
-def _signs(catalogue: Catalogue, instant: Instant) -> Array:
-    """(f,) -1 where a joint coordinate of the results grows against the velocity of the same name, else 1."""
-    names = velocity_names(instant.system)
-    known = catalogue.coordinates
-    place = {name: k for k, name in enumerate(known)}
-    outputs = [catalogue.outputs[name] for name in known]
-    slopes = instant.along("q", catalogue.reader(outputs)).seen if outputs else np.zeros((0, len(instant.free)))
-    out = np.ones(len(instant.free))
-    for k, j in enumerate(instant.free):
-        row = place.get(names[j][0])
-        if row is not None and slopes[row, k] < 0.0:
-            out[k] = -1.0
-    return out
-
-
-def _signed(space: StateSpace, signs: Array) -> StateSpace:
-    more = np.ones(len(space.A))
-    more[: len(signs)] = signs
-    return StateSpace(more[:, None] * space.A * more, more[:, None] * space.B, space.C * more, space.D)
 
 
 def _states(instant: Instant, reduction: Reduction) -> _States:
@@ -167,7 +142,7 @@ def _held(instant: Instant, reduction: Reduction) -> Reduction:
     if not len(reduction.ports.opened):
         return reduction
     ports = Ports(np.zeros((instant.n, 0)), np.zeros((instant.rows, 0)), np.zeros(0, dtype=np.intp))
-    return Reduction(instant, ports, _nothing)
+    return Reduction(instant, ports, nothing)
 
 
 def _undamped(found: Eigen, M: Array, D: Array, K: Array) -> Eigen:
@@ -197,7 +172,7 @@ def _shapes(instant: Instant, reduction: Reduction, found: Eigen, signs: Array) 
 
     if not count or not m or len(found.values) == 0:
         return np.zeros((len(found.values), count, 3), complex), np.zeros((len(found.values), count, 3), complex)
-    seen = instant.along("q", read).seen @ (reduction.Zq * signs)
+    seen = instant.along("q", read).seen @ (reduction.positions * signs)
     axes = instant.read(read)[3 * count :].reshape(count, 3, 3)
     spins = np.einsum("bijk,blj->bilk", seen[3 * count :].reshape(count, 3, 3, m), axes)
     turns = 0.5 * np.stack(
@@ -224,60 +199,6 @@ def _listed(names: Sequence[str]) -> str:
     return ", ".join(names[:NAMED]) + (f" and {len(names) - NAMED} more" if len(names) > NAMED else "")
 
 
-def _judged(
-    catalogue: Catalogue,
-    moment: Moment,
-    instant: Instant,
-    reduction: Reduction,
-    inputs: Sequence[Input],
-    A: Array,
-    signs: Array,
-) -> tuple[bool, list[str]]:
-    """Whether the eigenvalues describe the motion, and what a reader has to know."""
-    if is_at_rest(instant):
-        return _judged_at_rest(moment, instant, reduction, A)
-
-    def find(t: float, y: Array) -> Array | None:
-        if t == instant.t:
-            return A
-        own = Instant(moment.motion, t, y)
-        later = Reduction(own, catalogue.ports(inputs), _nothing, reduction.chosen)
-        return _signed(later.state_space(), signs).A
-
-    if keeps_its_equations(moment.prepared.motion, instant, find):
-        return True, ["the machine moves steadily: A is the same at later moments of the motion"]
-    spinning = instant.place[instant.free[reduction.selected], 1] != NONE
-    hint = (
-        "where a body spins, measure it by joint coordinates: --coordinates relative"
-        if np.any(spinning)
-        else "A, B, C and D hold at this moment alone"
-    )
-    return False, [f"A changes while the machine moves, so its eigenvalues describe no motion: {hint}"]
-
-
-def _judged_at_rest(moment: Moment, instant: Instant, reduction: Reduction, A: Array) -> tuple[bool, list[str]]:
-    """At rest the machine has to be in equilibrium, states of elements included."""
-    gravity = float(np.linalg.norm(instant.record.bodies.gravity)) / instant.system.size
-    rate = float(np.max(np.abs(A), initial=0.0))
-    size = acceleration_of(instant)
-    worst = int(np.argmax(size)) if len(size) else 0
-    notes = []
-    if len(size) and size[worst] > BALANCE * max(gravity, rate, 1e-12):
-        name = unknown_name(instant.system, worst)
-        notes.append(
-            f"the machine is at rest but not in equilibrium ({name} accelerates most), so eigenvalues describe no motion: "
-            "linearise about equilibrium"
-        )
-    g = instant.value()[instant.n :][: instant.state_count]
-    facts, moving = instant.system.states, len(reduction.selected) + len(reduction.moving)
-    for k, fact in enumerate(facts):
-        if abs(g[k]) > BALANCE * (fact.scale or 1.0) * max(1.0, abs(A[moving + k]).max()):
-            notes.append(
-                f"the state {fact.name} changes at a rate of {g[k]:.4g} per second: linearise about equilibrium"
-            )
-    return not notes, notes
-
-
 def _posed(machine: MachineRecord, source: str, moment: Moment, instant: Instant, settings: LineariseSettings) -> Posed:
     """What it takes to show modes: the machine, and where its bodies are."""
     count = instant.system.body_count
@@ -289,7 +210,3 @@ def _posed(machine: MachineRecord, source: str, moment: Moment, instant: Instant
     axes = np.array([frame_axes(own, b).real for b in range(count)]).reshape(count, 3, 3)
     theta = Rotation.from_matrix(axes).as_quat(scalar_first=True)
     return Posed(tuple(own.system.bodies), places, theta, own.system.size, {**attributes, "outcome": "done"})
-
-
-def _nothing(_: Instant) -> Complex:
-    return np.zeros(0, dtype=np.complex128)

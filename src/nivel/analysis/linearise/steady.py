@@ -10,9 +10,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from nivel.analysis.equations import MotionEquations
-from nivel.analysis.instant import Instant
-from nivel.kernels.status import OK
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.instant import Instant
+from nivel.kernels.core.status import OK
 from nivel.system.system import Array
 
 # shares of scales below which a machine is at rest, and in equilibrium

@@ -6,15 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nivel.analysis.loads.functions import Curve, TableCurve, varying
-from nivel.integrate.run import PARTS
-from nivel.machine.arithmetic import TIME
+from nivel.integrate.loop.run import PARTS
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.arithmetic import TIME
 
 Array = NDArray[np.float64]
 # samples in one of the PARTS of a run
 SAMPLES = 16
-# Within a step a function changes by this share of its range at most: some six steps a period.
-CHANGE = 1.0
+# Within a step a function changes by this share of its range at most: six steps a period.
+CHANGE = 0.5
 # Bounds beyond the samples by this share of the range are looked into by so many halvings, so many intervals at once.
 BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 16, 4096
 
@@ -43,7 +43,29 @@ def allowed_steps(machine: MachineRecord, duration: float) -> Array:
         span = float(np.ptp(seen))
         moving = steepest * duration > span * (1.0 + 1e-9)
         allowed[moving] = np.minimum(allowed[moving], CHANGE * span / steepest[moving])
-    return _ending_before(allowed, duration / PARTS)
+    part = duration / PARTS
+    return _ending_before(_beside(allowed, part), part)
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of functions that are no numbers somewhere
+def rounding_of_times(machine: MachineRecord, duration: float) -> float:
+    """By what share of its impulse a function of time alone is uncertain, at most, because times are rounded: its total variation by what
+    the end of the run [s] is rounded to, over the integral of its magnitude. Two runs are not apart by that."""
+    share = 0.0
+    for function in varying(machine):
+        curve = function.curve
+        if function.sampling is not None or curve.signals:
+            continue
+        time = np.linspace(0.0, duration, PARTS * SAMPLES + 1)
+        if isinstance(curve, TableCurve):
+            points = curve.points[0]
+            time = np.union1d(time, points[(points > 0.0) & (points < duration)])
+        at, seen = with_features(curve, time, np.nan_to_num(curve.values({TIME: time})))
+        impulse = float(np.trapezoid(np.abs(seen), at))
+        uncertain = float(np.abs(np.diff(seen)).sum()) * float(np.spacing(duration))
+        if impulse > 0.0 and np.isfinite(uncertain / impulse):
+            share = max(share, uncertain / impulse)
+    return share
 
 
 def with_features(curve: Curve, time: Array, values: Array) -> tuple[Array, Array]:
@@ -72,6 +94,16 @@ def with_features(curve: Curve, time: Array, values: Array) -> tuple[Array, Arra
         begin, width = np.concatenate([begin, middle]), np.tile(0.5 * width, 2)
         low, high = np.tile(low, 2), np.tile(high, 2)
     return time, values
+
+
+def _beside(allowed: Array, part: float) -> Array:
+    """No more than what is allowed in any part nearer than a step of that length: the top of a sine is as fast as its sides."""
+    out = allowed.copy()
+    for k in np.flatnonzero(np.isfinite(allowed)):
+        reach = int(allowed[k] / part)
+        near = slice(max(0, k - reach), k + reach + 1)
+        out[near] = np.minimum(out[near], allowed[k])
+    return out
 
 
 def _ending_before(allowed: Array, part: float) -> Array:

@@ -10,16 +10,16 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.machine.arithmetic import LOCAL_SYMBOLS, TIME
-from nivel.machine.bounds import Interval, bounds_of, values_of
-from nivel.machine.expression import Expression
 from nivel.machine.functions import Sampling, functions_of
-from nivel.machine.linear_function import linear_function
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.table import Table
+from nivel.machine.units.arithmetic import LOCAL_SYMBOLS, TIME
+from nivel.machine.units.bounds import Interval, bounds_of, values_of
+from nivel.machine.units.expression import Expression
+from nivel.machine.units.linear_function import linear_function
 from nivel.native.signature import LAW
-from nivel.system.laws import law_address
+from nivel.system.laws.laws import law_address
 
 Array = NDArray[np.float64]
 # straight pieces that stand for one of a smooth table

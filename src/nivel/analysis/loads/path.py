@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from nivel.analysis.loads.functions import Varying, is_local
 from nivel.errors import ModelError
-from nivel.integrate.run import LEAST, PARTS
-from nivel.machine.arithmetic import TIME
+from nivel.integrate.loop.run import LEAST, PARTS
 from nivel.machine.control.part import VALUE
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.symbols import Symbol, UnknownSymbolError, find_symbol
+from nivel.machine.units.arithmetic import TIME
 from nivel.results.result import Result
-from nivel.results.scales import rotated
+from nivel.results.trust.scales import rotated
 
 Array = NDArray[np.float64]
 AXES = {"x": 0, "y": 1, "z": 2}
@@ -40,12 +40,15 @@ class Steps:
 
 
 def steps_of(pace: Array, duration: float, step: float | None, corners: tuple[float, ...] = ()) -> Steps:
-    """The steps of a run up to `duration` [s]. step [s] : a fixed one. pace : of `Run`, for steps that were chosen; they end at `corners`
-    [s], and are as long as the shortest one at that time: a method that goes so far down has seen what there is."""
+    """The steps of a run up to `duration` [s]. step [s] : a fixed one. Steps end at `corners` [s] too. pace : of `Run`, for
+    steps that were chosen; they are as long as the shortest one at that time: a method that goes so far down has seen what there is."""
     if step is not None:
         count = max(1, int(np.ceil(duration / step * (1.0 - 1e-12))))
         stride = -(-count // MOST_STEPS)
         begin = step * np.arange(0, count, stride, dtype=np.float64)
+        if corners and stride == 1:
+            ends = np.unique(np.append(begin, [t for t in corners if t < duration]))
+            return Steps(ends, np.diff(ends, append=count * step))
         return Steps(begin, np.full(len(begin), step))
     part = duration / PARTS
     taken = np.where(np.isfinite(pace[LEAST]), pace[LEAST], part)

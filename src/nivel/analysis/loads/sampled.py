@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from nivel.analysis.loads.ahead import with_features
 from nivel.analysis.loads.functions import Varying, varying
-from nivel.machine.arithmetic import TIME
 from nivel.machine.functions import Sampling
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.unseen import Unseen
+from nivel.machine.units.arithmetic import TIME
+from nivel.results.trust.unseen import Unseen
 
 Array = NDArray[np.float64]
 # Places between two samples that are looked at, and samples at most.

@@ -1,7 +1,7 @@
 """How much of the impulse of every function the steps of a run have missed.
 
-Over each step the integral of the function, and that of its magnitude, are compared with what a method finds that looks at it where
-methods of this order do. What is missed is summed over a twentieth of the run, where errors of both signs cancel as they do in the
+Over each step the integral of the function, and that of its magnitude, are compared with those of what the method takes it for
+(`nivel.analysis.loads.sight`). What is missed is summed over a twentieth of the run, where errors of both signs cancel as they do in the
 motion, and held against the integral of the magnitude. Features narrower than what lies between samples are found by bounds of the
 function over intervals, which are halved as long as they allow more than was sampled.
 """
@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 
 from nivel.analysis.loads.functions import Varying, varying
 from nivel.analysis.loads.path import Path, Steps, path_of
+from nivel.analysis.loads.sight import as_seen
 from nivel.integrate.catalogue import IntegratorFacts
-from nivel.machine.arithmetic import TIME
-from nivel.machine.bounds import Interval
 from nivel.machine.machine_record import MachineRecord
+from nivel.machine.units.arithmetic import TIME
+from nivel.machine.units.bounds import Interval
 from nivel.results.result import Result
-from nivel.results.unseen import Unseen
+from nivel.results.trust.unseen import Unseen
 
 Array = NDArray[np.float64]
 # Parts of a step between samples, and how many parts of the run are judged by themselves.
@@ -31,9 +32,6 @@ QUIET = 1e-2
 BEYOND, HALVINGS, MOST_INTERVALS = 0.05, 14, 20_000
 # A found feature is sampled by so many points; at most so many are.
 FEATURE, MOST_FEATURES = 2048, 32
-SIMPSON = np.array([1.0, 4.0, 1.0]) / 6.0
-BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90.0
-ENDS = np.array([0.5, 0.5])
 
 
 def unseen_loads(machine: MachineRecord, result: Result, steps: Steps, facts: IntegratorFacts) -> Iterator[Unseen]:
@@ -43,23 +41,12 @@ def unseen_loads(machine: MachineRecord, result: Result, steps: Steps, facts: In
             continue
         path = path_of(function, machine, result)
         if path is not None and len(path.time) > 1:
-            found = missed(function, path, steps, weights_of(facts))
+            found = missed(function, path, steps, facts)
             if found is not None:
                 yield found
 
 
-def weights_of(facts: IntegratorFacts) -> Array:
-    """The weights of places, evenly spaced over a step, at which a method looks at a function: one of its own stages, or as exact."""
-    if (
-        facts.order <= 2
-        or (facts.implicit and not facts.first_order)
-        or facts.module.endswith(("adams", "moulton", "gear"))
-    ):
-        return ENDS
-    return SIMPSON if facts.order <= 4 else BOOLE
-
-
-def missed(function: Varying, path: Path, steps: Steps, weights: Array) -> Unseen | None:
+def missed(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts) -> Unseen | None:
     """What was missed of one function; None where it has no value anywhere."""
     share = np.arange(SAMPLES + 1) / SAMPLES
     time = steps.begin[:, None] + steps.length[:, None] * share
@@ -68,14 +55,23 @@ def missed(function: Varying, path: Path, steps: Steps, weights: Array) -> Unsee
     if not np.isfinite(values).any():
         return None
     values = np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0)
+    curve = as_seen(values, steps, facts)
     exact, magnitude = _integrals(values, steps.length)
-    nodes = np.linspace(0, SAMPLES, len(weights)).astype(int)
-    seen = steps.length * (values[:, nodes] @ weights)
+    seen, curve_magnitude = _integrals(curve, steps.length)
     # what changes its sign once in a step is a kink of the magnitude, not a vibration within the step
     vibrates = (np.diff(np.signbit(values), axis=1)).sum(axis=1) > 1
-    seen_magnitude = np.where(vibrates, steps.length * (np.abs(values[:, nodes]) @ weights), magnitude)
-    narrow = _look_closer(function, path, steps, values, exact, magnitude)
-    return _judged(function, steps, (exact - seen, magnitude - seen_magnitude, magnitude), values, narrow)
+    seen_magnitude = np.where(vibrates, curve_magnitude, magnitude)
+    found = _beyond_samples(function, path, steps, values)
+    narrow = _put_right(function, path, steps, found, exact, magnitude)
+    features = np.union1d(found, _beyond_curve(values, curve))
+    hidden = float(np.abs(exact - seen)[features].sum()) / max(float(magnitude.sum()), 1e-300)
+    return _judged(function, steps, (exact - seen, magnitude - seen_magnitude, magnitude), values, narrow, hidden)
+
+
+def _beyond_curve(values: Array, curve: Array) -> NDArray[np.int64]:
+    """The steps in which samples go beyond what the method takes the function for."""
+    beyond = np.maximum(values.max(axis=1) - curve.max(axis=1), curve.min(axis=1) - values.min(axis=1))
+    return np.flatnonzero(beyond > BEYOND * float(np.abs(values).max()))
 
 
 def _integrals(values: Array, length: Array) -> tuple[Array, Array]:
@@ -93,11 +89,8 @@ def _integrals(values: Array, length: Array) -> tuple[Array, Array]:
     return exact, np.where(changes, trapezoidal, np.abs(exact))
 
 
-def _look_closer(
-    function: Varying, path: Path, steps: Steps, values: Array, exact: Array, magnitude: Array
-) -> float | None:
-    """Put right the integrals over steps in which the function goes beyond what was sampled; the shortest time [s] in which it
-    changes by its range there, None where there is no such step."""
+def _beyond_samples(function: Varying, path: Path, steps: Steps, values: Array) -> NDArray[np.int64]:
+    """The steps in which the function goes beyond what was sampled."""
     low, high = values.min(axis=1), values.max(axis=1)
     begin, width = steps.begin, steps.length
     of = np.arange(len(begin))
@@ -105,7 +98,7 @@ def _look_closer(
     for _ in range(HALVINGS):
         bounds = function.curve.bounds(_intervals(path, begin, width))
         if bounds is None:
-            return None
+            break
         least, most = bounds
         beyond = np.maximum(np.maximum(most - high[of], low[of] - least), 0.0)
         floor = max(BEYOND * largest, 1e-6 * float(np.max(beyond, initial=0.0, where=np.isfinite(beyond))))
@@ -122,7 +115,7 @@ def _look_closer(
         if is_feature.any():
             found |= set(of[is_feature].tolist())
         begin, width, of = np.concatenate([begin, middle]), np.tile(0.5 * width, 2), np.tile(of, 2)
-    return _put_right(function, path, steps, np.array(sorted(found), dtype=int), exact, magnitude)
+    return np.array(sorted(found), dtype=np.int64)
 
 
 def _put_right(
@@ -165,7 +158,12 @@ def _intervals(path: Path, begin: Array, width: Array) -> dict[str, Interval]:
 
 
 def _judged(
-    function: Varying, steps: Steps, sums: tuple[Array, Array, Array], values: Array, narrow: float | None
+    function: Varying,
+    steps: Steps,
+    sums: tuple[Array, Array, Array],
+    values: Array,
+    narrow: float | None,
+    hidden: float,
 ) -> Unseen:
     """The part of the run in which most is missed."""
     end = float(steps.begin[-1] + steps.length[-1])
@@ -187,4 +185,5 @@ def _judged(
         min(scale_of_time, narrow if narrow is not None else np.inf),
         float(steps.length[k]),
         TIME if not function.curve.signals else function.curve.signals[0],
+        hidden,
     )

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from nivel.analysis.attributes import run_attributes
-from nivel.analysis.preparation import Prepared
+from nivel.analysis.run.attributes import run_attributes
+from nivel.analysis.run.preparation import Prepared
 from nivel.analysis.statics.settings import StaticsSettings
 from nivel.machine.machine_record import MachineRecord
 
@@ -14,7 +14,7 @@ from nivel.machine.machine_record import MachineRecord
 def statics_attributes(
     machine: MachineRecord, source: str, prepared: Prepared, settings: StaticsSettings
 ) -> dict[str, str | float | int]:
-    """The attributes of the result, see `nivel.integrate.sink.Header`; the coordinates are those that were taken."""
+    """The attributes of the result, see `nivel.integrate.loop.sink.Header`; the coordinates are those that were taken."""
     taken = "relative" if len(prepared.motion.system.record.tree.node) else "absolute"
     shown: Any = _Shown({**settings.as_dict(), "coordinates": taken})
     attributes = run_attributes(machine, source, prepared, shown)

@@ -17,7 +17,7 @@ from nivel.analysis.statics.equations import Change, Rest, StaticEquations, Tang
 from nivel.analysis.statics.linear import PivotError, lowest, solve, unstable_directions
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate
 from nivel.analysis.statics.path import Point
-from nivel.kernels.record import NONE
+from nivel.kernels.record.record import NONE
 from nivel.system.system import Array
 
 # The loads do no work along a direction if they do less than this share of what they could.

@@ -1,6 +1,7 @@
 """The equations of static equilibrium of one machine: r(q, 0, 0, λ, t) = 0 and C(q, t) = 0, with exact derivatives, as sparse matrices.
 
-They are the residual of implicit methods (`nivel.kernels.residual`) with all velocities and accelerations zero: the speed of a driver,
+They are the residual of implicit methods (`nivel.kernels.residual.residual`) with all velocities and accelerations zero: the speed of a
+driver,
 which stands in Ċ alone, never enters. Positions move by tangent increments: rotations of bodies after the present one, in their own axes.
 
 So that units do not matter, every number is made one without: translations in lengths of the machine, forces and moments along unknowns as
@@ -18,11 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import bmat, csc_matrix
 
-from nivel.analysis.equations import MotionEquations
+from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.statics.pattern import Block
-from nivel.kernels import static_entries, tangent_entries
-from nivel.kernels.record import NONE
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.volume import VOLUME
+from nivel.kernels.output import static_entries
+from nivel.kernels.record.record import NONE
+from nivel.kernels.residual import tangent_entries
 from nivel.system.layout import reported
 from nivel.system.system import Array
 
@@ -214,13 +217,19 @@ class StaticEquations:
         )
         return K, D, M
 
-    def whole_matrix(self, state: Rest) -> Sparse:
-        """[K, D_x, C_qᵀ; -∂ẋ/∂q, -∂ẋ/∂x, 0; C_q, 0, 0] in units."""
-        K, D, M = self.whole_parts(state)
+    def at_rest(self, K: Sparse, D: Sparse, M: Sparse) -> Sparse:
+        """[K, D_x, C_qᵀ; -∂ẋ/∂q, -∂ẋ/∂x, 0; C_q, 0, 0] in units, of `whole_parts`."""
         first = self.n + self.state_count
         inner = bmat([[K[:first, : self.n], D[:first, self.n : first], M[:first, first:]]])
         below = csc_matrix((self.rows, self.state_count + self.rows))
         return csc_matrix(bmat([[inner], [bmat([[M[first:, : self.n], below]])]]))
+
+    @cached_property
+    def is_mass(self) -> NDArray[np.bool_]:
+        """(S,) whether a state is the mass of fluid in a volume."""
+        out = np.zeros(self.state_count, dtype=bool)
+        out[[node.state for node in self.system.nodes if node.kind == VOLUME]] = True
+        return out
 
     @cached_property
     def _blocks(self) -> tuple[Block, Block]:

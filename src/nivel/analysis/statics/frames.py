@@ -9,8 +9,8 @@ import numpy as np
 
 from nivel.analysis.statics.equations import Rest, StaticEquations
 from nivel.analysis.statics.vibrations import Vibrations
-from nivel.kernels.observe import observe
-from nivel.kernels.tangent_entries import evaluate_residual
+from nivel.kernels.output.observe import observe
+from nivel.kernels.residual.tangent_entries import evaluate_residual
 from nivel.motion.catalogue import IMPLICIT_ACCELERATIONS
 from nivel.system.layout import Entry, FrameLayout, Variable, laid_out
 from nivel.system.system import Array

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.analysis.assembly.unknowns import unknown_name
 from nivel.analysis.statics.equations import StaticEquations
-from nivel.analysis.unknowns import unknown_name
 from nivel.system.system import Array
 
 # Parts of a direction that are this share of its largest are named, so many at most.

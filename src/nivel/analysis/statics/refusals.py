@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.analysis.choice import choose_coordinates
+from nivel.analysis.plan.choice import choose_coordinates
 from nivel.analysis.statics.free import holding_free
 from nivel.analysis.statics.settings import StaticsSettings
 from nivel.errors import Fault, ModelError
@@ -92,6 +92,6 @@ def for_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Mach
         output_interval=None,
         step_control="own",
     )
-    neutral = holding_free(machine.replace(simulation=simulation))
+    neutral = holding_free(machine.with_simulation(simulation))
     coordinates = choose_coordinates(neutral)
-    return neutral.replace(simulation=neutral.simulation.replace(coordinates=coordinates)), coordinates
+    return neutral.with_simulation(neutral.simulation.replace(coordinates=coordinates)), coordinates

@@ -10,13 +10,13 @@ from os import PathLike
 
 import numpy as np
 
-from nivel.analysis.implicit import ResidualOptions, with_residual
-from nivel.analysis.interrupt import interruptible
-from nivel.analysis.listener import Listener
-from nivel.analysis.outcome import broken_function
-from nivel.analysis.plan import methods_of
-from nivel.analysis.preparation import Prepared, prepare
-from nivel.analysis.refusals import refuse_rough_motions
+from nivel.analysis.assembly.implicit import ResidualOptions, with_residual
+from nivel.analysis.plan.plan import methods_of
+from nivel.analysis.plan.refusals import refuse_rough_motions
+from nivel.analysis.progress.interrupt import interruptible
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.outcome import broken_function
+from nivel.analysis.run.preparation import Assembled, Prepared, prepare
 from nivel.analysis.statics.attributes import statics_attributes
 from nivel.analysis.statics.critical import CriticalPoint, critical_points
 from nivel.analysis.statics.ends import no_start, path_ended, without_stiffness
@@ -34,14 +34,14 @@ from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import depends_on_samples, growing_motions, restlessness
 from nivel.analysis.statics.vibrations import buckling_factors, vibrations
 from nivel.errors import SolveError
-from nivel.integrate.sink import Header
-from nivel.kernels.saddle import LEFT_OUT
+from nivel.integrate.loop.sink import Header
+from nivel.kernels.solve.saddle import LEFT_OUT
 from nivel.machine.machine_record import MachineRecord
+from nivel.results.frames.occurrence import Occurrence, to_json
 from nivel.results.memory import Memory
-from nivel.results.occurrence import Occurrence, to_json
 from nivel.results.result import Result
-from nivel.results.statics_trust import StaticsFacts, assess_statics
 from nivel.results.store import Store
+from nivel.results.trust.statics_trust import StaticsFacts, assess_statics
 
 # A state whose loads are this many times what round-off makes of them, or less, has none.
 UNLOADED = 10.0
@@ -62,13 +62,16 @@ class Walk:
     buckling: list[tuple[float, str]] = field(default_factory=list)
 
 
-def prepare_statics(machine: MachineRecord, settings: StaticsSettings) -> tuple[Prepared, StaticEquations]:
-    """The machine assembled, and its equations of static equilibrium. Raises ModelError."""
+def prepare_statics(
+    machine: MachineRecord, settings: StaticsSettings, given: Assembled | None = None
+) -> tuple[Prepared, StaticEquations]:
+    """The machine assembled, and its equations of static equilibrium; given : as built and assembled for a run. Raises ModelError."""
     refuse_friction(machine)
     refuse_with_states(machine, settings)
     neutral, coordinates = for_statics(machine, settings)
     refuse_rough_motions(neutral)
-    prepared = prepare(methods_of(neutral, "newton-euler", coordinates))
+    held = len(neutral.drivers) > len(machine.drivers)  # drivers that hold what is free are not in what was built
+    prepared = prepare(methods_of(neutral, "newton-euler", coordinates), None if held else given)
     motion = with_residual(prepared.motion, prepared.start, coordinates, ResidualOptions(shifted=True))
     motion.system.record.coordinates.reference[:] = prepared.assembly.reference
     # multipliers of equilibria are those of the residual, and S in the record is of another state

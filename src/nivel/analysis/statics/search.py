@@ -100,12 +100,14 @@ def _settle(equations: StaticEquations, state: Rest, iteration: Iteration) -> Fo
         tangent = equations.tangent(state)
         if _is_balanced(equations, state, r, tangent):
             return Found(state, tangent, 0, np.zeros(len(r)), ())
-        found = _let_go(equations, state, iteration)
+        found = _let_go(equations, Found(state, tangent, 0, np.zeros(len(r)), ()), r, iteration)
         if found is not None:
             return found
         state = _descend(equations, state)
     except StateError:
         raise EquilibriumError("a force, or the state, is not a number", state) from None
+    except PivotError:
+        raise EquilibriumError("its equations are singular to round-off", state) from None
     return equilibrate(equations, state, iteration)
 
 
@@ -126,13 +128,14 @@ def _balanced(equations: StaticEquations, state: Rest) -> tuple[Rest, Array]:
     return state, equations.evaluate(state)[0]
 
 
-def _let_go(equations: StaticEquations, state: Rest, iteration: Iteration) -> Found | None:
-    """The equilibrium along stable ones, under ever less of the forces that hold `state`; None where there is no such way."""
-    tangent = equations.tangent(state)
-    if negative_directions(tangent) > 0:
+def _let_go(equations: StaticEquations, found: Found, whole: Array, iteration: Iteration) -> Found | None:
+    """The equilibrium along stable ones, under ever less of the forces that hold the state found first; None where there is no such way.
+
+    whole : residual (f,) of that state, which the forces that hold it take up.
+    """
+    if negative_directions(found.tangent) > 0:
         return None
-    whole, still = equations.evaluate(state)[0], np.zeros(equations.rows)
-    held, step, found = 1.0, FIRST, Found(state, tangent, 0, np.zeros(len(whole)), ())
+    still, held, step = np.zeros(equations.rows), 1.0, FIRST
     reference = equations.record.coordinates.reference.copy()
     try:
         while held > 0.0:

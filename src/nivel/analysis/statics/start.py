@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nivel.analysis.assemble import Assembly
-from nivel.analysis.equations import MotionEquations
-from nivel.analysis.plan import Methods, methods_of
+from nivel.analysis.assembly.assemble import Assembly
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.plan.plan import Methods, methods_of
+from nivel.analysis.run.preparation import Assembled
 from nivel.analysis.statics.ends import no_start, without_stiffness
 from nivel.analysis.statics.equations import StateError
 from nivel.analysis.statics.free import refuse_moving
@@ -67,13 +68,13 @@ def methods_at_rest(machine: MachineRecord) -> Methods:
     return methods_of(for_statics(machine, SETTINGS)[0])
 
 
-def settled(machine: MachineRecord) -> Settled:
-    """The equilibrium of `machine` at t = 0.
+def settled(machine: MachineRecord, given: Assembled | None = None) -> Settled:
+    """The equilibrium of `machine` at t = 0; given : it is built and assembled already, with a record that may be changed.
 
     Raises ModelError where bodies or joints are given velocities, SolveError where there is no equilibrium.
     """
     _refuse_velocities(machine)
-    prepared, equations = prepare_statics(machine, SETTINGS)
+    prepared, equations = prepare_statics(machine, SETTINGS, given)
     try:
         found = settle(equations, equations.start(prepared.start), Iteration())
     except EquilibriumError as error:

@@ -4,7 +4,8 @@ Positions q, multipliers λ and states x are found together by Newton's iteratio
 
     [K  D_x  Cᵀ; -∂g/∂q  -∂g/∂x  0; C  0  0] (Δq, Δx, Δλ) = -(r, -g, C)        g = ẋ at rest
 
-A state whose rate depends on nothing that is at rest keeps its start value: a closed volume, a memory that an event changes.
+A state whose rate depends on nothing that is at rest keeps its start value: a memory that an event changes. Fluid that is shut in keeps
+its mass: `nivel.analysis.statics.conserved`.
 Sampled states are at rest where a sample would leave them as they are.
 """
 
@@ -17,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_matrix, diags
 
+from nivel.analysis.statics.conserved import kept_combinations
 from nivel.analysis.statics.equations import Rest, StateError, StaticEquations
 from nivel.analysis.statics.linear import PivotError, factors, free_directions
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration
@@ -42,6 +44,23 @@ class _System:
     states: NDArray[np.intp]
 
 
+@dataclass(frozen=True)
+class Since:
+    """Where an equilibrium is asked from: the states (S,) there, and how far the free unknowns (f,) have moved since, without units."""
+
+    states: Array
+    moved: Array
+
+    @classmethod
+    def start(cls, equations: StaticEquations, state: Rest) -> Since:
+        """Nothing has moved yet."""
+        return cls(state.y[equations.first_state :][: equations.state_count].copy(), np.zeros(len(equations.free)))
+
+    def further(self, change: Array) -> Since:
+        """After a change of the free unknowns."""
+        return Since(self.states, self.moved + change)
+
+
 class RestlessStateError(EquilibriumError):
     """The rate of a state is not zero whatever the machine does. name : of the state."""
 
@@ -53,17 +72,17 @@ class RestlessStateError(EquilibriumError):
 
 def find_moving_states(equations: StaticEquations, state: Rest) -> None:
     """Say in `equations.states_move` whether rates of states are equations at all. Raises StateError, RestlessStateError."""
-    equations.states_move = bool(len(_assembled(equations, state).states))
+    equations.states_move = bool(len(_assembled(equations, state, Since.start(equations, state)).states))
 
 
 def equilibrate_states(equations: StaticEquations, state: Rest, iteration: Iteration) -> Found:
     """The equilibrium of positions and states next to `state`, at its time. Raises EquilibriumError."""
     sizes: list[float] = []
-    moved = np.zeros(len(equations.free))
+    since = Since.start(equations, state)
     f = len(equations.free)
     for number in range(1, MOST + 1):
         try:
-            system = _assembled(equations, state)
+            system = _assembled(equations, state, since)
             x = factors(system.matrix).solve(system.right)
         except StateError:
             raise EquilibriumError("a force, or the state, is not a number", state, tuple(sizes)) from None
@@ -74,27 +93,29 @@ def equilibrate_states(equations: StaticEquations, state: Rest, iteration: Itera
         if not np.isfinite(size):
             raise EquilibriumError("nothing resists a motion, or holds a state", state, tuple(sizes))
         share = min(1.0, LONGEST / motion) if motion > 0.0 else 1.0
-        state, share = _nearer(equations, state, system, x, share)
-        moved += share * x[:f]
+        state, since, share = _nearer(equations, state, since, system, x, share)
         sizes.append(size)
         stalled = len(sizes) > 1 and size > 0.3 * sizes[-2] and size <= 1e-7
         if share == 1.0 and (size <= iteration.tolerance or stalled):
-            return Found(state, equations.tangent(state), number, moved, tuple(sizes))
+            return Found(state, equations.tangent(state), number, since.moved, tuple(sizes))
     raise EquilibriumError(f"{MOST} iterations are not enough", state, tuple(sizes))
 
 
-def _nearer(equations: StaticEquations, state: Rest, system: _System, x: Array, share: float) -> tuple[Rest, float]:
+def _nearer(
+    equations: StaticEquations, state: Rest, since: Since, system: _System, x: Array, share: float
+) -> tuple[Rest, Since, float]:
     """The state after the largest share of the change that does not make what is left over larger; the least one where none does."""
     left = float(np.linalg.norm(system.right))
     while True:
         after = _changed(equations, state, system, share * x)
+        moved = since.further(share * x[: len(equations.free)])
         try:
-            if float(np.linalg.norm(_assembled(equations, after).right)) <= max(2.0 * left, 1e-9):
-                return after, share
+            if float(np.linalg.norm(_assembled(equations, after, moved).right)) <= max(2.0 * left, 1e-9):
+                return after, moved, share
         except StateError:
             pass
         if share <= LEAST_SHARE:
-            return after, share
+            return after, moved, share
         share *= 0.5
 
 
@@ -108,34 +129,53 @@ def _changed(equations: StaticEquations, state: Rest, system: _System, x: Array)
     return Rest(y, state.lam + (x * system.unit)[f + count :], state.t)
 
 
-def _assembled(equations: StaticEquations, state: Rest) -> _System:
+def _assembled(equations: StaticEquations, state: Rest, since: Since) -> _System:
     """The equations at a state. Raises StateError, RestlessStateError."""
     n, count, rows = equations.n, equations.state_count, equations.rows
     r, C = equations.evaluate(state)
     rate = equations.rates()
-    value = equations.whole_matrix(state)
+    parts = equations.whole_parts(state)
     size = np.maximum(equations.state_scale, np.abs(state.y[equations.first_state :][:count]))
     unit = np.concatenate([equations.length, size, equations.energy / equations.row_scale])
     weight = np.concatenate([equations.length / equations.energy, np.ones(count), 1.0 / equations.row_scale])
-    matrix = csc_matrix(diags(weight) @ value @ diags(unit))
+    matrix = csc_matrix(diags(weight) @ equations.at_rest(*parts) @ diags(unit))
     own = abs(matrix[n : n + count]).tocsr()
-    largest = np.array([own[k].max() if own[k].nnz else 0.0 for k in range(count)])
+    largest = own.max(axis=1).toarray().ravel() if own.shape[1] else np.zeros(count)
     moving = largest > 0.0
     still = np.abs(rate) * equations.duration <= STILL * size
     for k in np.flatnonzero(~moving & ~still):
         raise RestlessStateError(equations.system.states[k].name, float(rate[k]), state)
-    states = np.flatnonzero(moving)
+    states = np.flatnonzero(moving | equations.is_mass)
+    scale = np.where(largest > 0.0, largest, size)[states]
     rescaled = np.ones(n + count + rows)
-    rescaled[n + states] = 1.0 / largest[states]
+    rescaled[n + states] = 1.0 / scale
     chosen = np.concatenate([equations.free, n + states, n + count + np.arange(rows)])
     matrix = csc_matrix(diags(rescaled) @ matrix)[chosen][:, chosen]
-    right = np.concatenate([-r, rate[states] / largest[states], -C])
+    right = np.concatenate([-r, rate[states] / scale, -C])
+    f = len(equations.free)
+    own_rows = slice(f, f + len(states))
+    kept = kept_combinations(csc_matrix(matrix[own_rows]))
+    if kept.shape[1]:
+        by_speed = -parts[1][n + states][:, equations.free].toarray() * equations.length[equations.free]
+        laws = np.hstack([-kept.T @ (by_speed / scale[:, None]), kept.T * (size[states] / scale)])
+        laws /= np.max(np.abs(laws), axis=1, keepdims=True)
+        change = np.concatenate(
+            [since.moved, ((state.y[equations.first_state :][:count] - since.states) / size)[states]]
+        )
+        matrix = csc_matrix(matrix + _placed(kept @ laws, f, matrix.shape))
+        right[own_rows] -= kept @ (laws @ change)
     return _System(matrix, right, unit[chosen], states)
+
+
+def _placed(rows: Array, first: int, shape: tuple[int, int]) -> csc_matrix:
+    """A matrix of this shape with the rows from the first on, and from the first column."""
+    row, column = np.nonzero(rows)
+    return csc_matrix((rows[row, column], (row + first, column)), shape=shape)
 
 
 def restlessness(equations: StaticEquations, state: Rest) -> float:
     """What a state would change by within its own time, as a share of its size, at most: zero in equilibrium."""
-    system = _assembled(equations, state)
+    system = _assembled(equations, state, Since.start(equations, state))
     f = len(equations.free)
     return float(np.max(np.abs(system.right[f : f + len(system.states)]), initial=0.0))
 
@@ -144,7 +184,7 @@ def depends_on_samples(equations: StaticEquations, state: Rest) -> bool:
     """Whether forces or rates depend on values that are sampled."""
     n, count = equations.n, equations.state_count
     sampled = np.array([fact.sampled for fact in equations.system.states], dtype=bool)
-    matrix = csc_matrix(equations.whole_matrix(state))
+    matrix = csc_matrix(equations.at_rest(*equations.whole_parts(state)))
     rows = np.concatenate([np.arange(n), n + np.flatnonzero(~sampled)])
     return matrix[rows][:, n + np.flatnonzero(sampled)].count_nonzero() > 0 if count else False
 

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from nivel.analysis.interrupt import interruptible
-from nivel.analysis.listener import Listener
+from nivel.analysis.progress.interrupt import interruptible
+from nivel.analysis.progress.listener import Listener
 from nivel.analysis.sweep.processes import Job, run_in_processes
 from nivel.analysis.sweep.variant import NOT_RUN, VariantRun, run_variant
 from nivel.analysis.sweep.variants import Variants

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.analysis.plan import plan_run
-from nivel.analysis.simulate import simulate
+from nivel.analysis.plan.plan import plan_run
+from nivel.analysis.run.simulate import simulate
 from nivel.errors import ModelError, NivelError, SolveError
 from nivel.model import Model
 from nivel.results.result import Result

@@ -11,8 +11,8 @@ import numpy as np
 
 from nivel.arguments import plain
 from nivel.errors import Fault, ModelError
-from nivel.machine.arithmetic import ExpressionError
-from nivel.machine.quantity import ANY, read_quantity
+from nivel.machine.units.arithmetic import ExpressionError
+from nivel.machine.units.quantity import ANY, read_quantity
 from nivel.wording import shown
 
 ROW = "variant"

@@ -31,7 +31,7 @@ def read_op4(path: Path) -> dict[str, FileMatrix]:
     content = path.read_bytes()
     try:
         found = dict(_text(content.decode("ascii")) if _is_text(content) else _binary(content))
-    except (struct.error, IndexError, StopIteration, UnicodeDecodeError, ValueError) as error:
+    except (struct.error, IndexError, UnicodeDecodeError, ValueError) as error:
         if isinstance(error, FormatError):
             raise
         raise FormatError(f"this is no OUTPUT4 file, or it ends too early ({error})") from None
@@ -66,10 +66,12 @@ def _text(content: str) -> Iterator[tuple[str, FileMatrix]]:
         if kind > DOUBLE:
             raise FormatError("the matrix is complex; a real one was expected")
         name = header[32:40].strip().upper()
-        yield name, _matrix(abs(rows), columns, form, _text_columns(lines, columns, kind, big=rows < 0))
+        data = _text_columns(lines, columns, kind, most=abs(rows), big=rows < 0)
+        yield name, _matrix(abs(rows), columns, form, data)
 
 
-def _text_columns(lines: Iterator[str], count: int, kind: int, *, big: bool) -> Columns:
+def _text_columns(lines: Iterator[str], count: int, kind: int, *, most: int, big: bool) -> Columns:
+    """The columns of a matrix of `most` rows."""
     out: Columns = []
     per_value = 1 if kind == SINGLE else 2  # words
     for line in lines:
@@ -78,12 +80,11 @@ def _text_columns(lines: Iterator[str], count: int, kind: int, *, big: bool) -> 
             _values(lines, 1)
             return out
         if first > 0:
-            out.append(
-                (column - 1, list(range(first - 1, first - 1 + words // per_value)), _values(lines, words // per_value))
-            )
+            number = _at_most(most, words // per_value)
+            out.append((column - 1, list(range(first - 1, first - 1 + number)), _values(lines, number)))
             continue
         while words > 0:
-            string = next(lines)
+            string = _next(lines)
             if big:
                 length, row = int(string[:8]) - 1, int(string[8:16])
                 words -= length + 2
@@ -91,16 +92,29 @@ def _text_columns(lines: Iterator[str], count: int, kind: int, *, big: bool) -> 
                 packed = int(string)
                 length, row = packed // PACKED - 1, packed % PACKED
                 words -= length + 1
-            number = length // per_value
+            number = _at_most(most, length // per_value)
             out.append((column - 1, list(range(row - 1, row - 1 + number)), _values(lines, number)))
     raise FormatError("the file ends within a matrix")
+
+
+def _next(lines: Iterator[str]) -> str:
+    for line in lines:
+        return line
+    raise FormatError("the file ends within a matrix")
+
+
+def _at_most(most: int, number: int) -> int:
+    """The number of values in a column, which has no more than rows. Raises FormatError."""
+    if number > most:
+        raise FormatError(f"a column of {number} values does not fit into {most} rows")
+    return number
 
 
 def _values(lines: Iterator[str], count: int) -> list[float]:
     """The next `count` numbers; fields may touch each other."""
     out: list[float] = []
     while len(out) < count:
-        out += [fortran_number(each) for each in NUMBER.findall(next(lines))]
+        out += [fortran_number(each) for each in NUMBER.findall(_next(lines))]
     return out
 
 

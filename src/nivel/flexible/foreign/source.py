@@ -24,7 +24,7 @@ from nivel.flexible.records import LENGTHS, MASSES, Matrices
 from nivel.flexible.selection import NodeSets
 from nivel.flexible.sparse import Sparse
 from nivel.flexible.tetrahedra import Tetrahedra, inverted, surface
-from nivel.machine.section import Material
+from nivel.machine.beams.section import Material
 
 HELD = 1e30  # a diagonal element from which on a row is one of a support (Abaqus writes 1e36)
 STIFFNESS_NAMES, MASS_NAMES = ("KAAX", "KAA", "KGG", "KXX"), ("MAAX", "MAA", "MGG", "MXX")

@@ -1,6 +1,6 @@
 """Baumgarte (1972): C̈ + 2 α Ċ + β² C = 0 in place of C̈ = 0 (report 44, eq. 110).
 
-The feedback steers the motion; recorded accelerations and reactions are evaluated without it (`nivel.integrate.loop`).
+The feedback steers the motion; recorded accelerations and reactions are evaluated without it (`nivel.integrate.loop.loop`).
 """
 
 from __future__ import annotations

@@ -1,5 +1,6 @@
 """Geometric elimination with the energy constraint (report 44, eqs. 121–136): positions and velocities are put back onto the
-constraints as by direct correction, then the velocities are scaled to the energy that the machine must have (`nivel.integrate.energy`).
+constraints as by direct correction, then the velocities are scaled to the energy that the machine must have
+(`nivel.integrate.loop.energy`).
 
 Eq. 136 as printed leaves Ċ free and diverges; in this order every level holds.
 """

@@ -12,7 +12,7 @@ energy at the nodes, between which linear gradients shorten without reason where
 
 from __future__ import annotations
 
-from nivel.kernels.gradients import (
+from nivel.kernels.algebra.gradients import (
     DAMPING,
     FORCE,
     OWN,
@@ -23,10 +23,10 @@ from nivel.kernels.gradients import (
     push_vectors,
     read_vectors,
 )
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.spatial import dot
-from nivel.kernels.status import OK
+from nivel.kernels.algebra.spatial import dot
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 from nivel.native.function import stage
 
 WIDTH = 4  # vectors of a node

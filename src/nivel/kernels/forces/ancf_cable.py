@@ -11,12 +11,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import arctan2
-from nivel.kernels.gradients import DAMPING, OWN, RATE, VECTOR, add_along_line, along_line, push_vectors, read_vectors
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.spatial import cross, dot
-from nivel.kernels.status import OK
+from nivel.kernels.algebra.analytic import arctan2
+from nivel.kernels.algebra.gradients import (
+    DAMPING,
+    OWN,
+    RATE,
+    VECTOR,
+    add_along_line,
+    along_line,
+    push_vectors,
+    read_vectors,
+)
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 from nivel.native.function import stage
 
 WIDTH = 2  # vectors of a node

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from nivel.kernels.beam_element import element_forces
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.beam_element import element_forces
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 
 
 @family

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.algebra.relative_rotation import rotation_vector, tangent_product
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_marker_force, add_torque
-from nivel.kernels.hook import family
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.relative_rotation import rotation_vector, tangent_product
-from nivel.kernels.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 
 # columns of `columns`; outputs, which springs between segments of beams do not have (NONE): magnitude of the force, power, force (3) and
 # torque (3) on the second body, axes of the first

@@ -1,31 +1,31 @@
-"""Contact of spheres, boxes and cylinders with planes, and of spheres with each other.
+"""Contact of spheres, boxes, cylinders and convex hulls with planes, and of spheres with each other.
 
-A box touches with its corners. A cylinder touches with four points of each rim, the lowest one and those a quarter turn on, so it
-rolls on exact circles and stands on four feet. Normal force: `nivel.kernels.forces.impact`, or a law of the user, which works from
-outside and never pulls. Friction: μ N tanh(v/v_s) against the sliding velocity of the bodies at the point.
+A box and a hull touch with their corners. A cylinder touches with four points of each rim, the lowest one and those a quarter turn
+on, so it rolls on exact circles and stands on four feet. Normal force: `nivel.kernels.forces.impact`, or a law of the user, which
+works from outside and never pulls. Friction: μ N tanh(v/v_s) against the sliding velocity of the bodies at the point.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import maximum, real, tanh
+from nivel.kernels.algebra.analytic import maximum, real, tanh
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.wrench import add_force_at
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import stage
 
 # columns of `columns`; MARKER: centre and axes of the shape (a cylinder's is z); OTHER: the plane (z outwards), or the other sphere;
-# LAW: of the normal force, or NONE
-OUTPUT, KIND, MARKER, OTHER, LAW = 0, 1, 2, 3, 4
+# LAW: of the normal force, or NONE; COUNT: points that may touch
+OUTPUT, KIND, MARKER, OTHER, LAW, COUNT = 0, 1, 2, 3, 4, 5
 # outputs: magnitude, power, deepest overlap, normal force, rate of the deepest overlap; a law reads overlap and rate of its point there
 DEPTH, FORCE, RATE = 2, 3, 4
-SPHERE, BOX, CYLINDER, SPHERES = 0, 1, 2, 3
-POINTS = 8  # most points of a shape
-# columns of `number`; SIZE: radius; half lengths; radius and half length; the two radii. Then a point and a normal of work.
+SPHERE, BOX, CYLINDER, SPHERES, HULL = 0, 1, 2, 3, 4
+# columns of `number`; SIZE: radius; half lengths; radius and half length; the two radii. Then a point and a normal of work; then the
+# corners of a hull in the axes of its marker, three numbers each.
 STIFFNESS, EXPONENT, LOSS, FRICTION, TRANSITION, SIZE, POINT, NORMAL = 0, 1, 2, 3, 4, 5, 8, 11
 NUMBERS = 14
 
@@ -36,6 +36,14 @@ def corner(A, r, size, n, p):
     x = size[0] if n % 2 == 0 else -size[0]
     y = size[1] if (n // 2) % 2 == 0 else -size[1]
     z = size[2] if n < 4 else -size[2]
+    for a in range(3):
+        p[a] = r[a] + A[a, 0] * x + A[a, 1] * y + A[a, 2] * z
+
+
+@stage
+def hull_corner(A, r, corners, n, p):
+    """Corner n of a hull."""
+    x, y, z = corners[3 * n], corners[3 * n + 1], corners[3 * n + 2]
     for a in range(3):
         p[a] = r[a] + A[a, 0] * x + A[a, 1] * y + A[a, 2] * z
 
@@ -164,6 +172,8 @@ def find_point(machine, k, n):
         corner(A, r, size, n, p)
     elif kind == CYLINDER:
         rim_point(A, r, size, n, normal, p)
+    elif kind == HULL:
+        hull_corner(A, r, numbers[NUMBERS:], n, p)
     height = (p[0] - o[0]) * normal[0] + (p[1] - o[1]) * normal[1] + (p[2] - o[2]) * normal[2]
     depth = size[0] - height if kind == SPHERE else -height
     if kind == SPHERE:
@@ -179,12 +189,10 @@ def apply(machine, number, t):
     record = record_at(machine)
     elements, followed = record.elements, record.watched.followed[0]
     for k in range(elements.span[number, 0], elements.span[number, 1]):
-        kind = elements.columns[k, KIND]
-        count = POINTS if kind in (BOX, CYLINDER) else 1
         nothing = 0.0 * elements.number[k, STIFFNESS]
         normal_force, friction_force, power = nothing, nothing, nothing
         deepest, its_rate = nothing - np.inf, nothing
-        for n in range(count):
+        for n in range(elements.columns[k, COUNT]):
             depth = find_point(machine, k, n)
             rate = approach(machine, k)
             if real(depth) > real(deepest):

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import absolute, real, tanh
+from nivel.kernels.algebra.analytic import absolute, real, tanh
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.function import evaluate_function, table_value
-from nivel.kernels.hook import family
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.function import evaluate_function, table_value
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import stage
 
 # columns of `columns`: STATE of the current or the torque, TWIST and SPEED of an elastic gear, or NONE;

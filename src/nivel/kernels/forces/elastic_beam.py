@@ -1,11 +1,11 @@
-"""Elements of beams without damping, whose derivatives are found by hand (`nivel.kernels.beam_tangent`)."""
+"""Elements of beams without damping, whose derivatives are found by hand (`nivel.kernels.residual.beam_tangent`)."""
 
 from __future__ import annotations
 
-from nivel.kernels.beam_element import COUNT, FORCE, TORQUE, element_forces
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.beam_element import COUNT, FORCE, TORQUE, element_forces
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 
 
 @family

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 
 OUTPUT, PULL, BODY, POINT, TOWARDS = 0, 1, 2, 3, 6  # of columns; functions, three each of the last two
 SPRING, DAMPER = 0, 1  # of numbers: ω² and 2 ζ ω, per mass

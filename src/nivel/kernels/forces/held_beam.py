@@ -3,10 +3,10 @@ evaluated, so that what is left to differentiate is how these act."""
 
 from __future__ import annotations
 
-from nivel.kernels.beam_element import COUNT, NODE, push_node
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.beam_element import COUNT, NODE, push_node
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 
 
 @family

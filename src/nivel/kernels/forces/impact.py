@@ -7,7 +7,7 @@ a number of the element; v is remembered from the first accepted state in contac
 
 from __future__ import annotations
 
-from nivel.kernels.analytic import absolute, maximum, real, real_power
+from nivel.kernels.algebra.analytic import absolute, maximum, real, real_power
 from nivel.native.function import leaf
 
 # approach speeds below this [m/s or rad/s] count as this one: a slower touch would be damped without bounds

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_marker_force, add_torque
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 
 # columns of `columns`; outputs: magnitude, power, and between two bodies LENGTH and its rate
 OUTPUT, KIND, MARKER, AXES, X, Y, Z, COUNTER, LENGTH = 0, 1, 2, 3, 4, 5, 6, 7, 8

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 
 # columns of `columns`; FIRST: the first of COUNT distances; outputs: tension, power, stretch
 OUTPUT, LENGTH, SPEED, COUNT, FIRST = 0, 1, 2, 3, 4

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from nivel.kernels.analytic import real
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.function import evaluate_function, evaluate_motion
-from nivel.kernels.hook import family
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.function import evaluate_function, evaluate_motion
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 
 # columns of `columns`; outputs: effort on the coordinate, power, coordinate, rate, error. STATE is NONE where nothing is integrated
 OUTPUT, COORDINATE, TARGET, STATE = 0, 1, 2, 3

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.function import evaluate_function, table_value
-from nivel.kernels.hook import family
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.function import evaluate_function, table_value
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 
 # columns of `columns`; outputs: tension (what resists the coordinate), power, coordinate, rate
 OUTPUT, COORDINATE, TABLE, ENERGY, LAW = 0, 1, 2, 3, 4

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 
 # columns of `columns`; SAMPLED: whether the function is the value after a sample
 STATE, FUNCTION, SAMPLED = 0, 1, 2

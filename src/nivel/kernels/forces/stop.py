@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from nivel.kernels.analytic import maximum
+from nivel.kernels.algebra.analytic import maximum
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 
 # columns of `columns`; outputs: effort on the coordinate, power, overlap
 OUTPUT, COORDINATE = 0, 1

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_marker_force
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 
 # columns of `columns`; outputs: magnitude, power, force on the second body (3)
 OUTPUT, FIRST, SECOND = 0, 1, 2

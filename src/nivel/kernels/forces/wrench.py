@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.record import record_at
+from nivel.kernels.record.record import record_at
 from nivel.native.function import stage
 
 

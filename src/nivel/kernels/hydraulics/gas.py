@@ -11,14 +11,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import NO_VOLUME, OK
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
 from nivel.kernels.hydraulics.transfer import lose
 from nivel.kernels.hydraulics.volume import FIXED, GIVEN
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import NO_VOLUME, OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf
 
 # columns of `Circuit.fluid` after those of a liquid: R [J/(kg K)], c_p/c_v, T₀ [K], ρ√T [kg/m³ √K] of the reference of ISO 8778

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
-from nivel.kernels.hook import family
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.gas import REFERENCE, SURROUNDINGS, heat_capacity
 from nivel.kernels.hydraulics.restriction import FROM, OUTPUT, TO, opening_of
 from nivel.kernels.hydraulics.transfer import lose, transfer
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
 # The columns are those of `nivel.kernels.hydraulics.restriction`; in `number` C [m³/s/Pa] and b stand first. Output: flow at the reference

@@ -3,9 +3,9 @@ the mass that tanks gave it."""
 
 from __future__ import annotations
 
-from nivel.kernels.hook import family
-from nivel.kernels.record import record_at
-from nivel.kernels.status import OK
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 
 # columns of `columns`; output: energy stored in the circuit
 OUTPUT, STATE = 0, 1

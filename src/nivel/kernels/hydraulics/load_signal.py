@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.hook import family
+from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.slopes import add_by_pressure
 from nivel.kernels.hydraulics.smooth import maximum_within, ramp, step
 from nivel.kernels.hydraulics.spool import clipped
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
 # columns of `columns`: STATE, then for each of MOST valves the output that is its position, and nodes A, B, T

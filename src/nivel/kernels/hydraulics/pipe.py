@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
-from nivel.kernels.hook import family
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.transfer import lose, transfer
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf
 
 # columns of `columns`; STATE: of the mass flow, or NONE. Output: flow [m³/s]

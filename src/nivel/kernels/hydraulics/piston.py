@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real, tanh
+from nivel.kernels.algebra.analytic import real, tanh
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.impact import impact
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.hook import family
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
 from nivel.kernels.hydraulics.slopes import add_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, ramp, step
 from nivel.kernels.hydraulics.transfer import DELIVERED
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf
 
 # chambers: columns of `columns`; OUTPUT: of the piston

@@ -2,26 +2,28 @@
 
 Fluid goes from A to B as the shaft turns forward; losses are leakage and friction, so that power is lost in all four quadrants:
 
-    ṁ = ρ_in D ε ω - ρ̄ C (p_B - p_A)        T = ρ_in D ε (h_B - h_A) + T_v ω + c D |p_B - p_A| sgn ω
+    ṁ = ρ_in D ε ω - ρ̄ C (p_B - p_A)        T = D ε (p_B - p_A) + T_v ω + c D |p_B - p_A| sgn ω
 
 ρ_in is the density on the side from which fluid is taken in; within SLOW of no speed, it passes from one to the other. T is the torque
-that drives the shaft forward.
+that drives the shaft forward. Its first part is that of catalogues (ISO 4409); isentropic work, ρ_in D ε (h_B - h_A), differs by about
+Δp/2β, which is lost as fluid springs back between the sides. With that in its place an ideal motor on closed lines would feed its own
+vibration, since ρ_in is greater on the way from the higher pressure than on the way back.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import OK
 from nivel.kernels.forces.wrench import add_coordinate_force
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
 from nivel.kernels.hydraulics.slopes import add_by_pressure, add_flow_by_column, add_flow_by_pressure
 from nivel.kernels.hydraulics.smooth import magnitude_within, sign_within, slope_of_step, step
 from nivel.kernels.hydraulics.spool import clipped
 from nivel.kernels.hydraulics.transfer import DELIVERED, SUPPLIED, lose, transfer
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
 # machines: columns of `columns`; SPEED: function, or NONE; outputs: flow, torque, power, setting
@@ -94,7 +96,7 @@ def turn(machine, number, t):
         difference = circuit.pressure[b] - circuit.pressure[a]
         leak = n[LEAK] * difference
         flow = density * displaced - mean * leak
-        torque = density * swept * (circuit.enthalpy[b] - circuit.enthalpy[a]) + n[VISCOUS] * omega
+        torque = swept * difference + n[VISCOUS] * omega
         dry = n[DRY] * n[DISPLACEMENT] * magnitude_within(difference, SMALL)
         torque += dry * sign_within(omega, SLOW)
         power = torque * omega

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.record import NONE
+from nivel.kernels.record.record import NONE
 from nivel.native.function import leaf
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
+from nivel.kernels.algebra.analytic import real
 from nivel.native.function import leaf
 
 

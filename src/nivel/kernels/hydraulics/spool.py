@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from nivel.kernels.analytic import real, tanh
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
+from nivel.kernels.algebra.analytic import real, tanh
+from nivel.kernels.core.status import OK
 from nivel.kernels.hydraulics.slopes import add_by_pressure
 from nivel.kernels.hydraulics.smooth import slope_of_step, step
-from nivel.kernels.record import NONE, record_at
-from nivel.kernels.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf, stage
 
 # columns of `columns`; output: position

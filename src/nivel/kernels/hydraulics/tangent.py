@@ -13,7 +13,7 @@ from __future__ import annotations
 from nivel.kernels.hydraulics import load_signal, pipe, piston, restriction, rotary, spool
 from nivel.kernels.hydraulics.fluid import DENSITY
 from nivel.kernels.hydraulics.volume import GIVE, MASS, RATE, VALUE
-from nivel.kernels.record import NONE, record_at
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import leaf
 
 # families in the order of `CircuitTangent.family`

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.record import NONE, record_at
+from nivel.kernels.record.record import NONE, record_at
 from nivel.native.function import stage
 
 # entries of `Circuit.power`

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.analytic import real
-from nivel.kernels.function import evaluate_function
-from nivel.kernels.hook import family
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.core.status import NO_VOLUME, OK
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE, DENSITY, EXACT, MOST, specific_volume
 from nivel.kernels.hydraulics.smooth import ramp, step
-from nivel.kernels.record import record_at
-from nivel.kernels.status import NO_VOLUME, OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import record_at
 from nivel.native.function import leaf, stage
 
 # columns of `columns`; STATE: of the mass, or of the pressure of a signal; FUNCTION: of a given pressure; output: pressure

@@ -13,9 +13,9 @@ from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import beyond, chosen, limited
 from nivel.machine.control.part import Part, law
-from nivel.machine.linear_function import linear
-from nivel.machine.quantity import listed
 from nivel.machine.table import Interpolation, Table
+from nivel.machine.units.linear_function import linear
+from nivel.machine.units.quantity import listed
 
 
 class SignalBlock(Block):

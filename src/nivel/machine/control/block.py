@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
 from pydantic import BeforeValidator, Field, ValidationInfo
 
-from nivel.machine.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import NotNegative
 from nivel.machine.control.part import VALUE, Part, PartFunction
-from nivel.machine.linear_function import linear
-from nivel.machine.measure import refuse_unlike_terms
-from nivel.machine.quantity import ANY, Duration, Quantity, bound_tree, expression_fault, listed, parameters_of
 from nivel.machine.record import Name, entry
 from nivel.machine.time_function import Measured
+from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
+from nivel.machine.units.linear_function import linear
+from nivel.machine.units.measure import refuse_unlike_terms
+from nivel.machine.units.quantity import ANY, Duration, Quantity, bound_tree, expression_fault, listed, parameters_of
 
 
 def _of_one_kind(value: Any, info: ValidationInfo) -> Any:

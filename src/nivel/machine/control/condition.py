@@ -8,7 +8,7 @@ from typing import Annotated, Any, Final
 from pydantic import BeforeValidator, WithJsonSchema
 
 from nivel.machine.control.block import Input
-from nivel.machine.quantity import fault, shown
+from nivel.machine.units.quantity import fault, shown
 
 _COMPARISON: Final = re.compile(r"(<=|>=|==|!=|<|>|=)")
 

@@ -16,9 +16,9 @@ from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.laws import bounded_rate, limited
 from nivel.machine.control.linear_system import LinearSystem, of_transfer_function, sampled, steady_state
 from nivel.machine.control.part import VALUE, Part, law
-from nivel.machine.linear_function import linear
-from nivel.machine.quantity import Duration, Quantity, listed
 from nivel.machine.record import entry
+from nivel.machine.units.linear_function import linear
+from nivel.machine.units.quantity import Duration, Quantity, listed
 
 Frequency = Annotated[float, Quantity("frequency", positive=True)]
 Damping = Annotated[float, Quantity("number", positive=True)]

@@ -14,8 +14,8 @@ from nivel.machine.control.algebra import OfInput
 from nivel.machine.control.block import MOST_DELAYED, WHOLE, Number, Pair, PositiveNumber
 from nivel.machine.control.laws import approach, followed, switched
 from nivel.machine.control.part import Part, law
-from nivel.machine.linear_function import linear
-from nivel.machine.quantity import Duration
+from nivel.machine.units.linear_function import linear
+from nivel.machine.units.quantity import Duration
 
 
 class Delay(OfInput):

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from nivel.machine.control.block import Block
 from nivel.machine.control.part import Part, PartFunction
-from nivel.machine.linear_function import LinearFunction
 from nivel.machine.time_function import signals_of
+from nivel.machine.units.linear_function import LinearFunction
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
-from nivel.machine.linear_function import LinearFunction
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.python_source import source_of
 from nivel.machine.time_function import TimeFunction
+from nivel.machine.units.linear_function import LinearFunction
 
 Role = Literal["signal", "state", "sample", "memory"]
 

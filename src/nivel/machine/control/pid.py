@@ -13,8 +13,8 @@ from nivel.machine.control.algebra import both, refuse_order
 from nivel.machine.control.block import Block, Input, NotNegativeTime, Number, Pair
 from nivel.machine.control.laws import limited
 from nivel.machine.control.part import Part, law
-from nivel.machine.linear_function import linear
-from nivel.machine.quantity import Duration
+from nivel.machine.units.linear_function import linear
+from nivel.machine.units.quantity import Duration
 
 
 class Pid(Block):

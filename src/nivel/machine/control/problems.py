@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
-from nivel.machine.arithmetic import RESERVED
 from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block
 from nivel.machine.control.order import PartOf, in_order, parts_of
 from nivel.machine.index import Index
 from nivel.machine.symbols import UnknownSymbolError, find_in, is_output, of_forces
-from nivel.machine.unit import UNITS
+from nivel.machine.units.arithmetic import RESERVED
+from nivel.machine.units.unit import UNITS
 
 CONDITIONS = ("when", "states")  # keys of what is made of comparisons
 

@@ -13,9 +13,9 @@ from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
 from nivel.machine.control.laws import trapezoid
 from nivel.machine.control.part import Part, PartFunction, law
-from nivel.machine.expression import Expression
-from nivel.machine.quantity import Quantity, listed
 from nivel.machine.table import Table
+from nivel.machine.units.expression import Expression
+from nivel.machine.units.quantity import Quantity, listed
 
 Times = Annotated[tuple[Annotated[float, Quantity("time")], ...], BeforeValidator(listed)]
 

@@ -12,9 +12,9 @@ from nivel.machine.control.block import Block, Input, names_in
 from nivel.machine.control.condition import Condition
 from nivel.machine.control.laws import entered
 from nivel.machine.control.part import Part, PartFunction, law
-from nivel.machine.linear_function import linear
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.record import Name, Record, entry, unknown_word
+from nivel.machine.units.linear_function import linear
 
 
 def _conditions(value: Any) -> Any:

@@ -12,8 +12,8 @@ from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Number, names_in
 from nivel.machine.control.part import VALUE, Part
 from nivel.machine.python_law import PythonLaw, read_python_law, returned_count
-from nivel.machine.quantity import fault, parameters_of, shown
 from nivel.machine.record import Name, Record, entry
+from nivel.machine.units.quantity import fault, parameters_of, shown
 
 
 def _read_law(value: Any, info: ValidationInfo) -> PythonLaw:

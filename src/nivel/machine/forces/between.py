@@ -10,8 +10,8 @@ from pydantic import Field
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.forces.element import ForceElement
 from nivel.machine.marker import Marker, TwoMarkers
-from nivel.machine.quantity import Position
 from nivel.machine.record import BodyName
+from nivel.machine.units.quantity import Position
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Angles, CoordinateEffort, CoordinateValue, Forces, Lengths, Torques
-from nivel.machine.quantity import listed
+from nivel.machine.units.quantity import listed
 
 
 class Characteristic(Checked):

@@ -16,7 +16,7 @@ from nivel.machine.record import GROUND, BodyName, Record
 from nivel.machine.time_function import ContactForce
 
 HERTZ: Final = 1.5  # exponent of two elastic spheres
-SHAPES_ON_PLANE: Final = ("sphere", "box", "cylinder")
+SHAPES_ON_PLANE: Final = ("sphere", "box", "cylinder", "extrusion", "mesh")
 
 
 class Material(Record):
@@ -29,14 +29,14 @@ class Material(Record):
 class Contact(ForceElement):
     """Bodies that touch are pushed apart: force stiffness · depth ** exponent, damped, or by a `law`; with Coulomb friction.
 
-    A `body` with the shape sphere, box or cylinder on a `plane`, or two `bodies`, both spheres.
+    A `body` with the shape sphere, box, cylinder, extrusion or mesh on a `plane`, or two `bodies`, both spheres.
     """
 
     outputs: ClassVar[tuple[str, ...]] = (*OUTPUTS, "depth", "normal_force", "rate")
 
     type: Literal["contact"] = "contact"
     body: BodyName | None = Field(
-        default=None, description="that touches the `plane`; its shape is sphere, box or cylinder"
+        default=None, description="that touches the `plane`; its shape is sphere, box, cylinder, extrusion or mesh"
     )
     plane: MarkerPlace | None = Field(
         default=None, description="a marker: its point lies in the plane, its z axis points out of it"

@@ -19,8 +19,8 @@ from nivel.machine.coefficient import (
 from nivel.machine.coordinate_function import CoordinateEffortFunction
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.element import OUTPUTS, ForceElement
-from nivel.machine.quantity import AngularVelocity, Quantity, listed
 from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.units.quantity import AngularVelocity, Quantity, listed
 
 Gear = Annotated[float, OfCoordinate(("turning per length", "number"), "positive")]
 Resistance = Annotated[float, Quantity("resistance"), NotNegative]

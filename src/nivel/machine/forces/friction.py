@@ -20,7 +20,7 @@ from nivel.machine.coefficient import (
 )
 from nivel.machine.coordinate_reference import CoordinateReference, kind_of
 from nivel.machine.forces.element import OUTPUTS, ForceElement
-from nivel.machine.quantity import PositiveLength
+from nivel.machine.units.quantity import PositiveLength
 
 
 class Friction(ForceElement):

@@ -10,8 +10,8 @@ from pydantic import BeforeValidator, Field
 from nivel.machine.checked import Problem
 from nivel.machine.coefficient import NotNegativeNumber
 from nivel.machine.forces.element import ForceElement
-from nivel.machine.quantity import ANY, Quantity, listed
 from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.units.quantity import ANY, Quantity, listed
 
 Varied = Annotated[TimeFunction, varying(ANY)]
 Place = Annotated[TimeFunction, varying("length")]

@@ -9,9 +9,9 @@ from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.forces.element import ForceElement
-from nivel.machine.quantity import Position, listed
 from nivel.machine.record import GROUND, BodyName, Name
 from nivel.machine.time_function import ForceComponent, TorqueComponent
+from nivel.machine.units.quantity import Position, listed
 
 Axes = Annotated[Literal["global", "body"], Field(description="axes of the vector: global, or turning with the body")]
 

@@ -10,8 +10,8 @@ from pydantic import BeforeValidator, Field
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.forces.between import Between
 from nivel.machine.forces.element import OUTPUTS
-from nivel.machine.quantity import listed
 from nivel.machine.time_function import ForceComponent, SpringForce
+from nivel.machine.units.quantity import listed
 
 Vector = Annotated[tuple[ForceComponent, ForceComponent, ForceComponent], BeforeValidator(listed)]
 

@@ -12,9 +12,9 @@ from nivel.machine.coefficient import Damping, Stiffness
 from nivel.machine.forces.between import End, GlobalPoint
 from nivel.machine.forces.element import OUTPUTS, ForceElement
 from nivel.machine.marker import Marker, MarkerPlace
-from nivel.machine.quantity import Position, PositiveLength, listed
 from nivel.machine.record import BodyName
 from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.units.quantity import Position, PositiveLength, listed
 
 Speed = Annotated[TimeFunction, varying("velocity")]
 

@@ -11,7 +11,7 @@ from nivel.machine.checked import Problem
 from nivel.machine.coefficient import Damping, ForceValue, Stiffness
 from nivel.machine.forces.between import Between
 from nivel.machine.forces.element import OUTPUTS
-from nivel.machine.quantity import Position, listed
+from nivel.machine.units.quantity import Position, listed
 
 ThreeStiffnesses = Annotated[tuple[Stiffness, Stiffness, Stiffness], BeforeValidator(listed)]
 ThreeDampings = Annotated[tuple[Damping, Damping, Damping], BeforeValidator(listed)]

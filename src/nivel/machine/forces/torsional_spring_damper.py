@@ -13,8 +13,8 @@ from nivel.machine.forces.between import BetweenMarkers
 from nivel.machine.forces.characteristic import TorqueTable
 from nivel.machine.forces.element import OUTPUTS
 from nivel.machine.forces.spring import problems_of_spring
-from nivel.machine.quantity import Angle
 from nivel.machine.time_function import SpringTorque
+from nivel.machine.units.quantity import Angle
 
 
 class TorsionalSpringDamper(BetweenMarkers):

@@ -24,8 +24,8 @@ from nivel.machine.coefficient import (
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.forces.between import Ends
 from nivel.machine.hydraulics.component import Component, Rating
-from nivel.machine.quantity import Angle, PositiveLength, Quantity, listed
 from nivel.machine.record import Name
+from nivel.machine.units.quantity import Angle, PositiveLength, Quantity, listed
 
 StopStiffness = Annotated[float, Quantity(("stiffness", "torsional stiffness"), positive=True)]
 DEAD_SHARE = 0.02  # of the swept volume, that is left at the end of the stroke where nothing is said

@@ -9,8 +9,8 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import Pressure, Share, SonicConductance, VolumeFlow
-from nivel.machine.quantity import fault, shown
 from nivel.machine.record import Name, unknown_word
+from nivel.machine.units.quantity import fault, shown
 
 
 def _connections(value: Any) -> Any:

@@ -10,8 +10,8 @@ from pydantic import AfterValidator, Field
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Frequency, Leakage, PositiveNumber, Share
 from nivel.machine.hydraulics.component import Rated, problem_of_share
-from nivel.machine.quantity import Quantity, Rate, fault
 from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.units.quantity import Quantity, Rate, fault
 
 Ways = Literal["2/2", "3/2", "4/2", "4/3", "5/2", "5/3"]
 Centre = Literal["closed", "tandem", "open", "float"]

@@ -10,8 +10,8 @@ from pydantic_core import CoreSchema
 
 from nivel.machine.checked import Checked, Problem
 from nivel.machine.coefficient import Exponent, NotNegativeNumber, Pressure, Temperature, Truth, Viscosity
-from nivel.machine.quantity import Density, Quantity
 from nivel.machine.record import Name, entry
+from nivel.machine.units.quantity import Density, Quantity
 
 AIR_DENSITY = 1.2  # kg/m³ at atmospheric pressure
 LEAST_AIR, MOST_AIR = 1e-4, 0.2

@@ -11,8 +11,8 @@ from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Displacement, Leakage, PositiveNumber, Pressure, Share
 from nivel.machine.coordinate_reference import CoordinateReference
 from nivel.machine.hydraulics.component import Component, problem_of_share
-from nivel.machine.quantity import Duration, Quantity, Whole
 from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.units.quantity import Duration, Quantity, Whole
 
 Speed = Annotated[TimeFunction, varying("angular velocity")]
 Setting = Annotated[TimeFunction, varying("number")]
@@ -54,15 +54,19 @@ class RotaryMachine(Component):
     pistons: Whole | None = Field(default=None, description="their number, an odd one, for the ripple of the flow")
 
     @property
+    def losses(self) -> tuple[float, float]:
+        """What is lost at the nominal point, as shares of D ω and of D Δp: of a pump Q = η D ω and T = D Δp/η."""
+        return 1.0 - self.volumetric_efficiency, 1.0 / self.mechanical_efficiency - 1.0
+
+    @property
     def whole_leakage(self) -> float:
         """[m³/s/Pa] of flow back per difference of pressure."""
-        lost = 1.0 - self.volumetric_efficiency
-        return self.leakage + (lost * self.displacement * self._nominal_speed / self._nominal_pressure)
+        return self.leakage + (self.losses[0] * self.displacement * self._nominal_speed / self._nominal_pressure)
 
     @property
     def friction(self) -> tuple[float, float]:
         """(viscous torque over speed [N m s], dry torque over D Δp): the friction at the nominal point in two shares."""
-        lost = 1.0 / self.mechanical_efficiency - 1.0
+        lost = self.losses[1]
         viscous = (1.0 - COULOMB_SHARE) * lost * self.displacement * self._nominal_pressure / self._nominal_speed
         return viscous, COULOMB_SHARE * lost
 
@@ -122,6 +126,11 @@ class HydraulicMotor(RotaryMachine):
 
     type: Literal["hydraulic-motor"] = "hydraulic-motor"
     setting: Setting = Field(default=1.0, description="share of the displacement")
+
+    @property
+    def losses(self) -> tuple[float, float]:
+        """The same of a motor: Q = D ω/η and T = η D Δp."""
+        return 1.0 / self.volumetric_efficiency - 1.0, 1.0 - self.mechanical_efficiency
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()

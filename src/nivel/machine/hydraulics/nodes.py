@@ -11,9 +11,9 @@ from nivel.machine.checked import Problem
 from nivel.machine.coefficient import Exponent, Pressure, Share, ThermalConductance, VolumeFlow
 from nivel.machine.coefficient import Volume as VolumeSize
 from nivel.machine.hydraulics.component import Component
-from nivel.machine.quantity import Duration, listed
 from nivel.machine.record import Name
 from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.units.quantity import Duration, listed
 
 ATMOSPHERE = 101325.0  # Pa
 VaryingPressure = Annotated[TimeFunction, varying("pressure")]

@@ -10,8 +10,8 @@ from pydantic import Field
 from nivel.machine.checked import Problem, superfluous
 from nivel.machine.coefficient import Leakage, Pressure, Share, Truth
 from nivel.machine.hydraulics.component import Component, Rating, problem_of_share
-from nivel.machine.quantity import PositiveLength
 from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.units.quantity import PositiveLength
 
 Opening = Annotated[TimeFunction, varying("number")]
 

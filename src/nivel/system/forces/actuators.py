@@ -7,12 +7,12 @@ import math
 from nivel.kernels.forces.motor import apply as motor
 from nivel.kernels.forces.servo import apply as servo
 from nivel.kernels.forces.stop import apply as stop
-from nivel.kernels.record import NONE
-from nivel.machine.arithmetic import ExpressionError
-from nivel.machine.expression import Expression
+from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Motor, Servo, Stop
 from nivel.machine.table import Table
 from nivel.machine.time_function import TimeFunction
+from nivel.machine.units.arithmetic import ExpressionError
+from nivel.machine.units.expression import Expression
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle

@@ -6,19 +6,25 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from nivel.errors import Fault, ModelError
 from nivel.kernels.forces import bushing, contact
-from nivel.kernels.function import OUTPUT
-from nivel.kernels.record import NONE
+from nivel.kernels.record.function import OUTPUT
+from nivel.kernels.record.record import NONE
 from nivel.machine.body import Body
 from nivel.machine.forces import Bushing, Contact
 from nivel.machine.placement import frame_from_axes
-from nivel.machine.shape import Box, Cylinder, Sphere
-from nivel.machine.solids import box_size, length
+from nivel.machine.shape import Box, Cylinder, Extrusion, Mesh, Sphere
+from nivel.machine.solids import box_size, extrusion_corners, length, mesh_surface
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import force_outputs, magnitude_and_power
 from nivel.system.forces.restitution import damping_of_restitution
+
+# Points of a shape that may touch, where they are more than one.
+POINTS = {contact.BOX: 8, contact.CYLINDER: 8}
+MOST_CORNERS = 1000
 
 
 def add_bushing(draft: SystemBuilder, force: Bushing) -> None:
@@ -72,8 +78,11 @@ def add_contact(draft: SystemBuilder, force: Contact) -> None:
     numbers = [stiffness or 0.0, force.exponent, loss, force.friction]
     numbers += [force.friction_transition_speed or 1.0, *size, *[0.0] * (3 - len(size))]
     numbers += [0.0] * (contact.NUMBERS - len(numbers))
-    points = contact.POINTS if kind in (contact.BOX, contact.CYLINDER) else 1
-    draft.elements.add(contact.apply, [first, kind, *markers, law], numbers, contact.POINTS, tuple(range(points)))
+    points = POINTS.get(kind, 1)
+    if kind == contact.HULL:
+        corners = _corners(draft.machine.body_named[str(force.body)])
+        numbers, points = [*numbers, *corners.ravel().tolist()], len(corners)
+    draft.elements.add(contact.apply, [first, kind, *markers, law, points], numbers, points, tuple(range(points)))
 
 
 def _radius(body: Body) -> float:
@@ -90,12 +99,38 @@ def _shape(contact: Any, body: Body) -> tuple[int, list[float]]:
             return contact.BOX, [0.5 * side for side in box_size(body.shape)]
         case Cylinder():
             return contact.CYLINDER, [body.shape.radius, 0.5 * length(body.shape)]
+        case Extrusion() | Mesh():
+            return contact.HULL, [1.0]  # its size is that of its corners
     raise ValueError(f"body {body.name} has no shape that can touch")
 
 
+def _corners(body: Body) -> NDArray[np.float64]:
+    """(n, 3) [m] corners of the convex hull of an extrusion or a mesh, in the body frame: nothing else of it can touch a plane.
+
+    Raises ModelError where there are more than MOST_CORNERS.
+    """
+    from scipy.spatial import ConvexHull, QhullError
+
+    assert isinstance(body.shape, Extrusion | Mesh)  # the record was checked
+    points = mesh_surface(body.shape)[0] if isinstance(body.shape, Mesh) else extrusion_corners(body.shape)
+    try:
+        corners = points[ConvexHull(points).vertices]
+    except QhullError:  # a flat mesh has no hull
+        corners = np.unique(points, axis=0)
+    if len(corners) > MOST_CORNERS:
+        message = (
+            f"the hull of the mesh has {len(corners)} corners, and at most {MOST_CORNERS} can touch a plane: give the body a coarser mesh; "
+            f"`looks` may still draw the fine one"
+        )
+        raise ModelError(Fault("", 0, 0, f"bodies.{body.name}.shape", message))
+    return corners
+
+
 def _shape_marker(draft: SystemBuilder, body: Body) -> int:
-    """Marker at the centre of the shape; z along a cylinder."""
+    """Marker at the centre of the shape, z along a cylinder; at the body frame of a hull, whose corners are given there."""
     shape = body.shape
+    if isinstance(shape, Extrusion | Mesh):
+        return draft.place((body.name, np.zeros(3), np.eye(3)))
     assert isinstance(shape, Sphere | Box | Cylinder)  # the record was checked
     axes = np.eye(3)
     if isinstance(shape, Cylinder):

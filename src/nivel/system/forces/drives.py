@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 
 from nivel.kernels.forces.drive import apply as drive
-from nivel.kernels.function import NUMBER
-from nivel.kernels.record import NONE
+from nivel.kernels.record.function import NUMBER
+from nivel.kernels.record.record import NONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces.drives import DcMotor, Drive, ServoMotor
-from nivel.machine.linear_function import linear
 from nivel.machine.table import Table
 from nivel.machine.time_function import TimeFunction
+from nivel.machine.units.linear_function import linear
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind
 from nivel.system.forces.outputs import effort_and_power, force_outputs, is_angle
-from nivel.system.functions import Signal
+from nivel.system.laws.functions import Signal
 from nivel.system.state_facts import StateFact
 
 WINDING, CURRENT_LOOP = 0.0, 1.0  # kinds

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from nivel.kernels import friction
-from nivel.kernels.coordinate import ALONG, CROSS_SECOND
-from nivel.kernels.record import NONE
+from nivel.kernels.bodies.coordinate import ALONG, CROSS_SECOND
+from nivel.kernels.elements import friction
+from nivel.kernels.record.record import NONE
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.system.builder import GROUND, SystemBuilder
@@ -14,7 +14,7 @@ from nivel.system.state_facts import StateFact
 
 
 def add_friction(draft: SystemBuilder, force: Friction) -> None:
-    """Friction in a joint coordinate: an extra row, see `nivel.kernels.friction`."""
+    """Friction in a joint coordinate: an extra row, see `nivel.kernels.elements.friction`."""
     joint, _ = resolve(force.coordinate, draft.machine.joints)
     coordinate = draft.coordinate(force.coordinate)
     angle = is_angle(draft, coordinate)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from nivel.kernels.hook import Family
+from nivel.kernels.record.hook import Family
 from nivel.machine.forces import ForceElement
 from nivel.system.builder import SystemBuilder
 

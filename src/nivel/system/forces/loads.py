@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from nivel.kernels.coordinate import DISTANCE
+from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.forces import load
 from nivel.kernels.forces.motor import apply as motor
-from nivel.kernels.function import COORDINATE, RATE
-from nivel.kernels.record import NONE
+from nivel.kernels.record.function import COORDINATE, RATE
+from nivel.kernels.record.record import NONE
 from nivel.machine.forces import PairForce, PointForce, Torque
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nivel.kernels.coordinate import LAST_ANGLE
+from nivel.kernels.bodies.coordinate import LAST_ANGLE
 from nivel.system.builder import SystemBuilder
 
 

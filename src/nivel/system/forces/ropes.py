@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 
-from nivel.kernels.coordinate import DISTANCE
+from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.forces.rope import apply
-from nivel.kernels.record import NONE
+from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Rope
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind

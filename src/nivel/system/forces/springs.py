@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.coordinate import DISTANCE, ROTATION
+from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
 from nivel.kernels.forces.spring import apply as spring
 from nivel.kernels.forces.three_axis_spring import apply as three_axis_spring
-from nivel.kernels.function import COORDINATE, RATE
-from nivel.kernels.record import NONE
+from nivel.kernels.record.function import COORDINATE, RATE
+from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Characteristic, JointSpringDamper, SpringDamper, ThreeAxisSpring, TorsionalSpringDamper
 from nivel.system.builder import SystemBuilder
 from nivel.system.forces.kind import ForceKind

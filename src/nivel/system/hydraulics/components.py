@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Final
 
-from nivel.kernels.hook import Family
 from nivel.kernels.hydraulics import (
     gas,
     gas_flow,
@@ -18,6 +17,7 @@ from nivel.kernels.hydraulics import (
     spool,
     volume,
 )
+from nivel.kernels.record.hook import Family
 from nivel.machine.hydraulics import (
     Accumulator,
     Actuator,

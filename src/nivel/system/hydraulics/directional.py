@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nivel.kernels.hydraulics import load_signal, restriction, spool
-from nivel.kernels.record import NONE
+from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import DirectionalValve, LoadSensing
 from nivel.machine.hydraulics.directional import CENTRED, EDGES, centre_pairs
 from nivel.system.builder import SystemBuilder

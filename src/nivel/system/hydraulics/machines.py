@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nivel.kernels.hydraulics import rotary
-from nivel.kernels.record import NONE
+from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import FlowSource, HydraulicMotor, Pump
 from nivel.system.builder import SystemBuilder
 from nivel.system.state_facts import StateFact

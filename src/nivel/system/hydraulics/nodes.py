@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from nivel.kernels.coordinate import DISTANCE
+from nivel.kernels.bodies.coordinate import DISTANCE
 from nivel.kernels.hydraulics import volume
 from nivel.kernels.hydraulics.fluid import ATMOSPHERE
 from nivel.kernels.hydraulics.piston import STAGES, displace, guide, press
-from nivel.kernels.record import NONE
+from nivel.kernels.record.record import NONE
 from nivel.machine.forces import Ends
 from nivel.machine.hydraulics import (
     Accumulator,

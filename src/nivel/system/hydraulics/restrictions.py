@@ -6,7 +6,7 @@ import math
 
 from nivel.kernels.hydraulics import gas_flow, pipe, restriction, spool
 from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, REFERENCE
-from nivel.kernels.record import NONE
+from nivel.kernels.record.record import NONE
 from nivel.machine.hydraulics import Accumulator, HydraulicCylinder, Orifice, Pipe
 from nivel.machine.hydraulics.component import Rating
 from nivel.machine.time_function import TimeFunction

@@ -9,12 +9,12 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels.circuit_record import CircuitTangent
-from nivel.kernels.hook import FAMILIES
 from nivel.kernels.hydraulics import ledger, load_signal, pipe, piston, restriction, rotary, spool, volume
-from nivel.kernels.record import NONE, Record
+from nivel.kernels.record.circuit_record import CircuitTangent
+from nivel.kernels.record.hook import FAMILIES
+from nivel.kernels.record.record import NONE, Record
 from nivel.system.circuit import tangent_tables
-from nivel.system.factor_plan import minimum_degree
+from nivel.system.elimination.factor_plan import minimum_degree
 from nivel.system.system import System
 
 # in the order of `nivel.kernels.hydraulics.tangent`

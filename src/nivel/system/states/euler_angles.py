@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.coordinate import ROTATION
-from nivel.kernels.record import EULER_ANGLES
+from nivel.kernels.bodies.coordinate import ROTATION
+from nivel.kernels.record.record import EULER_ANGLES
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.orientation import euler_parameters_from_matrix, matrix_from_euler_parameters
 from nivel.machine.placement import frame_from_axes

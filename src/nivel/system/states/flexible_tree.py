@@ -1,7 +1,7 @@
 """Relative coordinates with flexible bodies: joint coordinates of the spanning tree, and modal coordinates behind that of each carrier.
 
 The machine with modes in absolute coordinates comes first (`nivel.system.states.floating`): its markers are on frames at interfaces, which
-are bodies to the joints of the tree. What the tree has more is named in `nivel.kernels.flexible_tree`.
+are bodies to the joints of the tree. What the tree has more is named in `nivel.kernels.tree.flexible_tree`.
 """
 
 from __future__ import annotations
@@ -12,16 +12,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from nivel.kernels.record import NONE, Record
+from nivel.kernels.record.record import NONE, Record
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
+from nivel.system.elimination.topology import FREE
 from nivel.system.flexible import Bending, bending_bodies, modal_tree
 from nivel.system.states.floating import carried_markers, with_modes
 from nivel.system.states.joint_start import Bent, Node, Poses, poses
 from nivel.system.states.relative import in_tree, tree_of
 from nivel.system.states.tree_nodes import joint_node, placed, velocities_in
 from nivel.system.system import Array, System
-from nivel.system.topology import FREE
 
 
 @dataclass(frozen=True)

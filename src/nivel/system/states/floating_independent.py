@@ -8,7 +8,7 @@ import numpy as np
 
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
-from nivel.system.partition import partition
+from nivel.system.elimination.partition import partition
 from nivel.system.states import floating
 from nivel.system.system import Array, System
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
-from nivel.system.partition import partition
+from nivel.system.elimination.partition import partition
 from nivel.system.system import Array, System
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.kernels.record import NONE, Coordinates, Markers
+from nivel.kernels.record.record import NONE, Coordinates, Markers
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.orientation import (
     conjugate,
@@ -70,7 +70,8 @@ def carried_frames(markers: Markers, nodes: list[Node], count: int) -> Frames:
 
 @dataclass(frozen=True)
 class JointStart:
-    """State (q, v) in joint coordinates; number, first, theta and own_theta as in `nivel.kernels.record.Tree`. turned : Euler parameters of
+    """State (q, v) in joint coordinates; number, first, theta and own_theta as in `nivel.kernels.record.record.Tree`. turned : Euler
+    parameters of
     the frames of all bodies and interfaces in these coordinates."""
 
     q: Array
@@ -219,7 +220,7 @@ def _coordinates(kind: str, seen: _Relative, lead: float) -> tuple[list[float], 
 
 
 def joint_turn(kind: str, q: list[float], number: Array) -> Array:
-    """Euler parameters of the child seen from the parent's marker, as in `nivel.kernels.tree_orientation.joint_turn`."""
+    """Euler parameters of the child seen from the parent's marker, as in `nivel.kernels.tree.tree_orientation.joint_turn`."""
     if kind == "spherical":
         return np.array(q)
     if kind == "free":

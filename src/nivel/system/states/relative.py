@@ -9,17 +9,19 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.kernels import tree_outputs, tree_outputs_flexible, tree_outputs_implicit
-from nivel.kernels.coordinate import ALONG
-from nivel.kernels.hook import Family
-from nivel.kernels.record import COMPLETE, NONE, Bodies, Constraints, Frames, Markers, Record, Saddle
-from nivel.kernels.record import Friction as FrictionTables
+from nivel.kernels.bodies.coordinate import ALONG
+from nivel.kernels.record.hook import Family
+from nivel.kernels.record.record import COMPLETE, NONE, Bodies, Constraints, Frames, Markers, Record, Saddle
+from nivel.kernels.record.record import Friction as FrictionTables
+from nivel.kernels.tree import tree_outputs, tree_outputs_flexible, tree_outputs_implicit
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Friction
 from nivel.machine.joint import Joint
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
-from nivel.system.elimination import plan
+from nivel.system.elimination.elimination import plan
+from nivel.system.elimination.topology import FREE, Edge, SpanningTree, spanning_tree
+from nivel.system.elimination.tree_tables import empty_tree
 from nivel.system.rails import OnBeam
 from nivel.system.states.joint_start import Bent, Node, Poses, carried_frames, joint_start, poses
 from nivel.system.states.joint_start import Frames as OwnFrames
@@ -36,8 +38,6 @@ from nivel.system.states.tree_nodes import (
 from nivel.system.states.turns import turns
 from nivel.system.system import Array, StateMap, System
 from nivel.system.tables import index_array
-from nivel.system.topology import FREE, Edge, SpanningTree, spanning_tree
-from nivel.system.tree_tables import empty_tree
 
 # rows that are whitened together
 LARGEST_BUNDLE = 6
@@ -48,7 +48,7 @@ def tree_of(machine: MachineRecord, settings: SimulationSettings, *, heavy_first
     """Spanning tree of `machine`. Joints that the settings name stay constraints, and those whose reaction loads a friction; those that
     slide along beams also with formulations other than newton-euler.
 
-    heavy_first : see `nivel.system.topology.spanning_tree`.
+    heavy_first : see `nivel.system.elimination.topology.spanning_tree`.
     """
     number = {body.name: k for k, body in enumerate(machine.bodies)} | {"ground": len(machine.bodies)}
     slides = settings.formulation == "newton-euler"

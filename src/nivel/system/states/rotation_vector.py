@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nivel.kernels.record import ROTATION_VECTOR
+from nivel.kernels.record.record import ROTATION_VECTOR
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.settings import SimulationSettings
 from nivel.system.states.three_coordinates import arranged

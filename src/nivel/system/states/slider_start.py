@@ -1,4 +1,4 @@
-"""Joint coordinates and velocities of a body that slides along a beam, from its pose; see `nivel.kernels.slider`."""
+"""Joint coordinates and velocities of a body that slides along a beam, from its pose; see `nivel.kernels.tree.slider`."""
 
 from __future__ import annotations
 
@@ -78,7 +78,8 @@ def _axis(rail: Rail, e: int, sigma: float, rate: float, k: int) -> tuple[Array,
 
 
 def _nearest(rail: Rail, p: Array) -> tuple[float, int]:
-    """Place of the point p along the beam and the number of the node before it, by Newton's iteration as `nivel.kernels.rail.closest`."""
+    """Place of the point p along the beam and the number of the node before it, by Newton's iteration as
+    `nivel.kernels.bodies.rail.closest`."""
     sigma = rail.near
     for _ in range(MOST):
         e = element_of(rail.station, sigma)

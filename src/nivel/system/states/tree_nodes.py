@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from nivel.kernels import record as kernels
-from nivel.kernels.coordinate import ALONG
-from nivel.kernels.record import NONE, Record
+from nivel.kernels.bodies.coordinate import ALONG
+from nivel.kernels.record import record as kernels
+from nivel.kernels.record.record import NONE, Record
 from nivel.machine.machine_record import MachineRecord
+from nivel.system.elimination.topology import FREE, SLIDERS, Branch
 from nivel.system.states.joint_start import Node
-from nivel.system.topology import FREE, SLIDERS, Branch
 
 # numbers of the kernels' kinds of nodes, positions and velocities of each, and units of the positions
 KINDS = {

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.kernels.coordinate import ALONG, CROSS_FIRST, CROSS_SECOND, LAST_ANGLE, ROTATION
-from nivel.kernels.record import U1, U2, Coordinates
+from nivel.kernels.bodies.coordinate import ALONG, CROSS_FIRST, CROSS_SECOND, LAST_ANGLE, ROTATION
+from nivel.kernels.record.record import U1, U2, Coordinates
 from nivel.system.states.joint_start import Node
 from nivel.system.system import Array
 from nivel.system.tables import index_array

@@ -1,0 +1,1 @@
+"""Equations of a machine assembled: joints closed, freedoms counted, redundant rows found."""

@@ -1,0 +1,232 @@
+"""Assembly: the given positions are moved as little as possible onto the constraints, then the velocities likewise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nivel.analysis.assembly.closing import OPEN, Wishes, close_positions, least_change
+from nivel.analysis.assembly.equations import MotionEquations, change_between
+from nivel.errors import Fault, ModelError
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.joints import composition_of
+from nivel.system.system import Array, System
+
+TURN_A_MARKER = (
+    "turn one of its markers (the name says which axis of the first is perpendicular to which of the second)"
+)
+# Changes below this share of the machine's length, of one radian, of the largest velocity are round-off and not told.
+ROUND_OFF = 1e-12
+# Joints may be open by this share of the machine's length as given, unless the machine says otherwise; directions by this cosine.
+GAP, GAP_OF_DIRECTIONS = 0.1, 0.5
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """An assembled state and how far it is from the given one.
+
+    y : state. reference : joint angles and other measured coordinates there. gap : largest violation of a position row as given
+    (`gap_row` names it) [m or rad]. moved : for each body that moved, name, distance [m] and angle [rad]. velocity_change : the same
+    for velocities [m/s], [rad/s].
+    """
+
+    y: Array
+    reference: Array
+    gap: float
+    gap_row: str
+    moved: tuple[tuple[str, float, float], ...]
+    velocity_change: tuple[tuple[str, float, float], ...]
+
+
+def assemble(machine: MachineRecord, motion: MotionEquations, t: float = 0.0) -> Assembly:
+    """Close all joints of `machine` at time t.
+
+    Raises ModelError naming every joint that is open by more than the machine allows as given, every joint row that cannot be closed
+    with its gap, start values that cannot be had, and joints whose axes end up opposite.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):  # numbers too large end as joints that stay open
+        return _assemble(machine, motion, t)
+
+
+def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Assembly:
+    system = motion.system
+    wishes = _wishes(machine, system)
+    y = system.start.copy()
+    given = y[: system.positions].copy()
+    motion.evaluate(t, y)
+    gap, gap_row = _largest_gap(system)
+    _refuse_contradictions(machine, motion)
+    close_positions(motion, t, y, wishes)
+    _refuse_open_joints(machine, motion, wishes)
+    y, velocity_change = _consistent_velocities(motion, t, y, wishes)
+    reference = system.record.coordinates.reference.copy()
+    return Assembly(y, reference, gap, gap_row, _moves(system, given, y[: system.positions]), velocity_change)
+
+
+def _wishes(machine: MachineRecord, system: System) -> Wishes:
+    index = dict(zip(system.layout.coordinates["joint_coordinate"], system.record.joints.coordinate, strict=True))
+    values, rates = [], []
+    for joint in machine.joints:
+        for wanted, given in ((values, joint.start), (rates, joint.start_rates)):
+            for name, value in given.given.items() if given is not None else ():
+                label = f"{joint.name}.{name}"
+                wanted.append((label, int(index[label]), value))
+    return Wishes(
+        np.array([body.assembly_weight for body in machine.bodies], dtype=float),
+        np.array([body.hold for body in machine.bodies], dtype=bool),
+        tuple(values),
+        tuple(rates),
+    )
+
+
+def _largest_gap(system: System) -> tuple[float, str]:
+    """Largest violation of a row in the state last evaluated, measured by the scales of the rows, and its name."""
+    violation = np.abs(system.record.constraints.C[: system.machine_rows])
+    if not len(violation):
+        return 0.0, ""
+    worst = int(np.argmax(violation / system.record.constraints.scale[: system.machine_rows]))
+    return float(violation[worst]), system.rows[worst]
+
+
+def _refuse_contradictions(machine: MachineRecord, motion: MotionEquations) -> None:
+    """Joints that contradict the given positions by more than the machine allows; not those with a start value of their own."""
+    system, faults = motion.system, []
+    asked = machine.assembly.largest_gap
+    limit = GAP * system.size if asked is None else asked
+    rows = _rows_by_owner(system)
+    for joint in machine.joints:
+        for row in rows.get(joint.name, ()):
+            length = system.row_units[row] == "m"
+            gap = abs(float(system.record.constraints.C[row]))
+            if gap > (limit if length else GAP_OF_DIRECTIONS) and joint.start is None:
+                said = f"{gap:.4g} m" if length else f"{np.degrees(np.arcsin(min(gap, 1.0))):.4g} deg"
+                allowed = f"{limit:.4g} m" if length else f"{np.degrees(np.arcsin(GAP_OF_DIRECTIONS)):.4g} deg"
+                stated = "allowed by `assembly: {largest_gap: …}`" if asked is not None else "allowed"
+                further = (
+                    f"if it is meant to be closed from there, write `assembly: {{largest_gap: {1.1 * gap:.2g} m}}`"
+                )
+                message = (
+                    f"contradicts the given positions of its bodies: {system.rows[row]} is open by {said}, more than the "
+                    f"{allowed} {stated}; {further if length else TURN_A_MARKER}"
+                )
+                faults.append(Fault("", 0, 0, f"joints.{joint.name}", message))
+                break
+    if faults:
+        raise ModelError(faults)
+
+
+def _rows_by_owner(system: System) -> dict[str, list[int]]:
+    """Rows of each joint, coupling and driver, in their order."""
+    rows: dict[str, list[int]] = {}
+    for row, owner in enumerate(system.row_owner):
+        rows.setdefault(owner, []).append(row)
+    return rows
+
+
+def _consistent_velocities(
+    motion: MotionEquations, t: float, y: Array, wishes: Wishes
+) -> tuple[Array, tuple[tuple[str, float, float], ...]]:
+    system, record = motion.system, motion.system.record
+    bodies, count = record.bodies, system.body_count
+    # lengths in units of the machine's length, so that metres and radians can be compared
+    given = np.hstack([bodies.Rdot[:count] / system.size, bodies.omega_b[:count]])
+    chosen = [q for _, q, _ in wishes.rates]
+    missing = np.array([rate for _, _, rate in wishes.rates]) - record.coordinates.rate[chosen]
+    target = np.append(-record.constraints.Cdot[: system.machine_rows], missing)
+    units = [1.0 if name.partition(".")[2].startswith("angle") else system.size for name, _, _ in wishes.rates]
+    scale = np.append(record.constraints.scale[: system.machine_rows], units)
+    change = least_change(motion, target, chosen, scale, wishes, hold=False).reshape(count, 6)
+    change[np.abs(change) <= ROUND_OFF * np.abs(given).max(initial=0.0)] = 0.0
+    new = given + change
+    new[:, :3] *= system.size
+    change[:, :3] *= system.size
+    assembled = system.state(y[: system.positions], new[:, :3], new[:, 3:])
+    motion.evaluate(t, assembled)
+    _refuse_impossible_rates(motion, wishes, scale)
+    return assembled, _named(system.bodies, change[:, :3], change[:, 3:], ROUND_OFF * system.size, ROUND_OFF)
+
+
+def _refuse_impossible_rates(motion: MotionEquations, wishes: Wishes, scale: Array) -> None:
+    """Rates that the machine cannot have: drivers or start rates that contradict each other or the joints."""
+    system, record = motion.system, motion.system.record
+    faults = []
+    speed = max(1.0, float(np.abs(record.bodies.omega_b).max()), float(np.abs(record.bodies.Rdot).max()) / system.size)
+    left = np.abs(record.constraints.Cdot[: system.machine_rows]) / scale[: system.machine_rows]
+    wrong = np.flatnonzero(left > OPEN * speed)
+    # drivers that contradict each other open joints as well, which are not to blame
+    prescribed = [row for row in wrong if _section(system, system.row_owner[row]) == "drivers"]
+    for row in prescribed or wrong:
+        owner = system.row_owner[row]
+        message = f"the velocities contradict each other: {system.rows[row]} cannot have the rate that is asked of it"
+        faults.append(Fault("", 0, 0, f"{_section(system, owner)}.{owner}", message))
+    for name, q, rate in wishes.rates:
+        got = float(record.coordinates.rate[q])
+        if abs(got - rate) > OPEN * max(speed, abs(rate)) * max(1.0, system.size):
+            joint, _, coordinate = name.partition(".")
+            message = (
+                f"the rate {rate:.6g} of {name} cannot be had: the joints, drivers and other rates allow {got:.6g}"
+            )
+            faults.append(Fault("", 0, 0, f"joints.{joint}.start_rates.{coordinate}", message))
+    if faults:
+        raise ModelError(faults)
+
+
+def _section(system: System, owner: str) -> str:
+    """The section of the machine file in which the owner of a row stands."""
+    if owner in system.joints:
+        return "joints"
+    return "couplings" if f"{owner}.coupling" in system.rows else "drivers"
+
+
+def _named(
+    names: tuple[str, ...], lengths: Array, angles: Array, least_length: float, least_angle: float
+) -> tuple[tuple[str, float, float], ...]:
+    """(name, length, angle) of the bodies whose vectors are longer than the least ones."""
+    sizes = zip(names, np.linalg.norm(lengths, axis=1), np.linalg.norm(angles, axis=1), strict=True)
+    return tuple((name, float(d), float(a)) for name, d, a in sizes if d > least_length or a > least_angle)
+
+
+def _moves(system: System, given: Array, q: Array) -> tuple[tuple[str, float, float], ...]:
+    change = change_between(given, q)
+    return _named(system.bodies, change[:, :3], change[:, 3:], ROUND_OFF * system.size, ROUND_OFF)
+
+
+def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations, wishes: Wishes) -> None:
+    system, record = motion.system, motion.system.record
+    share = np.abs(record.constraints.C / record.constraints.scale)[: system.machine_rows]
+    faults = []
+    parallel = {joint.name: k for k, joint in enumerate(machine.joints) if composition_of(joint).parallel}
+    for owner, rows in _rows_by_owner(system).items():
+        worst = rows[int(np.argmax(share[rows]))]
+        if not share[worst] <= OPEN:
+            faults.append(Fault("", 0, 0, f"{_section(system, owner)}.{owner}", _gap(system, worst)))
+        elif owner in parallel:
+            first = int(record.joints.first_marker[parallel[owner]])
+            if record.markers.A[first, :, 2] @ record.markers.A[first + 1, :, 2] < 0.0:
+                message = "the z axes of its two markers point in opposite directions; turn one of them round"
+                faults.append(Fault("", 0, 0, f"joints.{owner}", message))
+    for name, q, wanted in wishes.values:
+        got = float(record.coordinates.value[q])
+        if abs(got - wanted) > OPEN * max(1.0, system.size, abs(wanted)):
+            joint, _, coordinate = name.partition(".")
+            message = f"the start value {wanted:.6g} of {name} cannot be had: the machine comes as near as {got:.6g}"
+            faults.append(Fault("", 0, 0, f"joints.{joint}.start.{coordinate}", message))
+    if faults:
+        raise ModelError(faults)
+
+
+def _gap(system: System, row: int) -> str:
+    """What is left open at a row, and what to look at."""
+    left = abs(float(system.record.constraints.C[row]))
+    name = system.rows[row]
+    if system.row_units[row] == "m":
+        advice = "check the positions of its bodies and the lengths between their joints"
+        return f"cannot be closed: a gap of {left:.6g} m is left at {name}; {advice}"
+    if system.row_units[row] == "rad":
+        advice = "check what is driven or coupled against what the joints allow"
+        return f"cannot be closed: {np.degrees(left):.4g} deg are left at {name}; {advice}"
+    angle = np.degrees(np.arcsin(min(left, 1.0)))
+    return (
+        f"cannot be closed: the two directions of {name} are {angle:.4g} deg away from a right angle; {TURN_A_MARKER}"
+    )

@@ -1,0 +1,325 @@
+"""Where hydraulic circuits start: the pressures that carry the loads of the machine as assembled, and a steady circuit around them.
+
+1. The effort of every actuator at rest follows from accelerations, which are linear in the pressures: those that vanish are asked for.
+   The chamber that cannot carry its load has the pressure of the lowest tank, the other one what the load asks for. A piston without load
+   at the end of its stroke is held there by its stop.
+2. With these held, all other states of the circuits go to rest by steps of Euler's implicit method that become longer and longer
+   (pseudo-transient continuation, Kelley and Keyes 1998). A volume that is closed keeps the pressure of the lowest tank.
+
+Pressures that are given stay as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.errors import Fault, ModelError
+from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.fluid import ATMOSPHERE
+from nivel.kernels.hydraulics.gas import GAS_CONSTANT, RATIO, SURROUNDINGS
+from nivel.kernels.hydraulics.piston import ORIGIN, guide
+from nivel.kernels.hydraulics.volume import VOLUME
+from nivel.kernels.record.record import NONE
+from nivel.machine.hydraulics import Actuator, HydraulicMotor, RotaryActuator
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.circuit import Node
+from nivel.system.hydraulics.fluid_law import mass_at
+from nivel.system.hydraulics.nodes import chamber_node, stroke_of
+from nivel.system.system import Array, System
+
+# what a pressure is moved by to see what it does [Pa]
+PROBE = 1e5
+# Loads that ask for less pressure than this [Pa] are none.
+NO_LOAD = 1e3
+# steps of pseudo-time: the first one [s], the factor to the next, their number; at rest, states change by less than this share of their
+# scale in a second
+FIRST, FACTOR, MOST, AT_REST = 1e-6, 3.0, 200, 1e-9
+# of Newton's iteration in each: most iterations, changes that end it and steps of differences as shares of the scales
+ITERATIONS, CLOSE, DIFFERENCE = 8, 1e-6, 1e-7
+# A piston may stand beyond the end of its stroke by this share of it.
+BEYOND = 1e-3
+
+
+@dataclass(frozen=True)
+class _Pair:
+    """The nodes on both sides of actuators, in which they have their loads: B None where it is the open air.
+
+    at_end : whether a piston between them is at the end of its stroke, where a stop can hold it.
+    """
+
+    a: int
+    b: int | None
+    at_end: bool = False
+
+
+def circuit_start(machine: MachineRecord, motion: MotionEquations, y: Array) -> tuple[System, Array]:
+    """The system and its state y (absolute coordinates) with the start of its circuits.
+
+    Raises ModelError where a piston stands beyond its stroke.
+    """
+    if not machine.hydraulics:
+        return motion.system, y
+    y = y.copy()
+    motion.evaluate(0.0, y)
+    _refuse_strokes(machine, motion.system)
+    start = _Start(machine, motion, y)
+    start.carry_loads()
+    start.come_to_rest()
+    start.y[start.velocities] = start.moving
+    system, first = motion.system, start.first
+    x = start.y[first : first + len(system.states)]
+    states = tuple(replace(fact, start=float(x[k])) for k, fact in enumerate(system.states))
+    return replace(system, states=states), start.y
+
+
+def _values_of(machine: MachineRecord, system: System) -> Iterator[tuple[Actuator, float, float]]:
+    """Every actuator with its length or angle in the state last evaluated, and that at the start of its stroke."""
+    elements = system.record.elements
+    row = int(np.flatnonzero(elements.address == guide.address)[0]) if guide.address in elements.address else None
+    for k, actuator in enumerate(each for each in machine.hydraulics if isinstance(each, Actuator)):
+        assert row is not None
+        e = int(elements.span[row, 0]) + k
+        yield (
+            actuator,
+            float(system.record.coordinates.value[elements.columns[e, 2]]),
+            float(elements.number[e, ORIGIN]),
+        )
+
+
+def _shares_of_strokes(machine: MachineRecord, system: System) -> Iterator[tuple[Actuator, float]]:
+    """Every actuator with the share of its stroke in the state last evaluated."""
+    for actuator, value, origin in _values_of(machine, system):
+        yield actuator, (value - origin) / stroke_of(actuator)
+
+
+def _refuse_strokes(machine: MachineRecord, system: System) -> None:
+    """Actuators that are too long or too short for where they are, in the state last evaluated."""
+    faults = []
+    for actuator, value, origin in _values_of(machine, system):
+        stroke = stroke_of(actuator)
+        if -BEYOND * stroke <= value - origin <= (1.0 + BEYOND) * stroke:
+            continue
+        turns = isinstance(actuator, RotaryActuator)
+        unit, what = ("rad", "turned to") if turns else ("m", "between its ends")
+        key = "lower" if turns else "retracted_length"
+        message = f"{value:.6g} {unit} {what} at the start, and its stroke goes from {origin:.6g} to {origin + stroke:.6g} {unit}"
+        faults.append(Fault("", 0, 0, f"hydraulics.{actuator.name}.{key}", message))
+    if faults:
+        raise ModelError(faults)
+
+
+class _Start:
+    """Pressures of nodes and states of circuits on their way to the start."""
+
+    def __init__(self, machine: MachineRecord, motion: MotionEquations, y: Array) -> None:
+        system = motion.system
+        self.machine, self.motion, self.system, self.y = machine, motion, system, y
+        self.circuit, self.nodes = system.record.circuit, system.nodes
+        self.first = len(y) - len(system.start_of_states)
+        self.velocities = slice(system.positions, self.first)
+        self.moving = y[self.velocities].copy()
+        self.y[self.velocities] = 0.0
+        self.pressure = np.array([self._at_first(k, node) for k, node in enumerate(self.nodes)])
+        self.held = {k for k, node in enumerate(self.nodes) if node.start is not None}
+
+    def _given(self, k: int) -> float:
+        return float(self.circuit.pressure[k])
+
+    def _at_first(self, k: int, node: Node) -> float:
+        if node.start is not None:
+            return node.start
+        return self._lowest(node.fluid) if _has_state(node) else self._given(k)
+
+    def _lowest(self, fluid: int) -> float:
+        """[Pa] of the lowest tank of a fluid."""
+        tanks = [self._given(k) for k, node in enumerate(self.nodes) if not _has_state(node) and node.fluid == fluid]
+        return min(tanks, default=ATMOSPHERE)
+
+    def _put(self, pressure: Array) -> None:
+        """Give the volumes these pressures, and signals theirs."""
+        for k, node in enumerate(self.nodes):
+            if node.kind == VOLUME:
+                fluid, room = self.circuit.fluid[node.fluid], self.circuit.room[k]
+                self.y[self.first + node.state] = mass_at(fluid, room, float(self.circuit.volume[k]), pressure[k])
+                self._warm(node)
+            elif _has_state(node):
+                self.y[self.first + node.state] = pressure[k]
+
+    def _warm(self, node: Node) -> None:
+        """Give gas the temperature of its surroundings."""
+        if node.energy != NONE:
+            f = self.circuit.fluid[node.fluid]
+            inner = f[GAS_CONSTANT] / (f[RATIO] - 1.0) * f[SURROUNDINGS]
+            self.y[self.first + node.energy] = self.y[self.first + node.state] * inner
+
+    def _accelerations(self, pressure: Array) -> Array:
+        self._put(pressure)
+        _, rate = self.motion.evaluate(0.0, self.y)
+        return rate[self.velocities]
+
+    # --- loads ---
+
+    def _pairs(self) -> list[_Pair]:
+        """Nodes between which actuators and motors carry loads, each pair once."""
+        index = {node.name: k for k, node in enumerate(self.nodes)}
+        out: dict[tuple[int, int | None], _Pair] = {}
+        strokes = {each.name: share for each, share in _shares_of_strokes(self.machine, self.system)}
+        for each in self.machine.hydraulics:
+            at_end = each.name in strokes and min(strokes[each.name], 1.0 - strokes[each.name]) <= BEYOND
+            if isinstance(each, Actuator):
+                ends = [index[chamber_node(each, chamber)] for chamber in each.chambers]
+            elif isinstance(each, HydraulicMotor):
+                ends = [index[each.ports["A"]], index[each.ports["B"]]]
+            else:
+                continue
+            if all(self.nodes[k].kind == VOLUME for k in ends):
+                pair = _Pair(ends[0], ends[1] if len(ends) > 1 else None, at_end)
+                out[pair.a, pair.b] = pair
+        return list(out.values())
+
+    def carry_loads(self) -> None:
+        """Pressures of chambers for which the machine stays where it is, as far as pressures can hold it."""
+        pairs = self._pairs()
+        if not pairs:
+            self._put(self.pressure)
+            return
+        base = self.pressure.copy()
+        for pair in pairs:
+            for k in (pair.a, pair.b):
+                if k is not None and k not in self.held:
+                    base[k] = ATMOSPHERE
+        free = self._accelerations(base)
+        effect = {k: self._effect(base, free, k) for pair in pairs for k in (pair.a, pair.b) if k is not None}
+        open_pairs = [pair for pair in pairs if pair.a not in self.held and pair.b not in self.held]
+        columns = np.array([effect[pair.a] for pair in open_pairs]).reshape(len(open_pairs), len(free)).T
+        half_held = [pair for pair in pairs if pair not in open_pairs]
+        loads = self._solved(columns, -free)
+        for pair, load in zip(open_pairs, loads, strict=True):
+            self._share(pair, float(load), effect)
+        self._rest_of(half_held, effect)
+        self._put(self.pressure)
+
+    def _effect(self, base: Array, free: Array, k: int) -> Array:
+        """(nv,) accelerations per pressure in node k."""
+        changed = base.copy()
+        changed[k] += PROBE
+        return (self._accelerations(changed) - free) / PROBE
+
+    @staticmethod
+    def _solved(columns: Array, right: Array) -> Array:
+        """The pressures that leave the least acceleration; those that do nothing are zero."""
+        if not columns.shape[1]:
+            return np.zeros(0)
+        size = np.linalg.norm(columns, axis=0)
+        working = size > 1e-12 * max(float(size.max()), 1e-300)
+        out = np.zeros(columns.shape[1])
+        if np.any(working):
+            scaled = columns[:, working] / size[working]
+            out[working] = np.linalg.lstsq(scaled, right, rcond=1e-9)[0] / size[working]
+        return out
+
+    def _share(self, pair: _Pair, load: float, effect: dict[int, Array]) -> None:
+        """Pressures for a load that A alone would carry with `load` above the air."""
+        back = self._lowest(self.nodes[pair.a].fluid)
+        if pair.b is None:
+            self.pressure[pair.a] = max(ATMOSPHERE + load, back) if load > NO_LOAD else back
+            self.held.add(pair.a)
+            return
+        a, b = effect[pair.a], effect[pair.b]
+        square = float(a @ a)
+        ratio = -float(b @ a) / square if square > 0.0 else 1.0  # area of B over that of A
+        if abs(load) <= NO_LOAD and (self._motor_between(pair) is not None or pair.at_end):
+            return
+        over = back - ATMOSPHERE
+        if load + over * ratio >= over:
+            self.pressure[pair.a], self.pressure[pair.b] = ATMOSPHERE + load + over * ratio, back
+        else:
+            self.pressure[pair.b], self.pressure[pair.a] = ATMOSPHERE + (over - load) / ratio, back
+        self.held |= {pair.a, pair.b}
+
+    def _motor_between(self, pair: _Pair) -> HydraulicMotor | None:
+        names = {self.nodes[k].name for k in (pair.a, pair.b) if k is not None}
+        motors = (each for each in self.machine.hydraulics if isinstance(each, HydraulicMotor))
+        return next((each for each in motors if set(each.ports.values()) == names), None)
+
+    def _rest_of(self, pairs: list[_Pair], effect: dict[int, Array]) -> None:
+        """Of chambers of which one has a given pressure, the other one."""
+        for pair in pairs:
+            free = [k for k in (pair.a, pair.b) if k is not None and k not in self.held]
+            if not free:
+                continue
+            left = self._accelerations(self.pressure)
+            change = self._solved(effect[free[0]][:, None], -left)
+            self.pressure[free[0]] = max(self.pressure[free[0]] + float(change[0]), 1e3)
+            self.held.add(free[0])
+
+    # --- rest ---
+
+    def come_to_rest(self) -> None:
+        """Let all states that are not held go where they stay."""
+        fixed = {self.nodes[k].state for k in self.held}
+        fixed |= {node.energy for node in self.nodes}
+        fixed |= {k for k, fact in enumerate(self.system.states) if fact.sampled or fact.name.startswith("hydraulics.")}
+        own = _states_of_circuits(self.system)
+        free = np.array([k for k in own if k not in fixed], dtype=int)
+        if not len(free):
+            return
+        step, scale = FIRST, np.array([self.system.states[k].scale for k in free])
+        for _ in range(MOST):
+            rate = self._rates(free)
+            if rate is None or np.all(np.abs(rate) <= AT_REST * scale):
+                return
+            step *= FACTOR if self._step(free, scale, step) else 1.0 / FACTOR**2
+
+    def _rates(self, free: NDArray[np.intp]) -> Array | None:
+        for node in self.nodes:
+            self._warm(node)
+        status, rate = self.motion.evaluate(0.0, self.y)
+        found = rate[self.first + free]
+        return found if status == OK and np.isfinite(found).all() else None
+
+    def _step(self, free: NDArray[np.intp], scale: Array, step: float) -> bool:
+        """One step of Euler's implicit method, by Newton's iteration. Returns whether it ends; else nothing is changed."""
+        places, before = self.first + free, self.y.copy()
+        for _ in range(ITERATIONS):
+            rate = self._rates(free)
+            matrix = None if rate is None else self._matrix(free, scale, rate)
+            if rate is None or matrix is None:
+                break
+            try:
+                change = np.linalg.solve(np.eye(len(free)) / step - matrix, rate - (self.y - before)[places] / step)
+            except np.linalg.LinAlgError:  # singular for this step; for a shorter one it is not
+                break
+            self.y[places] += change
+            if np.all(np.abs(change) <= CLOSE * scale):
+                return True
+        self.y[:] = before
+        return False
+
+    def _matrix(self, free: NDArray[np.intp], scale: Array, rate: Array) -> Array | None:
+        """Derivatives of the rates, by differences; None where one cannot be evaluated."""
+        matrix = np.zeros((len(free), len(free)))
+        for j, k in enumerate(free):
+            kept = self.y[self.first + k]
+            self.y[self.first + k] = kept + DIFFERENCE * scale[j]
+            moved = self._rates(free)
+            self.y[self.first + k] = kept
+            if moved is None:
+                return None
+            matrix[:, j] = (moved - rate) / (DIFFERENCE * scale[j])
+        return matrix
+
+
+def _has_state(node: Node) -> bool:
+    return node.kind != 1
+
+
+def _states_of_circuits(system: System) -> list[int]:
+    """Numbers of the states that belong to components."""
+    names = {node.owner for node in system.nodes} | {""}
+    return [k for k, fact in enumerate(system.states) if fact.name.partition(".")[0] in names or "." in fact.name]

@@ -1,0 +1,238 @@
+"""A machine at one instant: its equations of motion, and their exact derivatives in any direction.
+
+    r = M v̇ + C_qᵀ λ - Q        ẋ = g        C        Ċ = C_q v + C_t        C̈ = C_q v̇ - γ
+
+Derivatives are by complex step (Squire, Trapp 1998) through the compiled residual of implicit methods, so they are exact to round-off.
+Positions move by tangent increments: a body turns after its present rotation, about its own axes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lstsq
+
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.errors import SolveError
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import FAMILIES, SHOWN
+from nivel.kernels.record.record import MEASURE, NONE, RESIDUAL
+from nivel.system.system import Array, parameter_rates
+
+EPSILON = 1e-30
+# share of accelerations below which they are round-off
+ROUND_OFF = 1e-12
+Complex = NDArray[np.complex128]
+Reader = Callable[["Instant"], Complex]
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """Derivatives in several directions, one a column.
+
+    r (n, k), g (S, k), C, Cdot, Cddot (K, k) : of the equations. seen (m, k) : of what a reader reads.
+    """
+
+    r: Array
+    g: Array
+    C: Array
+    Cdot: Array
+    Cddot: Array
+    seen: Array
+
+
+class Instant:
+    """The equations of `motion`, which has a residual and its complex twin, at time t [s] in the state y.
+
+    n : velocities. free : those that mean something (points do not turn). velocity_rows : rows that hold
+    velocities alone. v̇ (n,) and λ (K,) are those of the motion.
+    """
+
+    def __init__(self, motion: MotionEquations, t: float, y: Array) -> None:
+        if motion.twin is None:
+            raise TypeError("the equations have no complex twin")
+        self.motion, self.system, self.record = motion, motion.system, motion.system.record
+        self.t, self.y = t, y.copy()
+        residual = self.record.residual
+        self.n, self.rows, self.state_count = len(residual.vdot), len(residual.lam), len(self.system.states)
+        self.velocity_rows = np.flatnonzero(np.isin(residual.row, list(self.system.velocity_rows)))
+        self.positions = self.system.positions
+        self.first_state = self.positions + self.n
+        self.place = self.record.newton.place.astype(np.int64)
+        units = np.array(self.system.map.units)[self.place[:, 0]]
+        self.length = np.where(units == "m", self.system.size, 1.0)
+        self.length[units == "kg^0.5 m"] = self.system.modal_sizes()
+        self.free = np.flatnonzero(~self._idle())
+        self.twin: Any = motion.twin.record
+        self._residual = FAMILIES[int(self.record.hooks.address[RESIDUAL])].twin
+        measure = int(self.record.hooks.address[MEASURE])
+        self._measure = FAMILIES[measure].twin if measure else None
+        self._count_turns()
+        self.vdot, self.lam = self._motion()
+
+    def move_to(self, t: float, y: Array, vdot: Array) -> None:
+        """Be at another time and state, with these accelerations (n,) and no multipliers."""
+        self.t, self.y, self.vdot, self.lam = t, y.copy(), vdot.copy(), np.zeros(self.rows)
+        self._count_turns()
+
+    def _count_turns(self) -> None:
+        """Tell the tree which turn its angles are in."""
+        for tree in (self.record.tree, self.twin.tree):
+            if len(tree.node):
+                tree.state[: self.positions] = self.y[: self.positions]
+
+    def _idle(self) -> NDArray[np.bool_]:
+        """Turns of point masses."""
+        body = np.full(self.n, -1)
+        nodes = self.record.tree.node
+        if len(nodes):
+            for node in nodes.tolist():
+                body[node[4] : node[5]] = node[0] if node[0] < self.system.body_count else -1
+        else:
+            body[: 6 * self.system.body_count] = np.repeat(np.arange(self.system.body_count), 6)
+        return np.append(self.system.point_masses, False)[body] & (self.place[:, 1] != NONE)
+
+    def _motion(self) -> tuple[Array, Array]:
+        """(v̇, λ) of the equations of motion, by [M C_qᵀ; C_q 0]; of redundant rows only independent ones are here."""
+        self.vdot, self.lam = np.zeros(self.n), np.zeros(self.rows)
+        value = self.value()
+        by_rate, by_force = self.along("vdot"), self.along("lam")
+        f, K = len(self.free), self.rows
+        saddle = np.zeros((f + K, f + K))
+        saddle[:f, :f], saddle[f:, :f] = by_rate.r[self.free], by_rate.Cddot
+        saddle[:f, f:] = by_force.r[self.free]
+        scale = np.concatenate([self.length[self.free], 1.0 / self.row_scale])
+        right = -np.concatenate([value[: self.n][self.free], value[self.n + self.state_count + 2 * K :]])
+        found: Any = lstsq(scale[:, None] * saddle * scale, scale * right, cond=1e-14)
+        x = scale * found[0]
+        vdot = np.zeros(self.n)
+        # accelerations that are round-off of those that the forces would make alone are none
+        length = self.length[self.free]
+        alone: Any = lstsq(length[:, None] * by_rate.r[self.free] * length, length * value[: self.n][self.free])
+        least = ROUND_OFF * float(np.max(np.abs(alone[0]), initial=0.0))
+        vdot[self.free] = np.where(np.abs(x[:f]) > least * length, x[:f], 0.0)
+        return vdot, x[f:]
+
+    @property
+    def row_scale(self) -> Array:
+        """(K,) what violations of the rows are measured by."""
+        return self.record.constraints.scale[self.record.residual.row]
+
+    @property
+    def M(self) -> Array:
+        """(f, f) mass matrix of the free unknowns, without the constraints."""
+        return self.along("vdot").r[self.free]
+
+    @property
+    def J(self) -> Array:
+        """(K, f) constraint rows over the free unknowns."""
+        return self.along("vdot").Cddot
+
+    # --- evaluation ---
+
+    def value(self) -> Array:
+        """r (n), g (S), C, Ċ, C̈ (K each) one behind the other, for the present v̇ and λ."""
+        self._load()
+        self._call()
+        return self.twin.residual.value.real.copy()
+
+    def read(self, reader: Reader) -> Array:
+        """What a reader reads at the state itself."""
+        self.value()
+        return reader(self).real.copy()
+
+    def along(self, what: str, reader: Reader | None = None) -> Slopes:
+        """Derivatives with respect to `what`: q, v, vdot (columns: free unknowns), x (states), lam (multipliers) or t."""
+        counts = {"q": len(self.free), "v": len(self.free), "vdot": len(self.free)}
+        count = counts.get(what, {"x": self.state_count, "lam": self.rows, "t": 1}.get(what, 0))
+        values, seen = [], []
+        for k in range(count):
+            t: complex = self.t
+            self._load()
+            if what == "t":
+                t = self.t + 1j * EPSILON
+            else:
+                self._move(what, k)
+            self._call(t)
+            values.append(self.twin.residual.value.imag / EPSILON)
+            if reader is not None:
+                seen.append(reader(self).imag / EPSILON)
+        if reader is not None and not count:
+            return self._slopes(values, np.zeros((len(self.read(reader)), 0)))
+        return self._slopes(values, np.array(seen).T if seen else np.zeros((0, count)))
+
+    def _slopes(self, values: list[Array], seen: Array) -> Slopes:
+        whole = np.array(values).T if values else np.zeros((len(self.record.residual.value), 0))
+        n, S, K = self.n, self.state_count, self.rows
+        starts = np.cumsum([0, n, S, K, K, K])
+        parts = [whole[a:b] for a, b in pairwise(starts)]
+        return Slopes(*parts, seen=seen)
+
+    def _load(self) -> None:
+        own = self.twin.residual
+        own.y[:], own.vdot[:], own.lam[:] = self.y, self.vdot, self.lam
+
+    def _move(self, what: str, k: int) -> None:
+        own = self.twin.residual
+        if what == "x":
+            own.y[self.first_state + k] += 1j * EPSILON
+        elif what == "lam":
+            own.lam[k] += 1j * EPSILON
+        elif what == "v":
+            own.y[self.positions + self.free[k]] += 1j * EPSILON
+        elif what == "vdot":
+            own.vdot[self.free[k]] += 1j * EPSILON
+        else:
+            psi = np.zeros(self.n)
+            psi[self.free[k]] = 1.0
+            own.y[: self.positions] += 1j * EPSILON * self.position_rates(psi)
+
+    def position_rates(self, psi: Array) -> Array:
+        """(positions,) change of q for tangent increments psi (n,)."""
+        out = np.zeros(self.positions)
+        plain = self.place[:, 1] == NONE
+        out[self.place[plain, 0]] = psi[plain]
+        first = np.flatnonzero(self.place[:, 1] == 0)
+        if len(first):
+            at = self.place[first, 0][:, None] + np.arange(4)
+            out[at] = parameter_rates(self.y[at], psi[first[:, None] + np.arange(3)])
+        return out
+
+    def _call(self, t: complex | None = None) -> None:
+        motion = self.motion
+        assert motion.twin is not None
+        when = complex(self.t if t is None else t)
+        if self._residual(motion.twin.address, 0, when) != OK:
+            raise SolveError(
+                f"the equations of motion cannot be evaluated at t = {self.t:g} s",
+                time=self.t,
+                advice="Look at the laws of forces and drivers there.",
+            )
+
+    # --- what readers read: the twin's record as evaluated last, complex ---
+
+    def place_markers(self) -> None:
+        """All markers of the twin, from its bodies; and the accelerations of bodies."""
+        bodies, markers, residual = self.twin.bodies, self.twin.markers, self.twin.residual
+        b = markers.body.astype(np.int64)
+        markers.u[:] = np.einsum("mij,mj->mi", bodies.A[b], markers.position_b)
+        markers.r[:] = bodies.R[b] + markers.u
+        markers.A[:] = bodies.A[b] @ markers.frame_b
+        turning = np.cross(bodies.omega[b], markers.u)
+        markers.rdot[:] = bodies.Rdot[b] + turning
+        markers.bias[:] = np.cross(bodies.omega[b], turning)
+        count = self.system.body_count
+        alpha = residual.acceleration[:count, :3]
+        bodies.Rddot[:count] = residual.acceleration[:count, 3:]
+        bodies.alpha_b[:count] = np.einsum("bij,bi->bj", bodies.A[:count], alpha)
+
+    def measure_coordinates(self) -> None:
+        """Value and rate of all coordinates of the twin, from its markers."""
+        if self._measure is not None:
+            assert self.motion.twin is not None
+            self._measure(self.motion.twin.address, SHOWN, complex(self.t))

@@ -1,0 +1,184 @@
+"""Every freedom of a machine in words: bodies that are free, bodies that turn idly, joint coordinates and what moves with them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.freedoms import DEPENDENT, Freedoms, coordinate_derivatives, freedoms
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.system import Array
+
+MOST: Final = 60  # freedoms that are named
+STILL: Final = 1e-6  # share of the largest motion below which a body rests
+MARKED: Final = 0.05  # share of the largest motion of a coordinate from which another counts as much
+NEAR: Final = 1e-6  # share of the machine's size within which a point is on an axis
+
+
+@dataclass(frozen=True)
+class Freedom:
+    """One freedom or several: `count`, in words, and how it can be removed where nothing is meant to move so (empty: by a driver)."""
+
+    count: int
+    words: str
+    remedy: str = ""
+
+
+def named_freedoms(machine: MachineRecord, motion: MotionEquations) -> tuple[Freedom, ...]:
+    """The freedoms in the position last evaluated, all joint coordinates measured; together they count as many as the machine has.
+
+    None of machines with beams or bodies that bend, nor of those with more than MOST freedoms.
+    """
+    if machine.beams or machine.is_flexible:
+        return ()
+    free = freedoms(motion)
+    if free is None:
+        return ()
+    free = _without_turns_of_points(free, motion)
+    return () if len(free.directions) > MOST else tuple(_Names(machine, motion, free).all())
+
+
+def _without_turns_of_points(free: Freedoms, motion: MotionEquations) -> Freedoms:
+    """Point masses have no turns."""
+    points = np.flatnonzero(motion.system.point_masses)
+    rows = np.zeros((3 * len(points), 6 * motion.system.body_count))
+    for k, body in enumerate(points):
+        rows[3 * k : 3 * k + 3, 6 * body + 3 : 6 * body + 6] = np.eye(3)
+    return free.without(rows) if len(points) else free
+
+
+class _Names:
+    """Takes freedoms out of those that are left, the plainest first."""
+
+    def __init__(self, machine: MachineRecord, motion: MotionEquations, free: Freedoms) -> None:
+        self.machine, self.motion, self.left = machine, motion, free
+        self.system, self.record = motion.system, motion.system.record
+        self.labels = list(self.system.layout.coordinates["joint_coordinate"])
+        places = [int(index) for index in self.record.joints.coordinate]
+        self.coordinates = coordinate_derivatives(motion, places) if places else np.zeros((0, free.directions.shape[1]))
+
+    def all(self) -> list[Freedom]:
+        found = [freedom for body in range(self.system.body_count) for freedom in self._alone(body)]
+        found += self._of_coordinates()
+        if len(self.left.directions):
+            bodies = self._moving(self.left.directions)
+            found.append(Freedom(len(self.left.directions), f"{bodies}, which no joint coordinate shows"))
+        return found
+
+    def _alone(self, body: int) -> list[Freedom]:
+        """Motions of one body while everything else rests, and no joint coordinate changes."""
+        others = np.delete(np.eye(6 * self.system.body_count), np.s_[6 * body : 6 * body + 6], axis=0)
+        own = self.left.without(np.vstack([others, self._scaled_coordinates()]))
+        count, name = len(own.directions), self.system.bodies[body]
+        if not count:
+            return []
+        self._take(own.directions)
+        if count == 6 or (count == 3 and self.system.point_masses[body]):
+            return [Freedom(count, f"{name} is free in space")]
+        motions = own.directions[:, 6 * body : 6 * body + 6]
+        if count == 1:
+            return [self._screw(body, motions[0])]
+        point = self._common_point(body, motions) if count == 3 else ""
+        return [Freedom(count, f"{name} turns in every direction about {point}" if point else f"{name} moves alone")]
+
+    def _scaled_coordinates(self) -> Array:
+        return self.coordinates / np.maximum(np.linalg.norm(self.coordinates, axis=1, keepdims=True), 1e-300)
+
+    def _take(self, directions: Array) -> None:
+        self.left = self.left.without(directions)
+
+    def _screw(self, body: int, motion: Array) -> Freedom:
+        """A motion (Ṙ over the size, ω̄) of a body as a turn about an axis, a way, or a screw."""
+        name, size = self.system.bodies[body], self.system.size
+        velocity, omega = motion[:3] * size, self.record.bodies.A[body] @ motion[3:]
+        rate = float(np.linalg.norm(omega))
+        if rate * size < STILL * np.linalg.norm(velocity):
+            return Freedom(1, f"{name} moves along {_direction(velocity)}")
+        axis = omega / rate
+        point = self.record.bodies.R[body] + np.cross(axis, velocity) / rate
+        if abs(axis @ velocity) > STILL * rate * size:
+            return Freedom(1, f"{name} moves along and turns about {_direction(axis)}")
+        joints = [joint for joint, at in self._joints_at(body) if _on_axis(at, point, axis, NEAR * size)]
+        centre = self.record.bodies.R[body] + self.record.bodies.A[body] @ self.record.bodies.centre_b[body]
+        own = "its own axis" if _on_axis(centre, point, axis, NEAR * size) else f"the axis {_direction(axis)}"
+        through = f", through {' and '.join(joints)}" if joints else ""
+        return Freedom(1, f"{name} turns about {own}{through}", self._without_spin(joints))
+
+    def _without_spin(self, joints: Sequence[str]) -> str:
+        types = {joint.name: joint.type for joint in self.machine.joints}
+        balls = [joint for joint in joints if types[joint] == "spherical"]
+        if not balls:
+            return ""
+        return f"make {balls[0]} universal, with `axes` across that axis"
+
+    def _joints_at(self, body: int) -> list[tuple[str, Array]]:
+        """The joints of a body, and where they hold it."""
+        found = []
+        for k, joint in enumerate(self.system.joints):
+            first = int(self.record.joints.first_marker[k])
+            at = [marker for marker in (first, first + 1) if int(self.record.markers.body[marker]) == body]
+            found += [(joint, self.record.markers.r[marker]) for marker in at]
+        return found
+
+    def _common_point(self, body: int, motions: Array) -> str:
+        """The joint about whose point these motions turn the body; empty where there is none."""
+        A = self.record.bodies.A[body]
+        for joint, at in self._joints_at(body):
+            arm = at - self.record.bodies.R[body]
+            speeds = [motion[:3] * self.system.size + np.cross(A @ motion[3:], arm) for motion in motions]
+            if np.max(np.abs(speeds)) < NEAR * self.system.size:
+                return joint
+        return ""
+
+    def _of_coordinates(self) -> list[Freedom]:
+        """Joint coordinates that can be chosen apart from each other, with the bodies that each moves alone."""
+        chosen = self._chosen()
+        if not chosen:
+            return []
+        seen = self.left.left(self.coordinates[chosen])  # (chosen, left)
+        found, each = [], np.linalg.pinv(seen)
+        for k, place in enumerate(chosen):
+            direction = each[:, k] @ self.left.directions
+            found.append(Freedom(1, f"{self.labels[place]}: {self._moving(direction[None])}"))
+        _, size, every = np.linalg.svd(seen)
+        rank = int(np.sum(size > DEPENDENT * size[0]))
+        self.left = Freedoms(every[rank:] @ self.left.directions)
+        return found
+
+    def _chosen(self) -> list[int]:
+        """Independent joint coordinates: those that stand first, unless they hardly move."""
+        left, chosen = self.left.left(self.coordinates), []
+        least = DEPENDENT * float(np.linalg.norm(self.coordinates, axis=1).max(initial=0.0))
+        while left.size:
+            sizes = np.linalg.norm(left, axis=1)
+            if sizes.max() <= max(least, 1e-12):
+                break
+            chosen.append(int(np.argmax(sizes > MARKED * sizes.max())))
+            along = left[chosen[-1]] / sizes[chosen[-1]]
+            left = left - np.outer(left @ along, along)
+        return chosen
+
+    def _moving(self, directions: Array) -> str:
+        """The bodies that move in these motions, in words."""
+        sizes = np.linalg.norm(directions.reshape(-1, self.system.body_count, 6), axis=(0, 2))
+        names = [name for name, size in zip(self.system.bodies, sizes, strict=True) if size > STILL * sizes.max()]
+        if len(names) == 1:
+            return f"{names[0]} moves"
+        if len(names) == self.system.body_count > 3:
+            return "all bodies move"
+        return f"{', '.join(names[:-1])} and {names[-1]} move"
+
+
+def _on_axis(at: Array, point: Array, axis: Array, near: float) -> bool:
+    return float(np.linalg.norm(np.cross(at - point, axis))) < near
+
+
+def _direction(vector: Array) -> str:
+    unit = vector / np.linalg.norm(vector)
+    if unit[int(np.argmax(np.abs(unit)))] < 0:
+        unit = -unit
+    return "(" + ", ".join(f"{round(float(each), 6) + 0.0:.4g}" for each in unit) + ")"

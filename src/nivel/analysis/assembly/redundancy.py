@@ -1,0 +1,191 @@
+"""Which constraint rows depend on the others, which reactions are therefore not unique, and how many freedoms are left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from nivel.analysis.assembly.closing import close_positions
+from nivel.analysis.assembly.equations import MotionEquations, change_between, moved
+from nivel.analysis.assembly.modal_rows import ModalRows
+from nivel.kernels.core.status import OK
+from nivel.system.system import Array
+
+# Rows count as dependent below this share of their length: assembled machines are closed to about 1e-12.
+DEPENDENT = 1e-8
+# Singular values of unit rows from which on rows are certainly independent, whatever the round-off in J Jᵀ.
+NEARLY = 1e-4
+# Pivots of S above this share of their diagonal prove independence without a closer look.
+CERTAIN = 1e-9
+# Two positions this far apart (share of the machine's length, radians) tell a singular position from a redundant machine.
+ASIDE = 1e-3
+
+
+@dataclass(frozen=True)
+class Redundancy:
+    """Rank of the joint rows at the assembled position; bodies that bend may make rows independent that were not between rigid ones.
+
+    redundant_rows : rows that add nothing to the rows named before them. non_unique_joints : joints with reactions that the equations
+    of rigid bodies do not determine. singular : rows lost at this position only, not nearby. degrees_of_freedom : of velocities;
+    position_freedoms : of positions, more of them where wheels roll without slip.
+    """
+
+    degrees_of_freedom: int
+    position_freedoms: int
+    rank: int
+    redundant_rows: tuple[str, ...]
+    non_unique_joints: tuple[str, ...]
+    singular_rows: tuple[str, ...]
+
+
+def analyse(motion: MotionEquations, t: float, y: Array, modes: ModalRows | None = None) -> Redundancy:
+    """Rank of the constraints at state y, which must be assembled; `modes` : of bodies that bend, undeformed at y."""
+    system = motion.system
+    rows = system.machine_rows
+    freedoms = system.freedoms + (modes.count if modes is not None else 0)
+    if motion.evaluate(t, y)[0] == OK and _certainly_independent(motion):
+        return Redundancy(freedoms - rows, freedoms - rows + len(system.velocity_rows), rows, (), (), ())
+    J = scaled_jacobian(motion, modes)
+    dependent, N = dependent_rows(J)
+    rank = rows - len(dependent)
+    holding = np.delete(J, sorted(system.velocity_rows), axis=0)
+    positions = freedoms - (len(holding) - len(dependent_rows(holding)[0]) if len(holding) < len(J) else rank)
+    if not dependent:
+        return Redundancy(freedoms - rows, positions, rows, (), (), ())
+    nearby = _rank_nearby(motion, t, y, rank, modes)
+    names = tuple(system.rows[row] for row in dependent)
+    loose = np.abs(N).max(axis=1) > 1e-6
+    joints = dict.fromkeys(system.row_owner[row] for row in np.flatnonzero(loose))
+    return Redundancy(
+        freedoms - rank,
+        positions,
+        rank,
+        names,
+        tuple(joints),
+        names[: nearby - rank] if nearby > rank else (),
+    )
+
+
+def _certainly_independent(motion: MotionEquations) -> bool:
+    saddle = motion.system.record.saddle
+    if not len(saddle.order):
+        return True
+    diagonal = saddle.S[saddle.S_start[1:].astype(int) - 1]
+    return bool(np.all(saddle.Dinv * diagonal < 1.0 / CERTAIN))
+
+
+def scaled_jacobian(motion: MotionEquations, modes: ModalRows | None = None) -> Array:
+    """C_q with lengths in units of the machine's length and rows of unit length; the columns of modes behind the others."""
+    J = _in_lengths(motion)
+    if modes is not None:
+        J = np.hstack([J, modes.columns(motion)])
+    return J / np.linalg.norm(J, axis=1, keepdims=True)
+
+
+def row_lengths(motion: MotionEquations) -> Array:
+    """(rows,) lengths of the rows of C_q, lengths in units of the machine's length."""
+    return np.linalg.norm(_in_lengths(motion), axis=1)
+
+
+def _in_lengths(motion: MotionEquations) -> Array:
+    J = motion.jacobian().reshape(motion.system.machine_rows, -1, 6).copy()
+    J[:, :, :3] *= motion.system.size
+    return J.reshape(len(J), -1)
+
+
+def dependent_rows(J: Array) -> tuple[list[int], Array]:
+    """Rows of J (unit rows) that depend on the rows before them, and N (rows, surplus) with Nᵀ J = 0, orthonormal.
+
+    The rows without the last of each combination that vanishes are the first independent ones: they are found from the end.
+    """
+    N = _vanishing(J)
+    surplus = N.shape[1]
+    basis, count, left = np.zeros((surplus, surplus)), 0, np.zeros(len(J))
+    for k in range(len(J) - 1, -1, -1):
+        rest = N[k] - basis[:count].T @ (basis[:count] @ N[k])
+        rest -= basis[:count].T @ (basis[:count] @ rest)
+        left[k] = np.linalg.norm(rest)
+        if left[k] > np.sqrt(DEPENDENT) and count < surplus:
+            basis[count] = rest / left[k]
+            left[k] = np.inf
+            count += 1
+    return sorted(np.argsort(-left, kind="stable")[:surplus].tolist()), N
+
+
+def _vanishing(J: Array) -> Array:
+    """(rows, surplus) left singular vectors of J (unit rows) whose singular values are at most DEPENDENT.
+
+    Eigenvectors of J Jᵀ of eigenvalues up to NEARLY² span them and few others. Round-off ε turns that space towards a vector of singular
+    value σ by ε/σ², which adds at most ε/NEARLY to its own singular values: far below DEPENDENT.
+    """
+    from scipy.linalg import eigh
+
+    if not len(J):
+        return np.zeros((0, 0))
+    _, V = eigh(J @ J.T, subset_by_value=(-np.inf, NEARLY**2))
+    U, sizes, _ = np.linalg.svd(V.T @ J, full_matrices=V.shape[1] > J.shape[1])
+    small = np.concatenate([sizes, np.zeros(U.shape[1] - len(sizes))]) <= DEPENDENT
+    return V @ U[:, small]
+
+
+def _rank_nearby(motion: MotionEquations, t: float, y: Array, rank: int, modes: ModalRows | None) -> int:
+    """Rank a little aside along a free motion of the rigid machine, joints closed again: larger than `rank` where only this position is
+    singular."""
+    if aside(motion, t, y, ASIDE, seed=0, closed=False) is None:
+        return rank
+    J = scaled_jacobian(motion, modes)
+    return max(rank, int(np.sum(np.linalg.eigvalsh(J @ J.T) > ASIDE**4)))
+
+
+def aside(motion: MotionEquations, t: float, y: Array, far: float, *, seed: int, closed: bool = True) -> Array | None:
+    """A state aside from y, last evaluated, along a random free motion; `far` is its length, in radians and machine lengths; all joints are
+    closed at the time t. None where there is none. The record is left evaluated there.
+
+    closed : otherwise a state with open joints does too, where closing leads back.
+    """
+    system = motion.system
+    motion.evaluate(t, y)
+    J = scaled_jacobian(motion)
+    held = _held_directions(J)
+    change = np.random.default_rng(seed).standard_normal(J.shape[1])
+    share = _free_part(held, change)
+    length = float(np.linalg.norm(share))
+    if not length > DEPENDENT * np.sqrt(J.shape[1]):
+        return None
+    share *= far / length
+    change = share.reshape(-1, 6).copy()
+    change[:, :3] *= system.size
+    found = y.copy()
+    found[: system.positions] = moved(y[: system.positions], change.ravel())
+    opened = found[: system.positions].copy()
+    # without closing, the open joints alone would make redundant rows look independent
+    is_closed = close_positions(motion, t, found)
+    reached = change_between(y[: system.positions], found[: system.positions])
+    reached[:, :3] /= system.size
+    way = np.linalg.norm(_free_part(held, reached.ravel()) - share)
+    if closed:
+        return found if is_closed and way < 0.5 * far else None
+    if not is_closed or way > 0.1 * far:
+        # a motion of the first order only, as of two links stretched out between two pins: closing leads back
+        found[: system.positions] = opened
+        motion.evaluate(t, found)
+    return found
+
+
+def _held_directions(J: Array) -> Array:
+    """(n, rank) orthonormal: the directions that rows of J feel."""
+    from scipy.linalg import qr
+
+    if not len(J):
+        return np.zeros((J.shape[1], 0))
+    factors: Any = qr(J.T, mode="economic", pivoting=True)
+    Q, R, _ = factors
+    return Q[:, np.abs(np.diag(R)) > DEPENDENT]
+
+
+def _free_part(held: Array, change: Array) -> Array:
+    """The part of a change that is in no direction that is held."""
+    left = change - held @ (held.T @ change)
+    return left - held @ (held.T @ left)

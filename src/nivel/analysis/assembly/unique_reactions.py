@@ -1,0 +1,122 @@
+"""Which components of reactions follow from the equations where constraints repeat each other, and which do not.
+
+Any u with C_qᵀ u = 0 may be added to the multipliers. A component of a joint's reaction is unique where none of these changes it
+(Wojtyra 2005). How far the others may differ without any preload in the machine: as many rows as are too many may be left out in several
+ways, and each way makes the machine exactly constrained, with reactions of its own. Their extremes are given.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from math import comb
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.freedoms import LARGEST
+from nivel.analysis.assembly.redundancy import dependent_rows, row_lengths, scaled_jacobian
+from nivel.system.system import Array
+
+# a component that changes by less than this share of the largest change does not: shares are 0.1 and more, or round-off
+UNCHANGED: Final = 1e-6
+# ways of leaving rows out that are looked at, and the least singular value of one that leaves the others well apart
+MOST_WAYS: Final = 2000
+APART: Final = 0.02
+COMPONENTS: Final = ("force x", "force y", "force z", "moment x", "moment y", "moment z")
+
+
+@dataclass(frozen=True)
+class ReactionFacts:
+    """Reaction of a joint along the axes of its first marker, on its first body: components that are unique, and the others that it
+    transmits; ranges : (low, high) [N, N m] of each of these, by what is left out; empty where reactions are not known."""
+
+    joint: str
+    unique: tuple[str, ...]
+    others: tuple[str, ...]
+    ranges: tuple[tuple[float, float], ...] = ()
+
+    def __str__(self) -> str:
+        said = ", ".join(self.unique) if self.unique else "nothing"
+        others = [f"{name}{self._range(k)}" for k, name in enumerate(self.others)]
+        return f"{self.joint}: unique {'is' if len(self.unique) < 2 else 'are'} {said}; not {', '.join(others)}"
+
+    def _range(self, k: int) -> str:
+        if not self.ranges:
+            return ""
+        (low, high), unit = self.ranges[k], "N" if self.others[k].startswith("force") else "N m"
+        return f" ({low:.4g} to {high:.4g} {unit})" if high > low else f" ({low:.4g} {unit} without preload)"
+
+
+def unique_reactions(motion: MotionEquations, *, loaded: bool = False) -> tuple[ReactionFacts, ...]:
+    """The joints whose reactions are not unique as a whole, in the position last evaluated; none of large machines.
+
+    loaded : the multipliers of the record are those of this state, and ranges are wanted.
+    """
+    system = motion.system
+    if system.machine_rows * 6 * system.body_count > LARGEST:
+        return ()
+    free = _free_multipliers(motion)
+    if not free.shape[1]:
+        return ()
+    wrenches = [_wrenches(motion, k) for k in range(len(system.joints))]
+    changes = [np.linalg.norm(own @ free[slice(*rows)], axis=1) for own, rows in wrenches]
+    least = UNCHANGED * max(float(change.max(initial=0.0)) for change in changes)
+    ways = _multipliers_by_way(motion, free) if loaded else None
+    found = []
+    for name, (own, rows), change in zip(system.joints, wrenches, changes, strict=True):
+        carried = np.linalg.norm(own, axis=1) > UNCHANGED * np.linalg.norm(own)
+        unique = tuple(
+            word for word, moves, has in zip(COMPONENTS, change > least, carried, strict=True) if has and not moves
+        )
+        others = tuple(word for word, moves in zip(COMPONENTS, change > least, strict=True) if moves)
+        if others:
+            ranges = () if ways is None else _ranges(-ways[:, slice(*rows)] @ own.T, change > least, system.size)
+            found.append(ReactionFacts(name, unique, others, ranges))
+    return tuple(found)
+
+
+def _ranges(reactions: Array, wanted: NDArray[np.bool_], size: float) -> tuple[tuple[float, float], ...]:
+    """Extremes of the wanted components of reactions (ways, 6), with moments over `size`; round-off is nothing."""
+    nothing = UNCHANGED * np.abs(reactions).max(initial=0.0)
+    values = np.where(np.abs(reactions) > nothing, reactions, 0.0) * np.repeat([1.0, size], 3)
+    return tuple((float(values[:, k].min()), float(values[:, k].max())) for k in np.flatnonzero(wanted))
+
+
+def _multipliers_by_way(motion: MotionEquations, free: Array) -> Array | None:
+    """(ways, K) multipliers where as many rows as are too many, free.shape[1], are left out; some ways of many. None without a way."""
+    lam = motion.system.record.constraints.lam[: len(free)]
+    if not np.isfinite(lam).all():
+        return None
+    basis, _ = np.linalg.qr(free)
+    loose = np.flatnonzero(np.linalg.norm(basis, axis=1) > UNCHANGED)
+    count = free.shape[1]
+    if comb(len(loose), count) <= MOST_WAYS:
+        ways = np.array(list(combinations(loose.tolist(), count)))
+    else:
+        rng = np.random.default_rng(0)
+        ways = np.array([rng.choice(loose, count, replace=False) for _ in range(MOST_WAYS)])
+    apart = np.linalg.svd(basis[ways], compute_uv=False)[:, -1]
+    ways = ways[apart > APART]
+    if not len(ways):
+        return None
+    given = np.linalg.solve(free[ways], lam[ways][:, :, None])[:, :, 0]
+    return lam - given @ free.T
+
+
+def _free_multipliers(motion: MotionEquations) -> Array:
+    """(K, k) multipliers without any effect, lengths and moments in units of the machine's length."""
+    _, N = dependent_rows(scaled_jacobian(motion))
+    return N / row_lengths(motion)[:, None]
+
+
+def _wrenches(motion: MotionEquations, k: int) -> tuple[Array, tuple[int, int]]:
+    """(6, n) reaction of joint k for a unit of each of its multipliers, moments over the machine's length; its rows."""
+    record = motion.system.record
+    first, last = record.joints.rows[k].tolist()
+    parts = record.constraints.J[record.joints.part[first:last].astype(int)]
+    A = record.markers.A[int(record.joints.first_marker[k])]
+    forces, moments = A.T @ parts[:, :3].T, A.T @ parts[:, 3:].T
+    return np.vstack([forces, moments / motion.system.size]), (first, last)

@@ -1,0 +1,171 @@
+"""Unknowns of implicit methods in groups that depend on each other as a whole: what the plan of their matrix is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.assembly.tree_paths import Carrying
+from nivel.kernels.bodies.coordinate import ALONG, LEAN_X, LEAN_Y, TWIST
+from nivel.kernels.elements import friction as columns
+from nivel.kernels.record.record import NONE
+from nivel.system.rails import stretches
+from nivel.system.system import System
+
+Index = NDArray[np.integer]
+
+
+def unknown_groups(
+    system: System, velocities: int, row: Index, part: Index, coordinates: str
+) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
+    """Sizes of the groups of unknowns, which are constraints, and which depend on each other: bodies, then modes of flexible ones (or all
+    joint velocities as one), states of elements, joints, efforts of frictions with stiction."""
+    record = system.record
+    states, stiction = len(record.elements.state), frictions_with_stiction(system)
+    normalised = {f"{name}.euler_parameters": body for body, name in enumerate(system.bodies)}
+    owners = [system.row_owner[k] if k < system.machine_rows else system.rows[k] for k in row]
+    joints = list(dict.fromkeys(owners))
+    if coordinates == "relative" and not system.frictions:
+        return _groups_of_tree(system, row, part)
+    if coordinates == "relative":
+        sizes = [velocities, *[1] * states, *(owners.count(joint) for joint in joints), *[1] * len(stiction)]
+        constraint = [k > states for k in range(len(sizes))]
+        return sizes, constraint, {(a, b) for b in range(len(sizes)) for a in range(b)}
+    count = system.body_count
+    modes = [int(last - first) for first, last in record.flexible.mode]
+    moving = count + len(modes)
+    velocities_of_body = [system.equations.velocities] * count
+    of_joints = [owners.count(joint) for joint in joints]
+    sizes = [*velocities_of_body, *modes, *[1] * states, *of_joints, *[1] * len(stiction)]
+    constraint = [k >= moving + states for k in range(len(sizes))]
+    number = {joint: moving + states + k for k, joint in enumerate(joints)}
+    couples = {(body, count + f) for f, body in enumerate(record.flexible.body.tolist())}
+    couples |= {(normalised[system.rows[k]], number[system.rows[k]]) for k in row if k >= system.machine_rows}
+    bodies_of: dict[int, set[int]] = {}
+    rows_of: dict[int, set[int]] = {}
+    for k, _, _, body in part.tolist():
+        bodies_of.setdefault(number[owners[k]], set()).add(body)
+        rows_of.setdefault(number[owners[k]], set()).add(int(row[k]))
+    for joint, bodies in bodies_of.items():
+        couples |= {(body, joint) for body in _moved_by(system, bodies)}
+        for together in _together(system, rows_of[joint], bodies):
+            couples |= set(combinations(sorted(_moved_by(system, together)), 2))
+    for each in system.coupled:
+        groups = _moved_by(system, each.bodies) | {moving + state for state in each.states}
+        couples |= set(combinations(sorted(groups), 2))
+    effort = {k: moving + states + len(joints) + place for place, k in enumerate(stiction)}
+    for k, (bodies, state, joint) in enumerate(_frictions(system)):
+        depending = [*([moving + state] if state != NONE else []), *([number[joint]] if joint in number else [])]
+        depending += [effort[k]] if k in effort else []
+        couples |= {(body, group) for body in _moved_by(system, bodies) for group in depending}
+        couples |= set(combinations(depending, 2))
+    return sizes, constraint, couples
+
+
+def integrals(system: System, constraint: list[bool]) -> list[int]:
+    """Numbers of the groups that are states on which nothing depends; states stand before the groups of a `constraint`."""
+    end = constraint.index(True) if True in constraint else len(constraint)
+    return [end - len(system.states) + k for k, fact in enumerate(system.states) if fact.integral]
+
+
+def _groups_of_tree(system: System, row: Index, part: Index) -> tuple[list[int], list[bool], set[tuple[int, int]]]:
+    """The same of joint coordinates: velocities of the joint that carries each body, states of elements, joints that are cut.
+
+    A velocity moves the bodies outwards of it, and its row has the forces on these; two of them meet where they have a body in common, or
+    bodies between which a force or a joint that is cut acts.
+    """
+    record, nodes = system.record, system.record.tree.node.tolist()
+    moving, states = len(nodes), len(record.elements.state)
+    carrying = Carrying(record)
+    owners = [system.row_owner[k] for k in row]
+    joints = list(dict.fromkeys(owners))
+    sizes = [last - first for *_, first, last in nodes] + [1] * states + [owners.count(joint) for joint in joints]
+    constraint = [k >= moving + states for k in range(len(sizes))]
+    bodies_of: dict[int, set[int]] = {}
+    rows_of: dict[int, set[int]] = {}
+    for k, _, _, body in part.tolist():
+        joint = moving + states + joints.index(owners[k])
+        bodies_of.setdefault(joint, set()).add(body)
+        rows_of.setdefault(joint, set()).add(int(row[k]))
+    couples: set[tuple[int, int]] = set()
+    for child, *_ in nodes:
+        couples |= carrying.pairs([child])
+    together = {each for joint, bodies in bodies_of.items() for each in _together(system, rows_of[joint], bodies)}
+    for bodies in {*(each.bodies for each in system.coupled), *together}:
+        couples |= carrying.pairs(bodies)
+    for each in system.coupled:
+        own = sorted(moving + state for state in each.states)
+        couples |= {(node, state) for body in each.bodies for node in carrying.of(body) for state in own}
+        couples |= set(combinations(own, 2))
+    for joint, bodies in bodies_of.items():
+        couples |= {(node, joint) for body in bodies for node in carrying.of(body)}
+    return sizes, constraint, couples
+
+
+def _together(system: System, rows: Iterable[int], bodies: Iterable[int]) -> Iterator[frozenset[int]]:
+    """Sets of the `bodies` of these rows that their second derivatives join: all; but of the nodes that a slider may come by, it is at
+    some neighbours at a time, and those that carry it go with it."""
+    record = system.record
+    coordinates, combination = record.coordinates, record.constraints.combination.tolist()
+    terms = [
+        int(record.constraints.term[n, 0])
+        for row, first, last, *_ in combination
+        if row in rows
+        for n in range(first, last)
+    ]
+    ends = {
+        q: record.markers.body[coordinates.part_marker[slice(*coordinates.start[q : q + 2])]].tolist() for q in terms
+    }
+    sliding = {
+        q: int(q if coordinates.what[q, 0] == ALONG else coordinates.what[q, 3])
+        for q in terms
+        if ALONG <= coordinates.what[q, 0] <= TWIST
+    }
+    if not sliding or not set(rows) <= {row for row, *_ in combination}:
+        yield frozenset(bodies)
+        return
+    always = {body for q in terms for body in (ends[q][:1] if q in sliding else ends[q])}
+    yield frozenset(always)
+    carried = set(record.tree.slider[:, 1].tolist())
+    turned = any(coordinates.what[q, 0] in (LEAN_X, LEAN_Y, TWIST) for q in terms)
+    for rail in {tuple(ends[q][1:]) for q, along in sliding.items() if along not in carried}:
+        for nodes in stretches(rail, turned=turned):
+            yield frozenset(always.union(nodes))
+
+
+def _moved_by(system: System, bodies: Iterable[int]) -> set[int]:
+    """Groups of velocities that move these bodies, or frames at interfaces: of bodies, and behind them of the modes of flexible ones."""
+    flexible, count = system.record.flexible, system.body_count
+    flexible_of = {int(v): int(f) for f, v in flexible.frame} | {int(b): f for f, b in enumerate(flexible.body)}
+    groups: set[int] = set()
+    for body in bodies:
+        if body in flexible_of:
+            groups |= {int(flexible.body[flexible_of[body]]), count + flexible_of[body]}
+        elif body != count:
+            groups.add(body)
+    return groups
+
+
+def frictions_with_stiction(system: System) -> list[int]:
+    """Numbers of the frictions whose efforts are unknowns."""
+    if not system.frictions:
+        return []
+    return np.flatnonzero(system.record.friction.columns[:, columns.MODEL] == columns.STICTION).tolist()
+
+
+def _frictions(system: System) -> list[tuple[set[int], int, str]]:
+    """Bodies, state or NONE, and the joint whose reaction is the load (empty: none), of each friction."""
+    if not system.frictions:
+        return []
+    record = system.record
+    out = []
+    for index in record.friction.columns.tolist():
+        start = record.coordinates.start[index[columns.COORDINATE] :]
+        ends = record.coordinates.part_marker[start[0] : start[1]]
+        loading = index[columns.JOINT]
+        bodies = set(record.markers.body[ends].tolist())
+        out.append((bodies, index[columns.STATE], "" if loading == NONE else system.joints[loading]))
+    return out

@@ -1,0 +1,1 @@
+"""What `nivel check` says."""

@@ -1,0 +1,153 @@
+"""What `coordinates: auto` means for a machine: the ones in which an evaluation of its equations costs least.
+
+Joints named in `cut` are a wish about relative coordinates: where these are possible, they are taken.
+
+Counted are, in relative coordinates, the bodies of the tree and the rows that are left with the joint velocities on their way to the
+ground; in absolute ones the rows with the bodies that they touch; and in both the entries of S. Weights are nanoseconds, fitted to
+measured evaluations of the slider-crank, chains and pairs of bodies (`benchmarks/profile_step.py`).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+
+from nivel.analysis.plan.modal_stiffness import goes_by_circuits, only_modes_are_stiff
+from nivel.integrate.catalogue import BY_CIRCUITS, BY_MODES, INTEGRATORS
+from nivel.machine.coordinate_reference import resolve
+from nivel.machine.forces import Friction
+from nivel.machine.joint import JOINT_KINDS
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings import SimulationSettings
+from nivel.system.beam_nodes import with_nodes
+
+# relative: a body, a row, a row and a joint velocity, an entry of S; absolute: a body, a row and a body, an entry of S
+TREE_BODY, TREE_ROW, TREE_BLOCK, TREE_ENTRY = 110.0, 40.0, 12.0, 2.0
+BODY, BLOCK, ENTRY = 60.0, 15.0, 4.0
+# Tangents in relative coordinates are full matrices: of more bodies than this the sparse ones of absolute coordinates are faster.
+MOST_DENSE = 60
+
+
+def with_integrator(machine: MachineRecord) -> MachineRecord:
+    """The machine with an integrator that suits it, where none was asked for: circuits are stiff, and have one of fixed cost."""
+    simulation = machine.simulation
+    if not machine.hydraulics or "integrator" in simulation.model_fields_set or simulation.step_control != "own":
+        return machine
+    return machine.replace(simulation=simulation.replace(integrator="extrapolated-euler"))
+
+
+def choose_coordinates(machine: MachineRecord) -> str:
+    """The coordinates of a run of `machine`: its own; for `auto` relative where joints are named in `cut`, else the ones
+    that cost least, of those that its formulation knows.
+    """
+    machine = with_nodes(machine)
+    settings = machine.simulation
+    if settings.coordinates != "auto":
+        return settings.coordinates
+    if settings.formulation == "lagrange" or not machine.joints:
+        return "absolute"
+    if settings.cut:
+        return "relative"
+    facts = INTEGRATORS[settings.integrator]
+    if settings.integrator in BY_CIRCUITS and goes_by_circuits(machine, "relative"):
+        # there derivatives are found by hand
+        return "relative"
+    if machine.is_flexible:
+        # there ROS2 needs no matrix of all modes
+        return "relative" if settings.integrator in BY_MODES and only_modes_are_stiff(machine) else "absolute"
+    if facts.step_residual or (facts.residual and len(machine.bodies) > MOST_DENSE):
+        return "absolute"
+    if not (facts.residual or machine.shares_mass) and slides(machine, "relative", settings.formulation):
+        # accelerations by the residual, which explicit methods need for nothing else, cost three times as much or more
+        return "absolute"
+    return "relative" if _relative_cost(machine) < _absolute_cost(machine) else "absolute"
+
+
+def choose_cut(machine: MachineRecord) -> SimulationSettings:
+    """Settings of a run of `machine` in relative coordinates, with the joints that are cut.
+
+    Methods of the rates cut where it leaves the fewest rows. Those that solve for multipliers at the ends of a step err by what the
+    reactions of cut joints do in between: they cut at the lightest bodies (20 times less energy error on the spatial slider-crank).
+    """
+    from nivel.system.states.relative import tree_of
+
+    settings, facts = machine.simulation, INTEGRATORS[machine.simulation.integrator]
+    frictions = [force for force in machine.forces if isinstance(force, Friction)]
+    if frictions and (not facts.residual or any(force.model == "stiction" for force in frictions)):
+        # friction needs forces that explicit methods, and with stiction all, know one by one, and bodies carried by beams have none
+        sliders = (joint.name for joint in machine.joints if JOINT_KINDS[joint.type].rail)
+        settings = settings.replace(cut=tuple(dict.fromkeys((*settings.cut, *sliders))))
+    if machine.simulation.cut or not facts.residual or facts.first_order:
+        return settings
+    tree = tree_of(machine, settings, heavy_first=True)
+    return settings.replace(cut=tuple(machine.joints[k].name for k in tree.cut))
+
+
+def slides(machine: MachineRecord, coordinates: str, formulation: str, cut: SimulationSettings | None = None) -> bool:
+    """Whether with these methods a beam carries a body that slides along it. cut : as `choose_cut` has it, where it is known."""
+    from nivel.system.states.relative import has_sliders
+
+    if coordinates != "relative" or not any(JOINT_KINDS[joint.type].rail for joint in machine.joints):
+        return False
+    machine = with_nodes(machine)
+    return has_sliders(machine, (cut or choose_cut(machine)).replace(formulation=formulation))
+
+
+def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:
+    """Owner, number of rows and bodies of every joint, coupling and driver."""
+    from nivel.system.joints import composition_of
+    from nivel.system.states.relative import bodies_of
+
+    bodies = {joint.name: set(bodies_of(machine, joint)) for joint in machine.joints}
+    rows = [(joint.name, len(composition_of(joint).rows), bodies[joint.name]) for joint in machine.joints]
+    for coupling in machine.couplings:
+        named = [resolve(reference, machine.joints)[0] for reference, _ in coupling.terms]
+        rows.append((coupling.name, 1, set().union(*(bodies[name] for name in named))))
+    for driver in machine.drivers:
+        touched: set[str] = set()
+        if driver.coordinate is not None:
+            touched = bodies[resolve(driver.coordinate, machine.joints)[0]]
+        rows.append((driver.name, 1, touched))
+    return [(owner, count, touched - {"ground"}) for owner, count, touched in rows]
+
+
+def _entries(places: Iterable[tuple[int, Iterable[object]]]) -> int:
+    """Entries of S: pairs of rows that share a place."""
+    shared: Counter[object] = Counter()
+    for count, where in places:
+        for place in where:
+            shared[place] += count
+    return sum(count * (count + 1) // 2 for count in shared.values())
+
+
+def _absolute_cost(machine: MachineRecord) -> float:
+    rows = _rows(machine)
+    blocks = sum(count * len(touched) for _, count, touched in rows)
+    entries = _entries((count, touched) for _, count, touched in rows)
+    return BODY * len(machine.bodies) + BLOCK * blocks + ENTRY * entries
+
+
+def _relative_cost(machine: MachineRecord) -> float:
+    from nivel.system.elimination.topology import FREE
+    from nivel.system.states.relative import tree_of
+    from nivel.system.states.tree_nodes import KINDS
+
+    tree = tree_of(machine, machine.simulation)
+    number = {body.name: k for k, body in enumerate(machine.bodies)}
+    branch_of = {branch.child: branch for branch in tree.branches}
+    carried = {machine.joints[branch.joint].name for branch in tree.branches if branch.joint != FREE}
+    cost, left = TREE_BODY * len(machine.bodies), []
+    for owner, count, touched in _rows(machine):
+        if owner in carried:
+            continue
+        columns: set[tuple[int, int]] = set()
+        for name in touched:
+            at = number[name]
+            while at in branch_of and (at, 0) not in columns:
+                branch = branch_of[at]
+                kind = "free" if branch.joint == FREE else machine.joints[branch.joint].type
+                columns |= {(at, k) for k in range(KINDS[kind][2])}
+                at = branch.parent
+        cost += count * (TREE_ROW + TREE_BLOCK * len(columns))
+        left.append((count, columns))
+    return cost + TREE_ENTRY * _entries(left)

@@ -1,0 +1,306 @@
+"""The entries that a run needs; those without machine code are compiled together, and later processes find it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+from importlib import import_module
+from time import perf_counter
+
+from nivel.analysis.plan.plan import Methods, Plan
+from nivel.analysis.progress.listener import Listener
+from nivel.errors import NivelError
+from nivel.integrate.catalogue import BY_CIRCUITS, BY_FLEXIBLE_CIRCUITS, BY_MODES, INTEGRATORS
+from nivel.kernels.forces.held_beam import apply as hold
+from nivel.kernels.forces.state_rate import apply as state_rate
+from nivel.kernels.record.hook import Family
+from nivel.kernels.record.program import run as run_expression
+from nivel.kernels.signals.control import apply as compute
+from nivel.kernels.signals.input import apply as read_inputs
+from nivel.machine.hydraulics import Actuator
+from nivel.machine.joint import JOINT_KINDS
+from nivel.machine.machine_record import MachineRecord
+from nivel.motion.catalogue import FLEXIBLE, IMPLICIT_ACCELERATIONS, IMPLICIT_CORRECTION, PATHS
+from nivel.native import library
+from nivel.native.entry import Entry, entry_of
+from nivel.native.workers import NO_COMPILER, CompilationError
+from nivel.system.beams import ELASTIC, family_of
+from nivel.system.beams import FAMILIES as BEAMS
+from nivel.system.forces import FORCES
+from nivel.system.hydraulics.components import FAMILIES as CIRCUITS
+from nivel.system.hydraulics.components import families_of
+
+# in these equations every machine is assembled
+ASSEMBLY = "nivel.motion.newton_euler"
+OUTPUT, LOOP, FOLLOWING = "nivel.kernels.output.observe", "nivel.integrate.loop.loop", "nivel.integrate.loop.positions"
+PACED, REPEATED = "nivel.integrate.loop.paced", "nivel.integrate.loop.repeated"
+STATICS, RESIDUAL = "nivel.kernels.output.static_entries", "nivel.kernels.residual.tangent_entries:evaluate_residual"
+TANGENT_ENTRIES = "nivel.kernels.residual.tangent_entries"
+FOLLOWED = ("contact", "stop")
+LOADS = ("force", "torque")
+DRIVES = ("dc-motor", "servo-motor")
+MEASURE, FRICTION = "nivel.kernels.bodies.measure", "nivel.kernels.elements.friction"
+SENSOR, WATCH, SAMPLING = (
+    "nivel.kernels.signals.sensor",
+    "nivel.kernels.signals.watch",
+    "nivel.kernels.signals.sampling",
+)
+GIVEN_FRICTION, RAIL = "nivel.kernels.residual.friction_residual", "nivel.kernels.bodies.rail"
+OF_BEAMS = "nivel.kernels.residual.beam_tangent"
+POINTS = "nivel.kernels.residual.point_inertia"
+# nodes of trees that are no joints, for residuals in relative coordinates
+OF_MODES, OF_SLIDERS = "nivel.kernels.tree.modal_nodes", "nivel.kernels.tree.slider_nodes"
+PASSING = "nivel.kernels.residual.element_crossing"
+# what completes the frames of runs in relative coordinates
+COMPLETIONS = (
+    "nivel.kernels.tree.tree_outputs",
+    "nivel.kernels.tree.tree_outputs_implicit",
+    "nivel.kernels.tree.tree_outputs_flexible",
+)
+
+
+def build(entries: Iterable[Entry], listener: Listener | None) -> float:
+    """Compile those of these entries that have no machine code, and tell how far it is. Returns the wall time [s].
+
+    Without a listener a bar on standard error tells it, so that a script that compiles does not look as if it hung.
+    """
+    begin = perf_counter()
+    if missing := library.missing(entries):
+        with nullcontext(listener) if listener else _bar() as hearer:
+            _compile(missing, hearer, begin)
+    return perf_counter() - begin
+
+
+def _compile(missing: Sequence[Entry], listener: Listener, begin: float) -> None:
+    count, done = len(missing), 0
+
+    def tell(name: str) -> None:
+        nonlocal done
+        done += 1
+        left = (perf_counter() - begin) * (count - done) / done
+        listener.say(f"compiled {done} of {count}, about {left:.0f} s left: {in_words(name)}")
+
+    listener.say(f"compiling {count} part{'s'[: count > 1]} of the machine code (only the first run does this)")
+    try:
+        library.build(missing, tell)
+    except CompilationError as problem:
+        if problem.kind == NO_COMPILER:
+            what = "the library of this installation is for other sources or another processor"
+            raise NivelError(f"{what}, and {problem}") from None
+        raise
+
+
+@contextmanager
+def _bar() -> Iterator[Listener]:
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    with console.status("") as status:
+
+        def stage(text: str, _total: float | None = None) -> None:
+            if text.startswith("compiling"):
+                console.print(text)  # stays, also where no bar can be shown
+            status.update(text)
+
+        yield Listener(stage)
+
+
+def in_words(name: str) -> str:
+    """What an entry is, for people: the end of its module's name."""
+    module, _, path = name.partition(":")
+    return module.rpartition(".")[2].replace("_", " ") + (", exact derivatives" if path.endswith(".twin") else "")
+
+
+def assembly_entries(machine: MachineRecord) -> list[Entry]:
+    """What it takes to assemble `machine`, and to say where everything is."""
+    families = [family.code for family in _families(machine)]
+    return [entry_of(f"{ASSEMBLY}:evaluate"), *_entries([OUTPUT, *_rare_modules(machine)]), *families]
+
+
+def preparation_entries(methods: Methods) -> list[Entry]:
+    """What it takes to prepare a machine for these methods."""
+    machine, path, integrator = methods.machine, methods.path, methods.integrator
+    modules = _rare_modules(machine)
+    twins: list[Entry] = []
+    if integrator.residual or methods.solves_residual:
+        modules += _node_modules(methods)
+        plain = bool(integrator.step_residual) or integrator.directional_tangent or methods.formulation == "lagrange"
+        residual = integrator.over_step(machine.is_flexible) or path.residual
+        twins = _with_twins(residual, modules, _families(machine), held=not plain)
+        twins += _with_twins(path.residual, [], []) if methods.solves_residual else []
+        twins.append(entry_of(RESIDUAL))
+    if integrator.accelerations and path.dependent:
+        modules.append(path.dependent)
+    if methods.coordinates == "relative":
+        modules += [COMPLETIONS[0]] * (not methods.solves_residual) + [COMPLETIONS[1]] * methods.solves_residual
+        modules += [COMPLETIONS[2]] * machine.is_flexible
+    return [*assembly_entries(machine), entry_of(f"{path.module}:evaluate"), *_entries(modules), *twins]
+
+
+def run_entries(plan: Plan) -> list[Entry]:
+    """What a run takes."""
+    methods = plan.methods
+    step = entry_of(f"{methods.integrator.module}:{methods.integrator.function}")
+    modules = [LOOP, *([WATCH] if _watches(methods.machine, methods.chooses_steps) else [])]
+    path = methods.path
+    after_steps = f"{path.correction}:correct" if plan.stabilisation.CORRECTS else f"{path.module}:normalise_state"
+    return [*preparation_entries(methods), step, *_entries(modules), entry_of(after_steps)]
+
+
+def statics_entries(methods: Methods) -> list[Entry]:
+    """What statics takes, in these coordinates."""
+    modules = [*_rare_modules(methods.machine), *_node_modules(methods)]
+    twins = _with_twins(methods.path.residual, modules, _families(methods.machine))
+    return [*preparation_entries(methods), *_entries([STATICS]), *twins]
+
+
+def kinematics_entries(methods: Methods) -> list[Entry]:
+    """What a kinematic analysis takes."""
+    correct = entry_of(f"{methods.path.correction}:correct")
+    return [*preparation_entries(methods), *_entries([FOLLOWING]), correct]
+
+
+def linear_entries(methods: Methods) -> list[Entry]:
+    """What exact derivatives at an instant take."""
+    modules = [*_rare_modules(methods.machine), *_node_modules(methods)]
+    twins = _with_twins(methods.path.residual, modules, _families(methods.machine), held=False)
+    sensors = _twins(SENSOR) if methods.machine.sensors else []
+    return [*preparation_entries(methods), *twins, *sensors, *_entries([TANGENT_ENTRIES])]
+
+
+def all_entries() -> list[Entry]:
+    """Every entry that any run may need, those that take longest to compile first."""
+    paths, integrators = (*PATHS.values(), *FLEXIBLE.values()), INTEGRATORS.values()
+    special = (*BY_MODES.values(), *BY_CIRCUITS.values(), *BY_FLEXIBLE_CIRCUITS.values())
+    modules = [facts.module for facts in (*integrators, *special)]
+    modules += [
+        module for facts in paths for module in (facts.module, facts.correction, facts.residual, facts.dependent)
+    ]
+    modules += [module for facts in integrators for module in (facts.step_residual, facts.step_residual_flexible)]
+    modules += [
+        MEASURE,
+        FRICTION,
+        RAIL,
+        POINTS,
+        SENSOR,
+        WATCH,
+        SAMPLING,
+        IMPLICIT_ACCELERATIONS,
+        IMPLICIT_CORRECTION,
+        *COMPLETIONS,
+    ]
+    modules += [
+        OF_BEAMS,
+        GIVEN_FRICTION,
+        OF_MODES,
+        OF_SLIDERS,
+        PASSING,
+        LOOP,
+        FOLLOWING,
+        PACED,
+        REPEATED,
+        STATICS,
+        TANGENT_ENTRIES,
+        OUTPUT,
+    ]
+    families = dict.fromkeys(
+        [
+            *(each for kind in FORCES.values() for each in kind.families),
+            *CIRCUITS,
+            *BEAMS,
+            read_inputs,
+            compute,
+            state_rate,
+            run_expression,
+        ]
+    )
+    twins = [twin for module in _with_derivatives() for twin in _twins(module)]
+    twins += [family.twin for family in (*families, hold)] + _twins(SENSOR)
+    entries = [*_entries(module for module in modules if module), *(family.code for family in families), *twins]
+    return [*dict.fromkeys(entries)]
+
+
+def _entries(modules: Iterable[str]) -> list[Entry]:
+    """The entries of modules, on real numbers."""
+    out = []
+    for module in dict.fromkeys(modules):
+        parts = vars(import_module(module)).values()
+        entries = [
+            part.code if isinstance(part, Family) else part for part in parts if isinstance(part, Family | Entry)
+        ]
+        out += [entry for entry in entries if entry.name.startswith(f"{module}:")]
+    return out
+
+
+def _twins(module: str) -> list[Entry]:
+    """The families of a module on complex numbers."""
+    parts = vars(import_module(module)).values()
+    return [part.twin for part in parts if isinstance(part, Family) and part.module == module]
+
+
+def _with_twins(residual: str, used: Sequence[str], families: Iterable[Family], *, held: bool = True) -> list[Entry]:
+    """A residual, and on complex numbers it and what a run uses: modules, families. held : elements of beams are found by hand."""
+    needed = [residual, *(module for module in _with_derivatives() if module in used)]
+    if FRICTION in used:
+        needed.append(GIVEN_FRICTION)
+    of_forces = [(hold if held and family is ELASTIC else family).twin for family in families]
+    return [*_entries(needed), *of_forces, *(twin for module in needed for twin in _twins(module))]
+
+
+def _with_derivatives() -> list[str]:
+    """Modules, besides those of forces, that exact derivatives may need on complex numbers."""
+    residuals = [path.residual for path in (*PATHS.values(), *FLEXIBLE.values()) if path.residual]
+    residuals += [
+        module
+        for facts in INTEGRATORS.values()
+        for module in (facts.step_residual, facts.step_residual_flexible)
+        if module
+    ]
+    return [*dict.fromkeys(residuals), MEASURE, RAIL, GIVEN_FRICTION, POINTS, OF_MODES, OF_SLIDERS]
+
+
+def _families(machine: MachineRecord) -> list[Family]:
+    """The families of forces that a machine has, and what runs its expressions."""
+    families = dict.fromkeys(family for force in machine.forces for family in FORCES[force.type].families)
+    families |= dict.fromkeys(families_of(machine))
+    families |= dict.fromkeys(family_of(beam) for beam in machine.beams)
+    families |= dict.fromkeys([read_inputs] if machine.inputs else [])
+    families |= dict.fromkeys([compute, state_rate] if machine.control else [state_rate] if machine.states else [])
+    return [*families, run_expression]
+
+
+def _node_modules(methods: Methods) -> list[str]:
+    """Modules of nodes of the tree that are no joints."""
+    of_modes = [OF_MODES] if methods.machine.is_flexible and methods.coordinates == "relative" else []
+    return [*of_modes, *([OF_SLIDERS, PASSING] if methods.sliding else [])]
+
+
+def _watches(machine: MachineRecord, chooses_steps: bool) -> bool:
+    """Whether events are looked for: of the machine, or where steps are chosen contacts and stops."""
+    return bool(machine.events) or (chooses_steps and _has_surfaces(machine))
+
+
+def _has_surfaces(machine: MachineRecord) -> bool:
+    """Whether something may touch: contacts, stops, ends of cylinders."""
+    return any(force.type in FOLLOWED for force in machine.forces) or any(
+        isinstance(component, Actuator) for component in machine.hydraulics
+    )
+
+
+def _rare_modules(machine: MachineRecord) -> list[str]:
+    """Modules of what only some machines have, besides forces: measured coordinates, friction, sensors, samples."""
+    types = {force.type for force in machine.forces}
+    measured = (
+        machine.joints or machine.drivers or machine.sensors or machine.events or machine.hydraulics or types - {*LOADS}
+    )
+    needed = {
+        MEASURE: bool(measured),
+        FRICTION: "friction" in types,
+        RAIL: any(JOINT_KINDS[joint.type].rail for joint in machine.joints),
+        POINTS: any(beam.has_gradients for beam in machine.beams),
+        SENSOR: bool(machine.sensors),
+        SAMPLING: any(state.update is not None for state in machine.states)
+        or bool(machine.control or types & {*DRIVES}),
+        OF_BEAMS: ELASTIC in map(family_of, machine.beams),
+    }
+    return [module for module, asked in needed.items() if asked]

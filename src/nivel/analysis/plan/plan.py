@@ -1,0 +1,127 @@
+"""What a run will be, decided before anything is built or computed: the methods, where they are, and all settings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from types import ModuleType
+
+from nivel.analysis.plan.choice import choose_coordinates, choose_cut, slides, with_integrator
+from nivel.analysis.plan.combinations import refuse_combinations
+from nivel.analysis.plan.modal_stiffness import integrator_of
+from nivel.analysis.plan.refusals import (
+    refuse_conserved_drivers,
+    refuse_flexible_lagrange,
+    refuse_for_shared_mass,
+    refuse_friction_at_jumps,
+    refuse_rough_motions,
+    refuse_samples_between_steps,
+    refuse_stiction_over_steps,
+)
+from nivel.analysis.plan.rolling import refuse_rolling_by_positions
+from nivel.analysis.plan.settings import RunSettings, complete
+from nivel.analysis.plan.unused_settings import unused_settings
+from nivel.errors import Fault, ModelError
+from nivel.integrate.catalogue import IntegratorFacts, chooses
+from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.settings import SimulationSettings
+from nivel.motion.catalogue import FORMULATIONS, IMPLICIT_ACCELERATIONS, PathFacts, path_of
+from nivel.system.beam_nodes import with_nodes
+
+
+@dataclass(frozen=True)
+class Methods:
+    """How the equations of motion of a machine are written.
+
+    machine : with the nodes of its beams as bodies. cut : its settings with the joints that are cut in relative coordinates. path : where
+    the equations are. sliding : whether beams carry bodies that slide along them.
+    """
+
+    machine: MachineRecord
+    formulation: str
+    coordinates: str
+    cut: SimulationSettings
+    sliding: bool
+    path: PathFacts
+    integrator: IntegratorFacts
+
+    @property
+    def solves_residual(self) -> bool:
+        """Whether accelerations are found by the residual."""
+        return self.path.module == IMPLICIT_ACCELERATIONS
+
+    @property
+    def penalised(self) -> bool:
+        """Whether constraints enter by penalties."""
+        return FORMULATIONS[self.formulation].factor > 0.0
+
+    @property
+    def chooses_steps(self) -> bool:
+        """Whether steps follow the error."""
+        return chooses(self.machine.simulation.integrator, self.machine.simulation.step_control)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """One run: the machine as it was written, its settings completed, and its methods."""
+
+    machine: MachineRecord
+    settings: RunSettings
+    methods: Methods
+
+    @property
+    def stabilisation(self) -> ModuleType:
+        """The module of `nivel.integrate.stabilise`."""
+        return STABILISATIONS[self.settings.stabilisation]
+
+
+def plan_run(machine: MachineRecord, given: Collection[str] = ()) -> Plan:
+    """The run of `machine` with its own settings. given : settings that were asked for this run, and must have an effect.
+
+    Raises ModelError with everything that does not go together.
+    """
+    machine = with_integrator(machine)
+    coordinates, formulation = choose_coordinates(machine), machine.simulation.formulation
+    settings: list[RunSettings] = []
+
+    def complete_settings() -> None:
+        settings.append(complete(machine.simulation, coordinates))
+        refuse_samples_between_steps(machine, settings[0].step, fixed=settings[0].steps > 0)
+
+    checks: list[Callable[[], object]] = [
+        complete_settings,
+        lambda: refuse_for_shared_mass(machine, formulation, coordinates),
+        lambda: refuse_flexible_lagrange(machine, formulation),
+        lambda: refuse_conserved_drivers(machine),
+        lambda: refuse_stiction_over_steps(machine),
+        lambda: refuse_rough_motions(machine),
+        lambda: refuse_rolling_by_positions(machine, coordinates),
+        lambda: refuse_friction_at_jumps(machine),
+    ]
+    faults: list[Fault] = [*unused_settings(given, machine.simulation, coordinates)]
+    for check in checks:
+        try:
+            check()
+        except ModelError as error:
+            faults += error.faults
+    if faults:
+        raise ModelError(faults)
+    return Plan(machine, settings[0], methods_of(machine, formulation, coordinates))
+
+
+def methods_of(machine: MachineRecord, formulation: str = "newton-euler", coordinates: str = "absolute") -> Methods:
+    """Where the equations of these methods are, for the rotations, cut joints and integrator of the machine's own settings.
+
+    Raises ModelError where they do not go together.
+    """
+    machine = with_nodes(machine)
+    refuse_for_shared_mass(machine, formulation, coordinates)
+    refuse_flexible_lagrange(machine, formulation)
+    simulation, cut = machine.simulation, choose_cut(machine)
+    sliding = slides(machine, coordinates, formulation, cut)
+    kinds = {"flexible": machine.is_flexible, "shared": machine.shares_mass, "sliding": sliding}
+    path = path_of(coordinates, formulation, simulation.rotations, **kinds)
+    if path is None:
+        raise ModelError(refuse_combinations(simulation.replace(formulation=formulation), coordinates))
+    return Methods(machine, formulation, coordinates, cut, sliding, path, integrator_of(machine, coordinates))

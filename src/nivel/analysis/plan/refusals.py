@@ -1,0 +1,303 @@
+"""What is refused before a run because its numbers would mean nothing, though the machine can be assembled."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.redundancy import Redundancy
+from nivel.analysis.loads.corners import corners_of
+from nivel.errors import Fault, ModelError
+from nivel.integrate.catalogue import INTEGRATORS, chooses
+from nivel.machine.coordinate_reference import resolve
+from nivel.machine.forces import Contact, Friction, Stop
+from nivel.machine.machine_record import MachineRecord
+from nivel.machine.python_law import PythonLaw
+from nivel.machine.settings import SimulationSettings
+from nivel.machine.table import Table
+from nivel.system.laws.laws import false_derivative
+from nivel.system.layout import reported
+from nivel.system.system import Array
+
+# Stops and contacts may start inside what they touch by this share of the machine's length, or of a radian.
+DEEPEST_START = 0.02
+# Times of samples are ends of steps to this share.
+WHOLE = 1e-9
+# The assembly may move a node of a beam by this share of the machine's length, or of a radian.
+FITS = 1e-8
+# and change its speed by this share of the machine's.
+BLOW = 1e-3
+
+
+def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array) -> None:
+    """Stops and contacts that start far inside what they touch: they would throw the machine apart."""
+    if not any(isinstance(force, Stop | Contact) for force in machine.forces):
+        return
+    motion.evaluate(0.0, y)
+    system, faults = motion.system, []
+    values = system.record.outputs.value
+    reports = reported(system.layout, len(values))
+    names = [variable.name for variable in reports]
+    for force in machine.forces:
+        if isinstance(force, Stop | Contact):
+            place = names.index(f"force.{force.name}.depth")
+            depth, units = float(values[place]), reports[place].units
+            deepest = DEEPEST_START * (system.size if units == "m" else 1.0)
+            if depth > deepest:
+                message = (
+                    f"starts {depth:.4g} {units} inside what it touches (up to {deepest:.3g} {units} are taken): it would throw the "
+                    f"machine apart; move the bodies, or the ends of the way"
+                )
+                faults.append(Fault("", 0, 0, f"forces.{force.name}", message))
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_samples_between_steps(machine: MachineRecord, step: float, *, fixed: bool) -> None:
+    """Sampled states and blocks whose times are not ends of fixed steps [s]."""
+    faults = []
+    times = [(f"states.{state.name}.every", state.every) for state in machine.states]
+    times += [
+        (f"control.{block.name}.{key}", getattr(block, key))
+        for block in machine.control
+        for key in ("sample_time", "offset", "latency")
+    ]
+    for place, time in times if fixed else ():
+        count = round(time / step) if time else 0
+        if time and (count < 1 or abs(count * step - time) > WHOLE * time):
+            message = (
+                f"{time:.6g} s is no whole number of steps of {step:.6g} s, and fixed steps stay as they are: "
+                f"`simulation: {{step: {time / max(count, 1):.6g}}}` would fit, or an integrator that chooses its steps"
+            )
+            faults.append(Fault("", 0, 0, place, message))
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_unsettled_multipliers(machine: MachineRecord, constraints: int) -> None:
+    """Methods without any damping as index 3: what a jump of the load leaves in the multipliers then alternates for ever."""
+    settings = machine.simulation
+    undamped = {
+        "newmark": settings.newmark.gamma == 0.5,
+        "hht": settings.hht.alpha == 0.0,
+        "generalised-alpha": settings.generalised_alpha.spectral_radius == 1.0,
+    }
+    if constraints and settings.stabilisation == "none" and undamped.get(settings.integrator):
+        message = (
+            f"'none' makes `integrator: {settings.integrator}` solve the positions' constraints alone (index 3), and without damping its "
+            f"multipliers never settle after a load changes: take direct (stabilised index 2), or damp: "
+            f"`generalised_alpha: {{spectral_radius: 0.8}}`, `hht: {{alpha: 0.1}}`"
+        )
+        raise ModelError(Fault("", 0, 0, "simulation.stabilisation", message))
+
+
+def refuse_stiction_over_steps(machine: MachineRecord) -> None:
+    """Stiction is a law of the acceleration at a time, of which a balance over a whole step knows nothing."""
+    if not INTEGRATORS[machine.simulation.integrator].step_residual:
+        return
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"forces.{force.name}.model",
+            f"'stiction' does not go with `integrator: {machine.simulation.integrator}`, which balances momenta over whole steps, while "
+            f"sticking is a matter of the acceleration at a time: take generalised-alpha, or lugre, which sticks too",
+        )
+        for force in machine.forces
+        if isinstance(force, Friction) and force.model == "stiction"
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_conserved_drivers(machine: MachineRecord) -> None:
+    """Drivers prescribe speeds, which the energy constraint would have to scale. What a fixed step misses of a contact that begins in
+    it is no drift either: to scale all velocities for it would take momentum where no force does."""
+    if machine.simulation.stabilisation != "geometric":
+        return
+    faults = []
+    sudden = [force.name for force in machine.forces if isinstance(force, Contact | Stop)]
+    if sudden and not chooses(machine.simulation.integrator, machine.simulation.step_control):
+        message = (
+            f"'geometric' scales all velocities to the energy they should have, also for what a step of fixed size misses when "
+            f"{', '.join(sudden)} begin{'s' * (len(sudden) == 1)} to touch within it: take direct, or `integrator: dopri5`, whose steps "
+            f"end there"
+        )
+        faults.append(Fault("", 0, 0, "simulation.stabilisation", message))
+    if machine.drivers:
+        names = ", ".join(driver.name for driver in machine.drivers)
+        message = (
+            f"'geometric' scales velocities to the energy they should have, and {names} prescribe{'s' * (len(machine.drivers) == 1)} "
+            f"velocities: take direct"
+        )
+        faults.append(Fault("", 0, 0, "simulation.stabilisation", message))
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_rough_motions(machine: MachineRecord) -> None:
+    """Tables of drivers whose speed jumps, for integrators that would lose the jump within a step. Laws whose derivatives are not those of
+    what they return."""
+    faults = []
+    settings = machine.simulation
+    for driver in machine.drivers:
+        table, message = driver.value, ""
+        if isinstance(table, PythonLaw) and (wrong := false_derivative(table, settings.duration)):
+            message = (
+                f"the law `{table.function}` must return value, rate and acceleration that belong together: {wrong}"
+            )
+        elif isinstance(table, Table) and not INTEGRATORS[settings.integrator].velocity_jumps:
+            message = _jump_of(table, settings)
+        if message:
+            faults.append(Fault("", 0, 0, f"drivers.{driver.name}.value", message))
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_friction_at_jumps(machine: MachineRecord) -> None:
+    """Friction loaded by reactions where the speed of a driver jumps: the impulse through the joints would ask for one of friction."""
+    end = machine.simulation.duration
+    jumping = [
+        driver.name
+        for driver in machine.drivers
+        if isinstance(driver.value, Table)
+        and (
+            driver.value.ends_before(end)
+            or (driver.value.interpolation == "linear" and min(corners_of(driver.value, end), default=end) < end)
+        )
+    ]
+    loaded = [force.name for force in machine.forces if isinstance(force, Friction) and force.normal_load is None]
+    if jumping and loaded:
+        message = (
+            f"the speed of {', '.join(jumping)} jumps, and the friction of {', '.join(loaded)} is loaded by reactions, which are impulses "
+            f"there: give a `normal_load`, or take `interpolation: cubic` for the driver"
+        )
+        raise ModelError([Fault("", 0, 0, f"forces.{name}.normal_load", message) for name in loaded])
+
+
+def _jump_of(table: Table, settings: SimulationSettings) -> str:
+    """What is wrong with a table of a driver for an integrator that does not stop where its speed jumps; empty: nothing."""
+    end, first, last = settings.duration, table.times[0], table.times[-1]
+    lost = (
+        f"`integrator: {settings.integrator}` would lose the jump within a step: take `integrator: newmark`, hht or generalised-alpha, "
+        f"whose steps end there and begin with the new speed"
+    )
+    if first > 0.0 or table.ends_before(end):
+        return (
+            f"the table holds from {first:.6g} to {last:.6g} s and the run lasts from 0 to {end:.6g} s: beyond its ends the speed jumps to "
+            f"zero, and {lost}; or add points, or run for {last:.6g} s"
+        )
+    times = [time for time in corners_of(table, end) if time < last]
+    if table.interpolation == "linear" and times:
+        named = ", ".join(f"{time:.6g}" for time in times[:3]) + (", …" if len(times) > 3 else "")
+        return f"the speed of straight lines jumps at {named} s, and {lost}; or take `interpolation: cubic`, which has no corners"
+    return ""
+
+
+def _lumped(machine: MachineRecord) -> str:
+    """How the beams of a machine would have masses of single bodies, in words."""
+    if any(beam.has_gradients for beam in machine.beams):
+        return "beams of `model: segments`, or geometrically-exact ones of `mass: lumped`"
+    return "`mass: lumped` for the beams"
+
+
+def refuse_for_shared_mass(machine: MachineRecord, formulation: str, coordinates: str) -> None:
+    """Methods that need a mass matrix of single bodies, for beams of consistent mass."""
+    if not machine.shares_mass:
+        return
+    names = ", ".join(beam.name for beam in machine.beams if beam.shares_mass)
+    why = f"does not go with the consistent mass of {names}: take {{}}, or {_lumped(machine)}"
+    faults = []
+    if coordinates not in ("absolute", "relative"):
+        faults.append(("coordinates", f"'{coordinates}' {why.format('absolute or relative')}"))
+    if formulation != "newton-euler":
+        faults.append(("formulation", f"'{formulation}' {why.format('newton-euler')}"))
+    gradients = ", ".join(f"the {beam.model} {beam.name}" for beam in machine.beams if beam.has_gradients)
+    if INTEGRATORS[machine.simulation.integrator].step_residual and gradients:
+        message = (
+            f"'{machine.simulation.integrator}' does not go with {gradients}, whose velocities at the tips of gradients are no means of "
+            f"those at both ends of a step: take generalised-alpha, or beams of another `model`"
+        )
+        faults.append(("integrator", message))
+    out = [Fault("", 0, 0, f"simulation.{field}", message) for field, message in faults]
+    for force in machine.forces:
+        if isinstance(force, Friction) and not INTEGRATORS[machine.simulation.integrator].residual:
+            message = f"friction under `integrator: {machine.simulation.integrator}` {why.format('generalised-alpha')}"
+            out.append(Fault("", 0, 0, f"forces.{force.name}", message))
+        elif isinstance(force, Friction) and force.model == "stiction":
+            message = f"'stiction' {why.format('lugre or coulomb')}"
+            out.append(Fault("", 0, 0, f"forces.{force.name}.model", message))
+    if out:
+        raise ModelError(out)
+
+
+def refuse_flexible_lagrange(machine: MachineRecord, formulation: str) -> None:
+    """The Lagrange equations, which are for rigid bodies."""
+    names = ", ".join(body.name for body in machine.bodies if body.flexible is not None)
+    if names and formulation == "lagrange":
+        message = f"'lagrange' does not go with flexible bodies ({names}): take `formulation: newton-euler`, whose motion is the same"
+        raise ModelError(Fault("", 0, 0, "simulation.formulation", message))
+
+
+def refuse_moved_nodes(machine: MachineRecord, moved: Sequence[tuple[str, float, float]], size: float) -> None:
+    """Beams that the assembly would stress, by moving single nodes of them. moved : body, distance [m], angle [rad]."""
+    owners = {name: beam.name for beam in machine.beams for name in beam.node_names}
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"beams.{owners[name]}",
+            f"its joints do not fit: the assembly would move its node {name} by {distance:.3g} m and {angle:.3g} rad, and stress it; place "
+            f"the beam, or what is joined to it, so that they meet to {FITS * size:.0e} m, and drivers so that they start there",
+        )
+        for name, distance, angle in moved
+        if name in owners and max(distance / size, angle) > FITS
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_struck_nodes(
+    machine: MachineRecord, changes: Sequence[tuple[str, float, float]], speed: float, turning: float
+) -> None:
+    """Velocities of joints that the assembly would give to single nodes of beams: a blow, not a motion. Drivers may strike them.
+
+    changes : body, speed [m/s], angular speed [rad/s]. speed, turning : largest ones of the machine [m/s, rad/s].
+    """
+    owners = {name: beam.name for beam in machine.beams for name in beam.node_names}
+    struck = [
+        (name, change, turn)
+        for name, change, turn in changes
+        if name in owners and not machine.drivers and (change > BLOW * speed or turn > BLOW * turning)
+    ]
+    faults = [
+        Fault(
+            "",
+            0,
+            0,
+            f"beams.{owners[name]}",
+            f"the velocities of its joints change that of its node {name} alone by {change:.3g} m/s and {turn:.3g} rad/s: a blow. Give the "
+            f"beam its `velocity` (of its start) and `angular_velocity`, with which it moves as a whole",
+        )
+        for name, change, turn in struck
+    ]
+    if faults:
+        raise ModelError(faults)
+
+
+def refuse_uncertain_loads(machine: MachineRecord, redundancy: Redundancy) -> None:
+    """Friction whose normal load is a reaction that the equations do not determine: the motion would be one of many."""
+    faults = []
+    for force in machine.forces:
+        if isinstance(force, Friction) and force.normal_load is None:
+            joint, _ = resolve(force.coordinate, machine.joints)
+            if joint in redundancy.non_unique_joints:
+                message = (
+                    f"the reaction of {joint}, which loads this friction, is not unique: {', '.join(redundancy.redundant_rows)} "
+                    f"repeat other constraints; give a `normal_load`, or replace joints until nothing is redundant"
+                )
+                faults.append(Fault("", 0, 0, f"forces.{force.name}.coordinate", message))
+    if faults:
+        raise ModelError(faults)

@@ -1,0 +1,195 @@
+"""Settings of a run: what was asked for, completed and checked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+
+from nivel.analysis.plan.combinations import refuse_combinations
+from nivel.errors import Fault, ModelError
+from nivel.integrate.catalogue import INTEGRATORS, IntegratorFacts, chooses
+from nivel.integrate.newmark.alpha_constants import CHOSEN_STEPS, FIXED_STEPS, generalised_alpha, hht, newmark
+from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.machine.settings import Corrector, Penalty, SimulationSettings
+from nivel.machine.units.arithmetic import ExpressionError
+from nivel.machine.units.quantity import expression_fault, read_quantity, shown
+from nivel.motion.catalogue import FORMULATIONS
+
+# Without an output interval: the shortest multiple of the step that gives at most this many frames.
+FRAMES = 1000
+# More steps than this are a slip of the pen: at a microsecond each they take more than ten days.
+MOST_STEPS = 1e12
+# The round-off of some thousand steps; a verification runs with a tenth of the tolerance.
+LEAST_TOLERANCE = 1e-12
+# Of the changes of an iteration, as shares of the scales: below, they are round-off.
+LEAST_CHANGE = 1e-15
+
+
+@dataclass(frozen=True)
+class RunSettings:
+    """Everything that decides a run. Times in s; coordinates as chosen.
+
+    steps : in all, `every` of them between frames; both 0 where the integrator chooses its steps. tolerance, corrector, penalty : None
+    where the methods have none. constants : of the integrator, as its module wants them.
+    """
+
+    duration: float
+    step: float
+    output_interval: float
+    every: int
+    steps: int
+    integrator: str
+    formulation: str
+    coordinates: str
+    stabilisation: str
+    rotations: str
+    tolerance: float | None
+    largest_step: float
+    corrector: Corrector | None
+    penalty: Penalty | None
+    baumgarte: tuple[float, float] | None
+    constants: tuple[float, ...] = ()
+    start: str = "as-given"
+
+    def as_dict(self) -> dict[str, object]:
+        """For the result's `settings`."""
+        names = ("duration", "step", "output_interval", "integrator", "formulation", "coordinates", "stabilisation")
+        out: dict[str, object] = {name: getattr(self, name) for name in names}
+        if self.start != "as-given":
+            out["start"] = self.start
+        if self.formulation == "lagrange":
+            out["rotations"] = self.rotations
+        if self.tolerance is not None:
+            out["tolerance"], out["largest_step"] = self.tolerance, self.largest_step
+        for name in ("corrector", "penalty"):
+            if (given := getattr(self, name)) is not None:
+                out[name] = given.model_dump(exclude_none=True)
+        if self.constants:
+            names = ("alpha_m", "alpha_f", "beta", "gamma", "delta_m", "delta_f", "theta")
+            out["constants"] = dict(zip(names, self.constants, strict=True))
+        if self.baumgarte is not None:
+            out["baumgarte"] = {"alpha": self.baumgarte[0], "beta": self.baumgarte[1]}
+        return out
+
+
+def complete(settings: SimulationSettings, coordinates: str = "absolute") -> RunSettings:
+    """Complete settings; `coordinates` are what `auto` means for the machine.
+
+    Raises ModelError where words are not known or do not go together, or the output interval is not a multiple of the step.
+    """
+    faults: list[Fault] = []
+    for field, known in (
+        ("integrator", INTEGRATORS),
+        ("formulation", FORMULATIONS),
+        ("stabilisation", STABILISATIONS),
+    ):
+        word = getattr(settings, field)
+        if word not in known:
+            faults.append(_fault(field, f"'{word}' is not known; known are {', '.join(known)}"))
+    facts = INTEGRATORS.get(settings.integrator)
+    chosen_steps = chooses(settings.integrator, settings.step_control)
+    countable = settings.duration <= MOST_STEPS * settings.step
+    if not chosen_steps and not countable:
+        wanted = f"a `duration` of {settings.duration:.6g} s in steps of {settings.step:.6g} s"
+        message = f"{wanted} would take more than {MOST_STEPS:.0e} steps; use a larger step, or a shorter duration"
+        faults.append(_fault("step", message))
+    if facts is not None and facts.implicit and settings.corrector.tolerance < LEAST_CHANGE:
+        message = (
+            f"{settings.corrector.tolerance:.3g} is below {LEAST_CHANGE:.0e}, where round-off rules; ask for no less"
+        )
+        faults.append(_fault("corrector.tolerance", message))
+    steps, every, interval = 0, 0, settings.duration
+    if chosen_steps:
+        interval = settings.output_interval or settings.duration / FRAMES
+        if settings.duration > MOST_STEPS * interval:
+            faults.append(
+                _fault(
+                    "output_interval",
+                    f"{interval:.6g} s would give more than {MOST_STEPS:.0e} frames in a `duration` of {settings.duration:.6g} s",
+                )
+            )
+        if settings.largest_step is not None and settings.duration > MOST_STEPS * settings.largest_step:
+            wanted = f"{settings.largest_step:.6g} s would take more than {MOST_STEPS:.0e} steps"
+            faults.append(_fault("largest_step", f"{wanted} in a `duration` of {settings.duration:.6g} s"))
+        if settings.tolerance < LEAST_TOLERANCE:
+            message = f"{settings.tolerance:.3g} is below {LEAST_TOLERANCE:.0e}, where round-off rules; ask for no less"
+            faults.append(_fault("tolerance", message))
+    elif countable:
+        steps = max(1, ceil(settings.duration / settings.step * (1.0 - 1e-12)))
+        every = _every(settings, steps, faults)
+        interval = every * settings.step
+    chosen = coordinates if settings.coordinates == "auto" else settings.coordinates
+    faults += refuse_combinations(settings, chosen)
+    if faults:
+        raise ModelError(faults)
+    own = settings.baumgarte
+    return RunSettings(
+        duration=settings.duration,
+        step=settings.step,
+        output_interval=interval,
+        every=every,
+        steps=steps,
+        integrator=settings.integrator,
+        formulation=settings.formulation,
+        coordinates=chosen,
+        stabilisation=settings.stabilisation,
+        rotations=settings.rotations,
+        tolerance=settings.tolerance if chosen_steps else None,
+        largest_step=settings.largest_step or settings.duration,
+        corrector=_corrector(settings.corrector, facts) if facts is not None and facts.implicit else None,
+        penalty=settings.penalty if FORMULATIONS[settings.formulation].factor > 0.0 else None,
+        baumgarte=None if own is None else (own.alpha, own.beta),
+        constants=_constants(settings),
+        start=settings.start,
+    )
+
+
+def waiting_time(name: str, value: float | str) -> float:
+    """A time [s] that the option `name` gives as a number or a text; zero is none to wait. Raises ModelError."""
+    try:
+        seconds = read_quantity(value, "time", {})
+    except ExpressionError as problem:
+        raise ModelError(Fault("", 0, 0, name, expression_fault(problem, value).message())) from None
+    if seconds < 0.0:
+        raise ModelError(Fault("", 0, 0, name, f"a time was expected, got {shown(value)}"))
+    return seconds
+
+
+def _corrector(given: Corrector, facts: IntegratorFacts) -> Corrector:
+    """With an iteration: Newton's for methods with exact tangents, functional for the others where none was chosen."""
+    return given.replace(iteration="newton" if facts.residual else given.iteration or "functional")
+
+
+def _constants(settings: SimulationSettings) -> tuple[float, ...]:
+    """Constants of the integrator, where its user may choose them."""
+    match settings.integrator:
+        case "newmark":
+            return newmark(settings.newmark.beta, settings.newmark.gamma)
+        case "hht":
+            return hht(settings.hht.alpha)
+        case "generalised-alpha":
+            usual = CHOSEN_STEPS if settings.step_control == "error" else FIXED_STEPS
+            given = settings.generalised_alpha.spectral_radius
+            return generalised_alpha(usual if given is None else given)
+    return ()
+
+
+def _every(settings: SimulationSettings, steps: int, faults: list[Fault]) -> int:
+    if settings.output_interval is None:
+        return max(1, ceil(steps / FRAMES))
+    every = round(settings.output_interval / settings.step)
+    if every < 1 or abs(every * settings.step - settings.output_interval) > 1e-9 * settings.output_interval:
+        near = sorted(
+            {max(1, every), max(1, every) + (1 if settings.output_interval > every * settings.step else -1)} - {0}
+        )
+        choices = " or ".join(f"{k * settings.step:.6g}" for k in near)
+        message = (
+            f"{settings.output_interval:.6g} s is not a multiple of the step {settings.step:.6g} s: a fixed step stays fixed; "
+            f"use {choices} s"
+        )
+        faults.append(_fault("output_interval", message))
+    return max(1, every)
+
+
+def _fault(field: str, message: str) -> Fault:
+    return Fault("", 0, 0, f"simulation.{field}", message)

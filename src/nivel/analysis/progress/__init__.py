@@ -1,0 +1,1 @@
+"""How far a computation is, and how it is interrupted."""

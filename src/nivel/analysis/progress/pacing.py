@@ -1,0 +1,104 @@
+"""Two runs side by side: the second one never begins a step where the first one has not been, and makes shorter ones."""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from nivel.integrate.loop.run import ALLOWED, HORIZON, PARTS, TAKEN, TIME, Run
+from nivel.system.system import Array
+
+# A step of the second run is at most this share of the longest one that the first made at that time: of each part of the duration another
+# one, which follows no rule that loads may follow.
+SHORTEST, SPREAD, IRREGULAR = 0.5, 0.4, (math.sqrt(5.0) - 1.0) / 2.0
+# [s] a waiting run looks this often whether it is to end
+PATIENCE = 0.05
+
+
+class Pacing(Protocol):
+    """What accompanies a run from chunk to chunk."""
+
+    def before(self, run: Run) -> bool:
+        """Called before a chunk of steps. Whether the run is to go on."""
+        ...
+
+    def after(self, run: Run) -> None:
+        """Called after a chunk of steps."""
+        ...
+
+
+@dataclass
+class Leader:
+    """Tells how far a run is and how long its steps were. begun : set when its first step is about to begin."""
+
+    changed: threading.Condition = field(default_factory=threading.Condition)
+    begun: threading.Event = field(default_factory=threading.Event)
+    taken: Array = field(default_factory=lambda: np.zeros(PARTS))
+    time: float = 0.0
+    over: bool = False
+
+    def before(self, run: Run) -> bool:
+        self.begun.set()
+        return True
+
+    def after(self, run: Run) -> None:
+        with self.changed:
+            self.taken, self.time = run.pace[TAKEN].copy(), float(run.clock[TIME])
+            self.changed.notify_all()
+
+    def end(self) -> None:
+        """The run is over: there is nothing to wait for any more."""
+        with self.changed:
+            self.over = True
+            self.changed.notify_all()
+        self.begun.set()
+
+
+@dataclass
+class Follower:
+    """Bounds the steps of a run that chooses them by those of the run that leads, and keeps it behind. Without a leader it only asks
+    whether the run is to stop.
+
+    duration [s] : of both. stop : whether the run is to end. allowed : (PARTS,) [s] what its own settings allow, of the run
+    where None.
+    """
+
+    leader: Leader | None
+    duration: float
+    stop: Callable[[], bool]
+    allowed: Array | None = None
+
+    def before(self, run: Run) -> bool:
+        allowed = self.allowed = run.pace[ALLOWED].copy() if self.allowed is None else self.allowed
+        if self.leader is not None and not self._wait(self.leader, run, allowed):
+            return False
+        return not self.stop()
+
+    def after(self, run: Run) -> None:
+        """Nothing to tell."""
+
+    def _wait(self, leader: Leader, run: Run, allowed: Array) -> bool:
+        """Wait until the leader has left the part in which this run is; whether it has."""
+        while not self.stop():
+            with leader.changed:
+                parts = PARTS if leader.over else int(leader.time / self.duration * PARTS)
+                # what a step may be long depends on the next part, too
+                horizon = np.inf if leader.over else (parts - 1) / PARTS * self.duration
+                if horizon > run.clock[TIME]:
+                    known = leader.taken[:parts]
+                    bound = np.where(known > 0.0, _shares(parts) * known, np.inf)
+                    run.pace[ALLOWED, :parts] = np.minimum(allowed[:parts], bound)
+                    run.clock[HORIZON] = horizon
+                    return True
+                leader.changed.wait(PATIENCE)
+        return False
+
+
+def _shares(parts: int) -> Array:
+    """(parts,) deterministic and irregular numbers between SHORTEST and SHORTEST + SPREAD."""
+    return SHORTEST + SPREAD * np.modf(IRREGULAR * np.arange(1, parts + 1))[0]

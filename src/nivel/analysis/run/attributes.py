@@ -1,0 +1,67 @@
+"""What is known about a run before its first frame."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Protocol
+
+import nivel
+from nivel.analysis.run.preparation import Prepared
+from nivel.flexible.identity import fingerprint
+from nivel.machine.machine_record import MachineRecord
+from nivel.results.stress.body_sources import ATTRIBUTE, BodySource, as_attribute
+from nivel.system.beam_nodes import with_nodes
+from nivel.system.flexible import bending_bodies
+from nivel.system.scene import scene
+
+
+class Settings(Protocol):
+    """Settings of an analysis."""
+
+    def as_dict(self) -> dict[str, object]:
+        """For the result's `settings`."""
+        ...
+
+
+def run_attributes(
+    machine: MachineRecord, source: str, prepared: Prepared, settings: Settings
+) -> dict[str, str | float | int]:
+    """The attributes of a result, see `nivel.integrate.loop.sink.Header`; `source` is the text of the machine's file."""
+    system, assembly = prepared.motion.system, prepared.assembly
+    coordinates = system.layout.coordinates["joint_coordinate"]
+    return {
+        "machine": machine.name,
+        "machine_record": machine.model_dump_json(by_alias=True, exclude_none=True),
+        "machine_source": source,
+        "scene": json.dumps(
+            scene(with_nodes(machine), prepared.absolute.system)
+        ),  # relative coordinates move body frames
+        "settings": json.dumps(settings.as_dict()),
+        "nivel_version": nivel.__version__,
+        "outcome": "running",
+        "coordinate_units": json.dumps(dict(zip(coordinates, system.coordinate_units, strict=True))),
+        "constraint_units": json.dumps(dict(zip(system.rows, system.row_units, strict=True))),
+        ATTRIBUTE: as_attribute(_bodies(machine)),
+        "assembly": json.dumps(
+            {
+                "gap": assembly.gap,
+                "gap_row": assembly.gap_row,
+                "moved": assembly.moved,
+                "velocity_change": assembly.velocity_change,
+            }
+        ),
+    }
+
+
+def _bodies(machine: MachineRecord) -> list[BodySource]:
+    """Where the flexible bodies came from."""
+    out = []
+    for each in bending_bodies(machine):
+        if each.beam:
+            continue
+        body = machine.bodies[each.body]
+        assert body.flexible is not None
+        file = str(Path(body.flexible.file).resolve())
+        out.append(BodySource(body.name, file, each.modes, fingerprint(each.reduced)))
+    return out

@@ -1,0 +1,322 @@
+"""Motion in time: advance in chunks, feed the sinks, say how it ended."""
+
+from __future__ import annotations
+
+import time as clock_of_python
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
+from types import ModuleType
+from typing import NamedTuple
+
+import numpy as np
+
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.penalties import feedback
+from nivel.analysis.plan.settings import RunSettings
+from nivel.analysis.progress.interrupt import interruptible
+from nivel.analysis.progress.listener import Progress
+from nivel.analysis.progress.pacing import Pacing
+from nivel.analysis.run.divergence import GROWN, UNBOUND
+from nivel.analysis.run.fastest import fastest_beyond, held_step
+from nivel.analysis.run.history import start_history
+from nivel.analysis.run.lockup import Jam, can_be_asked, find_jam
+from nivel.analysis.run.outcome import failure
+from nivel.analysis.run.preparation import Prepared
+from nivel.integrate.loop.loop import advance
+from nivel.integrate.loop.run import (
+    ACCEPTED,
+    BUDGET,
+    CONSERVE,
+    DONE_STEPS,
+    EVALUATIONS,
+    EVENTS,
+    FACTORISATIONS,
+    FRAMES,
+    ITERATIONS,
+    OPEN_LIMIT,
+    REJECTED,
+    SHOWN,
+    STEP,
+    STOPPED,
+    TIME,
+    UNCONSERVED,
+    Run,
+)
+from nivel.integrate.loop.sink import Sink
+from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.kernels.core.handle import Handle
+from nivel.kernels.core.status import (
+    BUDGET_SPENT,
+    BUFFER_FULL,
+    CONTRADICTION,
+    DONE,
+    MULTIPLIERS_NOT_FOUND,
+    NOT_CLOSED,
+    NOT_CONVERGED,
+    NOT_FINITE,
+    OPEN,
+    SINGULAR,
+    STEP_TOO_SMALL,
+)
+from nivel.kernels.output.observe import observe
+from nivel.native.entry import Entry
+from nivel.results.frames.occurrence import Occurrence
+from nivel.system.system import Array, System
+
+# A chunk of the loop lasts about this long [s]; between chunks frames are written and Ctrl-C is looked at.
+CHUNK = 0.05
+GOES_ON = (BUDGET_SPENT, BUFFER_FULL)
+# What a method may end with near a position that its machine cannot pass.
+BEFORE_A_JAM = (SINGULAR, NOT_CLOSED, OPEN, NOT_CONVERGED, NOT_FINITE, STEP_TOO_SMALL, MULTIPLIERS_NOT_FOUND)
+
+
+@dataclass
+class RunOutcome:
+    """How a run ended. outcome: done, interrupted or failed; failure: (message, advice, time [s]).
+
+    events : in the order of time. stopped_by : name of the event that ended the run. asked_to_stop : Ctrl-C came; also while the last
+    steps were made, so that the run itself is done. pace : of `nivel.integrate.loop.run.Run`. last : (time [s], y) at the end.
+    """
+
+    outcome: str
+    events: list[Occurrence] = field(default_factory=list)
+    stopped_by: str = ""
+    asked_to_stop: bool = False
+    timing: dict[str, float] = field(default_factory=dict)
+    failure: tuple[str, str, float] | None = None
+    pace: Array | None = None
+    last: tuple[float, Array] | None = None
+
+
+class Loop(NamedTuple):
+    """What the compiled loop works on: entries of the equations, of what puts states back and of the step, the machine's record, that of
+    the run."""
+
+    evaluate: Entry
+    correct: Entry
+    step: Entry
+    machine: Handle
+    history: Handle
+
+    @property
+    def addresses(self) -> tuple[int, ...]:
+        """What `nivel.integrate.loop.loop.advance` is called with."""
+        codes = self.evaluate.address, self.correct.address, self.step.address
+        return *codes, int(self.machine.address), int(self.history.address)
+
+    def advance(self) -> int:
+        """Go on for the budget of steps in the history's counter. Returns a status."""
+        return advance(*self.addresses)
+
+
+def march(
+    prepared: Prepared,
+    settings: RunSettings,
+    sinks: Sequence[Sink],
+    *,
+    progress: Progress | None = None,
+    chunk_steps: int | None = None,
+    pacing: Pacing | None = None,
+) -> RunOutcome:
+    """Run `prepared` and give every frame to all `sinks` (already begun).
+
+    progress : called with the time reached [s] after every chunk. chunk_steps : steps a chunk, instead of as many as fit into 50 ms;
+    the result does not depend on it. pacing : accompanies the run from chunk to chunk.
+    """
+    system, loop = prepared.motion.system, start_loop(prepared, settings)
+    run = loop.history.record
+    finished = RunOutcome("done")
+    wall = clock_of_python.perf_counter()
+    status, loop_seconds, jam = BUDGET_SPENT, 0.0, None
+    while status in GOES_ON and finished.outcome == "done":
+        status, spent = march_in_chunks(loop.advance, system, run, sinks, finished, progress, chunk_steps, pacing)
+        loop_seconds += spent
+        if status in BEFORE_A_JAM:
+            jam = jam_of(prepared, settings, run)
+        if status == OPEN and jam is None and can_be_asked(prepared):
+            accept_open(prepared.motion, run)
+            status = BUDGET_SPENT
+    if run.counter[STOPPED]:
+        finished.stopped_by = system.events[run.counter[STOPPED] - 1]
+    if status not in (*GOES_ON, DONE):
+        finished.outcome = "failed"
+        finished.failure = failure_of(prepared, settings, run, status, jam)
+        if status != CONTRADICTION:
+            keep_last(prepared.motion, run, sinks)
+    finished.pace, finished.last = run.pace, (float(run.clock[TIME]), run.y.copy())
+    finished.timing = {
+        **counts_of(system, run),
+        "loop_seconds": loop_seconds,
+        "wall_seconds": clock_of_python.perf_counter() - wall,
+    }
+    return finished
+
+
+def start_loop(prepared: Prepared, settings: RunSettings) -> Loop:
+    """The compiled loop at the start of a run of `prepared`."""
+    stabilisation = STABILISATIONS[settings.stabilisation]
+    _feed_back(prepared.motion.system, settings, stabilisation)
+    kernels, facts = prepared.motion.kernels, prepared.integrator
+    correct = import_module(prepared.path.correction).correct if stabilisation.CORRECTS else kernels.normalise_state
+    run = start_history(prepared, settings, facts)
+    run.counter[CONSERVE] = int(stabilisation.CONSERVES)
+    step = getattr(import_module(facts.module), facts.function)
+    return Loop(kernels.evaluate, correct, step, prepared.motion.handle, Handle(run))
+
+
+def _feed_back(system: System, settings: RunSettings, stabilisation: ModuleType) -> None:
+    """Set what the stabilisation, or a penalty method, adds to the accelerations of the constraints, and what it leaves open."""
+    stabilise = system.record.control.stabilise
+    stabilise[:] = stabilisation.coefficients(settings.step, *(settings.baumgarte or (None, None)))
+    if settings.penalty is not None:
+        stabilise[:2] = feedback(settings.penalty, settings.step, stabilisation.CORRECTS)
+
+
+def march_in_chunks(
+    advance: Callable[[], int],
+    system: System,
+    run: Run,
+    sinks: Sequence[Sink],
+    finished: RunOutcome,
+    progress: Progress | None,
+    chunk_steps: int | None,
+    pacing: Pacing | None = None,
+) -> tuple[int, float]:
+    """The last status, and the time [s] spent in the compiled loop. Events, and an interruption, are noted in `finished`."""
+    budget, loop_seconds, status = chunk_steps or 1, 0.0, BUDGET_SPENT
+    with interruptible() as interrupted:
+        while status in GOES_ON:
+            if pacing is not None and not pacing.before(run):
+                finished.outcome = "interrupted"
+                break
+            run.counter[BUDGET] = budget
+            begin = clock_of_python.thread_time()
+            status = advance()
+            spent = clock_of_python.thread_time() - begin
+            loop_seconds += spent
+            give_frames(run, sinks)
+            finished.events += taken_events(run, system.events)
+            if progress is not None:
+                progress(float(run.clock[TIME]))
+            if pacing is not None:
+                pacing.after(run)
+            if chunk_steps is None and status == BUDGET_SPENT:
+                budget = _next_budget(budget, spent)
+            if status in GOES_ON and interrupted():
+                finished.outcome = "interrupted"
+                break
+        finished.asked_to_stop = interrupted()
+    return status, loop_seconds
+
+
+def _next_budget(budget: int, spent: float) -> int:
+    """Steps of the next chunk, after one of `budget` steps took `spent` [s]: as many as last for CHUNK, at most twice as many."""
+    if spent < CHUNK:
+        return max(1, min(2 * budget, int(budget * CHUNK / max(spent, 1e-9))))
+    return max(1, budget // 2)
+
+
+def jam_of(prepared: Prepared, settings: RunSettings, run: Run) -> Jam | None:
+    """The jam in or beside the step after the last accepted state."""
+    time = float(run.clock[ACCEPTED])
+    step = max(float(run.clock[STEP]), float(run.clock[TIME]) - time)
+    return find_jam(prepared, time, step, settings.step, settings.duration, run.previous)
+
+
+def accept_open(motion: MotionEquations, run: Run) -> None:
+    """Let the run go on with joints that are open, as they can be closed: they have drifted. Looked at again when that has doubled."""
+    motion.evaluate(float(run.clock[TIME]), run.y)
+    constraints = motion.system.record.constraints
+    share = float(np.max(np.abs(constraints.C) / constraints.scale))
+    run.clock[OPEN_LIMIT] = 2.0 * max(share, run.clock[OPEN_LIMIT]) if np.isfinite(share) else np.inf
+
+
+def failure_of(
+    prepared: Prepared, settings: RunSettings, run: Run, status: int, jam: Jam | None
+) -> tuple[str, str, float]:
+    """(message, advice, time [s]) of a run that failed."""
+    facts, time = prepared.integrator, float(run.clock[ACCEPTED])
+    if jam is not None:
+        return f"stopped at t = {time:.6g} s: {jam.message}", jam.advice, time
+    explicit = settings.steps > 0 and not (facts.implicit or facts.residual)
+    message, advice = failure(
+        prepared.motion,
+        status,
+        time,
+        float(run.clock[STEP]),
+        run.previous,
+        chosen_by=settings.integrator if settings.steps == 0 else "",
+        beams=prepared.beams if explicit else (),
+    )
+    return (*(_with_fastest(prepared, settings, run, message, advice) if explicit else (message, advice)), time)
+
+
+def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, message: str, advice: str) -> tuple[str, str]:
+    """Message and advice, led by the part that is too fast for the step where there is one. Where it is so from the start, and the state
+    has grown without bound, what failed in the end only shows that."""
+    time = float(run.clock[ACCEPTED])
+    found = fastest_beyond(prepared, settings.integrator, settings.step, time, run.previous)
+    if found is None:
+        return message, advice
+    of = f", of {found.part}" if found.part else ""
+    step = held_step(settings.integrator, found.rate)
+    cause = (
+        f"The fastest rate here is {found.rate:.2g}/s{of}: {settings.integrator} holds it with steps below {step:.2g} s, "
+        f"`integrator: radau` with any."
+    )
+    start, last = (float(np.max(np.abs(y), initial=0.0)) for y in (prepared.start, run.previous))
+    if UNBOUND not in message and found.time == 0.0 and not last < GROWN * max(start, prepared.motion.system.size):
+        return f"stopped at t = {time:.6g} s: {UNBOUND}; a step of {settings.step:.3g} s is too long for it", cause
+    return message, f"{cause} {advice}"
+
+
+def counts_of(system: System, run: Run) -> dict[str, float]:
+    """What the run did how often; of partitions, how often independent coordinates were chosen anew."""
+    return {
+        "steps": int(run.counter[DONE_STEPS]),
+        "evaluations": int(run.counter[EVALUATIONS]),
+        "iterations": int(run.counter[ITERATIONS]) + int(system.record.control.iterations[1]),
+        "factorisations": int(run.counter[FACTORISATIONS]),
+        "rejected": int(run.counter[REJECTED]),
+        "unconserved": int(run.counter[UNCONSERVED]),
+        "guarded": int(system.record.circuit.guard[0]),
+        "pressure_difference": float(system.record.circuit.guard[1]),
+        "partitions": max(0, int(system.record.partition.choices.sum()) - 1),
+    }
+
+
+def keep_last(motion: MotionEquations, run: Run, sinks: Sequence[Sink]) -> None:
+    """Give the last accepted state before a failure, where it lies after the last frame and its accelerations are numbers."""
+    t, feedback = float(run.clock[ACCEPTED]), motion.system.record.control.stabilise[:2]
+    if not t > run.clock[SHOWN] or not np.isfinite(run.previous).all():
+        return
+    kept = feedback.copy()
+    # as in all frames, accelerations are those without Baumgarte's feedback
+    feedback[:] = 0.0
+    if motion.holds(t, run.previous):
+        frame = np.zeros((1, motion.system.layout.width))
+        frame[0, 0] = t
+        observe(motion.handle.address, t, run.previous, frame[0])
+        if np.isfinite(frame).all():
+            for sink in sinks:
+                sink.take(frame)
+    feedback[:] = kept
+
+
+def give_frames(run: Run, sinks: Sequence[Sink]) -> None:
+    filled = int(run.counter[FRAMES])
+    if filled:
+        for sink in sinks:
+            sink.take(run.frames[:filled])
+        run.counter[FRAMES] = 0
+
+
+def taken_events(run: Run, names: tuple[str, ...]) -> list[Occurrence]:
+    """Events of the buffer, which is empty then."""
+    filled = int(run.counter[EVENTS])
+    run.counter[EVENTS] = 0
+    return [
+        Occurrence(names[int(number)], float(time), "rising" if direction > 0.0 else "falling")
+        for time, number, direction in run.events[:filled]
+    ]

@@ -1,0 +1,108 @@
+"""What is looked at after a run beside the balance of energy: whether its steps saw its loads, and what a second run tells of its parts."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.analysis.loads.corners import corners
+from nivel.analysis.loads.path import steps_of
+from nivel.analysis.loads.sampled import between_samples
+from nivel.analysis.loads.seen import unseen_loads
+from nivel.analysis.plan.plan import Plan
+from nivel.analysis.run.dynamics import RunOutcome
+from nivel.analysis.run.passages import passages
+from nivel.analysis.run.preparation import Prepared
+from nivel.analysis.run.second_run import Verified
+from nivel.integrate.loop.run import TURNED
+from nivel.machine.forces import Contact
+from nivel.machine.shape import Sphere
+from nivel.results.passed_contacts import Pair, passed_contacts
+from nivel.results.result import Result
+from nivel.results.trust.accuracy import error_from_finer, extent
+from nivel.results.trust.bending import ModalBody, fastest_unstiffened, most_bent
+from nivel.results.trust.estimate import Estimate
+from nivel.results.trust.findings import Findings
+from nivel.results.trust.motion import Motion
+from nivel.results.trust.scales import machine_size
+from nivel.results.trust.second_look import damped, growth, own_error
+from nivel.results.trust.steps_seen import largest_turn, rounding
+from nivel.results.trust.unseen import Unseen
+from nivel.system.flexible import bending_bodies
+
+
+@np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning
+def find(
+    plan: Plan,
+    prepared: Prepared,
+    finished: RunOutcome,
+    result: Result,
+    verified: Verified | None,
+    estimate: Estimate | None,
+) -> Findings:
+    """Everything that was found of a run, whether it came to its end or not."""
+    if finished.pace is None or not len(result.time):
+        return Findings()
+    settings, fixed = plan.settings, plan.settings.steps > 0
+    turned, bending = finished.pace[TURNED], _bending(plan)
+    implicit = prepared.integrator.residual or prepared.integrator.circuit_tangent
+    return Findings(
+        unseen=_unseen(plan, prepared, finished, result),
+        between=tuple(between_samples(plan.machine, float(result.time[-1]))),
+        # where steps are chosen no body turns too far
+        turn=largest_turn(result, turned, settings.duration, counted=settings.coordinates == "relative")
+        if fixed
+        else None,
+        rounding=rounding(result, int(finished.timing["steps"])),
+        own=own_error(result, estimate) if estimate is not None else None,
+        damped=damped(result, verified.result) if verified is not None and implicit else None,
+        growth=growth(result, verified.result, verified.refinement.left) if verified is not None else None,
+        passed=tuple(passed_contacts(result, _pairs(plan))),
+        passages=tuple(passages(prepared, result)) if verified is not None else (),
+        unstiffened=fastest_unstiffened(result, bending),
+        bent=most_bent(result, bending),
+        method=settings.integrator,
+        agreed=_agreed(result, verified) if verified is not None else None,
+    )
+
+
+def _agreed(result: Result, verified: Verified) -> float:
+    """By what two runs are apart, as a share of the longest path of a body, or of the machine's size where that is more."""
+    apart = error_from_finer(result, verified.result, verified.refinement.left).value
+    return apart / extent(Motion.of(result), machine_size(result)[0])
+
+
+def _pairs(plan: Plan) -> list[Pair]:
+    """The contacts of two spheres."""
+    out, bodies = [], {each.name: each for each in plan.machine.bodies}
+    for force in plan.machine.forces:
+        if isinstance(force, Contact) and force.bodies is not None:
+            spheres = [bodies[name].shape for name in force.bodies]
+            assert all(isinstance(each, Sphere) for each in spheres)  # the record was checked
+            first, second = [np.array(each.centre or (0.0, 0.0, 0.0)) for each in spheres if isinstance(each, Sphere)]
+            reach = sum(each.radius for each in spheres if isinstance(each, Sphere))
+            out.append(Pair(force.name, force.bodies, (first, second), reach))
+    return out
+
+
+def _bending(plan: Plan) -> list[ModalBody]:
+    """The flexible bodies of the machine; those that stand for beams bend by any amount."""
+    out, first = [], 0
+    for each in bending_bodies(plan.machine) if plan.machine.is_flexible else ():
+        its, last = each.reduced, first + len(each.reduced.eigenvalues)
+        if not each.beam:
+            name = plan.machine.bodies[each.body].name
+            modes = np.nan_to_num(its.modes[:, :3])
+            out.append(ModalBody(name, first, last, its.eigenvalues, its.position, modes, bool(its.stiffening)))
+        first = last
+    return out
+
+
+def _unseen(plan: Plan, prepared: Prepared, finished: RunOutcome, result: Result) -> list[Unseen]:
+    end = float(result.time[-1])
+    if finished.pace is None or not end > 0.0:
+        return []
+    settings = plan.settings
+    step = settings.step if settings.steps else None
+    ends = corners(plan.machine) if step is None or prepared.integrator.knows_corners else ()
+    steps = steps_of(finished.pace, settings.duration, step, ends)
+    return list(unseen_loads(plan.machine, result, steps.until(end), prepared.integrator))

@@ -1,0 +1,250 @@
+"""The history of a run at its start: clocks, counters, scales of errors, room for frames and events, and nothing remembered."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.assembly.implicit import constraint_index
+from nivel.analysis.plan.settings import RunSettings
+from nivel.analysis.run.lockup import can_be_asked
+from nivel.analysis.run.preparation import Prepared
+from nivel.integrate.catalogue import IntegratorFacts
+from nivel.integrate.loop.run import (
+    ALL_STEPS,
+    ALLOWED,
+    CLOCKS,
+    CORRECTOR_TOLERANCE,
+    COUNTS,
+    DENSE_ROWS,
+    END,
+    EVERY,
+    HORIZON,
+    INTERVAL,
+    LARGEST,
+    LAST_FRAME,
+    LEAST,
+    MOST_ITERATIONS,
+    NEWTON,
+    OPEN_LIMIT,
+    ORDER,
+    PARTS,
+    SHOWN,
+    STEP,
+    SWITCHED,
+    TOLERANCE,
+    Run,
+)
+from nivel.integrate.stabilise.catalogue import STABILISATIONS
+from nivel.kernels.elements import friction as columns
+from nivel.kernels.output.observe import observe
+from nivel.kernels.record.record import WATCH
+from nivel.kernels.signals.sampling import sample
+from nivel.kernels.signals.watch import watch
+from nivel.kernels.solve.saddle import CONTRADICTORY, MOST_UNSETTLED
+from nivel.motion.direct import VISIBLE
+from nivel.results.trust.held import STILL
+from nivel.system.control import ONCE
+from nivel.system.elimination.partition import forget
+from nivel.system.system import Array, System
+
+BUFFER_BYTES = 1_000_000
+EVENT_ROWS = 1000
+# Stiction stops a joint within this many steps.
+STICK_STEPS = 2.0
+# Fixed steps that make a time in which a machine moves by its own length, at least.
+LONG = 1e4
+# Positions open by more than this share of the scales of their rows are beyond all drift, where nobody can tell whether the machine jams.
+TORN = 0.1
+# Scale of what nothing depends on.
+UNSEEN = 1e30
+# The integrator whose matrix has the secants of restrictions in place of their tangents.
+SECANT = "extrapolated-euler"
+
+
+def start_history(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> Run:
+    """History of a run at its start: energies referred to the assembled state, joint angles followed from it, nothing remembered."""
+    system, y = prepared.motion.system, prepared.start.copy()
+    width, count = system.layout.width, _counters(settings, facts)
+    rows = max(2, min(4096, BUFFER_BYTES // (8 * width)))
+    newton = len(y) if count[NEWTON] and not facts.residual else 0
+    numbers = np.zeros(facts.numbers)
+    numbers[: len(settings.constants)] = settings.constants
+    _forget_runs(prepared, settings, facts)
+    system.hold_sliders(y)
+    _begin_states(prepared, y)
+    _refer_energies(prepared, y)
+    values = _watch(system, chosen=settings.steps == 0)
+    count[SWITCHED] = system.record.watched.followed[0]
+    return Run(
+        clock=_clock(settings, _open_limit(prepared, settings)),
+        counter=count,
+        y=y,
+        rate=np.zeros_like(y),
+        previous=y.copy(),
+        scratch=np.zeros_like(y),
+        trial=np.zeros_like(y),
+        # a run of fixed steps takes no notice of how many more follow
+        scale=_scales(system, y, min(settings.duration, LONG * settings.step) if settings.steps else settings.duration),
+        raised=_raised(system, y).astype(np.uint32),
+        stages=np.zeros((facts.stages, len(y))),
+        numbers=numbers,
+        matrix=np.zeros((newton, newton)),
+        pivot=np.zeros(newton, dtype=np.uint32),
+        plain=system.map.plain,
+        turns=system.map.turns,
+        dense=np.zeros((DENSE_ROWS, len(y))),
+        frames=np.zeros((rows, width)),
+        event_values=np.zeros((6, values)),
+        samples=np.zeros(len(system.record.sampled.state), dtype=np.int64),
+        corners=np.array(prepared.corners, dtype=float),
+        pace=_pace(prepared, settings),
+        events=np.zeros((EVENT_ROWS if len(system.record.watched.event) else 0, 3)),
+    )
+
+
+def _clock(settings: RunSettings, open_limit: float) -> Array:
+    clock = np.zeros(CLOCKS)
+    clock[STEP], clock[END], clock[INTERVAL] = settings.step, settings.duration, settings.output_interval
+    clock[TOLERANCE], clock[LARGEST] = settings.tolerance or 0.0, settings.largest_step
+    clock[SHOWN], clock[HORIZON] = -np.inf, np.inf
+    clock[OPEN_LIMIT] = open_limit
+    if settings.corrector is not None:
+        clock[CORRECTOR_TOLERANCE] = settings.corrector.tolerance
+    return clock
+
+
+def _pace(prepared: Prepared, settings: RunSettings) -> Array:
+    """Nothing done yet, and steps as long as the settings and the functions of time allow."""
+    pace = np.zeros((4, PARTS))
+    pace[LEAST] = np.inf
+    pace[ALLOWED] = settings.largest_step
+    if prepared.allowed is not None:
+        pace[ALLOWED] = np.minimum(pace[ALLOWED], prepared.allowed)
+    return pace
+
+
+def _open_limit(prepared: Prepared, settings: RunSettings) -> float:
+    """The share of the scales of the constraints by which positions may be open until it is asked whether the machine jams."""
+    if not can_be_asked(prepared):
+        return TORN
+    return VISIBLE if STABILISATIONS[settings.stabilisation].CORRECTS else CONTRADICTORY
+
+
+def _counters(settings: RunSettings, facts: IntegratorFacts) -> NDArray[np.int64]:
+    count = np.zeros(COUNTS, dtype=np.int64)
+    count[ALL_STEPS], count[EVERY], count[LAST_FRAME] = settings.steps, settings.every, -1
+    count[ORDER] = facts.order
+    if settings.corrector is not None:
+        count[MOST_ITERATIONS] = settings.corrector.most_iterations
+        count[NEWTON] = int(settings.corrector.iteration == "newton")
+    return count
+
+
+def _forget_runs(prepared: Prepared, settings: RunSettings, facts: IntegratorFacts) -> None:
+    """Everything that the record remembers of runs before, and what it has to know of this one."""
+    record = prepared.motion.system.record
+    record.control.iterations[1:] = 0, MOST_UNSETTLED
+    forget(record.partition, formulas=facts.accelerations)
+    record.newton.kept[:] = 0.0
+    record.newton.balanced[0] = 0.0
+    record.residual.vdot[:] = 0.0
+    record.residual.lam[:] = 0.0
+    if settings.corrector is not None:
+        record.newton.settings[:2] = settings.corrector.tolerance, settings.corrector.most_iterations
+        record.newton.settings[2] = settings.corrector.matrix == "full"
+    if len(record.newton.level):
+        record.newton.level[0] = constraint_index(settings.formulation, settings.stabilisation, prepared.path)
+    record.coordinates.reference[:] = prepared.assembly.reference
+    record.watched.followed[:] = 0
+    record.sampled.came[:] = 0
+    record.circuit.guard[:] = 0.0
+    record.circuit.secant[:] = settings.integrator == SECANT
+    record.elements.memory[:] = 0.0
+    record.elements.proposal[:] = 0.0
+    record.friction.force[:] = 0.0
+    # Where steps are chosen, the first one is still what the user calls a short time: stiction stops within two of them, and the error
+    # control makes steps as short as that takes. Bristles need no limit there, nor in implicit methods.
+    follows = settings.steps == 0 or facts.residual
+    record.control.stick[:] = STICK_STEPS * settings.step, 0.0 if follows else STICK_STEPS * settings.step
+    if len(record.friction.columns):
+        turns = record.friction.columns[:, columns.ROTATES] == 1
+        record.friction.number[:, columns.REST] = (
+            STILL * np.where(turns, 1.0, prepared.motion.system.size) / settings.duration
+        )
+
+
+def _begin_states(prepared: Prepared, y: Array) -> None:
+    """States that begin with what a function gives at t = 0, from there on: energies are referred to them."""
+    motion, sampled = prepared.motion, prepared.motion.system.record.sampled
+    begins = (sampled.period >= ONCE) & (sampled.offset == 0.0)
+    if not begins.any():
+        return
+    motion.evaluate(0.0, y)
+    sampled.due[:] = begins
+    sample.code(motion.handle.address, 0, 0.0)
+    first = len(y) - len(motion.system.start_of_states)
+    y[first + sampled.state[begins]] = sampled.value[begins]
+
+
+def _refer_energies(prepared: Prepared, y: Array) -> None:
+    """Energies of the record are referred to the state y."""
+    motion = prepared.motion
+    energy = motion.system.record.control.energy
+    energy[:] = 0.0
+    motion.evaluate(0.0, y)
+    observe(motion.handle.address, 0.0, y, np.zeros(motion.system.layout.width))
+    energy[2] = energy[0] + energy[1]
+
+
+def _watch(system: System, *, chosen: bool) -> int:
+    """Number of values whose zeros are looked for: events, and where steps are chosen, contacts and stops."""
+    watched = system.record.watched
+    if chosen:
+        watched.followed[0] = int(len(watched.surface) > 0)
+    count = len(watched.event) + (len(watched.surface) if watched.followed[0] else 0)
+    if count:
+        system.record.hooks.address[WATCH] = watch.address
+    return count
+
+
+def _scales(system: System, y: Array, duration: float) -> Array:
+    """What errors of the entries of y are measured by, at least: the machine's length, a radian, these once in the run, its energy at
+    such a speed; states of elements by their own scales.
+
+    The largest value that an entry has taken so far counts where it is larger.
+    """
+    mass = float(system.record.bodies.mass.sum())
+    energies = (
+        float(system.record.control.energy[0]),
+        _weight_energy(system),
+        0.5 * mass * (system.size / duration) ** 2,
+    )
+    energy = max(*energies, 1e-300)
+    floors = {"m": system.size, "1": 1.0, "m/s": system.size / duration, "1/s": 1.0 / duration}
+    units = np.array(system.map.units)
+    scale = np.array([floors.get(unit, 0.0) for unit in units])
+    scale[units == "kg^0.5 m"] = system.modal_sizes()
+    scale[units == "kg^0.5 m/s"] = system.modal_sizes() / duration
+    scale[len(scale) - len(system.start_of_states) :] = [
+        *(UNSEEN if fact.integral else fact.scale for fact in system.states),
+        energy,
+        energy,
+    ]
+    return np.where(_raised(system, y), np.maximum(scale, np.abs(y)), scale)
+
+
+def _raised(system: System, y: Array) -> NDArray[np.bool_]:
+    """Whether the scale of each entry of y follows its largest value."""
+    out = np.ones(len(y), dtype=bool)
+    out[len(y) - len(system.start_of_states) :] = [
+        *(fact.relative and not fact.integral for fact in system.states),
+        True,
+        True,
+    ]
+    return out
+
+
+def _weight_energy(system: System) -> float:
+    bodies = system.record.bodies
+    return float(bodies.mass.sum() * np.linalg.norm(bodies.gravity) * system.size)

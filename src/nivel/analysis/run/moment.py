@@ -1,0 +1,112 @@
+"""A machine prepared at a state: its start, its equilibrium, or a moment of a run; with the residual that exact derivatives need."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+
+import numpy as np
+
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.analysis.assembly.implicit import ResidualOptions, with_residual
+from nivel.analysis.plan.plan import Methods, Plan
+from nivel.analysis.progress.listener import Listener
+from nivel.analysis.run.dynamics import march
+from nivel.analysis.run.preparation import Prepared, arranged, prepare
+from nivel.errors import Fault, ModelError, SolveError
+from nivel.integrate.loop.sink import Header
+from nivel.results.frames.rotations import rotation_matrices
+from nivel.results.memory import Memory
+from nivel.system.system import Array
+
+# every derivative along directions, none by hand
+OPTIONS = ResidualOptions(along=True)
+
+
+@dataclass(frozen=True)
+class Moment:
+    """The equations of a machine with their residual, a time t [s] and the state y; prepared : as it starts."""
+
+    prepared: Prepared
+    motion: MotionEquations
+    t: float
+    y: Array
+
+
+@dataclass(frozen=True)
+class Posture:
+    """A state in absolute coordinates: q, Ṙ, ω̄ of all bodies, states of elements, modes and their rates, angles of joints."""
+
+    t: float
+    q: Array
+    velocity: Array
+    angular_velocity_b: Array
+    states: Array
+    modes: Array
+    modal_rates: Array
+    reference: Array
+
+
+def at_start(methods: Methods) -> Moment:
+    """The machine as it starts by its settings."""
+    prepared = prepare(methods)
+    return _with_residual(prepared, prepared.motion, 0.0, prepared.start, prepared.assembly.reference, methods)
+
+
+def at_posture(methods: Methods, posture: Posture) -> Moment:
+    """The machine in a posture. Raises ModelError for flexible bodies in relative coordinates."""
+    prepared = prepare(methods)
+    if len(posture.modes) and methods.coordinates == "relative":
+        message = "a moment of a run of flexible bodies is known in absolute coordinates: use --coordinates absolute"
+        raise ModelError(Fault("", 0, 0, "coordinates", message))
+    absolute = prepared.absolute.system
+    y = absolute.state(posture.q, posture.velocity, posture.angular_velocity_b)
+    absolute.record.coordinates.reference[:] = posture.reference
+    rank = absolute.machine_rows - len(prepared.redundancy.redundant_rows)
+    system, start = arranged(absolute, y, None, rank, methods)
+    modes = len(posture.modes)
+    if modes:
+        start[system.positions - modes : system.positions] = posture.modes
+        end = len(start) - len(system.start_of_states)
+        start[end - modes : end] = posture.modal_rates
+    start[len(start) - len(system.start_of_states) :][: len(posture.states)] = posture.states
+    motion = MotionEquations(system, import_module(methods.path.module))
+    return _with_residual(prepared, motion, posture.t, start, posture.reference, methods)
+
+
+def _with_residual(
+    prepared: Prepared, motion: MotionEquations, t: float, y: Array, reference: Array, methods: Methods
+) -> Moment:
+    equipped = with_residual(motion, y, methods.coordinates, OPTIONS)
+    equipped.system.record.coordinates.reference[:] = reference
+    return Moment(prepared, equipped, t, y)
+
+
+def run_until(plan: Plan, listener: Listener) -> Posture:
+    """The posture at the end of a run as planned. Raises SolveError where the run fails."""
+    prepared, sink = prepare(plan.methods), Memory()
+    layout = prepared.motion.system.layout
+    sink.begin(Header(layout, {}))
+    listener.say("running", plan.settings.duration)
+    outcome = march(prepared, plan.settings, [sink], progress=listener.progress)
+    if outcome.asked_to_stop:
+        raise KeyboardInterrupt
+    result = sink.result()
+    if outcome.failure is not None:
+        message, advice, at = outcome.failure
+        raise SolveError(f"the run to the state failed: {message}", time=at, advice=advice)
+    last = {name: result.array(name)[-1] for name in ("position", "orientation", "velocity", "angular_velocity")}
+    system, count = prepared.motion.system, prepared.motion.system.body_count
+    q = np.hstack([last["position"], last["orientation"]]).reshape(count, 7)
+    turned = rotation_matrices(q[:, 3:])
+    modal = [result.array(name)[-1] if system.modes else np.zeros(0) for name in ("modal_coordinate", "modal_rate")]
+    return Posture(
+        t=float(result.time[-1]),
+        q=q.ravel(),
+        velocity=last["velocity"],
+        angular_velocity_b=np.einsum("bij,bi->bj", turned, last["angular_velocity"]),
+        states=np.array([result.array(f"state.{fact.name}")[-1] for fact in system.states]),
+        modes=modal[0],
+        modal_rates=modal[1],
+        reference=system.record.coordinates.reference.copy(),
+    )

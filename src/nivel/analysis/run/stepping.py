@@ -1,0 +1,347 @@
+"""A machine that moves step by step, as its caller asks: for control in Python, learning, and coupling with other programs."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.plan.plan import Plan
+from nivel.analysis.run.attributes import run_attributes
+from nivel.analysis.run.bound_entry import BoundEntry
+from nivel.analysis.run.dynamics import BEFORE_A_JAM, failure_of, jam_of, start_loop, taken_events
+from nivel.analysis.run.preparation import Prepared, prepare
+from nivel.arguments import plain
+from nivel.errors import Fault, ModelError, SolveError
+from nivel.files.writer import write_machine
+from nivel.integrate.loop.loop import advance
+from nivel.integrate.loop.run import (
+    ALL_STEPS,
+    BUDGET,
+    DONE_STEPS,
+    END,
+    EVENTS,
+    EVERY,
+    FRAMES,
+    RESTART,
+    STOPPED,
+    TIME,
+    Run,
+)
+from nivel.integrate.loop.sink import Header
+from nivel.kernels.core.status import BUDGET_SPENT, BUFFER_FULL, DONE, OK
+from nivel.kernels.output.observe import observe
+from nivel.kernels.record.function import CONSTANT
+from nivel.results.frames.occurrence import Occurrence
+from nivel.results.memory import Memory, MemoryContents
+from nivel.results.result import Result
+from nivel.wording import shown, unknown_word
+
+ENDLESS: Final = 2**62  # steps
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """The whole state of a simulation at one moment: what goes on from it repeats the motion to the last bit.
+
+    time : [s]. machine : digest of the machine and its settings. arrays : everything that the simulation remembers.
+    """
+
+    time: float
+    machine: str
+    arrays: tuple[NDArray[Any], ...]
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write it to a file (NumPy's `.npz`); an existing file is replaced."""
+        named = {f"a{k}": array for k, array in enumerate(self.arrays)}
+        with Path(path).open("wb") as file:
+            np.savez(file, time=self.time, machine=self.machine, **named)  # type: ignore[arg-type]
+
+    @classmethod
+    def open(cls, path: str | PathLike[str]) -> Snapshot:
+        """Read a file that `save` wrote. Raises ModelError where it is none."""
+        try:
+            with np.load(path, allow_pickle=False) as data:
+                arrays = tuple(data[f"a{k}"] for k in range(len(data.files) - 2))
+                return cls(float(data["time"]), str(data["machine"]), arrays)
+        except (OSError, ValueError, KeyError, EOFError) as error:
+            raise ModelError(f"{fspath(path)} is no saved state of a simulation: {error}") from error
+
+
+class Simulation:
+    """A machine in motion: ``sim = machine.start(step="1 ms")``, then ``sim.step()`` or ``sim.advance(0.1)``.
+
+    ``sim.time`` and ``sim["hinge.angle"]`` say where it is; names are those of results. ``sim.state`` keeps the moment,
+    ``sim.restore(state)`` goes back to it.
+    """
+
+    def __init__(self, plan: Plan, *, source: str = "", record: bool = False) -> None:
+        refuse_chosen_steps(plan)
+        self._plan, self._settings = plan, plan.settings
+        self._prepared: Prepared = prepare(plan.methods)
+        self._run, self._advance = _endless(self._prepared, plan)
+        self._counter, self._clock = self._run.counter.data, self._run.clock.data  # quicker to read than arrays
+        self._step = float(plan.settings.step)
+        self._states = _places_of_states(self._prepared, self._run)
+        inputs, functions = plan.machine.inputs, self._prepared.motion.system.input_functions
+        self._inputs = {each.name: function for each, function in zip(inputs, functions, strict=True)}
+        self._ranges = {each.name: each.range for each in inputs}
+        layout = self._prepared.motion.system.layout
+        self._header = Header(layout, run_attributes(plan.machine, source, self._prepared, plan.settings))
+        self._frame = np.zeros((1, layout.width))
+        self._observed = -np.inf
+        self._now = Result(MemoryContents(self._header, self._frame, dict(self._header.attributes)))
+        self._views: dict[str, NDArray[np.float64]] = {}
+        self._events: list[Occurrence] = []
+        self._memory = Memory()
+        self._memory.begin(self._header)
+        self._counter[EVERY] = plan.settings.every if record else ENDLESS
+        self._recorded = record
+        self._go(0)
+
+    # --- moving ---
+
+    @property
+    def time(self) -> float:
+        """[s]"""
+        return self._clock[TIME]
+
+    @property
+    def steps(self) -> int:
+        """Steps done since the start."""
+        return self._counter[DONE_STEPS]
+
+    def step(self, inputs: Mapping[str, float] | None = None) -> None:
+        """One step of the integrator. inputs : values of inputs and states of the machine, set before the step; inputs keep them until
+        they are set again.
+
+        Raises SolveError where the step fails, and ModelError where the simulation is over, or `inputs` has a name that is neither.
+        """
+        if inputs:
+            self._set(inputs)
+        self._go(1)
+
+    def advance(self, duration: float, inputs: Mapping[str, float] | None = None) -> None:
+        """As many steps as fill `duration` [s], a multiple of the step, in one compiled call; an event may end it earlier."""
+        count = self._count_of(duration)
+        if inputs:
+            self._set(inputs)
+        self._go(count)
+
+    def _count_of(self, duration: float) -> int:
+        value = plain(duration)
+        if not isinstance(value, int | float) or isinstance(value, bool):
+            raise ModelError(Fault("", 0, 0, "duration", f"a number of seconds was expected, got {shown(duration)}"))
+        count = round(value / self._step) if np.isfinite(value) else -1
+        if count < 0 or abs(count * self._step - value) > 1e-6 * self._step:
+            message = f"{value:g} s is not a multiple of the step, {self._step:g} s"
+            raise ModelError(Fault("", 0, 0, "duration", message))
+        return count
+
+    def _go(self, steps: int) -> None:
+        counter = self._counter
+        if counter[STOPPED]:
+            raise ModelError(f"the simulation is over: the event `{self.stopped_by}` ended it at t = {self.time:.6g} s")
+        target = counter[DONE_STEPS] + steps
+        counter[BUDGET] = steps
+        status = self._advance()
+        while status == BUFFER_FULL:
+            self._take_frames()
+            counter[BUDGET] = target - counter[DONE_STEPS]
+            status = self._advance()
+        if counter[EVENTS]:
+            self._events += taken_events(self._run, self._prepared.motion.system.events)
+        if status not in (BUDGET_SPENT, DONE):
+            self._fail(status)
+
+    def _fail(self, status: int) -> None:
+        jam = jam_of(self._prepared, self._settings, self._run) if status in BEFORE_A_JAM else None
+        message, advice, time = failure_of(self._prepared, self._settings, self._run, status, jam)
+        raise SolveError(message, time=time, advice=advice, result=self.result() if self._recorded else None)
+
+    def _set(self, inputs: Mapping[str, float]) -> None:
+        """Give inputs and states their values, and evaluate again what depends on them."""
+        if not isinstance(inputs, Mapping):
+            said = f"values by name were expected, {{'push': 200}}, got {shown(inputs)}; how long a step is says the machine"
+            raise ModelError(Fault("", 0, 0, "inputs", said))
+        changed = False
+        for name, value in inputs.items():
+            number = self._checked(name, value)
+            if name in self._inputs:
+                functions, place = self._prepared.motion.system.record.functions, self._inputs[name]
+                changed |= functions.kind[place] != CONSTANT or functions.value[place] != number
+                functions.kind[place], functions.value[place] = CONSTANT, number
+            elif self._run.y[self._states[name]] != number:
+                place = self._states[name]
+                self._run.y[place] = self._run.previous[place] = number
+                changed = True
+        if changed:
+            self._counter[RESTART] = 1
+            self._observed = -np.inf
+            motion = self._prepared.motion
+            status = motion.kernels.evaluate(motion.handle.address, self.time, self._run.y, self._run.rate)
+            if status != OK:
+                self._fail(status)
+
+    def _checked(self, name: str, value: float) -> float:
+        """The value of an input or a state as a number. Raises ModelError."""
+        if name not in self._inputs and name not in self._states:
+            known = [*self._inputs, *self._states]
+            raise ModelError(Fault("", 0, 0, "inputs", unknown_word(str(name), known, "input or state")))
+        number = plain(value)
+        if not isinstance(number, int | float) or not np.isfinite(number):
+            raise ModelError(Fault("", 0, 0, f"inputs.{name}", f"a finite number was expected, got {shown(value)}"))
+        if name in self._ranges and not self._ranges[name][0] <= number <= self._ranges[name][1]:
+            low, high = self._ranges[name]
+            message = f"{number:g} is outside the range from {low:g} to {high:g}"
+            raise ModelError(Fault("", 0, 0, f"inputs.{name}", message))
+        return float(number)
+
+    # --- reading ---
+
+    def __getitem__(self, name: str) -> Any:
+        """The present value of `name`: a number, or an array of its components. Names and units are those of results."""
+        if name == "time":
+            return self.time
+        view = self._views.get(name)
+        if view is None:
+            view = self._views[name] = self._view(name)
+        self._observe()
+        return view.copy() if view.ndim else float(view)
+
+    def _view(self, name: str) -> NDArray[np.float64]:
+        """The numbers of `name` in the frame of the present state."""
+        found = self._now.selection(name)
+        variable = self._now.variables[found.variable]
+        sizes = [len(self._now.coordinates[dim]) for dim in variable.dims[1:]]
+        return self._frame[0, variable.columns].reshape(sizes)[(*found.where[1:], ...)]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._now
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Everything that can be asked for."""
+        return self._now.names
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """Bodies and joints as the viewer and the report draw them."""
+        return self._now.scene
+
+    def _observe(self) -> None:
+        """Write the frame of the present state, with accelerations and reactions free of Baumgarte's feedback."""
+        if self._observed == self._clock[TIME]:
+            return
+        motion, run = self._prepared.motion, self._run
+        feedback = motion.system.record.control.stabilise
+        kept = feedback.copy()
+        if kept[:2].any():
+            feedback[:2] = 0.0
+            motion.evaluate(self.time, run.y)
+            feedback[:] = kept
+        self._frame[0, 0] = self.time
+        observe(motion.handle.address, self.time, run.y, self._frame[0])
+        self._observed = self.time
+
+    @property
+    def events(self) -> tuple[Occurrence, ...]:
+        """The events so far, each with `name`, `time` [s] and `direction`."""
+        return tuple(self._events)
+
+    @property
+    def stopped_by(self) -> str:
+        """Name of the event that ended the simulation; empty while it can go on."""
+        number = self._counter[STOPPED]
+        return self._prepared.motion.system.events[number - 1] if number else ""
+
+    def result(self) -> Result:
+        """The frames so far as a result, one every `output_interval` from the start; for simulations started with ``record=True``."""
+        if not self._recorded:
+            raise ModelError("nothing was recorded: start the simulation with `record=True`")
+        self._take_frames()
+        return self._memory.close({"outcome": "interrupted"})
+
+    def _take_frames(self) -> None:
+        filled = self._counter[FRAMES]
+        if filled and self._recorded:
+            self._memory.take(self._run.frames[:filled])
+        self._counter[FRAMES] = 0
+
+    # --- keeping ---
+
+    @property
+    def state(self) -> Snapshot:
+        """This moment, to be restored or saved."""
+        self._take_frames()
+        return Snapshot(self.time, self._digest, tuple(array.copy() for array in self._remembered()))
+
+    def restore(self, state: Snapshot) -> None:
+        """Go back, or on, to a moment of this machine with these settings. Raises ModelError for a state of another one."""
+        mine = self._remembered()
+        fits = [array.shape for array in mine] == [array.shape for array in getattr(state, "arrays", ())]
+        if not isinstance(state, Snapshot) or state.machine != self._digest or not fits:
+            raise ModelError("the state is of another machine, or of other settings of the simulation")
+        self._take_frames()
+        for array, kept in zip(mine, state.arrays, strict=True):
+            array[...] = kept
+        self._counter[FRAMES] = 0
+        self._memory.forget_after(state.time)
+        self._events = [event for event in self._events if event.time <= state.time]
+        self._observed = -np.inf
+
+    @cached_property
+    def _digest(self) -> str:
+        text = write_machine(self._plan.machine) + json.dumps(self._settings.as_dict(), sort_keys=True, default=str)
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    def _remembered(self) -> list[NDArray[Any]]:
+        """Every array of the run and of the record but the buffer of frames and the addresses of machine code."""
+        motion = self._prepared.motion
+        twin = () if motion.twin is None else _arrays(motion.twin.record)
+        run = [array for name, array in self._run._asdict().items() if name != "frames"]
+        every = [*run, *_arrays(motion.system.record), *twin]
+        return [array for array in every if array.size and array.dtype != np.uint64]
+
+    def __repr__(self) -> str:
+        return (
+            f"<Simulation of {self._plan.machine.name}: t = {self.time:.6g} s, {self.steps} steps of {self._step:g} s>"
+        )
+
+
+def refuse_chosen_steps(plan: Plan) -> None:
+    """Raise ModelError where the integrator chooses its steps: a step would have no length of its own."""
+    if plan.settings.steps == 0:
+        name = plan.settings.integrator
+        message = (
+            f"`{name}` chooses its steps here; a simulation that is stepped needs a fixed one: integrator='rk4' has"
+        )
+        raise ModelError(Fault("", 0, 0, "integrator", message))
+
+
+def _endless(prepared: Prepared, plan: Plan) -> tuple[Run, BoundEntry]:
+    """A run without an end, and its compiled loop."""
+    loop = start_loop(prepared, plan.settings)
+    run: Run = loop.history.record
+    run.counter[ALL_STEPS], run.clock[END] = ENDLESS, np.inf
+    return run, BoundEntry(advance, loop.addresses, keep=loop)
+
+
+def _places_of_states(prepared: Prepared, run: Run) -> dict[str, int]:
+    """Where the states that the user declared stand in y."""
+    names = [fact.name for fact in prepared.motion.system.states]
+    first = len(run.y) - 2 - len(names)
+    return {name: first + k for k, name in enumerate(names)}
+
+
+def _arrays(record: Any) -> list[NDArray[Any]]:
+    """All arrays of a record of records."""
+    return [record] if isinstance(record, np.ndarray) else [array for field in record for array in _arrays(field)]

@@ -1,0 +1,40 @@
+"""What commands print when a computation has ended: how far it came, what it cost, and what its checks say."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from nivel.results.result import Result
+    from nivel.results.trust.verdicts import Trust
+
+COLOURS = {"green": "green", "amber": "yellow", "red": "red"}
+OUTCOMES = {"done": "completed", "failed": "failed", "interrupted": "interrupted"}
+
+
+def ended(result: Result) -> str:
+    """`completed (t = 8 s)`, with the time that was reached."""
+    reached = f" (t = {result.time[-1]:.6g} s)" if len(result.time) else ""
+    return f"[bold]{result.name}[/bold]: {OUTCOMES.get(result.outcome, result.outcome)}{reached}"
+
+
+def computed_in(seconds: float, steps: int = 0) -> str:
+    """`computed in 31 ms (3.9 µs per step)`; without steps only the time."""
+    took = f"{1e3 * seconds:.3g} ms" if seconds < 1.0 else f"{seconds:.3g} s"
+    each = f" ({1e6 * seconds / steps:.2g} µs per step)" if steps else ""
+    return f"computed in {took}{each}"
+
+
+def say_checks(console: Console, trust: Trust) -> None:
+    """The checks that are not green, in full, and how many passed."""
+    checks = [item for item in trust.items if item.name != "outcome" or item.verdict != "green"]
+    open_ones = [item for item in checks if item.verdict != "green"]
+    for item in open_ones:
+        console.print(f"  [{COLOURS[item.verdict]}]●[/] {item.text}")
+    passed = len(checks) - len(open_ones)
+    if not open_ones:
+        console.print(f"All {passed} numerical checks passed; `nivel explain` shows them.")
+    elif passed:
+        console.print(f"  The other {passed} checks passed; `nivel explain` shows them.", soft_wrap=True)

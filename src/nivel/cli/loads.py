@@ -1,0 +1,89 @@
+"""`nivel loads RESULT`: peak and RMS reactions, power and work of actuators, rainflow cycles of signals."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from nivel.cli.options import file_argument, separated
+
+if TYPE_CHECKING:
+    import xarray
+
+    from nivel.results import Result
+
+
+@click.command(short_help="Peak reactions, power and work, cycles of any signal.")
+@file_argument("result")
+@click.option(
+    "--cycles",
+    "signals",
+    metavar="NAMES",
+    multiple=True,
+    callback=separated,
+    help="Rainflow cycles of signals, e.g. pin.force.x.",
+)
+@click.option("--repeating", is_flag=True, help="The history goes on as it began: no half cycles.")
+@click.option("--period", metavar="TIME", help="Of a cycle of the machine: work in the last whole one, e.g. '0.5 s'.")
+@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON on standard output.")
+def command(result: str, signals: tuple[str, ...] | None, repeating: bool, period: str | None, as_json: bool) -> None:
+    """Print the loads of RESULT: the largest and the RMS reaction of every joint, power and work of everything that drives the machine,
+    and with --cycles the rainflow cycles of signals (ASTM E1049).
+    """
+    from nivel.errors import Fault, ModelError
+    from nivel.results import Result
+
+    if repeating and not signals:
+        raise ModelError(
+            Fault("", 0, 0, "loads.repeating", "belongs to --cycles: name a signal, e.g. --cycles pin.force.x")
+        )
+    opened = Result.open(result)
+    tables = _tables(opened, signals or (), repeating, period)
+    if as_json:
+        click.echo(json.dumps({name: _plain(table) for name, table in tables.items()}, indent=2))
+        return
+    for name, table in tables.items():
+        _print(name, table)
+
+
+def _tables(result: Result, signals: tuple[str, ...], repeating: bool, period: str | None) -> dict[str, xarray.Dataset]:
+    """Tables by their titles. Raises ModelError where there is nothing to show."""
+    from nivel.errors import ModelError
+
+    out: dict[str, xarray.Dataset] = {}
+    if "joint_force" in result.variables and result.coordinates.get("joint"):
+        out["reactions"] = result.reactions()
+    if period is not None or any(name.endswith(".power") for name in result.variables):
+        out["power and work"] = result.powers(period=period)
+    for name in signals:
+        out[f"cycles of {name}"] = result.cycles(name, repeating=repeating)
+    if not out:
+        raise ModelError("the result has neither reactions of joints nor power of drivers or forces")
+    return out
+
+
+def _plain(table: xarray.Dataset) -> dict[str, Any]:
+    return {str(name): values.to_numpy().tolist() for name, values in {**table.coords, **table.data_vars}.items()}
+
+
+def _print(title: str, table: xarray.Dataset) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    names = [str(name) for name in table.data_vars]
+    shown = Table(title=Text(title), title_justify="left")
+    rows = next(iter(table.sizes.values()))
+    labels = [str(each) for each in next(iter(table.coords.values())).to_numpy()] if table.coords else []
+    for heading in [*(["of"] if labels else []), *(_heading(table, name) for name in names)]:
+        shown.add_column(Text(heading), justify="left" if heading == "of" else "right")
+    for k in range(rows):
+        shown.add_row(*labels[k : k + 1], *(f"{float(table[name].to_numpy()[k]):.6g}" for name in names))
+    Console(highlight=False, width=140).print(shown)
+
+
+def _heading(table: xarray.Dataset, name: str) -> str:
+    unit = table[name].attrs.get("units", "")
+    return name.replace("_", " ") + (f" [{unit}]" if unit not in ("", "1") else "")

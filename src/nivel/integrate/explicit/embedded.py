@@ -1,0 +1,122 @@
+"""What explicit Runge–Kutta methods with an error estimate have in common. Their stages are the rows of `run.stages`."""
+
+from __future__ import annotations
+
+from nivel.integrate.loop.run import EVALUATIONS, RESTART, STEP, TIME, run_at
+from nivel.integrate.loop.step_control import (
+    allowed,
+    enter,
+    exceeds_rotation_limit,
+    factor_after_rejection,
+    factor_after_success,
+    is_fresh,
+    reach,
+    reject,
+    too_small,
+)
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import call_evaluate
+from nivel.native.function import leaf, shared
+
+# entries of run.numbers: the error of the last accepted step; whether this step was rejected before
+LAST_ERROR, REPEATED = 0, 1
+
+
+@leaf
+def sum_stages(run, h, weights, count, out):
+    """out = h Σ weights[j] k_j over the first `count` stages."""
+    for i in range(out.shape[0]):
+        out[i] = 0.0
+    add_stages(run, h, weights, count, out)
+
+
+@leaf
+def add_stages(run, h, weights, count, out):
+    """out += h Σ weights[j] k_j over the first `count` stages."""
+    for j in range(count):
+        factor = h * weights[j]
+        if factor != 0.0:
+            k = run.stages[j]
+            for i in range(out.shape[0]):
+                out[i] += factor * k[i]
+
+
+@leaf
+def evaluate_stages(evaluate, machine, history, h, A, c, first, last):
+    """Stages k_first … k_last - 1 of the table A, c. The argument of the last one is left in `run.trial`. Returns a status."""
+    run = run_at(history)
+    for s in range(first, last):
+        for i in range(run.y.shape[0]):
+            run.trial[i] = run.previous[i]
+        add_stages(run, h, A[s], s, run.trial)
+        run.counter[EVALUATIONS] += 1
+        status = call_evaluate(evaluate, machine, run.clock[TIME] + c[s] * h, run.trial, run.stages[s])
+        if status != OK:
+            return status
+    return OK
+
+
+@leaf
+def begin(evaluate, machine, history, order, tolerance):
+    """At the begin of a step, see `step_control.enter`; the first stage is the rate of the accepted state. The error falls with h^order."""
+    run = run_at(history)
+    enter(evaluate, machine, history, order - 1.0, tolerance)
+    if is_fresh(run):
+        run.numbers[LAST_ERROR] = 1.0
+        run.counter[RESTART] = 0
+    run.numbers[REPEATED] = 0.0
+    for i in range(run.y.shape[0]):
+        run.stages[0, i] = run.rate[i]
+
+
+@leaf
+def is_accepted(machine, history, h, order, status, error):
+    """Whether a step h whose error is `error` times the allowed one is taken; then y is the new state, `run.trial`. Sets clock[STEP].
+
+    The last evaluation was one at the end of the step.
+    """
+    run = run_at(history)
+    if status == OK and error <= 1.0 and exceeds_rotation_limit(machine, h) < 1.0:
+        reject(run, h, exceeds_rotation_limit(machine, h))
+        run.numbers[REPEATED] = 1.0
+        return False
+    if status != OK or not error <= 1.0:
+        reject(run, h, factor_after_rejection(status, error, order))
+        run.numbers[REPEATED] = 1.0
+        return False
+    run.clock[STEP] = h * factor_after_success(error, run.numbers[LAST_ERROR], order, run.numbers[REPEATED] == 1.0)
+    run.numbers[LAST_ERROR] = error
+    for i in range(run.y.shape[0]):
+        run.y[i] = run.trial[i]
+    return True
+
+
+@shared
+def take_step(evaluate, machine, history, order, share, attempt):
+    """Tries until a step is accepted: its status, and its size h [s], 0 where steps become too small. The error falls with h^order.
+
+    share : of the tolerance that an error may have. attempt(evaluate, machine, history, h) : status and error of one try, compiled into
+    this one.
+    """
+    run = run_at(history)
+    tolerance = allowed(run, share)
+    begin(evaluate, machine, history, order, tolerance)
+    status, error = OK, 0.0
+    while True:
+        h = reach(run)
+        if h == 0.0:
+            return too_small(run, status, error), 0.0
+        status, error = attempt(evaluate, machine, history, h)
+        if is_accepted(machine, history, h, order, status, error / tolerance):
+            return status, h
+
+
+@leaf
+def fill_cubic(run, h, last):
+    """The first three rows of the dense output, those of the cubic through both ends. last : the stage at the new state."""
+    dense = run.dense
+    for i in range(run.y.shape[0]):
+        change = run.y[i] - run.previous[i]
+        dense[0, i] = change
+        dense[1, i] = h * run.stages[0, i] - change
+        dense[2, i] = change - h * run.stages[last, i] - dense[1, i]

@@ -1,0 +1,60 @@
+"""Explicit Runge–Kutta methods with a fixed step: Euler, Heun, Kutta (report 44, eqs. 98–106).
+
+Each of them has as many stages as its order, so the order names the table.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.integrate.loop.run import EVALUATIONS, ORDER, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import call_evaluate
+from nivel.native.entry import entry
+from nivel.native.function import leaf
+
+HIGHEST = 4
+# [order]: node of each stage, its share of the slope of the stage before it, and weights
+NODES = np.zeros((HIGHEST + 1, HIGHEST))
+WEIGHTS = np.zeros((HIGHEST + 1, HIGHEST))
+# Euler
+WEIGHTS[1, :1] = 1.0
+# Heun: the trapezoidal rule (eq. 99 with its second weight corrected)
+NODES[2, :2] = 0.0, 1.0
+WEIGHTS[2, :2] = 0.5, 0.5
+# Kutta 1901, the classical method: Simpson's rule
+NODES[4] = 0.0, 0.5, 0.5, 1.0
+WEIGHTS[4] = 1 / 6, 1 / 3, 1 / 3, 1 / 6
+
+
+@leaf
+def explicit(evaluate, machine, history, order, t, h, row):
+    """y := y(t + h) from y at t, whose rate is stages[row]; the next `order` - 1 rows are for the other stages. Returns a status.
+
+    In these methods each stage starts from the slope of the one before it alone.
+    """
+    run = run_at(history)
+    y, trial = run.y, run.trial
+    n = y.shape[0]
+    for stage in range(1, order):
+        node, before = NODES[order, stage], run.stages[row + stage - 1]
+        for i in range(n):
+            trial[i] = y[i] + node * h * before[i]
+        status = call_evaluate(evaluate, machine, t + node * h, trial, run.stages[row + stage])
+        run.counter[EVALUATIONS] += 1
+        if status != OK:
+            return status
+    for stage in range(order):
+        weight, slope = WEIGHTS[order, stage] * h, run.stages[row + stage]
+        for i in range(n):
+            y[i] += weight * slope[i]
+    return OK
+
+
+@entry(STEP_SIGNATURE)
+def step(evaluate, machine, history):
+    """One step of the method of counter[ORDER]."""
+    run = run_at(history)
+    for i in range(run.y.shape[0]):
+        run.stages[0, i] = run.rate[i]
+    return explicit(evaluate, machine, history, run.counter[ORDER], run.clock[TIME], run.clock[STEP], 0)

@@ -1,0 +1,1 @@
+"""The loop over steps: frames, events, corners, the control of steps, real time."""

@@ -1,0 +1,120 @@
+"""Events of a step: which values change their sides in it, when, and where the step then ends.
+
+An event is a change of sides from one accepted state to the next; of two changes within one step nothing is seen. Sides are kept from
+step to step, never found anew from the state, so an event is found once whatever changes the state afterwards by round-off
+(corrections, energies).
+"""
+
+from __future__ import annotations
+
+from nivel.integrate.loop.crossing import NEVER, end_at, find_crossings, read_values, side_of
+from nivel.integrate.loop.dense import cubic
+from nivel.integrate.loop.run import (
+    AFTER,
+    ALL_STEPS,
+    BEFORE,
+    DENSE,
+    EVALUATIONS,
+    EVENTS,
+    KNOWN,
+    LENGTH,
+    RATE_AFTER,
+    RATE_BEFORE,
+    REACHED,
+    SIDE,
+    STOPPED,
+    TIME,
+    WHEN,
+    run_at,
+)
+from nivel.integrate.loop.surfaces import find_contacts
+from nivel.kernels.core.status import BUFFER_FULL, OK
+from nivel.kernels.record.hook import call_evaluate
+from nivel.kernels.record.record import ENDS_RUN, NOTED, STOP, record_at
+from nivel.native.function import leaf
+
+
+@leaf
+def begin_events(machine, history):
+    """The sides at the start of a run, in the state just evaluated. Returns a status."""
+    run, values = run_at(history), run_at(history).event_values
+    events = record_at(machine).watched.event.shape[0]
+    status = read_values(machine, history, BEFORE, run.clock[TIME])
+    for k in range(values.shape[1]):
+        values[SIDE, k], values[WHEN, k] = side_of(values[BEFORE, k], k, events), NEVER
+    return status
+
+
+@leaf
+def first_stop(watched, when, fixed):
+    """Number of the first event that ends the run, or the step, or -1. Fixed steps are ended by the end of the run alone."""
+    first = -1
+    for k in range(watched.event.shape[0]):
+        ends = watched.event[k, STOP] == ENDS_RUN if fixed else watched.event[k, STOP] != NOTED
+        if ends and when[k] < NEVER and (first < 0 or when[k] < when[first]):
+            first = k
+    return first
+
+
+@leaf
+def find_events(evaluate, correct, machine, history):
+    """Look at the step just done: events into row WHEN. The step ends earlier where an event ends the run or takes a sample, or a contact
+    begins or ends.
+
+    Returns a status. With counter[KNOWN] the state reached is evaluated already, its rate is run.scratch.
+    """
+    run, watched = run_at(history), record_at(machine).watched
+    values, clock, counter = run.event_values, run.clock, run.counter
+    events, count = watched.event.shape[0], run.event_values.shape[1]
+    status = call_evaluate(evaluate, machine, clock[REACHED], run.y, run.scratch)
+    counter[EVALUATIONS] += 1
+    counter[KNOWN] = 1
+    if status == OK:
+        status = read_values(machine, history, AFTER, clock[REACHED])
+    if status != OK:
+        return status
+    if counter[DENSE] == 0:
+        cubic(run, run.rate, run.scratch)
+    values[WHEN, :] = NEVER
+    status, end = find_contacts(evaluate, correct, machine, history, events)
+    if status == OK:
+        status = find_crossings(evaluate, correct, machine, history, 0, events, end)
+    stop = first_stop(watched, values[WHEN], counter[ALL_STEPS] > 0)
+    if status == OK and stop >= 0:
+        end = values[WHEN, stop]
+        status = end_at(evaluate, correct, machine, history, end)
+        if watched.event[stop, STOP] == ENDS_RUN:
+            counter[STOPPED] = stop + 1
+    for k in range(count):
+        now = side_of(values[AFTER, k], k, events)
+        if k >= events:
+            values[SIDE, k] = now
+        elif values[WHEN, k] <= end:
+            values[SIDE, k] = -values[SIDE, k]
+            record_at(machine).sampled.came[k] = 1
+        else:
+            values[WHEN, k] = NEVER
+            values[SIDE, k] = now if now != 0.0 else values[SIDE, k]
+        values[BEFORE, k], values[RATE_BEFORE, k] = values[AFTER, k], values[RATE_AFTER, k]
+    return status
+
+
+@leaf
+def hand_out_events(machine, history):
+    """Events of the last step in the order of time, at one time in that of the file. BUFFER_FULL where it has to be called again."""
+    run, counter = run_at(history), run_at(history).counter
+    when, events = run.event_values[WHEN], record_at(machine).watched.event.shape[0]
+    while True:
+        next_one = -1
+        for k in range(events):
+            if when[k] < NEVER and (next_one < 0 or when[k] < when[next_one]):
+                next_one = k
+        if next_one < 0:
+            return OK
+        if counter[EVENTS] == run.events.shape[0]:
+            return BUFFER_FULL
+        row = run.events[counter[EVENTS]]
+        row[0] = min(run.clock[TIME] + when[next_one] * run.clock[LENGTH], run.clock[REACHED])
+        row[1], row[2] = next_one, run.event_values[SIDE, next_one]
+        when[next_one] = NEVER
+        counter[EVENTS] += 1

@@ -1,0 +1,41 @@
+"""The pace of a run: how long its steps are at which time, how far bodies turn in them, and how long they may be."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.integrate.loop.run import ALLOWED, END, LARGEST, LEAST, PARTS, REACHED, START, TAKEN, TIME, TURNED
+from nivel.integrate.loop.step_control import fastest_turn
+from nivel.native.function import leaf
+
+
+@leaf
+def part_at(run, t):
+    """The part of the duration that holds the time t."""
+    share = (t - run.clock[START]) / (run.clock[END] - run.clock[START])
+    return np.int64(max(0.0, min(PARTS - 1.0, np.floor(share * PARTS))))
+
+
+@leaf
+def allow(run):
+    """clock[LARGEST] := what a step that begins now may be long: where it reaches into the next part, no longer there than one that begins
+    there may be."""
+    clock, t = run.clock, run.clock[TIME]
+    k = part_at(run, t)
+    clock[LARGEST] = run.pace[ALLOWED, k]
+    if k + 1 < PARTS:
+        left = clock[START] + (k + 1) * (clock[END] - clock[START]) / PARTS - t
+        clock[LARGEST] = min(clock[LARGEST], left + run.pace[ALLOWED, k + 1])
+
+
+@leaf
+def note_step(machine, run, speed):
+    """Note the step from clock[TIME] to clock[REACHED]. speed : the largest angular speed at its begin [rad/s]; the record is that of a
+    state near its end."""
+    h = run.clock[REACHED] - run.clock[TIME]
+    turn = h * max(speed, fastest_turn(machine))
+    first = part_at(run, run.clock[TIME])
+    for k in range(first, part_at(run, run.clock[REACHED]) + 1):
+        run.pace[TAKEN, k] = max(run.pace[TAKEN, k], h)
+        run.pace[LEAST, k] = min(run.pace[LEAST, k], h)
+        run.pace[TURNED, k] = max(run.pace[TURNED, k], turn)

@@ -1,0 +1,83 @@
+"""The state of a run: everything a loop needs to go on where it stopped."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from nivel.kernels.core.arrays import F1, F2, I1, U1, U2
+from nivel.kernels.core.handle import reader
+from nivel.native.function import caller
+from nivel.native.signature import Signature
+
+# entries of Run.clock
+TIME, STEP, START, END, REACHED, INTERVAL, TOLERANCE, LARGEST, CORRECTOR_TOLERANCE = 0, 1, 2, 3, 4, 5, 6, 7, 8
+LENGTH, SHOWN, ACCEPTED, OPEN_LIMIT, BOUND, HORIZON = 9, 10, 11, 12, 13, 14
+CLOCKS = 15
+# entries of Run.counter
+DONE_STEPS, ALL_STEPS, EVERY, FRAMES, LAST_FRAME, BUDGET, EVALUATIONS, EVALUATED = 0, 1, 2, 3, 4, 5, 6, 7
+ITERATIONS, REJECTED, RESTART, DENSE, INSIDE, STOPPED, EVENTS, ORDER, MOST_ITERATIONS, NEWTON = (
+    8, 9, 10, 11, 12, 13, 14, 15, 16, 17,
+)  # fmt: skip
+POWERS, UNCONSERVED, CONSERVE, KNOWN, SWITCHED, FACTORISATIONS, CORNER = 18, 19, 20, 21, 22, 23, 24
+COUNTS = 25
+# rows of Run.event_values
+BEFORE, AFTER, SIDE, WHEN, RATE_BEFORE, RATE_AFTER = 0, 1, 2, 3, 4, 5
+# most rows of Run.dense
+DENSE_ROWS = 13
+# rows of Run.pace, and parts of the duration
+ALLOWED, TAKEN, LEAST, TURNED = 0, 1, 2, 3
+PARTS = 1024
+
+
+class Run(NamedTuple):
+    """History and output of one run. All of it is here, so the result does not depend on how the run is cut into chunks.
+
+    An integrator with a fixed step finds ALL_STEPS > 0 and leaves clock[STEP] and clock[REACHED] alone. One that chooses its steps finds
+    ALL_STEPS = 0, tries clock[STEP], and leaves the time reached in clock[REACHED] (never past clock[BOUND]) and the step to try next in
+    clock[STEP].
+    """
+
+    # TIME of the accepted state, STEP, START, END, REACHED by the last step, INTERVAL of frames [s]; TOLERANCE, LARGEST step, ...;
+    # LENGTH of the step that `dense` describes, longer than the one done where that ends at an event; SHOWN, time of the last frame;
+    # ACCEPTED, time of the state `previous`; OPEN_LIMIT, share of the scales of the constraints beyond which positions are not accepted;
+    # BOUND, time of the next sample or corner, or of the end; HORIZON, time that no step begins at or after
+    clock: F1
+    # steps done, steps in all (0: not known), steps between frames, frames in the buffer, number of the last frame, budget, evaluations,
+    # whether `rate` is that of y; corrector iterations, steps rejected, whether the history must be forgotten, rows of `dense` in use,
+    # whether frames and events inside the last step have to be handed out, number of the event that ended the run (from 1), events in
+    # the buffer, order in use, ..., whether the state reached is evaluated already (its rate is `scratch`), whether contacts change sides,
+    # matrices of Newton's iteration found, number of the next corner
+    counter: I1
+    y: F1  # (ny,) state
+    rate: F1  # (ny,) ẏ at the accepted state
+    previous: F1  # (ny,) the accepted state: where a failed step started
+    scratch: F1  # (ny,) rates that nobody needs
+    trial: F1  # (ny,) states inside a step
+    scale: F1  # (ny,) what errors are measured by: a floor from the machine, raised to the largest |y| so far
+    raised: U1  # (ny,) whether it is raised: 0 of masses of fluid, whose pressure is a small part of them
+    stages: F2  # (·, ny) work and history of the integrator
+    numbers: F1  # (·,) further history of the integrator
+    matrix: F2  # (ny, ny) of Newton's iteration, or (0, 0)
+    pivot: U1  # (ny,)
+    # Where a position stands in y and where its rate: plain ones, q̇ = v; and rotations, four Euler parameters and three body-axis
+    # angular velocities, each group by its first place.
+    plain: U2  # (·, 2)
+    turns: U2  # (·, 2)
+    dense: F2  # (DENSE_ROWS, ny) the state inside the last step, see `nivel.integrate.loop.dense`
+    frames: F2  # (capacity, width) output
+    # BEFORE and AFTER the last step, SIDE, share of the step WHEN it changed, the rates before and after; see `nivel.integrate.loop.events`
+    event_values: F2  # (6, values watched)
+    samples: I1  # (sampled states,) taken so far of those with a period
+    # [s] ascending: explicit methods that choose their steps end one there; implicit ones know corners themselves
+    corners: F1
+    # (4, PARTS) of each part of the duration: the longest step ALLOWED to begin there [s] where steps are chosen, the longest one
+    # TAKEN and the shortest, LEAST [s], the largest angle that a body TURNED by in a step [rad]
+    pace: F2
+    events: F2  # (capacity, 3) time [s], number of the event, direction 1 or -1
+
+
+run_at = reader(Run)
+# (evaluate, machine, history) and (evaluate, correct, step, machine, history)
+STEP_SIGNATURE = Signature("status", ("entry", "machine", "machine"))
+ADVANCE = Signature("status", ("entry", "entry", "entry", "machine", "machine"))
+call_step = caller(STEP_SIGNATURE)

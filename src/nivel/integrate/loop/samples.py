@@ -1,0 +1,83 @@
+"""Samples: states that change at given times or at events, between two steps; and the times at which steps end, theirs among them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.integrate.loop.crossing import read_values
+from nivel.integrate.loop.run import BEFORE, BOUND, CORNER, DONE_STEPS, END, EVALUATIONS, RESTART, TIME, run_at
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.function import NEAR
+from nivel.kernels.record.hook import call_evaluate, call_hook
+from nivel.kernels.record.record import NONE, SAMPLE, record_at
+from nivel.native.function import leaf
+
+
+@leaf
+def find_bound(machine, run):
+    """clock[BOUND] := the time of the next sample or corner, or the end of the run where that is earlier: no step goes beyond it."""
+    sampled = record_at(machine).sampled
+    run.clock[BOUND] = run.clock[END]
+    for k in range(sampled.period.shape[0]):
+        if sampled.period[k] > 0.0:
+            run.clock[BOUND] = min(run.clock[BOUND], next_sample(sampled, run, k))
+    corners, t = run.corners, run.clock[TIME]
+    while run.counter[CORNER] < corners.shape[0] and corners[run.counter[CORNER]] <= t + NEAR * np.abs(t):
+        run.counter[CORNER] += 1
+    if run.counter[CORNER] < corners.shape[0]:
+        run.clock[BOUND] = min(run.clock[BOUND], corners[run.counter[CORNER]])
+
+
+@leaf
+def next_sample(sampled, run, k):
+    """Time of the next sample of entry k [s]: a product, not a running sum, so that times carry no round-off from sample to sample."""
+    return sampled.offset[k] + run.samples[k] * sampled.period[k]
+
+
+@leaf
+def find_due(sampled, run):
+    """Which samples are due at the accepted state, and whether any is."""
+    t, found = run.clock[TIME], False
+    for k in range(sampled.state.shape[0]):
+        sampled.due[k] = 0
+        if sampled.period[k] > 0.0:
+            at = next_sample(sampled, run, k)
+            if t >= at - NEAR * np.abs(at):
+                sampled.due[k] = 1
+                run.samples[k] += 1
+        if sampled.event[k] != NONE and sampled.came[sampled.event[k]] == 1:
+            sampled.due[k] = 1
+        found = found or sampled.due[k] == 1
+    for k in range(sampled.came.shape[0]):
+        sampled.came[k] = 0
+    return found
+
+
+@leaf
+def take_samples(evaluate, machine, history):
+    """Give sampled states that are due their new values, in the order of `Sampled`, at the accepted state just evaluated.
+
+    Where one changes, the state is evaluated again, and the method begins anew. Returns a status.
+    """
+    run, sampled = run_at(history), record_at(machine).sampled
+    if not find_due(sampled, run):
+        return OK
+    status = call_hook(machine, SAMPLE, 0, run.clock[TIME])
+    first = np.int64(run.y.shape[0]) - 2 - record_at(machine).elements.state.shape[0]
+    changed = False
+    for k in range(sampled.state.shape[0]):
+        if sampled.due[k] == 0:
+            continue
+        place = first + np.int64(sampled.state[k])
+        if run.y[place] != sampled.value[k]:
+            run.y[place] = run.previous[place] = sampled.value[k]
+            changed = True
+    if status != OK or not changed:
+        return status
+    run.counter[EVALUATIONS] += 1
+    status = call_evaluate(evaluate, machine, run.clock[TIME], run.y, run.rate)
+    if run.counter[DONE_STEPS] > 0:
+        run.counter[RESTART] = 1
+        if status == OK and run.event_values.shape[1] > 0:
+            status = read_values(machine, history, BEFORE, run.clock[TIME])
+    return status

@@ -1,0 +1,87 @@
+"""Contacts and stops where steps are chosen: a step ends where a surface begins or ceases to touch."""
+
+from __future__ import annotations
+
+from nivel.integrate.loop.crossing import NEVER, SHARE, end_at, find_crossings, locate, side_of, value_at
+from nivel.integrate.loop.run import (
+    AFTER,
+    BEFORE,
+    LENGTH,
+    RATE_AFTER,
+    RATE_BEFORE,
+    RESTART,
+    SIDE,
+    SWITCHED,
+    WHEN,
+    run_at,
+)
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.record import record_at
+from nivel.native.function import leaf
+
+# At most so many states are looked at within a step that may touch a surface and leave it; none nearer to others than this share.
+LOOKS, MARGIN = 30, 0.01
+
+
+@leaf
+def first_of(when, first):
+    """The first time of those from number `first` on; of those so near to it that they are one, the last."""
+    least = NEVER
+    for k in range(first, when.shape[0]):
+        least = min(least, when[k])
+    end = least
+    for k in range(first, when.shape[0]):
+        if when[k] <= least + SHARE:
+            end = max(end, when[k])
+    return end
+
+
+@leaf
+def look_into(evaluate, correct, machine, history, k):
+    """(status, θ, value) of a state within the step in which surface k is on its other side, although at its end it is not; θ is NEVER
+    where there is none.
+
+    Such a step comes nearer to the change of sides at its begin and goes away from it at its end. States are looked at where the
+    tangents of the distance meet (Kelley 1960), until one is on the other side, or the tangents meet before it.
+    """
+    run, watched = run_at(history), record_at(machine).watched
+    values, side, h = run.event_values, run.event_values[SIDE, k], run.clock[LENGTH]
+    low, distance_low, rate_low = 0.0, side * values[BEFORE, k], side * h * values[RATE_BEFORE, k]
+    high, distance_high, rate_high = 1.0, side * values[AFTER, k], side * h * values[RATE_AFTER, k]
+    for _ in range(LOOKS):
+        if rate_low >= 0.0 or rate_high <= 0.0:
+            break
+        theta = (distance_high - distance_low + rate_low * low - rate_high * high) / (rate_low - rate_high)
+        if distance_low + rate_low * (theta - low) >= 0.0:
+            break
+        theta = min(max(theta, low + MARGIN * (high - low)), high - MARGIN * (high - low))
+        status, value = value_at(evaluate, correct, machine, history, k, theta)
+        if status != OK or value * side <= 0.0:
+            return status, theta, value
+        rate = side * h * watched.rate[k]
+        if rate < 0.0:
+            low, distance_low, rate_low = theta, side * value, rate
+        else:
+            high, distance_high, rate_high = theta, side * value, rate
+    return OK, NEVER, 0.0
+
+
+@leaf
+def find_contacts(evaluate, correct, machine, history, events):
+    """(status, θ) where the step has to end because a contact or stop begins or ends; 1 where none does."""
+    run = run_at(history)
+    values = run.event_values
+    if values.shape[1] == events:
+        return OK, 1.0
+    status = find_crossings(evaluate, correct, machine, history, events, values.shape[1], 1.0)
+    for k in range(events, values.shape[1]):
+        if status == OK and values[WHEN, k] == NEVER:
+            status, theta, value = look_into(evaluate, correct, machine, history, k)
+            if status == OK and theta < NEVER and side_of(value, k, events) != values[SIDE, k]:
+                status, values[WHEN, k] = locate(evaluate, correct, machine, history, k, theta, value)
+    end = first_of(values[WHEN], events)
+    if end < NEVER:
+        run.counter[RESTART], run.counter[SWITCHED] = 1, 1
+        if status == OK:
+            status = end_at(evaluate, correct, machine, history, end)
+    return status, min(end, 1.0)

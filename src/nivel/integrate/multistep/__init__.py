@@ -1,0 +1,1 @@
+"""Methods of Adams and Gear with a constant step."""

@@ -1,0 +1,1 @@
+"""Methods of Newmark's family, on the residual."""

@@ -1,0 +1,243 @@
+"""One attempt at a step of Newmark's method, HHT-α and generalised-α: the state as a function of the unknowns, and what is kept of it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.integrate.loop.run import run_at
+from nivel.integrate.newmark.residual_newton import iterate
+from nivel.kernels.core.status import NOT_CONVERGED, OK, SINGULAR
+from nivel.kernels.record.hook import call_hook
+from nivel.kernels.record.record import DEPART, LOCK, PASS, RESIDUAL, RESUME, record_at
+from nivel.kernels.tree.tree import has_passed
+from nivel.native.function import leaf
+
+# entries of run.numbers: the constants; the step before, 0 after a start (then BEFORE is what it would have been a step earlier)
+ALPHA_M, ALPHA_F, BETA, GAMMA, DELTA_M, DELTA_F, THETA = 0, 1, 2, 3, 4, 5, 6
+LAST_STEP = 7
+# 1 where accelerations went on to change in the last step as in the one before
+GOES_ON = 8
+# 1 where accelerations have been begun with anew without what decays within a step: those of the state are not to be taken
+SMOOTHED = 13
+# rows of run.stages: a and v̇ of the accepted state, w and ẋ; v̇ and ẋ of the state before; work; rate at the begin of the step
+A, VDOT, W, XDOT, BEFORE, AHEAD, RATE = 0, 1, 2, 3, 4, 5, 6
+# In independent coordinates accelerations are what the iteration leaves them, step for step, so it ends at this share of its tolerance, but
+# not below round-off.
+CLOSER, ROUND = 0.01, 1e-13
+# A part of a step cut at a corner that is shorter than this share of the step before says nothing of the changes of accelerations.
+SHORT = 0.1
+
+
+@leaf
+def refresh(machine, run):
+    """As index 1 or 2, take accelerations, rates and multipliers of the accepted state from its evaluation by the loop.
+
+    In a step only the mean of the accelerations at both ends counts for an undamped method: what it got wrong once along the constraints
+    would alternate for ever. a becomes what `keep_step` would have made of these accelerations. Efforts with stiction stay as they are:
+    where several hold one motion the evaluation may share it out otherwise.
+    """
+    if run.numbers[SMOOTHED] == 1.0:
+        run.numbers[SMOOTHED] = 0.0
+        return
+    record = record_at(machine)
+    newton, residual = record.newton, record.residual
+    n, states = residual.vdot.shape[0], newton.state.shape[0]
+    positions = np.int64(run.y.shape[0]) - n - states - 2
+    c, stages, rate = run.numbers, run.stages, run.rate
+    share, share_x = (1.0 - c[ALPHA_F]) / (1.0 - c[ALPHA_M]), (1.0 - c[DELTA_F]) / (1.0 - c[DELTA_M])
+    for k in range(n):
+        stages[A, k] += share * (rate[positions + k] - stages[VDOT, k])
+        stages[VDOT, k] = rate[positions + k]
+    for k in range(states):
+        stages[W, k] += share_x * (rate[positions + n + k] - stages[XDOT, k])
+        stages[XDOT, k] = rate[positions + n + k]
+    for k in range(residual.row.shape[0]):
+        newton.lam[k] = record.constraints.lam[residual.row[k]]
+
+
+@leaf
+def predict(run, newton, residual, h):
+    """The unknowns at the end of the step as if they went on to change as in the step before, or as they are now: whichever would have
+    been nearer there. Accelerations of stiff parts change their sign from step to step."""
+    stages, n, last = run.stages, residual.vdot.shape[0], run.numbers[LAST_STEP]
+    ratio = h / last if last > 0.0 and run.numbers[GOES_ON] == 1.0 else 0.0
+    for k in range(n):
+        residual.vdot[k] = stages[VDOT, k] + ratio * (stages[VDOT, k] - stages[BEFORE, k])
+    for k in range(newton.state.shape[0]):
+        newton.rate[k] = stages[XDOT, k] + ratio * (stages[XDOT, k] - stages[BEFORE, n + k])
+    for k in range(residual.lam.shape[0]):
+        residual.lam[k] = newton.lam[k] + ratio * (newton.lam[k] - newton.lam_before[k])
+
+
+@leaf
+def prepare(run, newton, n, h):
+    """The state as a function of the unknowns. Returns cq, cv, cx.
+
+    a and w stand a share of their step away from the accepted state: for another step they are moved to the same share of that.
+    """
+    c, stages, y = run.numbers, run.stages, run.y
+    states = newton.state.shape[0]
+    positions = np.int64(y.shape[0]) - n - states - 2
+    ratio = h / c[LAST_STEP] if c[LAST_STEP] > 0.0 else 1.0
+    share = (1.0 - c[ALPHA_F]) / (1.0 - c[ALPHA_M])
+    share_x = (1.0 - c[DELTA_F]) / (1.0 - c[DELTA_M])
+    for i in range(y.shape[0]):
+        newton.base[i] = y[i]
+    for k in range(n):
+        v, vdot = y[positions + k], stages[VDOT, k]
+        a = vdot + ratio * (stages[A, k] - vdot)
+        # a₁ = share v̇₁ + known
+        known = (c[ALPHA_F] * vdot - c[ALPHA_M] * a) / (1.0 - c[ALPHA_M])
+        newton.speed[k] = v + h * ((1.0 - c[GAMMA]) * a + c[GAMMA] * known)
+        newton.turn[k] = h * v + h * h * ((0.5 - c[BETA]) * a + c[BETA] * known)
+        newton.correction[k] = 0.0
+    for k in range(states):
+        xdot = stages[XDOT, k]
+        w = xdot + ratio * (stages[W, k] - xdot)
+        known = (c[DELTA_F] * xdot - c[DELTA_M] * w) / (1.0 - c[DELTA_M])
+        newton.state[k] = y[positions + n + k] + h * ((1.0 - c[THETA]) * w + c[THETA] * known)
+    return h * h * c[BETA] * share, h * c[GAMMA] * share, h * c[THETA] * share_x
+
+
+@leaf
+def begin_frictions(machine, y, h, t):
+    """What rows of frictions with stiction need to know of the accepted state y: rates and efforts. Returns a status."""
+    record = record_at(machine)
+    residual, friction = record.residual, record.friction
+    for i in range(y.shape[0]):
+        residual.y[i] = y[i]
+    status = call_hook(machine, RESIDUAL, 0, t)
+    for k in range(residual.stiction.shape[0]):
+        residual.begun[k] = residual.rate[k]
+        friction.anchor[residual.stiction[k]] = record.newton.lam[residual.row.shape[0] + k]
+    residual.span[0] = h if record.newton.level[0] == 2 else 0.0
+    return status
+
+
+@leaf
+def move_by_velocity(run, newton, residual, h, cq):
+    """Accelerations with which positions change by h times the velocities at the start of the step."""
+    n = residual.vdot.shape[0]
+    positions = np.int64(run.y.shape[0]) - n - newton.state.shape[0] - 2
+    for k in range(n):
+        residual.vdot[k] = (h * run.y[positions + k] - newton.turn[k]) / cq
+
+
+@leaf
+def attempt(machine, history, h, end, tolerance):
+    """The state after a step h, which ends at time `end`, in `residual.y`. tolerance : see `iterate`. Returns a status.
+
+    Where a body has passed a node of the beam that carries it, it is found again on the element reached:
+    `nivel.kernels.residual.element_crossing`.
+    """
+    run, record = run_at(history), record_at(machine)
+    passes = record.hooks.address[PASS] != 0
+    if passes:
+        for i in range(run.y.shape[0]):
+            record.residual.y[i] = run.y[i]
+        call_hook(machine, PASS, LOCK, end)
+    status = solve_step(machine, history, h, end, tolerance)
+    if passes and status == OK:
+        status = call_hook(machine, PASS, DEPART, end)
+        if status == OK and has_passed(record.tree):
+            status = solve_step(machine, history, h, end, tolerance)
+            if status == OK:
+                status = call_hook(machine, PASS, RESUME, end)
+    return status
+
+
+@leaf
+def solve_step(machine, history, h, end, tolerance):
+    """The same on the elements where bodies are held that beams carry.
+
+    Accelerations of stiff parts say little about the next ones: where they lead the iteration astray, it starts again from the positions
+    that the velocities lead to, and then from those there are.
+    """
+    run, record = run_at(history), record_at(machine)
+    if record.residual.stiction.shape[0] > 0:
+        status = begin_frictions(machine, run.y, h, end)
+        if status != OK:
+            return status
+    if record.newton.level[0] == 0:
+        tolerance = min(tolerance, max(CLOSER * tolerance, ROUND))
+    predict(run, record.newton, record.residual, h)
+    cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)
+    status = iterate(machine, history, end, cq, cv, cx, tolerance, True)
+    for share in (1.0, 0.0):
+        if status not in (NOT_CONVERGED, SINGULAR):
+            break
+        predict(run, record.newton, record.residual, h)
+        cq, cv, cx = prepare(run, record.newton, record.residual.vdot.shape[0], h)
+        move_by_velocity(run, record.newton, record.residual, share * h, cq)
+        status = iterate(machine, history, end, cq, cv, cx, tolerance, share == 1.0)
+    return status
+
+
+@leaf
+def goes_on(run, residual, states, h):
+    """Whether the accelerations of the step just done are nearer to those extrapolated than to those before it."""
+    stages, n, ratio = run.stages, residual.vdot.shape[0], h / run.numbers[LAST_STEP]
+    positions = np.int64(run.scale.shape[0]) - n - states - 2
+    extrapolated, constant = 0.0, 0.0
+    for k in range(n):
+        scale = run.scale[positions + k]
+        change = residual.vdot[k] - stages[VDOT, k]
+        constant = max(constant, np.abs(change) / scale)
+        extrapolated = max(extrapolated, np.abs(change - ratio * (stages[VDOT, k] - stages[BEFORE, k])) / scale)
+    return extrapolated < constant
+
+
+@leaf
+def keep_slopes(run, residual, newton, h):
+    """Accelerations and rates of the state reached, changing as they did before. A step this short says nothing of their changes, and of
+    themselves what the tolerance of its velocities leaves over its length."""
+    stages, n, share = run.stages, residual.vdot.shape[0], h / run.numbers[LAST_STEP]
+    for k in range(n):
+        gained = share * (stages[VDOT, k] - stages[BEFORE, k])
+        stages[A, k] += gained
+        stages[BEFORE, k] += gained
+        stages[VDOT, k] += gained
+    for k in range(newton.state.shape[0]):
+        gained = share * (stages[XDOT, k] - stages[BEFORE, n + k])
+        stages[W, k] += gained
+        stages[BEFORE, n + k] += gained
+        stages[XDOT, k] += gained
+
+
+@leaf
+def keep_changes(run, residual, newton, h):
+    """a and w of the state reached, its accelerations and rates, and those before."""
+    c, stages = run.numbers, run.stages
+    n, states = residual.vdot.shape[0], newton.state.shape[0]
+    ratio = h / c[LAST_STEP] if c[LAST_STEP] > 0.0 else 1.0
+    if c[LAST_STEP] > 0.0:
+        c[GOES_ON] = 1.0 if goes_on(run, residual, states, h) else 0.0
+    for k in range(n):
+        new, old = residual.vdot[k], stages[VDOT, k]
+        a = old + ratio * (stages[A, k] - old)
+        stages[A, k] = ((1.0 - c[ALPHA_F]) * new + c[ALPHA_F] * old - c[ALPHA_M] * a) / (1.0 - c[ALPHA_M])
+        stages[BEFORE, k], stages[VDOT, k] = old, new
+    for k in range(states):
+        new, old = newton.rate[k], stages[XDOT, k]
+        w = old + ratio * (stages[W, k] - old)
+        stages[W, k] = ((1.0 - c[DELTA_F]) * new + c[DELTA_F] * old - c[DELTA_M] * w) / (1.0 - c[DELTA_M])
+        stages[BEFORE, n + k], stages[XDOT, k] = old, new
+    c[LAST_STEP] = h
+
+
+@leaf
+def keep_step(machine, run, h, is_part):
+    """The state reached, and what the next step needs to know of it. is_part : of a step cut at a corner."""
+    record = record_at(machine)
+    newton, residual, last = record.newton, record.residual, run.y.shape[0] - 2
+    if is_part and h < SHORT * run.numbers[LAST_STEP]:
+        keep_slopes(run, residual, newton, h)
+    else:
+        keep_changes(run, residual, newton, h)
+    for k in range(residual.lam.shape[0]):
+        newton.lam_before[k], newton.lam[k] = newton.lam[k], residual.lam[k]
+    for i in range(last):
+        run.y[i] = residual.y[i]
+    # energies: the trapezoidal rule
+    for i in range(2):
+        run.y[last + i] += 0.5 * h * (run.rate[last + i] + record.control.power[i])

@@ -1,0 +1,1 @@
+"""Radau IIA with three stages."""

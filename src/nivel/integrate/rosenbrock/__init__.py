@@ -1,0 +1,1 @@
+"""Linearly implicit methods: Rosenbrock, extrapolated Euler, and the fast steps over circuits."""

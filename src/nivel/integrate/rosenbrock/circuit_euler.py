@@ -1,0 +1,169 @@
+"""`nivel.integrate.rosenbrock.extrapolated_euler` for machines whose only stiffness is that of their circuits, in relative coordinates.
+
+    (1 - h J) k = f(t, y)            Y₁ = y + h k                 one step
+    (1 - h/2 J) k = f(t, y), …       Y₂                           two steps of half the length, with the same J
+    y := 2 Y₂ - Y₁
+
+J is that of `nivel.motion.circuit_shift`, and f is taken at the begin of each part: with the evaluation at y, which a step begins with in
+any case, it takes two evaluations. What changes with the time is late by the part, which the extrapolation removes.
+
+The guard is the same. How far the pressures of Y₁ and Y₂ differ follows from masses and strokes by their slopes before and behind the step;
+where that is more than a part of LARGEST, both are evaluated.
+
+Machines with flexible bodies: `nivel.integrate.rosenbrock.flexible_circuit_euler`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, KNOWN, REACHED, STEP, STEP_SIGNATURE, TIME, run_at
+from nivel.integrate.rosenbrock.extrapolated_euler import HALVES, RATE, WHOLE, is_state, pressure_difference
+from nivel.integrate.rosenbrock.parts import LARGEST, step_in_parts
+from nivel.kernels.core.status import OK
+from nivel.kernels.hydraulics.tangent import find_slopes, slope_by_mass
+from nivel.kernels.record.hook import call_evaluate
+from nivel.kernels.record.record import NONE, record_at
+from nivel.motion.circuit_shift import advance_circuit, factorise_circuit, soften
+from nivel.motion.unit_efforts import answer, answer_unit_efforts, project
+from nivel.native.entry import entry
+from nivel.native.function import leaf, shared, stage
+
+# Numbers of the factors of the whole step and of its halves; more rows of run.stages: k without circuits, the rate at the begin.
+OF_WHOLE, OF_HALVES = 0, 1
+OTHER, BEGIN = 3, 4
+# Share of LARGEST up to which slopes judge a difference of pressures.
+JUDGED = 0.25
+
+
+@leaf
+def judged_difference(machine, run):
+    """The largest difference of a pressure [Pa] at Y₁ and Y₂ by slopes, the larger of those at the begin and those last evaluated."""
+    record = record_at(machine)
+    circuit, first = record.circuit, run.y.shape[0] - 2 - record.elements.state.shape[0]
+    tangent, largest = circuit.tangent, 0.0
+    whole, halves = run.stages[WHOLE], run.stages[HALVES]
+    for node in range(circuit.node.shape[0]):
+        state = circuit.node[node, 1]
+        if state == NONE:
+            if tangent.signal[node] == NONE:
+                continue
+            place = first + np.int64(tangent.state[tangent.signal[node]])
+            change = np.abs(halves[place] - whole[place])
+        else:
+            change = tangent.by_mass[node] * (halves[first + np.int64(state)] - whole[first + np.int64(state)])
+            for c in range(tangent.coordinate.shape[0]):
+                change += tangent.by_stroke[node, c] * (tangent.travel[1, c] - tangent.travel[0, c])
+            change = np.abs(change) * max(1.0, slope_by_mass(circuit, node) / tangent.by_mass[node])
+        if not change <= largest:
+            largest = change
+    return largest
+
+
+@leaf
+def difference_in_step(evaluate, machine, run):
+    """How far the pressures [Pa] of Y₁ and Y₂ differ; infinite where these, or 2 Y₂ - Y₁ in `trial`, are no states.
+
+    Where the last one can be taken it is the state last evaluated, with its rate in `scratch`, or KNOWN is 0.
+    """
+    run.counter[KNOWN] = 0
+    if not is_state(machine, run.trial) or not is_state(machine, run.stages[WHOLE]):
+        return np.inf
+    run.counter[EVALUATIONS] += 1
+    if call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, run.scratch) != OK:
+        return np.inf
+    difference = judged_difference(machine, run)
+    # where constraints are corrected, the state to be accepted is another one
+    run.counter[KNOWN] = 1 if record_at(machine).saddle.row.shape[0] == 0 else 0
+    if not difference <= JUDGED * LARGEST:
+        run.counter[KNOWN] = 0
+        difference = pressure_difference(evaluate, machine, run)
+    return difference
+
+
+@shared
+def fill_both(evaluate, machine, run, t, h, prepare, renew, leave):
+    """Fill WHOLE and HALVES from the state y, last evaluated. Returns a status, and whether HALVES is filled."""
+    y, middle, other = run.y, run.trial, run.stages[OTHER]
+    record_at(machine).circuit.tangent.travel[:, :] = 0.0
+    find_slopes(machine, t)
+    run.counter[EVALUATIONS] += 1
+    run.counter[FACTORISATIONS] += 2
+    status = prepare(machine, OF_WHOLE, h)
+    if status == OK:
+        status = leave(machine, y, run.rate, h, other)
+    if status == OK:
+        advance_circuit(machine, OF_WHOLE, h, run.rate, other, y, run.stages[WHOLE])
+        status = prepare(machine, OF_HALVES, 0.5 * h)
+    if status == OK:
+        status = leave(machine, y, run.rate, 0.5 * h, other)
+    if status != OK:
+        return status, False
+    advance_circuit(machine, OF_HALVES, 0.5 * h, run.rate, other, y, middle)
+    if not is_state(machine, middle) or call_evaluate(evaluate, machine, t + 0.5 * h, middle, run.stages[RATE]) != OK:
+        return OK, False
+    status = renew(machine, 0.5 * h)
+    if status == OK:
+        status = leave(machine, middle, run.stages[RATE], 0.5 * h, other)
+    if status != OK:
+        return status, False
+    advance_circuit(machine, OF_HALVES, 0.5 * h, run.stages[RATE], other, middle, run.stages[HALVES])
+    return OK, is_state(machine, run.stages[HALVES])
+
+
+@shared
+def attempt_over_circuits(evaluate, machine, history, prepare, renew, leave):
+    """A step into `trial`, for `step_in_parts`: 2 Y₂ - Y₁, or where that cannot be trusted Y₂, or Y₁.
+
+    prepare, renew, leave : compiled into this one. The first gives factors (machine, number, s) in the state y, the second what of those of
+    the halves depends on the state in the middle (machine, s), the third k without circuits (machine, y, f, s, other).
+    """
+    run = run_at(history)
+    whole, halves, trial = run.stages[WHOLE], run.stages[HALVES], run.trial
+    status, filled = fill_both(evaluate, machine, run, run.clock[TIME], run.clock[STEP], prepare, renew, leave)
+    if status != OK:
+        return status, np.inf
+    for i in range(trial.shape[0]):
+        trial[i] = 2.0 * halves[i] - whole[i]
+    difference = difference_in_step(evaluate, machine, run) if filled else np.inf
+    if not difference <= LARGEST:
+        for i in range(trial.shape[0]):
+            trial[i] = halves[i] if filled else whole[i]
+    return OK, difference
+
+
+@stage
+def prepare_rigid(machine, number, s):
+    """Factors `number` for s. Returns a status."""
+    if number == OF_WHOLE:
+        status = answer_unit_efforts(machine, project, answer)
+        if status != OK:
+            return status
+        soften(record_at(machine).circuit.tangent)
+    return factorise_circuit(machine, number, s)
+
+
+@stage
+def renew_nothing(machine, s):
+    """Nothing depends on the state in the middle."""
+    return OK
+
+
+@stage
+def leave_rate(machine, y, f, s, other):
+    """Without circuits nothing is stiff: k = f."""
+    for i in range(f.shape[0]):
+        other[i] = f[i]
+    return OK
+
+
+@stage
+def attempt_rigid(evaluate, machine, history):
+    """`attempt_over_circuits` of rigid bodies."""
+    return attempt_over_circuits(evaluate, machine, history, prepare_rigid, renew_nothing, leave_rate)
+
+
+@entry(STEP_SIGNATURE)
+def circuit_euler(evaluate, machine, history):
+    """One step."""
+    return step_in_parts(evaluate, machine, history, attempt_rigid, BEGIN)

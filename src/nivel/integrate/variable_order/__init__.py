@@ -1,0 +1,1 @@
+"""Methods of many steps that choose step and order."""

@@ -1,0 +1,112 @@
+"""The corrector of the multistep methods that choose their steps: the correction e of the predicted state.
+
+The corrected polynomial P + e c has to satisfy the equations of motion at the new time, h f(t, P(0) + e) = P'(0) + c_1 e. Either e is
+evaluated again and again from f (functional iteration, for motions that are not stiff), or Newton's method is used:
+(1 - (h/c_1) ∂f/∂y) Δe = (h f - P'(0) - c_1 e)/c_1, with a matrix that serves for many steps. It is that of
+`nivel.integrate.variable_order.difference_matrix` or of `nivel.integrate.variable_order.exact_matrix`; for each a corrector of its own is
+compiled.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.integrate.loop.run import EVALUATIONS, FACTORISATIONS, ITERATIONS, MOST_ITERATIONS, NEWTON, REACHED, run_at
+from nivel.integrate.loop.step_control import size
+from nivel.integrate.variable_order.variable_workspace import CHANGE, CONTRACTION, CORRECTION, PREDICTED, RATE, SHARE, C
+from nivel.kernels.core.status import NOT_CONVERGED, OK
+from nivel.kernels.record.hook import call_evaluate
+from nivel.native.function import leaf
+
+# More iterations than this are dearer than a shorter step.
+MOST = 4
+# The iteration ends where what is left of it is this share of what a step may be wrong by.
+CLOSE = 0.1
+# A contraction is forgotten at this rate; an iteration whose change grows by DIVERGES has failed.
+FORGET, DIVERGES = 0.3, 2.0
+# Newton's matrix is found again where h/c_1 has changed by more than this share.
+SAME = 0.3
+
+
+def corrector(find_matrix, solve_matrix):
+    """The functions `correct` and `damp` with Newton's matrix from these."""
+
+    @leaf
+    def iterate(evaluate, machine, history, h, tolerance):
+        run = run_at(history)
+        e, predicted, slope = run.stages[CORRECTION], run.stages[PREDICTED], run.stages[PREDICTED + 1]
+        rate, change, leading = run.stages[RATE], run.stages[CHANGE], run.numbers[C + 1]
+        for i in range(e.shape[0]):
+            e[i] = 0.0
+            run.trial[i] = predicted[i]
+        before = 0.0
+        for m in range(min(MOST, run.counter[MOST_ITERATIONS])):
+            status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, rate)
+            run.counter[EVALUATIONS] += 1
+            run.counter[ITERATIONS] += 1
+            if status != OK:
+                return status
+            for i in range(e.shape[0]):
+                change[i] = (h * rate[i] - slope[i]) / leading - e[i]
+            if run.counter[NEWTON] == 1:
+                status = solve_matrix(machine, history, change)
+                if status != OK:
+                    return status
+                # for the h/c_1 that the matrix was not made for (Byrne, Hindmarsh 1975): right for the stiff and the soft on average
+                factor = 2.0 / (1.0 + h / leading / run.numbers[SHARE])
+                for i in range(e.shape[0]):
+                    change[i] *= factor
+            for i in range(e.shape[0]):
+                e[i] += change[i]
+                run.trial[i] = predicted[i] + e[i]
+            now = size(run, change)
+            if m > 0:
+                run.numbers[CONTRACTION] = max(FORGET * run.numbers[CONTRACTION], now / before)
+            if now * min(1.0, run.numbers[CONTRACTION]) <= CLOSE * tolerance:
+                return OK
+            if not now < np.inf or (m > 0 and now > DIVERGES * before):
+                break
+            before = now
+        run.numbers[CONTRACTION] = 1.0
+        return NOT_CONVERGED
+
+    @leaf
+    def renew(evaluate, machine, history, share):
+        """The factors of 1 - share ∂f/∂y at the predicted state. Returns a status."""
+        run = run_at(history)
+        for i in range(run.y.shape[0]):
+            run.trial[i] = run.stages[PREDICTED, i]
+        run.numbers[SHARE] = 0.0
+        status = call_evaluate(evaluate, machine, run.clock[REACHED], run.trial, run.stages[RATE])
+        run.counter[EVALUATIONS] += 1
+        if status == OK:
+            status = find_matrix(evaluate, machine, history, share, run.stages[RATE])
+            run.counter[FACTORISATIONS] += 1
+        if status == OK:
+            run.numbers[SHARE] = share
+        return status
+
+    @leaf
+    def correct(evaluate, machine, history, h, tolerance):
+        """Fill CORRECTION, and run.trial with the new state; `tolerance` is what a step may be wrong by. Returns a status."""
+        run = run_at(history)
+        if run.counter[NEWTON] == 0:
+            return iterate(evaluate, machine, history, h, tolerance)
+        share = h / run.numbers[C + 1]
+        if np.abs(share - run.numbers[SHARE]) <= SAME * run.numbers[SHARE]:
+            status = iterate(evaluate, machine, history, h, tolerance)
+            if status == OK:
+                return OK
+        run.numbers[CONTRACTION] = 1.0
+        status = renew(evaluate, machine, history, share)
+        return iterate(evaluate, machine, history, h, tolerance) if status == OK else status
+
+    @leaf
+    def damp(machine, history, source, x):
+        """x := `source`, with Newton's method less of the vibrations that are stiff: (1 - (h/c_1) ∂f/∂y)⁻¹ of it. Returns a status."""
+        run = run_at(history)
+        for i in range(x.shape[0]):
+            x[i] = source[i]
+        return solve_matrix(machine, history, x) if run.counter[NEWTON] == 1 else OK
+
+    return correct, damp

@@ -1,0 +1,1 @@
+"""Linear algebra and rotations: no machine in them."""

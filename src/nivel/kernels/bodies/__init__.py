@@ -1,0 +1,1 @@
+"""Bodies, markers and the coordinates of joints: where they are, how they move, what constrains them."""

@@ -1,0 +1,69 @@
+"""The kinds of arrays in a record.
+
+A record is a NamedTuple of C-contiguous arrays and further records. Its array kinds never depend on the machine, so the
+compiled code does not either. Indices are uint32: signed ones cost a wrap-around test at every access.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Annotated, Any, Final, get_args, get_origin, get_type_hints
+
+import numpy as np
+from numpy.typing import NDArray
+
+F1 = Annotated[NDArray[np.float64], 1, "real"]
+F2 = Annotated[NDArray[np.float64], 2, "real"]
+F3 = Annotated[NDArray[np.float64], 3, "real"]
+# what an evaluation leaves: complex where it runs on complex numbers, for exact derivatives
+W1 = Annotated[NDArray[np.float64], 1, "work"]
+W2 = Annotated[NDArray[np.float64], 2, "work"]
+W3 = Annotated[NDArray[np.float64], 3, "work"]
+# complex in the record of real numbers too
+C1 = Annotated[NDArray[np.complex128], 1, "complex"]
+C2 = Annotated[NDArray[np.complex128], 2, "complex"]
+U1 = Annotated[NDArray[np.uint32], 1, "index"]
+U2 = Annotated[NDArray[np.uint32], 2, "index"]
+I1 = Annotated[NDArray[np.int64], 1, "count"]
+A1 = Annotated[NDArray[np.uint64], 1, "address"]
+
+
+def complex_twin(record: Any) -> Any:
+    """The record with complex copies of what an evaluation leaves; everything else is shared."""
+    twins = (_TWIN[kind](value) for kind, value in zip(_kinds(type(record)), record, strict=True))
+    return type(record)(*twins)
+
+
+def copied(record: Any) -> Any:
+    """The record with arrays of its own; what are the same arrays in it, are the same in the copy."""
+    return _copied(record, {})
+
+
+def _copied(record: Any, known: dict[int, NDArray[Any]]) -> Any:
+    fields = (
+        _copied(field, known) if isinstance(field, tuple) else known.setdefault(id(field), field.copy())
+        for field in record
+    )
+    return type(record)(*fields)
+
+
+@cache
+def _kinds(record_class: type) -> tuple[str, ...]:
+    """What each field of a record is: its kind of array, or `record`."""
+    hints = get_type_hints(record_class, include_extras=True)
+    return tuple(
+        get_args(hints[name])[2] if get_origin(hints[name]) is Annotated else "record"
+        for name in record_class._fields  # type: ignore[attr-defined]
+    )
+
+
+def _same(array: Any) -> Any:
+    return array
+
+
+_TWIN: Final[Mapping[str, Callable[[Any], Any]]] = {
+    "record": complex_twin,
+    "work": lambda array: array.astype(np.complex128),
+    **dict.fromkeys(("real", "complex", "index", "count", "address"), _same),
+}

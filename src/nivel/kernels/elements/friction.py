@@ -1,0 +1,393 @@
+"""Friction in joints, whose normal load is the joint's own reaction.
+
+The efforts F on the joint coordinates change the reactions, and these the efforts. Both are linear in F: with the extra rows C_f of
+the coordinates, λ = λ₀ + R F, accelerations c̈ = c̈₀ + S F, S = C_f P M⁻¹ C_fᵀ (P projects onto the constraints). R and S come from one
+solution with the factor that is there already per element; then F is iterated, from where the last evaluation ended, without any
+solve. Coulomb's regularised law and LuGre give |F| from the load; with stiction F is what stops the coordinate within the time TAU,
+as long as it is no larger than static friction: the joint really stands still. A motion that drivers prescribe no effort stops: while
+it goes on, F is all that the load gives, against it; while they hold it, F is left to them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.analytic import absolute, real, tanh
+from nivel.kernels.core.status import BRISTLE_TOO_FAST, FRICTION_DIVERGES, OK
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
+from nivel.kernels.solve.saddle import solve_rows
+from nivel.native.function import leaf, stage
+
+# columns of `columns`; JOINT: whose reaction is the load, or NONE; FRAME: marker whose z axis is that of the motion;
+# BEARING: marker about whose point moments are taken
+# outputs: effort, power, normal load, the bristle
+COORDINATE, MODEL, JOINT, ROTATES, STATE, OUTPUT, FRAME, BEARING = 0, 1, 2, 3, 4, 5, 6, 7
+COULOMB, STICTION, LUGRE = 0, 1, 2
+# columns of `number`; ARM: a speed of the coordinate times it is the speed of the surfaces; REST: a rate below it is none where drivers
+# prescribe it, known when a run starts
+KINETIC, STATIC, STRIBECK, TRANSITION, VISCOUS, STIFFNESS, DAMPING = 0, 1, 2, 3, 4, 5, 6
+ARM, COLLAR, MOMENT_ARM, SPIN_ARM, LOAD, REST = 7, 8, 9, 10, 11, 12
+
+# Gauss–Seidel sweeps, then Newton steps, then anchored ones; efforts agree to TOLERANCE, and must to ENOUGH.
+SWEEPS, STEPS, ANCHORED_STEPS = 12, 12, 40
+TOLERANCE, ENOUGH = 1e-12, 1e-7
+# Two frictions that hold one motion may have no common solution by a hair, or many: they then stay near their last efforts, and the
+# acceleration that is left is this share of what the change of effort would do.
+ANCHOR = 1e-3
+# What an effort moves counts for no more than this times what it would move of the two bodies without their other joints.
+BOUND = 1e3
+# S_kk as this share of 1/m is round-off: the motion is prescribed.
+PRESCRIBED = 1e-7
+# A driver takes up less than this share of an effort that it does not prescribe the motion of [m/m, rad/m, …]: round-off.
+DRIVEN = 1e-12
+# Rate of relaxation of the bristles times two steps: beyond it RK4 is unstable (2.78 a step).
+FASTEST = 5.5
+
+
+@stage
+def along(machine, k, change):
+    """Acceleration of coordinate k for whitened accelerations `change` of the bodies."""
+    record = record_at(machine)
+    friction, saddle = record.friction, record.saddle
+    total = 0.0
+    for n in range(friction.block[k, 0], friction.block[k, 1]):
+        for i in range(saddle.z.shape[1]):
+            total += saddle.W[n, i] * change[saddle.block[n, 3], i]
+    return total
+
+
+@stage
+def respond(machine):
+    """Multipliers and whitened accelerations for a unit effort on each coordinate, S, and the masses that efforts move."""
+    record = record_at(machine)
+    friction, saddle = record.friction, record.saddle
+    width, rows = saddle.z.shape[1], saddle.b.shape[0]
+    for k in range(friction.columns.shape[0]):
+        change, response = friction.change[k], friction.response[k]
+        for body in range(change.shape[0]):
+            for i in range(width):
+                change[body, i] = 0.0
+        for n in range(friction.block[k, 0], friction.block[k, 1]):
+            for i in range(width):
+                change[saddle.block[n, 3], i] += saddle.W[n, i]
+        friction.mass[k] = along(machine, k, change)
+        for row in range(rows):
+            saddle.b[row] = 0.0
+        for n in range(saddle.blocks[0]):
+            row, body = saddle.block[n, 0], saddle.block[n, 3]
+            for i in range(width):
+                saddle.b[row] += saddle.W[n, i] * change[body, i]
+        solve_rows(machine, 0.0)
+        for row in range(rows):
+            response[saddle.row[row]] = saddle.b[row]
+        for n in range(saddle.blocks[0]):
+            row, body = saddle.block[n, 0], saddle.block[n, 3]
+            for i in range(width):
+                change[body, i] -= saddle.W[n, i] * saddle.b[row]
+    for k in range(friction.columns.shape[0]):
+        for other in range(friction.columns.shape[0]):
+            friction.S[k, other] = along(machine, k, friction.change[other])
+        friction.mass[k] = 1.0 / max(friction.S[k, k], friction.mass[k] / BOUND, 1e-300)
+
+
+@stage
+def start(machine):
+    """Accelerations of the coordinates and multipliers without friction."""
+    record = record_at(machine)
+    friction, saddle, constraints = record.friction, record.saddle, record.constraints
+    rows = constraints.C.shape[0]
+    for row in range(rows):
+        friction.lam[row] = constraints.lam[row]
+    for k in range(friction.columns.shape[0]):
+        total = -constraints.gamma[rows + k]
+        for n in range(friction.block[k, 0], friction.block[k, 1]):
+            for i in range(saddle.z.shape[1]):
+                total += saddle.W[n, i] * saddle.z[saddle.block[n, 3], i]
+        friction.free[k] = total
+
+
+@stage
+def superpose(machine):
+    """λ = λ₀ + Σ R F."""
+    record = record_at(machine)
+    friction, lam = record.friction, record.constraints.lam
+    for row in range(lam.shape[0]):
+        total = friction.lam[row]
+        for k in range(friction.columns.shape[0]):
+            total += friction.response[k, row] * friction.force[k]
+        lam[row] = total
+
+
+@stage
+def normal_load(machine, k):
+    """What presses the surfaces of friction k together [N], from the multipliers and the constant load.
+
+    With the reaction (F, M) about the bearing, across (⊥) and along the axis of the motion, z: for a turning joint
+    |F_⊥| + 2 |M_⊥|/length + |F_z| collar/radius, for a sliding one |F_⊥| + 2 |M_⊥|/length + |M_z|/radius.
+    """
+    record = record_at(machine)
+    friction, joints, constraints, markers = record.friction, record.joints, record.constraints, record.markers
+    n, joint = friction.number[k], friction.columns[k, JOINT]
+    load = n[LOAD]
+    if joint == NONE:
+        return load
+    f0, f1, f2, m0, m1, m2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for row in range(joints.rows[joint, 0], joints.rows[joint, 1]):
+        J, lam = constraints.J[joints.part[row]], constraints.lam[row]
+        f0 += lam * J[0]
+        f1 += lam * J[1]
+        f2 += lam * J[2]
+        m0 += lam * J[3]
+        m1 += lam * J[4]
+        m2 += lam * J[5]
+    # the moment about the bearing: M + (r_first - r_bearing) × F
+    r, b = markers.r[joints.first_marker[joint]], markers.r[friction.columns[k, BEARING]]
+    d0, d1, d2 = r[0] - b[0], r[1] - b[1], r[2] - b[2]
+    m0, m1, m2 = m0 + d1 * f2 - d2 * f1, m1 + d2 * f0 - d0 * f2, m2 + d0 * f1 - d1 * f0
+    A = markers.A[friction.columns[k, FRAME]]
+    fx = A[0, 0] * f0 + A[1, 0] * f1 + A[2, 0] * f2
+    fy = A[0, 1] * f0 + A[1, 1] * f1 + A[2, 1] * f2
+    fz = A[0, 2] * f0 + A[1, 2] * f1 + A[2, 2] * f2
+    mx = A[0, 0] * m0 + A[1, 0] * m1 + A[2, 0] * m2
+    my = A[0, 1] * m0 + A[1, 1] * m1 + A[2, 1] * m2
+    mz = A[0, 2] * m0 + A[1, 2] * m1 + A[2, 2] * m2
+    load += np.sqrt(fx * fx + fy * fy) + n[MOMENT_ARM] * np.sqrt(mx * mx + my * my)
+    if friction.columns[k, ROTATES] == 1:
+        return load + n[COLLAR] * absolute(fz)
+    return load + n[SPIN_ARM] * absolute(mz)
+
+
+@stage
+def coefficient(n, speed):
+    """μ(v) = μ_d + (μ_s - μ_d) exp(-(v/v_s)²)."""
+    if n[STATIC] == n[KINETIC]:
+        return n[KINETIC]
+    ratio = speed / n[STRIBECK]
+    return n[KINETIC] + (n[STATIC] - n[KINETIC]) * np.exp(-ratio * ratio)
+
+
+@stage
+def relaxation(machine, k):
+    """Rate σ0 |v|/μ(v) at which the bristles of friction k forget [1/s]."""
+    record = record_at(machine)
+    n = record.friction.number[k]
+    speed = record.coordinates.rate[record.friction.columns[k, COORDINATE]] * n[ARM]
+    return n[STIFFNESS] * absolute(speed) / coefficient(n, speed)
+
+
+@stage
+def sliding_effort(machine, k):
+    """Effort of friction k, without stiction, for the present multipliers; the rate of its bristle is left with the states of forces.
+
+    Viscous friction comes on top of it. LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995) with the bristle z per unit load:
+    ż = v - σ0 |v| z/μ(v), effort -(σ0 z + σ1 ż) times the load.
+    """
+    record = record_at(machine)
+    friction = record.friction
+    n, rate = friction.number[k], record.coordinates.rate[friction.columns[k, COORDINATE]]
+    speed = rate * n[ARM]
+    load = normal_load(machine, k) * n[ARM]
+    viscous = n[VISCOUS] * rate
+    if friction.columns[k, MODEL] == COULOMB:
+        return -coefficient(n, speed) * tanh(speed / n[TRANSITION]) * load - viscous
+    z = record.elements.state[friction.columns[k, STATE]]
+    zdot = speed - relaxation(machine, k) * z
+    record.elements.state_rate[friction.columns[k, STATE]] = zdot
+    return -(n[STIFFNESS] * z + n[DAMPING] * zdot) * load - viscous
+
+
+@stage
+def yielding(friction, k):
+    """S_kk, or of a motion that is prescribed, which no effort changes, so much more that friction acts against its rate."""
+    own = friction.S[k, k]
+    return own if own * friction.mass[k] > PRESCRIBED else 1.0 / friction.mass[k]
+
+
+@stage
+def driven(machine, k):
+    """The way, ±1, in which drivers move coordinate k, or 0 while they hold it, where they and the joints leave it no freedom; else not a
+    number.
+
+    An effort of one on such a coordinate is taken up by the multipliers R of `respond` alone: C_f = Rᵀ C_q. So ċ = Σ R f'(t) over the
+    drivers, however far velocities are from closed. With penalties S_kk is Σ R²/α then, unless they are iterated.
+    """
+    record = record_at(machine)
+    friction, constraints, saddle = record.friction, record.constraints, record.saddle
+    own = friction.S[k, k]
+    if record.control.iterations[0] <= 1:
+        for row in range(saddle.row.shape[0]):
+            own -= saddle.shift[row] * friction.response[k, saddle.row[row]] ** 2
+    if own * friction.mass[k] > PRESCRIBED:
+        return np.nan
+    rate, share = 0.0, 0.0
+    for i in range(constraints.combination.shape[0]):
+        if constraints.combination[i, 3] != NONE:
+            part = friction.response[k, constraints.combination[i, 0]]
+            rate += part * real(constraints.motion[i])
+            share = max(share, np.abs(part))
+    if not share > DRIVEN:
+        return np.nan
+    return np.sign(rate) if np.abs(rate) > friction.number[k, REST] else 0.0
+
+
+@stage
+def effort(machine, k, tau, anchor):
+    """Effort of friction k for the present multipliers and efforts of the others."""
+    record = record_at(machine)
+    friction, coordinates = record.friction, record.coordinates
+    n, q, model = friction.number[k], friction.columns[k, COORDINATE], friction.columns[k, MODEL]
+    if model != STICTION:
+        return sliding_effort(machine, k)
+    rate = coordinates.rate[q]
+    viscous = n[VISCOUS] * rate
+    largest = coefficient(n, rate * n[ARM]) * normal_load(machine, k) * n[ARM]
+    way = driven(machine, k)
+    if not np.isnan(way):
+        return -way * largest - viscous
+    # what makes c̈ = -ċ/τ, if it is within the cone
+    acceleration = friction.free[k] + rate / tau
+    for other in range(friction.columns.shape[0]):
+        if other != k:
+            acceleration += friction.S[k, other] * friction.force[other]
+    wanted = (anchor * friction.anchor[k] - acceleration / yielding(friction, k)) / (1.0 + anchor) + viscous
+    return min(max(wanted, -largest), largest) - viscous
+
+
+@stage
+def residual(machine, anchor, r):
+    """r = effort(F) - F of all frictions for the present F, multipliers included; returns (largest |r|, its friction, largest |F|)."""
+    record = record_at(machine)
+    friction = record.friction
+    superpose(machine)
+    largest, worst, scale = 0.0, 0, 0.0
+    for k in range(friction.columns.shape[0]):
+        wanted = effort(machine, k, record.control.stick[0], anchor)
+        r[k] = wanted - friction.force[k]
+        size = np.abs(r[k])
+        if not size <= largest:
+            largest, worst = size, k
+        scale = max(scale, np.abs(wanted), np.abs(friction.force[k]))
+    return largest, worst, scale
+
+
+@stage
+def sweep(machine, anchor):
+    """One Gauss–Seidel sweep: each friction takes the effort that the others' leave it."""
+    record = record_at(machine)
+    friction = record.friction
+    for k in range(friction.columns.shape[0]):
+        superpose(machine)
+        friction.force[k] = effort(machine, k, record.control.stick[0], anchor)
+
+
+@leaf
+def eliminate(J, r, d):
+    """d with J d = -r; unknowns without a pivot stay zero (two frictions that hold the same motion). J is overwritten."""
+    n = r.shape[0]
+    for k in range(n):
+        d[k] = -r[k]
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if np.abs(J[i, k]) > np.abs(J[best, k]):
+                best = i
+        if np.abs(J[best, k]) < 1e-9:
+            J[k, k] = np.inf
+            continue
+        if best != k:
+            d[k], d[best] = d[best], d[k]
+            for j in range(n):
+                J[k, j], J[best, j] = J[best, j], J[k, j]
+        for i in range(k + 1, n):
+            factor = J[i, k] / J[k, k]
+            d[i] -= factor * d[k]
+            for j in range(k + 1, n):
+                J[i, j] -= factor * J[k, j]
+    for m in range(n):
+        k = n - 1 - m
+        for j in range(k + 1, n):
+            d[k] -= J[k, j] * d[j]
+        d[k] /= J[k, k]
+
+
+@stage
+def newton(machine, anchor, scale):
+    """One Newton step for effort(F) = F, with differences (λ is linear in F, loads are norms), halved while it does not help."""
+    record = record_at(machine)
+    friction = record.friction
+    n = friction.columns.shape[0]
+    r, ahead, d, J = friction.work[0], friction.work[1], friction.work[2], friction.jacobian
+    before, _, _ = residual(machine, anchor, r)
+    for j in range(n):
+        kept = friction.force[j]
+        delta = 1e-7 * (np.abs(kept) + scale) + 1e-30
+        friction.force[j] = kept + delta
+        residual(machine, anchor, ahead)
+        friction.force[j] = kept
+        for k in range(n):
+            J[k, j] = (ahead[k] - r[k]) / delta
+    eliminate(J, r, d)
+    share = 1.0
+    for _ in range(6):
+        for k in range(n):
+            friction.force[k] += share * d[k]
+        largest, _, _ = residual(machine, anchor, ahead)
+        if largest < before:
+            return
+        for k in range(n):
+            friction.force[k] -= share * d[k]
+        share *= 0.5
+    sweep(machine, anchor)
+
+
+@stage
+def report(machine, k, force):
+    """The outputs of friction k with this effort; it takes its power from the machine."""
+    record = record_at(machine)
+    friction, out = record.friction, record.outputs.value
+    first = friction.columns[k, OUTPUT]
+    power = force * record.coordinates.rate[friction.columns[k, COORDINATE]]
+    record.control.power[1] -= power
+    out[first], out[first + 1], out[first + 2] = force, power, normal_load(machine, k)
+    if friction.columns[k, MODEL] == LUGRE:
+        out[first + 3] = record.elements.state[friction.columns[k, STATE]]
+
+
+@family
+def apply(machine, number, t):
+    """Efforts of all frictions, consistent with the reactions that they cause; multipliers and accelerations are left with them.
+
+    FRICTION_DIVERGES names the worst (control.failure) where no consistent effort is found: more friction than any load can carry;
+    BRISTLE_TOO_FAST where the bristles of LuGre relax faster than a Runge–Kutta step of fixed size can follow.
+    """
+    record = record_at(machine)
+    friction, saddle, control = record.friction, record.saddle, record.control
+    count = friction.columns.shape[0]
+    respond(machine)
+    start(machine)
+    for k in range(count):
+        friction.anchor[k] = friction.force[k]
+    largest, worst, scale = np.inf, 0, 0.0
+    for iteration in range(SWEEPS + STEPS + ANCHORED_STEPS):
+        anchor = ANCHOR if iteration >= SWEEPS + STEPS else 0.0
+        largest, worst, scale = residual(machine, anchor, friction.work[0])
+        if largest <= TOLERANCE * scale:
+            break
+        if iteration < SWEEPS:
+            sweep(machine, anchor)
+        else:
+            newton(machine, anchor, scale)
+    if not largest <= ENOUGH * scale:
+        control.failure[0] = worst
+        return FRICTION_DIVERGES
+    for k in range(count):
+        force = friction.force[k]
+        report(machine, k, force)
+        if friction.columns[k, MODEL] == LUGRE and relaxation(machine, k) * control.stick[1] > FASTEST:
+            control.failure[0] = k
+            return BRISTLE_TOO_FAST
+        for body in range(saddle.z.shape[0]):
+            for i in range(saddle.z.shape[1]):
+                saddle.z[body, i] += force * friction.change[k, body, i]
+    return OK

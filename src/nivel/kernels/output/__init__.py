@@ -1,0 +1,1 @@
+"""Energies and frames of results; the entries of statics."""

@@ -1,0 +1,1 @@
+"""The residual of implicit methods and its derivatives."""

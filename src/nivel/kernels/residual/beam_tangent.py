@@ -1,0 +1,430 @@
+"""Derivatives of elements of beams by hand: material, geometric and inertial tangents (Simo, Vu-Quoc 1986; Crisfield, Jelenić 1999).
+
+Seen from the reference node r, an element has the potential U(y_a, ψ_a), y_a = R_rᵀ (x_a - x_r), with forces P and the symmetric
+stiffness k. At a point, with the potential M·T(ψ) ψ' of given moments and N·exp(-ψ̃) y' of given forces,
+
+    k = Bᵀ C B + ∂²(M·T ψ')/∂(ψ, ψ')² + that of N,        δΓ = Qᵀ δy' + (Qᵀ y')~ T δψ,   δΚ = E δψ + T δψ'
+
+Nodes feel f_a = R_r P_a and t_a = R_a T_a⁻ᵀ P_ψa; the reference node what balances them. Their changes for a motion (δx, δθ) of the nodes
+follow from k and from how these forces turn, and rows are their work on the motions of the unknowns. While the other derivatives are
+found on complex numbers the elements keep their wrenches (`nivel.kernels.forces.held_beam`), which gives what turns of rows do to them; for
+plain nodes that is done here too, with their inertia.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.relative_rotation import rotation_vector
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.bodies.shared_mass import less, product, transposed_product
+from nivel.kernels.core.status import OK
+from nivel.kernels.elements.beam_element import (
+    COUNT,
+    NODE,
+    POINT,
+    POINTS,
+    REFERENCE,
+    SHAPE,
+    SLOPE,
+    STIFFNESS,
+    STRAIN,
+    WEIGHT,
+    WIDTH,
+    along_line,
+    inverse_tangent_product,
+    sum_of,
+    tangent_product,
+    turned,
+)
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import NONE, record_at
+from nivel.kernels.residual.tangent import inverse_tangent
+from nivel.native.function import leaf, stage
+
+# what `job` asks for: all parts as Newton's iteration combines them, or one of them
+TOTAL, ACCELERATIONS, VELOCITIES, POSITIONS = 0, 1, 2, 3
+TERMS = 10
+
+
+@leaf
+def series(square):
+    """b = (1 - cos ψ)/ψ², c = (ψ - sin ψ)/ψ³ for ψ², their derivatives over ψ, and those of these over ψ: (b, c, b₁, c₁, b₂, c₂)."""
+    b, c, b1, c1, b2, c2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    # b = Σ (-1)^k ψ^2k/(2k+2)!, c with (2k+3)!
+    p0, p1, p2, factorial = 1.0, 0.0, 0.0, 2.0
+    for k in range(TERMS):
+        over = 1.0 / factorial
+        more = over / (2 * k + 3)
+        first, second = 2.0 * k, 2.0 * k * (2 * k - 2)
+        b, c = b + p0 * over, c + p0 * more
+        b1, c1 = b1 + first * p1 * over, c1 + first * p1 * more
+        b2, c2 = b2 + second * p2 * over, c2 + second * p2 * more
+        p2, p1, p0 = -p1, -p0, -p0 * square
+        factorial *= (2 * k + 3) * (2 * k + 4)
+    return b, c, b1, c1, b2, c2
+
+
+@stage
+def unit(i):
+    """The unit vector along axis i."""
+    return 1.0 if i == 0 else 0.0, 1.0 if i == 1 else 0.0, 1.0 if i == 2 else 0.0
+
+
+@stage
+def stiffness_of_point(own, n, q, stretched, psi, bend):
+    """S (9, 9) of (y', ψ, ψ') at a Gauss point with y', ψ, ψ' in axes of the reference node, and what they ask for: (force on y', that on
+    ψ, that on ψ'), all times the weight."""
+    weight, unstrained = q[WEIGHT], q[STRAIN : STRAIN + 6]
+    square = dot(psi, psi)
+    b, c, b1, c1, b2, c2 = series(square)
+    a, a1, a2 = 1.0 - square * c, -2.0 * c - square * c1, -4.0 * c1 - square * c2
+    gamma = turned(-a, b, psi, stretched)
+    kappa = tangent_product(a, b, c, psi, bend)
+    B, S = own.B, own.S
+    both, across = dot(psi, bend), cross(psi, bend)
+    for j in range(3):
+        e = unit(j)
+        t = tangent_product(a, b, c, psi, e)
+        along, shear = turned(-a, b, psi, e), cross(gamma, t)
+        d = sum_of(a1 * psi[j], bend, -b1 * psi[j], across, -b, cross(e, bend))
+        d = sum_of(c * both, e, c * bend[j] + c1 * psi[j] * both, psi, 1.0, d)
+        for i in range(3):
+            B[i, j], B[i, 3 + j], B[i, 6 + j] = along[i], shear[i], 0.0
+            B[3 + i, j], B[3 + i, 3 + j], B[3 + i, 6 + j] = 0.0, d[i], t[i]
+    e0, e1, e2 = gamma[0] - unstrained[0], gamma[1] - unstrained[1], gamma[2] - unstrained[2]
+    e3, e4, e5 = kappa[0] - unstrained[3], kappa[1] - unstrained[4], kappa[2] - unstrained[5]
+    f = own.local
+    for i in range(6):
+        C = n[STIFFNESS + 6 * i : STIFFNESS + 6 * i + 6]
+        f[i] = weight * (C[0] * e0 + C[1] * e1 + C[2] * e2 + C[3] * e3 + C[4] * e4 + C[5] * e5)
+    N, M = (f[0], f[1], f[2]), (f[3], f[4], f[5])
+    # material part: Bᵀ (w C) B, column by column
+    for j in range(9):
+        for i in range(6):
+            C = n[STIFFNESS + 6 * i : STIFFNESS + 6 * i + 6]
+            total = 0.0
+            for m in range(6):
+                total += C[m] * B[m, j]
+            f[6 + i] = weight * total
+        for i in range(9):
+            total = 0.0
+            for m in range(6):
+                total += B[m, i] * f[6 + m]
+            S[i, j] = total
+    moment = cross(N, gamma)
+    chi, beta, mu = cross(bend, M), dot(bend, M), dot(psi, M)
+    nu = both
+    outwards = a1 * beta - b1 * dot(psi, chi) + c1 * mu * nu
+    further = a2 * beta - b2 * dot(psi, chi) + c2 * mu * nu
+    mixed = sum_of(nu, M, mu, bend, 0.0, M)
+    for j in range(3):
+        e = unit(j)
+        t = tangent_product(a, b, c, psi, e)
+        # of N: force on y' turns with ψ, and Tᵀ (N × Qᵀ y') changes
+        y_psi = turned(a, b, psi, cross(t, N))
+        m_psi = tangent_product(a, -b, c, psi, cross(N, cross(gamma, t)))
+        turning = change_of_transposed(a1, b1, c1, b, c, psi, moment, j)
+        # of M
+        bending = change_of_transposed(a1, b1, c1, b, c, psi, M, j)
+        for i in range(3):
+            S[i, 3 + j] += y_psi[i]
+            S[3 + j, i] += y_psi[i]
+            S[6 + i, 3 + j] += bending[i]
+            S[3 + j, 6 + i] += bending[i]
+            own_part = outwards if i == j else 0.0
+            own_part += further * psi[i] * psi[j] - b1 * (psi[i] * chi[j] + chi[i] * psi[j])
+            own_part += c1 * (psi[i] * mixed[j] + mixed[i] * psi[j]) + c * (M[i] * bend[j] + bend[i] * M[j])
+            S[3 + i, 3 + j] += m_psi[i] + turning[i] + own_part
+    of_psi = sum_of(1.0, tangent_product(a, -b, c, psi, moment), -b, chi, c * nu, M)
+    of_psi = sum_of(1.0, of_psi, outwards, psi, c * mu, bend)
+    return turned(a, b, psi, N), of_psi, tangent_product(a, -b, c, psi, M)
+
+
+@stage
+def change_of_transposed(a1, b1, c1, b, c, psi, v, j):
+    """Derivative of Tᵀ v = a v + b ψ × v + c ψ (ψ·v) along ψ_j."""
+    e = unit(j)
+    along = dot(psi, v)
+    out = sum_of(a1 * psi[j], v, b1 * psi[j], cross(psi, v), b, cross(e, v))
+    return sum_of(1.0, out, c * along, e, c * v[j] + c1 * psi[j] * along, psi)
+
+
+@stage
+def slot(a, r):
+    """Number of node a among those that are not the reference node."""
+    return a if a < r else a - 1
+
+
+@stage
+def stiffness_of_element(own, markers, index, n):
+    """k and P of an element, and its rotation vectors."""
+    count, r = np.int64(index[COUNT]), np.int64(index[REFERENCE])
+    Ar, k, P = markers.A[index[NODE + r]], own.k, own.P
+    size = 6 * (count - 1)
+    for i in range(size):
+        P[i] = 0.0
+        for j in range(size):
+            k[i, j] = 0.0
+    for a in range(count):
+        own.psi[a, 0], own.psi[a, 1], own.psi[a, 2] = 0.0, 0.0, 0.0
+        if a != r:
+            rotation_vector(Ar, markers.A[index[NODE + a]], own.psi[a])
+    for g in range(index[POINTS]):
+        q = n[POINT + WIDTH * g : POINT + WIDTH * (g + 1)]
+        shape, slope = q[SHAPE : SHAPE + 4], q[SLOPE : SLOPE + 4]
+        p0, p1, p2, d0, d1, d2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for a in range(count):
+            psi = own.psi[a]
+            p0, p1, p2 = p0 + shape[a] * psi[0], p1 + shape[a] * psi[1], p2 + shape[a] * psi[2]
+            d0, d1, d2 = d0 + slope[a] * psi[0], d1 + slope[a] * psi[1], d2 + slope[a] * psi[2]
+        stretched = transposed_product(Ar, along_line(markers.r, index, slope, count))
+        force, of_psi, of_slope = stiffness_of_point(own, n, q, stretched, (p0, p1, p2), (d0, d1, d2))
+        S = own.S
+        for a in range(count):
+            if a == r:
+                continue
+            at, N, D = 6 * slot(a, r), shape[a], slope[a]
+            for i in range(3):
+                P[at + i] += D * force[i]
+                P[at + 3 + i] += N * of_psi[i] + D * of_slope[i]
+            for b in range(count):
+                if b == r:
+                    continue
+                to, Nb, Db = 6 * slot(b, r), shape[b], slope[b]
+                for i in range(3):
+                    for j in range(3):
+                        k[at + i, to + j] += D * Db * S[i, j]
+                        k[at + i, to + 3 + j] += D * (Nb * S[i, 3 + j] + Db * S[i, 6 + j])
+                        k[at + 3 + i, to + j] += (N * S[3 + i, j] + D * S[6 + i, j]) * Db
+                        k[at + 3 + i, to + 3 + j] += N * (Nb * S[3 + i, 3 + j] + Db * S[3 + i, 6 + j]) + D * (
+                            Nb * S[6 + i, 3 + j] + Db * S[6 + i, 6 + j]
+                        )
+
+
+@stage
+def change_of_inverse(psi, v, w):
+    """Derivative of T⁻ᵀ v = v - ½ ψ × v + η ψ × (ψ × v) along w."""
+    square = dot(psi, psi)
+    angle = np.sqrt(square)
+    if angle > 1e-2:
+        half = 0.5 * angle
+        cotangent = half / np.tan(half)
+        eta = (1.0 - cotangent) / square
+        # η' /ψ: (½ ψ cot ½ψ)' = ½ cot ½ψ - ¼ ψ/sin² ½ψ
+        slope = 0.5 / np.tan(half) - 0.25 * angle / np.sin(half) ** 2
+        eta1 = (-slope / square - 2.0 * (1.0 - cotangent) / (square * angle)) / angle
+    else:
+        eta, eta1 = 1.0 / 12.0 + square / 720.0, 1.0 / 360.0 + square / 7560.0
+    c = cross(psi, v)
+    d = sum_of(-0.5, cross(w, v), eta, cross(w, c), eta, cross(psi, cross(w, v)))
+    return sum_of(1.0, d, eta1 * dot(psi, w), cross(psi, c), 0.0, v)
+
+
+@stage
+def motion_of_nodes(record, unknown, markers, index, out):
+    """out (24,) := (δx, δθ) of each node of an element by one unknown, global axes."""
+    bodies, tree = record.bodies, record.tree
+    j, b = np.int64(unknown[0]), unknown[1]
+    if tree.node.shape[0] > 0:
+        column = tree.column[j]
+        w, v = (column[0], column[1], column[2]), (column[3], column[4], column[5])
+    else:
+        axis, A = j - 6 * np.int64(b), bodies.A[b]
+        w, v = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        if axis < 3:
+            v = unit(axis)
+        else:
+            w = (A[0, axis - 3], A[1, axis - 3], A[2, axis - 3])
+    for a in range(np.int64(index[COUNT])):
+        moved = (unknown[2] >> a) & 1
+        arm = less(markers.r[index[NODE + a]], bodies.R[b])
+        lever = cross(w, arm)
+        for i in range(3):
+            out[6 * a + i] = v[i] + lever[i] if moved == 1 else 0.0
+            out[6 * a + 3 + i] = w[i] if moved == 1 else 0.0
+
+
+@stage
+def elastic_change(own, markers, index, e, twist, cq):
+    """own.change := cq times the changes of force and torque of the element (what it resists with) at its nodes for the motion `twist`."""
+    count, r = np.int64(index[COUNT]), np.int64(index[REFERENCE])
+    Ar, k, P, local, wrench, change = markers.A[index[NODE + r]], own.k, own.P, own.local, own.wrench[e], own.change
+    xr, tr = twist[6 * r : 6 * r + 3], twist[6 * r + 3 : 6 * r + 6]
+    size = 6 * (count - 1)
+    for a in range(count):
+        if a == r:
+            continue
+        at, node = 6 * slot(a, r), index[NODE + a]
+        arm = less(markers.r[node], markers.r[index[NODE + r]])
+        swing = cross(tr, arm)
+        x = twist[6 * a : 6 * a + 3]
+        u = transposed_product(Ar, (x[0] - xr[0] - swing[0], x[1] - xr[1] - swing[1], x[2] - xr[2] - swing[2]))
+        relative = transposed_product(markers.A[node], less(twist[6 * a + 3 : 6 * a + 6], tr))
+        turn = inverse_tangent_product(own.psi[a], relative, 1.0)
+        for i in range(3):
+            local[at + i], local[at + 3 + i] = u[i], turn[i]
+    for i in range(6):
+        change[r, i] = 0.0
+    for a in range(count):
+        if a == r:
+            continue
+        at, node = 6 * slot(a, r), index[NODE + a]
+        for i in range(6):
+            total = 0.0
+            for j in range(size):
+                total += k[at + i, j] * local[j]
+            local[18 + i] = total
+        # the element resists with the opposite of the wrench on its nodes
+        f = -wrench[6 * a], -wrench[6 * a + 1], -wrench[6 * a + 2]
+        t = -wrench[6 * a + 3], -wrench[6 * a + 4], -wrench[6 * a + 5]
+        df = product(Ar, local[18:21])
+        turning = cross(tr, f)
+        asked = inverse_tangent_product(own.psi[a], local[21:24], -1.0)
+        bent = change_of_inverse(own.psi[a], P[at + 3 : at + 6], local[at + 3 : at + 6])
+        dt = product(markers.A[node], (asked[0] + bent[0], asked[1] + bent[1], asked[2] + bent[2]))
+        spun = cross(twist[6 * a + 3 : 6 * a + 6], t)
+        arm = less(markers.r[node], markers.r[index[NODE + r]])
+        df = df[0] + turning[0], df[1] + turning[1], df[2] + turning[2]
+        moved = cross(less(twist[6 * a : 6 * a + 3], xr), f)
+        lever = cross(arm, df)
+        for i in range(3):
+            dti = dt[i] + spun[i]
+            change[a, i], change[a, 3 + i] = cq * df[i], cq * dti
+            change[r, i] -= cq * df[i]
+            change[r, 3 + i] -= cq * (moved[i] + lever[i] + dti)
+
+
+@stage
+def add_inertial_change(record, index, pair, e, twist, turning, w, cv, cm):
+    """Add to beams.change what pair `pair` of shared mass asks for more by one unknown of a plain node.
+
+    turning : node that it turns, by w in section axes for a unit of the unknown; NONE: it moves the node of `twist` along an axis.
+    """
+    shared, bodies, markers, change = record.shared, record.bodies, record.markers, record.beams.change
+    a, b = np.int64(0), np.int64(0)
+    for s in range(np.int64(index[COUNT])):
+        a = s if index[NODE + s] == shared.pair[pair, 2] else a
+        b = s if index[NODE + s] == shared.pair[pair, 3] else b
+    if turning == NONE:
+        m = shared.mass[pair]
+        for i in range(3):
+            change[a, i] += cm * m * (twist[6 * b + i] - twist[6 * a + i])
+            change[b, i] += cm * m * (twist[6 * a + i] - twist[6 * b + i])
+        return
+    if turning not in (a, b):
+        return
+    J, Q = shared.moment[pair], shared.turn[pair]
+    A, B = markers.A[shared.pair[pair, 2]], markers.A[shared.pair[pair, 3]]
+    wa, wb = (
+        transposed_product(A, bodies.omega[shared.pair[pair, 0]]),
+        transposed_product(B, bodies.omega[shared.pair[pair, 1]]),
+    )
+    zero = (0.0, 0.0, 0.0)
+    da, db = (w, zero) if turning == a else (zero, w)
+    ha, hb = product(J, less(wb, product(Q, wa))), transposed_product(J, less(wa, transposed_product(Q, wb)))
+    dha, dhb = product(J, less(db, product(Q, da))), transposed_product(J, less(da, transposed_product(Q, db)))
+    na = sum_of(cm, dha, cv, cross(da, ha), cv, cross(wa, dha))
+    nb = sum_of(cm, dhb, cv, cross(db, hb), cv, cross(wb, dhb))
+    ga, gb = product(A, na), product(B, nb)
+    for i in range(3):
+        change[a, 3 + i] += ga[i]
+        change[b, 3 + i] += gb[i]
+
+
+@stage
+def turned_by(newton, j, axis, total):
+    """What a unit of unknown j, a turn about an axis of its body, does to the angular velocity: T⁻¹ in Newton's iteration, else itself."""
+    e = unit(axis)
+    first = j - axis
+    return inverse_tangent(newton.change[first : first + 3], e) if total else e
+
+
+@stage
+def add_element(machine, out, e, total, cq, cv, cm):
+    """Add the derivatives of element e to `out`."""
+    record = record_at(machine)
+    own, newton, markers = record.beams, record.newton, record.markers
+    index, n = record.elements.columns[own.first[0] + e], record.elements.number[own.first[0] + e]
+    if cq != 0.0:
+        stiffness_of_element(own, markers, index, n)
+    first, last = np.int64(own.start[e]), np.int64(own.start[e + 1])
+    size = last - first
+    for u in range(size):
+        motion_of_nodes(record, own.unknown[first + u], markers, index, own.twist[u])
+    for c in range(size):
+        unknown, twist = own.unknown[first + c], own.twist[c]
+        j, plain = np.int64(unknown[0]), np.int64(unknown[3])
+        if cq != 0.0:
+            elastic_change(own, markers, index, e, twist, cq)
+        else:
+            for a in range(4):
+                for i in range(6):
+                    own.change[a, i] = 0.0
+        axis = np.int64(newton.place[j, 1])
+        if plain != NONE and (cm != 0.0 or cv != 0.0):
+            turns = newton.place[j, 1] != NONE
+            w = turned_by(newton, j, axis, total) if turns else (0.0, 0.0, 0.0)
+            for pair in range(own.pair[e, 0], own.pair[e, 1]):
+                add_inertial_change(record, index, pair, e, twist, plain if turns else NONE, w, cv, cm)
+        at = np.int64(own.place_start[e]) + c
+        for i in range(size):
+            rows, work = own.twist[i], 0.0
+            for a in range(np.int64(index[COUNT])):
+                for d in range(6):
+                    work += rows[6 * a + d] * own.change[a, d]
+            if plain != NONE and own.unknown[first + i, 3] == plain:
+                # the row of a turn is about an axis that turns too
+                t = own.wrench[e, 6 * plain + 3 : 6 * plain + 6]
+                swept = cross(twist[6 * plain + 3 : 6 * plain + 6], rows[6 * plain + 3 : 6 * plain + 6])
+                work -= cq * dot(t, swept)
+            out[own.place[at + i * size]] += work
+
+
+@stage
+def add_plain_node(machine, out, k, total, cv, cm):
+    """Add the inertia of what is lumped at a plain node: its mass centre is at its origin."""
+    record = record_at(machine)
+    own, newton, bodies = record.beams, record.newton, record.bodies
+    b, first = own.plain[k, 0], np.int64(own.plain[k, 1])
+    J, A = bodies.inertia_b[b], bodies.A[b]
+    omega = transposed_product(A, bodies.omega[b])
+    h = product(J, omega)
+    for i in range(3):
+        out[np.int64(own.plain[k, 2 + i]) + i] += cm * bodies.mass[b]
+        w = turned_by(newton, first + 3 + i, i, total)
+        dh = product(J, w)
+        n = sum_of(cm, dh, cv, cross(w, h), cv, cross(omega, dh))
+        for row in range(3):
+            out[np.int64(own.plain[k, 5 + row]) + 3 + i] += n[row]
+
+
+@stage
+def add_beams(machine, out, total, cq, cv, cm):
+    """Add all derivatives of elements, and those of the motion of plain nodes, whose entries were not found otherwise."""
+    record = record_at(machine)
+    own, newton = record.beams, record.newton
+    for k in range(own.plain.shape[0]):
+        for j in range(np.int64(own.plain[k, 1]), np.int64(own.plain[k, 1]) + 6):
+            for entry in range(newton.entry_start[j], newton.entry_start[j + 1]):
+                out[newton.entry[entry, 1]] = 0.0
+    for k in range(own.plain.shape[0]):
+        add_plain_node(machine, out, k, total, cv, cm)
+    for e in range(own.start.shape[0] - 1):
+        add_element(machine, out, e, total, cq, cv, cm)
+
+
+@family
+def tangent(machine, job, t):
+    """The derivatives that `job` asks for, at the state and the velocities last evaluated, added to where they belong."""
+    newton = record_at(machine).newton
+    c = newton.asked
+    if job == TOTAL:
+        add_beams(machine, newton.value, True, c[0], c[1], 1.0)
+    elif job == ACCELERATIONS:
+        add_beams(machine, newton.balance.value if c[2] == 1.0 else newton.shifted.M, False, 0.0, 0.0, 1.0)
+    elif job == VELOCITIES:
+        add_beams(machine, newton.shifted.D, False, 0.0, 1.0, 0.0)
+    else:
+        add_beams(machine, newton.shifted.K, False, 1.0, 0.0, 0.0)
+    return OK

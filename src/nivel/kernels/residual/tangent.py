@@ -1,0 +1,154 @@
+"""Exact derivatives of the residual by complex step (Squire, Trapp 1998): Im r(x + i ε d)/ε is the derivative along d to round-off.
+
+The same compiled source runs on complex numbers. Unknowns that have no row in common are moved at once, so a chain of any length
+takes as many evaluations as a chain of three.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.spatial import cross, dot
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.hook import call_family, call_hook
+from nivel.kernels.record.record import NONE, TANGENT, record_at
+from nivel.native.function import leaf
+
+# far below round-off in every product with a real number, far above the smallest number in every product with a small direction
+EPSILON = 1e-30
+# which rows of the constraints stand in the matrix: C/cq or C̈
+POSITIONS, ACCELERATIONS = 0, 1
+
+
+@leaf
+def inverse_tangent(psi, w):
+    """T⁻¹ w: change of the rotation vector ψ of A exp(ψ̃) for a small rotation w after it, in the turned axes.
+
+    T⁻¹ = 1 + ½ ψ̃ + η ψ̃², η = (1 - ½ ψ cot ½ψ)/ψ²: 1/12 + ψ²/720 for small ψ.
+    """
+    square = dot(psi, psi)
+    angle = np.sqrt(square)
+    eta = (1.0 - 0.5 * angle / np.tan(0.5 * angle)) / square if angle > 1e-2 else 1.0 / 12.0 + square / 720.0
+    c = cross(psi, w)
+    d = cross(psi, c)
+    return w[0] + 0.5 * c[0] + eta * d[0], w[1] + 0.5 * c[1] + eta * d[1], w[2] + 0.5 * c[2] + eta * d[2]
+
+
+@leaf
+def move_unknown(newton, moving, j, factor, cq, cv, cx):
+    """Move unknown j of the complex residual `moving` by i ε: factor = i ε."""
+    n, states, positions = moving.vdot.shape[0], newton.state.shape[0], np.int64(moving.y.shape[0])
+    positions -= n + states + 2
+    if j >= n + states:
+        moving.lam[j - n - states] += factor
+    elif j >= n:
+        moving.y[positions + j] += cx * factor
+    elif newton.place[j, 1] == NONE:
+        moving.y[newton.place[j, 0]] += cq * factor
+        moving.y[positions + j] += cv * factor
+        moving.vdot[j] += factor
+    else:
+        p, axis = np.int64(newton.place[j, 0]), np.int64(newton.place[j, 1])
+        first, half = j - axis, 0.5 * cq * factor
+        x, y, z = 1.0 if axis == 0 else 0.0, 1.0 if axis == 1 else 0.0, 1.0 if axis == 2 else 0.0
+        e0, e1, e2, e3 = moving.y[p], moving.y[p + 1], moving.y[p + 2], moving.y[p + 3]
+        moving.y[p] += half * (-e1 * x - e2 * y - e3 * z)
+        moving.y[p + 1] += half * (e0 * x - e3 * y + e2 * z)
+        moving.y[p + 2] += half * (e3 * x + e0 * y - e1 * z)
+        moving.y[p + 3] += half * (-e2 * x + e1 * y + e0 * z)
+        w = inverse_tangent(newton.change[first : first + 3], (x, y, z))
+        for i in range(3):
+            moving.y[positions + first + i] += cv * w[i] * factor
+            moving.vdot[first + i] += w[i] * factor
+
+
+@leaf
+def write_column(newton, value, j, n, held, cq, level):
+    """Column j of the matrix from the imaginary parts of the residual's value, and the row of C_qᵀ that goes with it.
+
+    held : constraint rows; those behind them are of frictions, at the level of accelerations always.
+    """
+    states = newton.state.shape[0]
+    rows = newton.b.shape[0] - n - states
+    for e in range(newton.entry_start[j], newton.entry_start[j + 1]):
+        row, p, transposed = np.int64(newton.entry[e, 0]), newton.entry[e, 1], newton.entry[e, 2]
+        slope = value[row].imag / EPSILON
+        if row >= n + states:
+            newton.value[p] = (
+                slope / cq if level == POSITIONS and row < n + states + held else value[row + 2 * rows].imag / EPSILON
+            )
+            if transposed != NONE:
+                newton.value[transposed] = slope / cq
+        elif row >= n:
+            newton.value[p] = (1.0 if row == j else 0.0) - slope
+        else:
+            newton.value[p] = slope
+
+
+@leaf
+def add_compliance(newton, entries):
+    """-1/α at the multipliers of penalty methods."""
+    for k in range(newton.compliance.shape[0]):
+        entries[newton.diagonal[k]] = -newton.compliance[k]
+
+
+@leaf
+def load_twin(newton, here):
+    """The complex residual at the same state, accelerations and multipliers. Returns the complex record's address and its residual."""
+    twin = (newton.address[0],)
+    moving = record_at(twin).residual
+    for i in range(here.y.shape[0]):
+        moving.y[i] = here.y[i]
+    for i in range(here.vdot.shape[0]):
+        moving.vdot[i] = here.vdot[i]
+    for i in range(here.lam.shape[0]):
+        moving.lam[i] = here.lam[i]
+    return twin, moving
+
+
+@leaf
+def differentiate(machine, t, cq, cv, cx, level):
+    """Entries of the matrix of Newton's iteration, [M + cv D + cq K, C_qᵀ; C_q, 0], at `residual.y`, `vdot`, `lam`. Returns a status.
+
+    Unknown v̇ moves positions by cq and velocities by cv, ẋ the states of forces by cx; columns are with respect to rotations after
+    A exp(change), and scaled like accelerations. level : ACCELERATIONS has the derivatives of C̈, with its feedback, in place of the last
+    rows. With penalties there is -1/α in the corner.
+    """
+    record = record_at(machine)
+    newton, here = record.newton, record.residual
+    twin, moving = load_twin(newton, here)
+    n, held = here.vdot.shape[0], here.row.shape[0]
+    for g in range(newton.group_start.shape[0] - 1):
+        first, last = np.int64(newton.group_start[g]), np.int64(newton.group_start[g + 1])
+        for m in range(first, last):
+            move_unknown(newton, moving, np.int64(newton.group[m]), 1j * EPSILON, cq, cv, cx)
+        status = call_family(newton.address[1], twin, 0, complex(t))
+        if status != OK:
+            return status
+        for m in range(first, last):
+            write_column(newton, moving.value, np.int64(newton.group[m]), n, held, cq, level)
+        # moved back: a complex number less what was added would keep its imaginary part only to round-off
+        for m in range(first, last):
+            still(newton, moving, here, np.int64(newton.group[m]))
+    add_compliance(newton, newton.value)
+    newton.asked[0], newton.asked[1] = cq, cv
+    return call_hook(machine, TANGENT, 0, t)
+
+
+@leaf
+def still(newton, moving, here, j):
+    """Put back what `move_unknown` moved for unknown j."""
+    n, states = here.vdot.shape[0], newton.state.shape[0]
+    positions = np.int64(here.y.shape[0]) - n - states - 2
+    if j >= n + states:
+        moving.lam[j - n - states] = here.lam[j - n - states]
+    elif j >= n:
+        moving.y[positions + j] = here.y[positions + j]
+    else:
+        p, axis = np.int64(newton.place[j, 0]), newton.place[j, 1]
+        first, count = (j, 1) if axis == NONE else (j - np.int64(axis), 4)
+        for i in range(count):
+            moving.y[p + i] = here.y[p + i]
+        for i in range(min(count, 3)):
+            moving.y[positions + first + i] = here.y[positions + first + i]
+            moving.vdot[first + i] = here.vdot[first + i]

@@ -1,0 +1,23 @@
+"""The hook of machines with events, and of those whose contacts and stops are followed: values whose zeros are looked for."""
+
+from __future__ import annotations
+
+from nivel.kernels.core.status import OK
+from nivel.kernels.record.function import evaluate_function
+from nivel.kernels.record.hook import family
+from nivel.kernels.record.record import FUNCTION, record_at
+
+
+@family
+def watch(machine, job, t):
+    """Fill `watched.value` and `watched.rate` in the state last evaluated."""
+    record = record_at(machine)
+    watched, elements = record.watched, record.elements
+    events = watched.event.shape[0]
+    for k in range(events):
+        watched.value[k] = evaluate_function(machine, watched.event[k, FUNCTION], t)
+    for k in range(watched.surface.shape[0]):
+        element, place = watched.surface[k, 0], watched.surface[k, 1]
+        watched.value[events + k] = elements.depth[element, place]
+        watched.rate[events + k] = elements.depth_rate[element, place]
+    return OK

@@ -1,0 +1,1 @@
+"""Equations of motion solved for accelerations and multipliers."""

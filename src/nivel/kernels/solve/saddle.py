@@ -1,0 +1,201 @@
+"""The saddle-point system, eliminated body by body: S λ = C_q M⁻¹ Q - γ with S = C_q M⁻¹ C_qᵀ.
+
+A formulation leaves the whitened blocks W = C_q L⁻ᵀ and forces z = L⁻¹ Q with M = L Lᵀ (block-diagonal, so body by body);
+what follows is the same for all of them: S = W Wᵀ, right-hand side W z - γ, accelerations L⁻ᵀ (z - Wᵀ λ).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.analytic import real
+from nivel.kernels.algebra.dense import factorise_pivoted, gather, solve_pivoted
+from nivel.kernels.algebra.sparse import DEPENDENT, factorise, solve
+from nivel.kernels.core.status import MULTIPLIERS_NOT_FOUND, OK, SINGULAR
+from nivel.kernels.record.record import record_at
+from nivel.native.function import leaf, stage
+
+# places of control.rank: how many rows are independent; how many of a redundant machine are left out of the factor; whether the last
+# factor is the pivoted one
+RANK, LEFT_OUT, PIVOTED = 0, 1, 2
+# With pivots below this share of their diagonal, rows that are independent elsewhere are as good as dependent: others may be better.
+POOR = 1e-7
+CONTRADICTORY = 1e-3
+# The augmented Lagrangian has converged where what its last change does, squared, is below this share of what all forces do.
+SETTLED = 1e-24
+# Its last iterate is good enough where the iterations to come, as a geometric series, would do less than this share, squared.
+GOOD_ENOUGH = 1e-12
+# That series is not taken for slower than this: then round-off would count.
+SLOWEST = 1.0 - 1e-4
+# A singular position, where it does not converge, may last for so many evaluations; at the start of a run for none.
+MOST_UNSETTLED = 200
+
+
+@stage
+def factorise_rows(machine, width):
+    """Assemble and factorise S from W (blocks of `width` columns). Returns a status; on failure control.failure is the row.
+
+    Of a redundant machine the rows that repeat others everywhere are left out. Where they are not known, or those that stay come near to
+    depending on each other, rows are chosen by pivots.
+    """
+    record = record_at(machine)
+    saddle = record.saddle
+    W, S = saddle.W, saddle.S
+    for p in range(S.shape[0]):
+        S[p] = 0.0
+    for p in range(saddle.pair.shape[0]):
+        a, b = saddle.pair[p, 0], saddle.pair[p, 1]
+        total = W[a, 0] * W[b, 0]
+        for i in range(1, width):
+            total += W[a, i] * W[b, i]
+        S[saddle.pair[p, 2]] += total
+    for k in range(saddle.order.shape[0]):
+        S[saddle.S_start[k + 1] - 1] += saddle.shift[saddle.order[k]]
+    rank, redundant = record.control.rank, saddle.dense.shape[0] > 0
+    failed = 0
+    if rank[LEFT_OUT] > 0 or not redundant:
+        failed = factorise(saddle, POOR if redundant else DEPENDENT, False)
+    rank[PIVOTED] = 1 if redundant and (failed >= 0 or rank[LEFT_OUT] == 0) else 0
+    if rank[PIVOTED] == 1:
+        failed = factorise_by_pivots(record)
+    if failed >= 0:
+        record.control.failure[0] = saddle.row[saddle.order[failed]]
+        return SINGULAR
+    return OK
+
+
+@leaf
+def factorise_by_pivots(record):
+    """The pivoted factor of S, of all rows. Returns -1, or a place in the order of elimination where too few rows are independent."""
+    gather(record.saddle, record.constraints.scale)
+    return factorise_pivoted(record.saddle, np.int64(record.control.rank[RANK]))
+
+
+@stage
+def solve_rows(machine, forces):
+    """Overwrite b with the solution of S x = b, or of (S + 1/α) x = b for penalty methods. Returns a status. Rows that are left out get 0;
+    of pivoted rows it is the solution of least length.
+
+    forces : zᵀ z of what b comes from, 0 where it comes from nothing else; round-off is judged by it.
+    """
+    record = record_at(machine)
+    saddle = record.saddle
+    if record.control.rank[PIVOTED] == 1:
+        solve_pivoted(saddle, np.int64(record.control.rank[RANK]))
+        return OK
+    if record.control.iterations[0] <= 1:
+        solve(saddle)
+        return OK
+    return iterate_rows(saddle, record.control.iterations, forces)
+
+
+@stage
+def iterate_rows(saddle, most, forces):
+    """Augmented Lagrangian: (S + 1/α) xₖ₊₁ = b + xₖ/α, eq. 120 after elimination of the accelerations, until x is that of S x = b.
+
+    In changes d of x: (S + 1/α) dₖ₊₁ = dₖ/α. What d does is the acceleration energy dᵀ S d = Σ (dₖ - dₖ₊₁) dₖ₊₁/α, which multipliers
+    of dependent rows, never settled, have no part in. Returns a status.
+    """
+    b, x, before = saddle.b, saddle.target, saddle.before
+    for k in range(b.shape[0]):
+        x[k] = b[k]
+    solve(saddle)
+    for k in range(b.shape[0]):
+        forces += real(b[k] * (x[k] - saddle.shift[k] * b[k]))
+        x[k] = b[k]
+    last, done = 0.0, 0.0
+    for _ in range(1, most[0]):
+        for k in range(b.shape[0]):
+            before[k] = b[k]
+            b[k] *= saddle.shift[k]
+        solve(saddle)
+        most[1] += 1
+        last, done = done, 0.0
+        for k in range(b.shape[0]):
+            x[k] += b[k]
+            done += saddle.shift[k] * real((before[k] - b[k]) * b[k])
+        if done <= SETTLED * forces:
+            break
+    for k in range(b.shape[0]):
+        b[k] = x[k]
+    left = 1.0 - min((done / last) ** 0.5, SLOWEST) if last > done > 0.0 else 1.0 - SLOWEST
+    return OK if done <= max(SETTLED, GOOD_ENOUGH * left * left) * forces else MULTIPLIERS_NOT_FOUND
+
+
+@stage
+def multipliers(machine, width):
+    """λ from W, z, γ (with Baumgarte's terms, eq. 110), after `factorise_rows`; z becomes z - Wᵀ λ. Returns a status."""
+    record = record_at(machine)
+    saddle, constraints = record.saddle, record.constraints
+    twice_alpha, beta_squared = record.control.stabilise[0], record.control.stabilise[1]
+    b = saddle.b
+    for k in range(b.shape[0]):
+        row = saddle.row[k]
+        b[k] = twice_alpha * constraints.Cdot[row] + beta_squared * constraints.C[row] - constraints.gamma[row]
+    for k in range(saddle.blocks[0]):
+        row, body = saddle.block[k, 0], saddle.block[k, 3]
+        total = b[row]
+        for i in range(width):
+            total += saddle.W[k, i] * saddle.z[body, i]
+        b[row] = total
+    forces = 0.0
+    if record.control.iterations[0] > 1:
+        for body in range(saddle.z.shape[0]):
+            for i in range(width):
+                forces += real(saddle.z[body, i] * saddle.z[body, i])
+    status = solve_rows(machine, forces)
+    unsettled = record.control.iterations[2:3]
+    unsettled[0] = 0 if status == OK else unsettled[0] + 1
+    if unsettled[0] <= MOST_UNSETTLED:
+        status = OK
+    for k in range(b.shape[0]):
+        constraints.lam[saddle.row[k]] = b[k]
+    subtract_rows(saddle, width)
+    return status
+
+
+@stage
+def subtract_rows(saddle, width):
+    """z -= Wᵀ b."""
+    for k in range(saddle.blocks[0]):
+        row, body = saddle.block[k, 0], saddle.block[k, 3]
+        for i in range(width):
+            saddle.z[body, i] -= saddle.W[k, i] * saddle.b[row]
+
+
+@stage
+def correction(machine, violation, width):
+    """z = -Wᵀ S⁻¹ violation: the whitened change that removes a violation of the linearised rows, least in the mass metric."""
+    record = record_at(machine)
+    saddle = record.saddle
+    for k in range(saddle.b.shape[0]):
+        saddle.b[k] = violation[saddle.row[k]]
+    solve_rows(machine, 0.0)
+    for body in range(saddle.z.shape[0]):
+        for i in range(width):
+            saddle.z[body, i] = 0.0
+    subtract_rows(saddle, width)
+
+
+@leaf
+def contradicts(saddle, constraints, failure):
+    """Whether a row of a redundant machine is open by more than CONTRADICTORY of its scale: it contradicts the rows that it repeated
+    at the start. `failure` (1,) gets the row."""
+    if saddle.dense.shape[0] == 0:
+        return False
+    for row in range(constraints.C.shape[0]):
+        if np.abs(constraints.C[row]) > CONTRADICTORY * constraints.scale[row]:
+            failure[0] = row
+            return True
+    return False
+
+
+@stage
+def exceeds(saddle, violation, scale, tolerance):
+    """Whether any row of the saddle is violated by more than `tolerance` times its scale."""
+    for k in range(saddle.row.shape[0]):
+        row = saddle.row[k]
+        limit = tolerance * scale[row]
+        if violation[row] > limit or violation[row] < -limit:
+            return True
+    return False

@@ -1,0 +1,1 @@
+"""Trees of joints: recursions over bodies, and what completes their frames."""

@@ -1,0 +1,239 @@
+"""Motion of the bodies of a tree from its joint coordinates, from the ground outwards.
+
+Node n carries a child body on a parent body by a joint between a marker i of the parent and a marker j of the child. In these coordinates
+the frame of a body is its marker j. Whatever the joint, A_j = A_i Q and r_j = r_i + A_i d, and the child moves relative to the parent
+with ω_rel = Σ w_k u_k and, at r_j, v_rel = Σ v_k u_k; columns (w_k, v_k) are fixed in one of the two bodies:
+
+    ω_child = ω_parent + ω_rel            α_child = α_parent + Σ w_k u̇_k + ω_parent × ω_rel + …
+    v_child = v_parent(r_j) + v_rel       a_child = a_parent(r_j) + Σ v_k u̇_k + 2 ω_parent × v_rel
+
+with … = u_1 u_2 w_1 × w_2 of a universal joint, whose second axis is fixed in the child.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nivel.kernels.algebra.spatial import cross, dot, multiply
+from nivel.kernels.algebra.trigonometry import cosine_and_sine
+from nivel.kernels.record.record import (
+    CYLINDRICAL,
+    FIXED,
+    NONE,
+    PLANAR,
+    REVOLUTE,
+    SCREW,
+    SPHERICAL,
+    TRANSLATIONAL,
+    UNIVERSAL,
+)
+from nivel.native.function import leaf, stage
+
+
+@leaf
+def product(A, B, out):
+    """out = A B of 3×3 matrices; `out` is neither."""
+    for i in range(3):
+        a, b, c = A[i, 0], A[i, 1], A[i, 2]
+        out[i, 0] = a * B[0, 0] + b * B[1, 0] + c * B[2, 0]
+        out[i, 1] = a * B[0, 1] + b * B[1, 1] + c * B[2, 1]
+        out[i, 2] = a * B[0, 2] + b * B[1, 2] + c * B[2, 2]
+
+
+@stage
+def turn_by_angle(A, angle, out):
+    """out = A Rz(angle)."""
+    c, s = cosine_and_sine(angle)
+    turn_about_z(A, c, s, out)
+
+
+@leaf
+def turn_about_z(A, c, s, out):
+    """out = A Rz, with the cosine and sine of the angle."""
+    for i in range(3):
+        x, y = A[i, 0], A[i, 1]
+        out[i, 0], out[i, 1], out[i, 2] = c * x + s * y, c * y - s * x, A[i, 2]
+
+
+@leaf
+def turn_by_cross(A, q, out):
+    """out = A Rz(a₁) X Rz(a₂): X lays the second z axis along the first x axis, the second x axis along the first z axis."""
+    c, s = cosine_and_sine(q[0])
+    e, f = cosine_and_sine(q[1])
+    for i in range(3):
+        x, y, z = A[i, 0], A[i, 1], A[i, 2]
+        side = s * x - c * y
+        out[i, 0], out[i, 1], out[i, 2] = e * z + f * side, e * side - f * z, c * x + s * y
+
+
+@leaf
+def turn_by_parameters(A, theta, out):
+    """out = A Q(θ)."""
+    e0, e1, e2, e3 = theta[0], theta[1], theta[2], theta[3]
+    k = 2.0 / (e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3)
+    q00, q01, q02 = 1.0 - k * (e2 * e2 + e3 * e3), k * (e1 * e2 - e0 * e3), k * (e1 * e3 + e0 * e2)
+    q10, q11, q12 = k * (e1 * e2 + e0 * e3), 1.0 - k * (e1 * e1 + e3 * e3), k * (e2 * e3 - e0 * e1)
+    q20, q21, q22 = k * (e1 * e3 - e0 * e2), k * (e2 * e3 + e0 * e1), 1.0 - k * (e1 * e1 + e2 * e2)
+    for i in range(3):
+        a, b, c = A[i, 0], A[i, 1], A[i, 2]
+        out[i, 0] = a * q00 + b * q10 + c * q20
+        out[i, 1] = a * q01 + b * q11 + c * q21
+        out[i, 2] = a * q02 + b * q12 + c * q22
+
+
+@leaf
+def set_column(column, w, v):
+    """A column (w, v)."""
+    column[0], column[1], column[2], column[3], column[4], column[5] = w[0], w[1], w[2], v[0], v[1], v[2]
+
+
+@leaf
+def axis_of(A, axis):
+    """A column of a rotation matrix."""
+    return A[0, axis], A[1, axis], A[2, axis]
+
+
+@leaf
+def times(factor, a):
+    """factor a."""
+    return factor * a[0], factor * a[1], factor * a[2]
+
+
+@leaf
+def plus(a, b):
+    """a + b."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@stage
+def move_joint(kind, number, q, A, out, column, k):
+    """Axes of the child in `out` and columns from number k on, for a marker of the parent with axes A; returns A d."""
+    zero = (0.0, 0.0, 0.0)
+    z = axis_of(A, 2)
+    if kind == REVOLUTE:
+        turn_by_angle(A, q[0], out)
+        set_column(column[k], z, zero)
+        return zero
+    if kind == TRANSLATIONAL:
+        turn_about_z(A, number[2], number[3], out)
+        set_column(column[k], zero, z)
+        return times(q[0], z)
+    if kind == UNIVERSAL:
+        turn_by_cross(A, q, out)
+        set_column(column[k], z, zero)
+        set_column(column[k + 1], axis_of(out, 2), zero)
+        return zero
+    if kind == SPHERICAL:
+        turn_by_parameters(A, q, out)
+        for i in range(3):
+            set_column(column[k + i], axis_of(out, i), zero)
+        return zero
+    if kind == CYLINDRICAL:
+        turn_by_angle(A, q[0], out)
+        set_column(column[k], z, zero)
+        set_column(column[k + 1], zero, z)
+        return times(q[1], z)
+    if kind == SCREW:
+        turn_by_angle(A, q[0], out)
+        set_column(column[k], z, times(number[0], z))
+        return times(number[0] * q[0] + number[1], z)
+    x, y = axis_of(A, 0), axis_of(A, 1)
+    if kind == PLANAR:
+        turn_by_angle(A, q[2], out)
+        set_column(column[k], zero, x)
+        set_column(column[k + 1], zero, y)
+        set_column(column[k + 2], z, zero)
+        return plus(times(q[0], x), times(q[1], y))
+    if kind == FIXED:
+        turn_about_z(A, number[2], number[3], out)
+        return zero
+    turn_by_parameters(A, q[3:7], out)
+    for i in range(3):
+        set_column(column[k + i], zero, axis_of(A, i))
+        set_column(column[k + 3 + i], axis_of(out, i), zero)
+    return plus(times(q[2], z), plus(times(q[0], x), times(q[1], y)))
+
+
+@leaf
+def swing(alpha, w, u):
+    """α × u + ω × (ω × u)."""
+    a = cross(alpha, u)
+    wu, ww = dot(w, u), dot(w, w)
+    return a[0] + w[0] * wu - u[0] * ww, a[1] + w[1] * wu - u[1] * ww, a[2] + w[2] * wu - u[2] * ww
+
+
+@stage
+def move_child(bodies, tree, n, y):
+    """Pose and velocity of the child of node n, its acceleration while no joint velocity changes, and the columns of its joint."""
+    node, number = tree.node[n], tree.number[n]
+    child, parent, kind, k = node[0], node[1], node[2], np.int64(node[4])
+    carried = parent != bodies.mass.shape[0]
+    axes, arm, A = tree.first[n], (number[4], number[5], number[6]), bodies.A[child]
+    if carried:
+        Ap = bodies.A[parent]
+        product(Ap, tree.first[n], tree.axes)
+        axes = tree.axes
+        arm = (
+            Ap[0, 0] * number[4] + Ap[0, 1] * number[5] + Ap[0, 2] * number[6],
+            Ap[1, 0] * number[4] + Ap[1, 1] * number[5] + Ap[1, 2] * number[6],
+            Ap[2, 0] * number[4] + Ap[2, 1] * number[5] + Ap[2, 2] * number[6],
+        )
+    arm = plus(arm, move_joint(kind, number, y[tree.place[n, 0] :], axes, A, tree.column, k))
+    R, V, w = bodies.R[child], bodies.Rdot[child], bodies.omega[child]
+    alpha, a = tree.alpha0[child], tree.Rddot0[child]
+    tree.arm[child, 0], tree.arm[child, 1], tree.arm[child, 2] = arm
+    multiply(A, bodies.centre_b[child], bodies.c[child])
+    u = y[tree.place[n, 1] :]
+    w0, w1, w2, v0, v1, v2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for c in range(np.int64(node[5]) - k):
+        s, rate = tree.column[k + c], u[c]
+        w0 += rate * s[0]
+        w1 += rate * s[1]
+        w2 += rate * s[2]
+        v0 += rate * s[3]
+        v1 += rate * s[4]
+        v2 += rate * s[5]
+    R[0], R[1], R[2] = arm
+    w[0], w[1], w[2] = w0, w1, w2
+    V[0], V[1], V[2] = v0, v1, v2
+    alpha[0], alpha[1], alpha[2] = 0.0, 0.0, 0.0
+    a[0], a[1], a[2] = 0.0, 0.0, 0.0
+    if kind == UNIVERSAL:
+        twist = cross(tree.column[k][0:3], tree.column[k + 1][0:3])
+        alpha[0], alpha[1], alpha[2] = times(u[0] * u[1], twist)
+    if carried:
+        add_parent(bodies, tree, child, parent, arm)
+
+
+@stage
+def add_parent(bodies, tree, child, parent, arm):
+    """Add the motion of the parent to that of the child relative to it."""
+    R, Rp, V, Vp = bodies.R[child], bodies.R[parent], bodies.Rdot[child], bodies.Rdot[parent]
+    w, wp, alpha, ap = bodies.omega[child], bodies.omega[parent], tree.alpha0[child], tree.alpha0[parent]
+    a, ar = tree.Rddot0[child], tree.Rddot0[parent]
+    out, bend, coriolis, there = cross(wp, arm), cross(wp, w), cross(wp, V), swing(ap, wp, arm)
+    R[0], R[1], R[2] = Rp[0] + arm[0], Rp[1] + arm[1], Rp[2] + arm[2]
+    alpha[0] += ap[0] + bend[0]
+    alpha[1] += ap[1] + bend[1]
+    alpha[2] += ap[2] + bend[2]
+    a[0] = ar[0] + there[0] + 2.0 * coriolis[0]
+    a[1] = ar[1] + there[1] + 2.0 * coriolis[1]
+    a[2] = ar[2] + there[2] + 2.0 * coriolis[2]
+    w[0], w[1], w[2] = wp[0] + w[0], wp[1] + w[1], wp[2] + w[2]
+    V[0], V[1], V[2] = Vp[0] + out[0] + V[0], Vp[1] + out[1] + V[1], Vp[2] + out[2] + V[2]
+
+
+@stage
+def move_tree(bodies, tree, y):
+    """Poses and velocities of all bodies from the state."""
+    for n in range(tree.node.shape[0]):
+        move_child(bodies, tree, n, y)
+
+
+@leaf
+def has_passed(tree):
+    """Whether a slider has just passed a node of its beam, see `nivel.kernels.residual.element_crossing`."""
+    for k in range(tree.element.shape[0]):
+        if tree.element[k, 1] != NONE:
+            return True
+    return False

@@ -1,0 +1,84 @@
+"""The diagram of the circuits of a machine as SVG, with a pressure at every node."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from html import escape
+from typing import Any
+
+from nivel.looks.circuit.parts import Circuit, Part, circuit_of
+from nivel.looks.circuit.placing import place
+from nivel.looks.circuit.routing import Drawing, Line, Router
+
+LARGEST = 120  # components that can be read in one drawing
+STYLE = """
+.circuit { font: 11px system-ui, sans-serif; color: inherit; }
+.circuit path, .circuit circle, .circuit polyline { fill: none; stroke: currentColor; stroke-width: 1.2; stroke-linejoin: round; }
+.circuit .symbol path, .circuit .symbol circle { stroke-width: 1.3; }
+.circuit .full { fill: currentColor; stroke: none; }
+.circuit .dashed, .circuit .symbol .dashed { stroke-dasharray: 4 3; stroke-width: 1; }
+.circuit .symbol .frame { stroke-dasharray: 8 3 2 3; stroke-width: 0.9; }
+.circuit text { fill: currentColor; }
+.circuit .name { font-weight: 600; }
+.circuit .words { fill-opacity: 0.65; }
+.circuit .node, .circuit .words tspan { fill: #2f6fb3; fill-opacity: 1; }
+.circuit .leader { stroke: #2f6fb3; stroke-width: 0.6; stroke-opacity: 0.6; }
+"""
+
+
+def circuit_diagram(record: Mapping[str, Any], pressures: Mapping[str, float]) -> str:
+    """SVG of the circuits of a machine record as JSON; empty without one, or where it is too large to be read.
+
+    pressures : [Pa] at the start, by the name of the result variable.
+    """
+    circuit = circuit_of(record)
+    if not 0 < len(circuit.parts) <= LARGEST:
+        return ""
+    drawing = laid_out(circuit)
+    size = f'viewBox="0 0 {drawing.wide:.0f} {drawing.high:.0f}" width="{drawing.wide:.0f}"'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" class="circuit" {size} role="img" aria-label="circuit diagram">'
+    return "\n".join([head, f"<style>{STYLE}</style>", *_drawn(circuit, drawing, pressures), "</svg>"])
+
+
+def laid_out(circuit: Circuit) -> Drawing:
+    """Place all parts, and lay the lines between them."""
+    return Router(circuit, place(circuit)).drawing()
+
+
+def _drawn(circuit: Circuit, drawing: Drawing, pressures: Mapping[str, float]) -> Iterator[str]:
+    yield from map(_line, drawing.lines)
+    yield from (f'<circle class="full" cx="{x:.1f}" cy="{y:.1f}" r="2.4"/>' for x, y in drawing.dots)
+    for x, y, up in drawing.tanks:
+        way = -1.0 if up else 1.0
+        yield f'<path d="M{x:.1f} {y:.1f} v{14 * way:g} m-6 -5 v{5 + 0 * way:g} h12 v-5"/>'
+    yield from (_symbol(part, pressures) for part in circuit.parts)
+    for label in drawing.labels:
+        if label.leader is not None:
+            yield _line(label.leader, "leader")
+        value = _pressure(circuit.values[label.node], pressures)
+        yield f'<text class="node" x="{label.x:.1f}" y="{label.y:.1f}">{escape(label.node)} {value}</text>'
+
+
+def _pressure(variable: str, pressures: Mapping[str, float]) -> str:
+    """The pressure at the start, which the page replaces by that at the cursor."""
+    value = f"{pressures[variable] / 1e5:.4g} bar" if variable in pressures else ""
+    return f'<tspan data-pressure="{escape(variable.removeprefix("hydraulics."))}">{value}</tspan>'
+
+
+def _line(line: Line, style: str = "") -> str:
+    points = " ".join(f"{x:.1f},{y:.1f}" for x, y in line.points)
+    style = f' class="{style or "dashed"}"' if style or line.dashed else ""
+    return f'<polyline{style} points="{points}"><title>{escape(line.node)}</title></polyline>'
+
+
+def _symbol(part: Part, pressures: Mapping[str, float]) -> str:
+    """A symbol with its name, settings and pressures to its right."""
+    x, first = part.x + part.symbol.wide + 6.0, part.y + 4.0 - 6.5 * len(part.words)
+    words = ""
+    for k, (text, variable) in enumerate(part.words):
+        value = _pressure(variable, pressures) if variable else ""
+        words += f'<text class="words" x="{x:.1f}" y="{first + 13.0 * (k + 1):.1f}">{escape(text)}{value}</text>'
+    return (
+        f'<g class="symbol" transform="translate({part.x:.1f} {part.y:.1f})"><title>{escape(part.name)}: {part.type}</title>'
+        f'{part.symbol.body}</g><text class="name" x="{x:.1f}" y="{first:.1f}">{escape(part.label)}</text>{words}'
+    )

@@ -1,0 +1,184 @@
+"""Symbols of components after ISO 1219-1: paths about the middle of a symbol, and where lines meet it. Units are pixels; y goes down."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+from nivel.looks.circuit.valve_symbol import directional_valve
+
+SPRING: Final = "l3 -5 l4 10 l4 -10 l3 5"
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """What is drawn of a component.
+
+    body : SVG about (0, 0). wide, high : half of its size. pins : port → x; those above, or those below, the symbol.
+    """
+
+    body: str
+    wide: float
+    high: float
+    above: Mapping[str, float] = field(default_factory=dict)
+    below: Mapping[str, float] = field(default_factory=dict)
+
+
+def path(d: str, style: str = "") -> str:
+    """An SVG path, of a class `style`: dashed, full (filled)."""
+    return f'<path{f" class={style!r}" if style else ""} d="{d}"/>'.replace("'", '"')
+
+
+def _circle(radius: float, y: float = 0.0) -> str:
+    return f'<circle cx="0" cy="{y:g}" r="{radius:g}"/>'
+
+
+def _arrow(x: float, y0: float, y1: float) -> str:
+    """An arrow along y, with its tip at y1."""
+    way = 1.0 if y1 > y0 else -1.0
+    return path(f"M{x:g} {y0:g} V{y1:g}") + path(f"M{x:g} {y1:g} l-3 {-6 * way:g} h6 z", "full")
+
+
+def _adjustable(x0: float, y0: float, x1: float, y1: float) -> str:
+    """The oblique arrow of what can be set."""
+    return path(f"M{x0:g} {y0:g} L{x1:g} {y1:g}") + path(f"M{x1:g} {y1:g} l-7 1.5 l5 5 z", "full")
+
+
+def _varies(data: Mapping[str, Any], key: str) -> bool:
+    return not isinstance(data.get(key), float | int | None)
+
+
+def _orifice(data: Mapping[str, Any]) -> Symbol:
+    body = path("M0 -16 V16 M-8 -8 Q-1 0 -8 8 M8 -8 Q1 0 8 8")
+    if _varies(data, "opening"):
+        body += _adjustable(-13, 12, 13, -12)
+    return Symbol(body, 13.0, 16.0, {"B": 0.0}, {"A": 0.0})
+
+
+def _pipe(data: Mapping[str, Any]) -> Symbol:
+    dots = "".join(f'<circle class="full" cx="0" cy="{y}" r="2"/>' for y in (-12, 12))
+    return Symbol(path("M0 -16 V-12 C9 -5 -9 5 0 12 V16") + dots, 8.0, 16.0, {"B": 0.0}, {"A": 0.0})
+
+
+CHECK: Final = path("M0 16 V7 M-8 -4 L0 7 L8 -4 M0 -7 V-16") + _circle(5.0, -2.0)
+
+
+def _check(data: Mapping[str, Any]) -> Symbol:
+    pilot = path("M24 16 V3 H3", "dashed") if "X" in (data.get("ports") or {}) else ""
+    return Symbol(CHECK + pilot, 24.0 if pilot else 9.0, 16.0, {"B": 0.0}, {"A": 0.0} | ({"X": 24.0} if pilot else {}))
+
+
+def _relief(data: Mapping[str, Any]) -> Symbol:
+    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + _arrow(-5, -12, 12)
+    body += path(f"M12 0 {SPRING}") + path("M0 -17 H-18 V0 H-12", "dashed")
+    if _varies(data, "opens_at"):
+        body += _adjustable(13, 9, 27, -10)
+    return Symbol(body, 27.0, 20.0, {"P": 0.0}, {"T": 0.0})
+
+
+def _reducing(data: Mapping[str, Any]) -> Symbol:
+    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + _arrow(0, 12, -12)
+    body += path(f"M12 0 {SPRING}") + path("M0 -17 H-18 V0 H-12", "dashed")
+    drain = "T" in (data.get("ports") or {})
+    body += path("M8 12 V16 H30 V20") if drain else ""
+    return Symbol(body, 30.0 if drain else 27.0, 20.0, {"A": 0.0}, {"P": 0.0} | ({"T": 30.0} if drain else {}))
+
+
+def _compensator(_: Mapping[str, Any]) -> Symbol:
+    body = path("M-12 -12 H12 V12 H-12 Z M0 -20 V-12 M0 12 V20") + _arrow(0, 12, -12)
+    body += path(f"M12 0 {SPRING}") + path("M0 -17 H-18 V0 H-12 M26 0 H34 V20", "dashed")
+    return Symbol(body, 34.0, 20.0, {"A": 0.0}, {"P": 0.0, "LS": 34.0})
+
+
+def _counterbalance(_: Mapping[str, Any]) -> Symbol:
+    square = path("M-26 -10 H-6 V10 H-26 Z") + _arrow(-20, -10, 10) + path("M-6 0 l2 -4 l3 8 l3 -8 l2 4")
+    sides = path("M0 -26 V-18 M-16 -10 V-18 H20 V-9 M0 26 V18 M-16 10 V18 H20 V9")
+    check = path("M20 9 V6 M13 -3 L20 6 L27 -3 M20 -6 V-9") + '<circle cx="20" cy="-1.5" r="4"/>'
+    pilots = path("M-16 -15 H-30 V-4 H-26 M-36 26 V4 H-26", "dashed")
+    frame = path("M-33 -22 H31 V22 H-33 Z", "frame")
+    return Symbol(square + sides + check + pilots + frame, 36.0, 26.0, {"L": 0.0}, {"V": 0.0, "X": -36.0})
+
+
+def _pump(data: Mapping[str, Any]) -> Symbol:
+    body = _circle(16.0) + path("M0 -16 l-6 10 h12 z", "full") + path("M0 -24 V-16 M0 16 V24 M-16 -2 H-26 M-16 2 H-26")
+    if data.get("margin") is not None or _varies(data, "setting") or data.get("setting", 1.0) != 1.0:
+        body += _adjustable(-15, 17, 17, -17)
+    sensing = "LS" in (data.get("ports") or {})
+    body += path("M16 0 H30 V-24", "dashed") if sensing else ""
+    return Symbol(body, 30.0 if sensing else 26.0, 24.0, {"B": 0.0} | ({"LS": 30.0} if sensing else {}), {"A": 0.0})
+
+
+def _motor(data: Mapping[str, Any]) -> Symbol:
+    body = _circle(16.0) + path("M-6 0 l-10 -6 v12 z M6 0 l10 -6 v12 z", "full")
+    body += path("M-16 0 H-26 V24 M16 0 H26 V24 M-2 -16 V-24 M2 -16 V-24")
+    if _varies(data, "setting"):
+        body += _adjustable(-15, 17, 17, -17)
+    return Symbol(body, 26.0, 24.0, {}, {"A": -26.0, "B": 26.0})
+
+
+def _cylinder(data: Mapping[str, Any]) -> Symbol:
+    body = path("M-46 -14 H22 V14 H-46 Z M-18 -14 V14 M-12 -14 V14 M-12 -3 H48 V3 H-12 M-38 14 V22")
+    if data.get("cushion_A"):
+        body += path("M-26 -4 H-18 V4 H-26 Z")
+    if data.get("cushion_B"):
+        body += path("M-12 -6 H-4 V6 H-12 Z")
+    both = data.get("acting") != "single"
+    body += path("M14 14 V22") if both else path("M-12 0 m2 9 l6 -18 l6 18 l6 -18 l6 18 l4 -9")
+    return Symbol(body, 48.0, 22.0, {}, {"A": -38.0} | ({"B": 14.0} if both else {}))
+
+
+def _telescope(_: Mapping[str, Any]) -> Symbol:
+    body = path("M-46 -14 H6 V14 H-46 Z M-30 -14 V14 M-30 -8 H28 V8 H-30 M-22 -8 V8 M-22 -3 H48 V3 H-22 M-38 14 V22")
+    return Symbol(body, 48.0, 22.0, {}, {"A": -38.0})
+
+
+def _rotary(_: Mapping[str, Any]) -> Symbol:
+    body = path("M-18 6 A18 18 0 0 1 18 6 Z M0 -12 V-20 M-10 6 V22 M10 6 V22 M0 6 L8 -6")
+    return Symbol(body, 18.0, 22.0, {}, {"A": -10.0, "B": 10.0})
+
+
+def _accumulator(_: Mapping[str, Any]) -> Symbol:
+    body = path("M-10 -10 A10 10 0 0 1 10 -10 V6 A10 10 0 0 1 -10 6 Z M-10 -2 H10 M0 16 V22 M-4 -8 h8 l-4 5 z")
+    return Symbol(body, 10.0, 22.0, {}, {"A": 0.0})
+
+
+def _shuttle(_: Mapping[str, Any]) -> Symbol:
+    body = path("M-18 -8 H18 V8 H-18 Z M-10 -4 L-5 0 L-10 4 M10 -4 L5 0 L10 4") + _circle(4.0)
+    return Symbol(body + path("M0 -16 V-8", "dashed"), 18.0, 16.0, {"LS": 0.0}, {})
+
+
+def _source(_: Mapping[str, Any]) -> Symbol:
+    return Symbol(_circle(12.0) + path("M0 -12 l-6 10 h12 z M0 -12 V-18"), 12.0, 18.0, {"P": 0.0}, {})
+
+
+def _directional(data: Mapping[str, Any]) -> Symbol:
+    body, wide, high, above, below = directional_valve(data)
+    return Symbol(body, wide, high, above, below)
+
+
+SYMBOLS: Final[Mapping[str, Callable[[Mapping[str, Any]], Symbol]]] = {
+    "orifice": _orifice,
+    "pipe": _pipe,
+    "check-valve": _check,
+    "relief-valve": _relief,
+    "reducing-valve": _reducing,
+    "compensator": _compensator,
+    "counterbalance-valve": _counterbalance,
+    "directional-valve": _directional,
+    "pump": _pump,
+    "flow-source": _pump,
+    "hydraulic-motor": _motor,
+    "cylinder": _cylinder,
+    "telescopic-cylinder": _telescope,
+    "rotary-actuator": _rotary,
+    "accumulator": _accumulator,
+    "load-sensing": _shuttle,
+    "tank": _source,
+}
+
+
+def flipped(symbol: Symbol) -> Symbol:
+    """The same symbol upside down."""
+    body = f'<g transform="scale(1 -1)">{symbol.body}</g>'
+    return Symbol(body, symbol.wide, symbol.high, symbol.below, symbol.above)

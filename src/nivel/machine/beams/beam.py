@@ -1,0 +1,318 @@
+"""A beam of large motion in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Annotated, ClassVar, Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BeforeValidator, Field
+
+from nivel.machine.axes import no_direction
+from nivel.machine.beams.beam_curve import Line, NoCurveError, arc, axes_along, smooth, straight
+from nivel.machine.beams.beam_section import (
+    BeamSection,
+    BeamSectionRecord,
+    GeneralSection,
+    beam_section,
+    missing_shear_areas,
+)
+from nivel.machine.beams.section import Material
+from nivel.machine.checked import Checked, Place, Problem, superfluous
+from nivel.machine.record import GROUND, Name
+from nivel.machine.units.quantity import (
+    Angle,
+    AngularVelocityVector,
+    Direction,
+    Length,
+    Position,
+    Quantity,
+    Scalar,
+    VelocityVector,
+    Whole,
+    listed,
+)
+
+Array = NDArray[np.float64]
+START, END = "start", "end"
+LEAST: Final = 1e-4  # share of the length by which stations and ends are apart, at least
+MOST_TURN: Final = (
+    0.5 * np.pi + 1e-6
+)  # of an element, unstressed: rotations within it are interpolated as vectors [rad]
+REPRESENTED: Final = 1e-6  # share by which sections may miss what a model can represent
+OTHERS: Final = "or take `model: ancf-beam` or `geometrically-exact`"
+FARTHEST: Final = 1e9  # m; farther points are slips, and their squares may overflow
+
+Points = Annotated[tuple[Position, ...], BeforeValidator(listed)]
+Offset = Annotated[tuple[Length, Length], BeforeValidator(listed)]
+Time = Annotated[float, Quantity("time")]
+
+
+class Beam(Checked):
+    """A slender body that may move and bend by any amount: geometrically exact, with shear (Reissner 1981, Simo 1985), or, for comparison,
+    a row of rigid segments joined by springs.
+
+    Joints, forces and markers take hold of it at stations, which are bodies for them: `BEAM.start`, `BEAM.end`, and those named.
+    The axes of a station are those of the section there: x along the beam.
+    """
+
+    collection: ClassVar[str] = "beams"
+    tagged = {"section": 1}  # noqa: RUF012
+
+    name: Name
+    from_: Position = Field(alias="from", description="where it starts, global")
+    to: Position = Field(description="where it ends, global")
+    via: Position | None = Field(default=None, description="a point on the way: the beam is an arc of a circle")
+    through: Points = Field(default=(), description="points on the way: the beam is a smooth curve through them")
+    up: Direction | None = Field(
+        default=None, description="the z axes of its sections are as near to this as they can be"
+    )
+    twist: Angle = Field(
+        default=0.0, description="turn of the last section about the beam, against the first, unstressed"
+    )
+    section: BeamSectionRecord
+    material: Material | None = None
+    centroid: Offset = Field(
+        default=(0.0, 0.0), description="y and z of the sections' centroids from the line of the beam"
+    )
+    shear_centre: Offset = Field(
+        default=(0.0, 0.0), description="y and z of the shear centres from the line of the beam"
+    )
+    elements: Annotated[Whole, Field(strict=True, ge=1, le=100_000)] = 10
+    order: Annotated[Whole, Field(strict=True, ge=1, le=3)] = Field(default=1, description="of an element: 1, 2 or 3")
+    model: Literal["geometrically-exact", "segments", "ancf-cable", "ancf-beam"] = Field(
+        default="geometrically-exact",
+        description=(
+            "finite elements; rigid segments joined by springs of six directions; or elements in absolute nodal coordinates, with slopes "
+            "or all gradients"
+        ),
+    )
+    mass: Literal["consistent", "lumped"] | None = Field(
+        default=None,
+        description="of elements: consistent, if not given, or lumped at the nodes; segments have their own",
+    )
+    interpolation: Literal["relative", "total"] = Field(
+        default="relative",
+        description="of rotations in an element: relative to a node of it, or total, which is not objective",
+    )
+    damping: Time = Field(default=0.0, description="stress from a rate of strain, over that from the strain")
+    stations: dict[Name, Scalar] = Field(default={}, description="name: share of the length, between 0 and 1")
+    velocity: VelocityVector = Field(default=(0.0, 0.0, 0.0), description="of its start, global axes")
+    angular_velocity: AngularVelocityVector = Field(default=(0.0, 0.0, 0.0), description="as a rigid body, global axes")
+
+    @property
+    def line(self) -> Line:
+        """Its line. Raises NoCurveError."""
+        if self.via is not None:
+            return arc(self.from_, self.via, self.to)
+        return smooth([self.from_, *self.through, self.to]) if self.through else straight(self.from_, self.to)
+
+    @property
+    def shares(self) -> Array:
+        """(N,) shares of the length at which its nodes are, ascending: stations are nodes, elements between them are equally long."""
+        ends = np.array(sorted({0.0, 1.0, *self.stations.values()}))
+        counts = _divided(np.diff(ends), self.elements)
+        pieces = [
+            np.linspace(a, b, self.order * n, endpoint=False)
+            for a, b, n in zip(ends[:-1], ends[1:], counts, strict=True)
+        ]
+        return np.concatenate([*pieces, [1.0]])
+
+    @cached_property
+    def node_names(self) -> tuple[str, ...]:
+        """(N,) names of its nodes as bodies: `BEAM.start`, `BEAM.1`, …, with the names of stations where they have one."""
+        named = {0.0: START, 1.0: END} | {share: name for name, share in self.stations.items()}
+        return tuple(f"{self.name}.{named.get(share, k)}" for k, share in enumerate(self.shares.tolist()))
+
+    def frames(self, shares: Array) -> tuple[Array, Array]:
+        """Places (n, 3) and axes (n, 3, 3), columns x, y, z, of the sections at these shares of the length, global."""
+        s = self.line.length * shares
+        return self.line.at(s)[0], axes_along(self.line, s, None if self.up is None else np.array(self.up), self.twist)
+
+    def frame_at(self, station: str) -> tuple[Array, Array]:
+        """Place (3,) and axes (3, 3) of the section at a station, by its name within the beam, global."""
+        place, axes = self.frames(np.array([{START: 0.0, END: 1.0, **self.stations}[station]]))
+        return place[0], axes[0]
+
+    @property
+    def shares_mass(self) -> bool:
+        """Whether its nodes have mass in common."""
+        return self.model != "segments" and self.mass != "lumped"
+
+    @property
+    def has_gradients(self) -> bool:
+        """Whether its nodes have gradients, which deform: beams in absolute nodal coordinates."""
+        return self.model in ("ancf-cable", "ancf-beam")
+
+    @property
+    def _missing_shear_areas(self) -> tuple[str, ...]:
+        """Those that the section lacks; a cable does not shear."""
+        return () if self.model == "ancf-cable" else missing_shear_areas(self.section)
+
+    @property
+    def properties(self) -> BeamSection:
+        """The section in numbers."""
+        return beam_section(self.section, self.material, self.centroid, self.shear_centre)
+
+    def problems(self) -> Iterator[Problem]:
+        if self.name == GROUND:
+            yield Problem((), f"`{GROUND}` is the fixed world and cannot be a beam")
+        zero = [*no_direction("up", self.up)]
+        yield from zero
+        if self.via is not None and self.through:
+            yield superfluous("through", "does not go with `via`, which makes the beam an arc of a circle")
+        elif not zero:
+            yield from self._problems_of_line()
+        yield from self._problems_of_section()
+        if self.model == "segments" and self.mass == "consistent":
+            yield superfluous(
+                "mass", "consistent does not go with `model: segments`: a rigid segment has a mass of its own"
+            )
+        if self.model == "segments" and self.interpolation == "total":
+            yield superfluous("interpolation", "does not go with `model: segments`: nothing is interpolated")
+        if self.has_gradients:
+            yield from self._problems_of_gradients()
+        if self.damping < 0.0:
+            yield Problem(("damping",), f"zero or more was expected, got {self.damping:g} s")
+
+    def _problems_of_line(self) -> Iterator[Problem]:
+        """Of the line, and of what stands on it."""
+        places: list[Place] = [("from",), *(("through", k) for k in range(len(self.through))), ("to",)]
+        points = [self.from_, *self.through, self.to]
+        if self.via is not None:
+            places[1:1], points[1:1] = [("via",)], [self.via]
+        far = [place for place, point in zip(places, points, strict=True) if max(map(abs, point)) > FARTHEST]
+        yield from (Problem(place, f"farther away than {FARTHEST:g} m: a slip of a unit?") for place in far)
+        stations = [*self._problems_of_stations()]
+        yield from stations
+        if far:
+            return
+        try:
+            self.frames(np.linspace(0.0, 1.0, 33))
+            if not stations:
+                yield from self._problems_of_turns()
+            yield from self._problems_of_height()
+        except NoCurveError as problem:
+            yield Problem(("up",) if problem.up else places[problem.point or 0], str(problem))
+
+    def _problems_of_height(self) -> Iterator[Problem]:
+        """A section of a material that is higher than the beam is long, as a rectangle of its stiffness."""
+        if self.material is None or isinstance(self.section, GeneralSection) or self._missing_shear_areas:
+            return
+        stiffness, mass = np.diag(self.properties.stiffness), self.properties.mass
+        height = float(
+            np.sqrt(12.0 * stiffness[4:].max() * self.material.density / self.material.youngs_modulus / mass)
+        )
+        if height > self.line.length:
+            message = f"a section {height:.3g} m high on a beam {self.line.length:.3g} m long: a slip of a unit?"
+            yield Problem(("section",), message)
+
+    def _problems_of_turns(self) -> Iterator[Problem]:
+        """Elements whose ends are turned too far against each other. Raises NoCurveError."""
+        shares = self.shares[:: self.order]
+        axes = self.frames(shares)[1]
+        along = np.einsum("ni,ni->n", axes[:-1, :, 0], axes[1:, :, 0])
+        cosine = 0.5 * (np.einsum("nij,nij->n", axes[:-1], axes[1:]) - 1.0)
+        bend = float(np.arccos(np.clip(np.minimum(along, cosine).min(), -1.0, 1.0)))
+        turn = max(bend, abs(self.twist) * float(np.diff(shares).max()))
+        if turn > MOST_TURN:
+            message = (
+                f"over an element the unstressed beam turns by {np.degrees(turn):.3g} deg; 90 deg at most can be followed: "
+                "take more elements, or see whether the line folds back or runs along `up`"
+            )
+            yield Problem(("elements",) if "elements" in self.model_fields_set else (), message)
+
+    def _problems_of_section(self) -> Iterator[Problem]:
+        if isinstance(self.section, GeneralSection):
+            if self.material is not None:
+                yield superfluous(
+                    "material", "does not belong to a general section, which has its own stiffness and mass"
+                )
+            if any(self.centroid):
+                yield superfluous("centroid", "belongs to a section of a material; a general one has its `mass_centre`")
+        elif self.material is None:
+            yield Problem((), "`material` is missing: {youngs_modulus: …, poisson_ratio: …, density: …}")
+        missing = self._missing_shear_areas
+        if missing:
+            words = " and ".join(f"`{name}`" for name in missing)
+            message = (
+                f"{words} {'is' if len(missing) == 1 else 'are'} missing: a beam of large motion deforms by shear too"
+            )
+            yield Problem(("section",), message)
+
+    def _problems_of_gradients(self) -> Iterator[Problem]:
+        """What beams in absolute nodal coordinates do not have."""
+        if self.order != 1:
+            yield Problem(("order",), f"elements of `model: {self.model}` have two nodes: remove it")
+        if self.mass == "lumped":
+            yield Problem(("mass",), f"the mass of `model: {self.model}` is always consistent: remove it")
+        if self.interpolation == "total":
+            yield Problem(("interpolation",), f"`model: {self.model}` has no rotations to interpolate: remove it")
+        general = isinstance(self.section, GeneralSection)
+        if self._missing_shear_areas or (self.material is None) != general:
+            return
+        if self.model == "ancf-cable":
+            yield from self._problems_of_cable()
+            return
+        J = self.properties.inertia
+        if abs(J[0, 0] - J[1, 1] - J[2, 2]) > REPRESENTED * J[0, 0]:
+            message = (
+                f"gradients have the inertia of matter: about x it is the sum of those about y and z, {J[1, 1] + J[2, 2]:.6g}, "
+                f"not {J[0, 0]:.6g} kg m; give that, or take `model: geometrically-exact`"
+            )
+            yield Problem(("section", "inertia"), message)
+
+    def _problems_of_cable(self) -> Iterator[Problem]:
+        """A cable is straight, and the same in all directions."""
+        if self.via is not None or self.through or self.twist:
+            name = "via" if self.via is not None else "through" if self.through else "twist"
+            yield Problem(
+                (name,),
+                f"an `ancf-cable` is straight and not twisted while unstressed: {OTHERS}",
+            )
+        for name in ("centroid", "shear_centre"):
+            if any(getattr(self, name)):
+                yield Problem(
+                    (name,), f"an `ancf-cable` is the same in all directions about its line: remove it, {OTHERS}"
+                )
+                return
+        own = self.properties
+        C = own.stiffness
+        bending = C[4, 4], C[5, 5]
+        if np.any(own.mass_centre):
+            why = "its `mass_centre` is off the line"
+        elif abs(bending[0] - bending[1]) > REPRESENTED * max(bending):
+            why = f"EI_y = {bending[0]:.6g}, EI_z = {bending[1]:.6g} N m^2"
+        elif np.any(np.abs(C - np.diag(np.diag(C))) > REPRESENTED * np.sqrt(np.outer(np.diag(C), np.diag(C)))):
+            why = "its `stiffness` has numbers off the diagonal"
+        else:
+            return
+        message = f"an `ancf-cable` has the same bending stiffness in all directions, and nothing couples its strains; here {why}: {OTHERS}"
+        yield Problem(("section",), message)
+
+    def _problems_of_stations(self) -> Iterator[Problem]:
+        near: dict[float, str] = {0.0: START, 1.0: END}
+        for name, share in self.stations.items():
+            if name in (START, END):
+                yield Problem(("stations", name), f"every beam has a station `{name}`; choose another name")
+            elif not 0.0 < share < 1.0:
+                yield Problem(("stations", name), f"a share of the length between 0 and 1 was expected, got {share:g}")
+            elif close := [other for at, other in near.items() if abs(at - share) < LEAST]:
+                message = f"it is where `{close[0]}` is; stations are {LEAST:g} of the length apart at least"
+                yield Problem(("stations", name), message)
+            else:
+                near[share] = name
+        if self.elements < len(near) - 1:
+            message = f"{len(near) - 1} at least are needed, one between each two stations; got {self.elements}"
+            yield Problem(("elements",), message)
+
+
+def _divided(lengths: Array, count: int) -> list[int]:
+    """`count` elements over parts of these lengths, at least one each, the longest elements as short as can be."""
+    free = count - len(lengths)
+    counts = np.maximum(1, (lengths / np.sum(lengths) * free).astype(int))  # not more than each will have
+    while np.sum(counts) < count:
+        counts[int(np.argmax(lengths / counts))] += 1
+    return counts.tolist()

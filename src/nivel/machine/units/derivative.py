@@ -1,0 +1,193 @@
+"""Exact derivatives of expressions with respect to time, by the rules of calculus.
+
+    (u v)' = u' v + u v'        (u/v)' = u'/v - u v'/v²        (u^v)' = u^v (v' log u + v u'/u)        f(u)' = f'(u) u'
+
+Factors 0 and 1 that the rules leave behind are dropped, so that derivatives stay short and defined where the
+expression itself is: 3*time^2 becomes 6*time, without a division by time.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from nivel.machine.units.arithmetic import (
+    COMPARISONS,
+    LOGICAL,
+    Call,
+    ExpressionError,
+    Lookup,
+    Negative,
+    Node,
+    Number,
+    Operation,
+    Signal,
+    Time,
+    evaluate,
+    leaves,
+    names,
+    varies,
+)
+
+_MOST_LEAVES: Final = 4000  # second derivatives of long products grow with the cube of their length
+_CORNERS: Final = ("abs", "min", "max", "step_acceleration", "ramp", "if", "not", "sign", "floor", "mod")
+_ZERO, _ONE, _TWO = Number(0.0), Number(1.0), Number(2.0)
+
+
+def derivative(node: Node) -> Node:
+    """The derivative of `node` with respect to time. Names must be bound.
+
+    Raises ExpressionError for signals, for functions with corners, and where the derivative would be too long.
+    """
+    if names(node):
+        raise ExpressionError(f"`{min(names(node))}` has no value")
+    result = _derivative(node)
+    if sum(1 for _ in leaves(result)) > _MOST_LEAVES:
+        raise ExpressionError("the expression is too long to be differentiated; shorten it or use a table")
+    return result
+
+
+def _derivative(node: Node) -> Node:
+    if not varies(node):
+        return _ZERO
+    match node:
+        case Time():
+            return _ONE
+        case Signal(path):
+            raise ExpressionError(f"`{path}` is only known while the machine moves; a driver depends on `time` alone")
+        case Negative(operand):
+            return minus(_derivative(operand))
+        case Operation(symbol, left, right):
+            return _of_operation(symbol, left, right)
+        case Call("atan2", (y, x)):
+            rise = minus(times(x, _derivative(y)), times(y, _derivative(x)))
+            return over(rise, plus(times(x, x), times(y, y)))
+        case Call("step" | "step_rate" as function, (argument, *levels)):
+            if any(varies(level) for level in levels):
+                raise ExpressionError(f"the levels of `{function}` vary; a driver needs constant ones")
+            after = "step_rate" if function == "step" else "step_acceleration"
+            return times(Call(after, (argument, *levels)), _derivative(argument))
+        case Lookup(argument, kind, points, values, order):
+            if kind != "quintic":
+                raise ExpressionError(
+                    f"a {kind} curve has corners, at its ends at least; a driver must be smooth: take quintic"
+                )
+            return times(Lookup(argument, kind, points, values, order + 1), _derivative(argument))
+        case Call(function, (argument, *_)) if function not in _CORNERS:
+            return times(_outer(function, argument), _derivative(argument))
+        case Call(function, _):
+            smooth = "; `step(time, t0, a, t1, b)` is smooth" if function in ("if", "ramp") else ""
+            raise ExpressionError(f"`{function}` has corners; a driver must be smooth{smooth}")
+    raise AssertionError(node)
+
+
+def _of_operation(symbol: str, u: Node, v: Node) -> Node:
+    if symbol in (*COMPARISONS, *LOGICAL):
+        raise ExpressionError(f"`{symbol}` has corners; a driver must be smooth")
+    match symbol:
+        case "+":
+            return plus(_derivative(u), _derivative(v))
+        case "-":
+            return minus(_derivative(u), _derivative(v))
+        case "*":
+            return plus(times(_derivative(u), v), times(u, _derivative(v)))
+        case "/" if not varies(v):
+            return over(_derivative(u), v)
+        case "/" if not varies(u) and isinstance(v, Time):
+            return minus(_ZERO, over(times(u, _derivative(v)), to_the(v, _TWO)))
+        case "/":
+            # no square of v, which would leave the range of numbers where v is near its end
+            return minus(over(_derivative(u), v), times(over(u, v), over(_derivative(v), v)))
+    if not varies(v):
+        n = evaluate(v)
+        return times(times(Number(n), to_the(u, Number(n - 1))), _derivative(u))
+    growth = times(_derivative(v), Call("log", (u,)))
+    return times(to_the(u, v), plus(growth, over(times(v, _derivative(u)), u)))
+
+
+def _outer(function: str, u: Node) -> Node:
+    """f'(u) of a function f of one argument."""
+    match function:
+        case "sin":
+            return Call("cos", (u,))
+        case "cos":
+            return minus(Call("sin", (u,)))
+        case "tan":
+            return plus(_ONE, to_the(Call("tan", (u,)), _TWO))
+        case "asin":
+            return over(_ONE, Call("sqrt", (minus(_ONE, times(u, u)),)))
+        case "acos":
+            return minus(over(_ONE, Call("sqrt", (minus(_ONE, times(u, u)),))))
+        case "tanh":
+            return minus(_ONE, to_the(Call("tanh", (u,)), _TWO))
+        case "atan":
+            return over(_ONE, plus(_ONE, times(u, u)))
+        case "sqrt":
+            return over(_ONE, times(_TWO, Call("sqrt", (u,))))
+        case "exp":
+            return Call("exp", (u,))
+        case "log":
+            return over(_ONE, u)
+    raise AssertionError(function)
+
+
+def plus(u: Node, v: Node) -> Node:
+    """u + v."""
+    if _is(u, 0):
+        return v
+    return u if _is(v, 0) else _operation("+", u, v)
+
+
+def minus(u: Node, v: Node | None = None) -> Node:
+    """u - v, or -u."""
+    if v is not None:
+        if _is(u, 0):
+            return minus(v)
+        return u if _is(v, 0) else _operation("-", u, v)
+    match u:
+        case Negative(operand):
+            return operand
+        case Number(value, its):
+            return Number(-value if value else 0.0, its)
+    return Negative(u)
+
+
+def times(u: Node, v: Node) -> Node:
+    """u v; factors of -1 become signs."""
+    if _is(u, 0) or _is(v, 0):
+        return _ZERO
+    if isinstance(u, Negative):
+        return minus(times(u.operand, v))
+    if isinstance(v, Negative):
+        return minus(times(u, v.operand))
+    if _is(u, 1):
+        return v
+    return u if _is(v, 1) else _operation("*", u, v)
+
+
+def over(u: Node, v: Node) -> Node:
+    """u / v."""
+    if _is(u, 0):
+        return _ZERO
+    return u if _is(v, 1) else _operation("/", u, v)
+
+
+def to_the(u: Node, v: Node) -> Node:
+    """u ** v."""
+    if _is(v, 0):
+        return _ONE
+    return u if _is(v, 1) else _operation("**", u, v)
+
+
+def _is(node: Node, value: float) -> bool:
+    return isinstance(node, Number) and node.value == value
+
+
+def _operation(symbol: str, u: Node, v: Node) -> Node:
+    """The operation, or its value if that is a number of its own."""
+    operation = Operation(symbol, u, v)
+    if isinstance(u, Number) and isinstance(v, Number):
+        try:
+            return Number(evaluate(operation))
+        except ExpressionError:
+            return operation
+    return operation

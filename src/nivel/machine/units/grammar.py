@@ -1,0 +1,235 @@
+"""How expressions are read: from text to the tree of arithmetic.py. Nothing is handed to Python's `eval`.
+
+    whole   = both { or both }                a condition holds where it is greater than zero
+    both    = compared { and compared }
+    compared = sum [ (< | <= | > | >=) sum ]
+    sum     = term { (+ | -) term }
+    term    = sign { (* | /) sign | unit }    a unit may follow a number, `)` or a unit directly: `10 cm`, `(1/2) in`
+    sign    = [ + | - ] sign | power
+    power   = atom [ (^ | **) sign ]          to the right first, and before the sign: -2^2 = -4, as in Python
+    atom    = number | name | signal | function ( whole, … ) | ( whole )
+    signal  = name . name                     without spaces: `hinge.angle`
+    unit    = name [ (^ | **) sign ]
+
+A unit multiplies what stands before it in its term, so `3/8 in` is three eighths of an inch and `pi/2 rad` a quarter
+turn. `2 m / 4 s` could then be read in two ways and is refused; `(2 m)/(4 s)` is clear.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+from nivel.machine.units.arithmetic import (
+    COMPARISONS,
+    CONSTANTS,
+    LOGICAL,
+    TIME,
+    Call,
+    ExpressionError,
+    Name,
+    Negative,
+    Node,
+    Number,
+    Operation,
+    Signal,
+    Time,
+    finite,
+)
+from nivel.machine.units.unit import UNITS
+
+_MOST_TOKENS = 400  # trees are walked by recursion: this and _DEEPEST keep them far from Python's limit
+_MOST_LISTED = 20_000  # with numbers and commas, of which points of curves are made
+_DEEPEST = 60
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|"
+    r"(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*|°)|(?P<symbol>\*\*|<=|>=|[-+*/^(),<>]))"
+)
+
+
+@lru_cache(maxsize=4096)
+def parse(text: str) -> Node:
+    """The tree of `text`, names unbound.
+
+    Raises ExpressionError.
+    """
+    return _Parser(text).whole()
+
+
+class _Parser:
+    """Recursive descent over the grammar at the top of this file."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.tokens = _tokens(text)
+        self.at = 0
+        self.depth = 0
+
+    def whole(self) -> Node:
+        node = self.condition()
+        if self.at < len(self.tokens):
+            raise self.unexpected()
+        return node
+
+    def condition(self) -> Node:
+        self.deeper()
+        node = self.both()
+        while self.word() == "or":
+            node = Operation(self.take(), node, self.both())
+        self.depth -= 1
+        return node
+
+    def both(self) -> Node:
+        node = self.compared()
+        while self.word() == "and":
+            node = Operation(self.take(), node, self.compared())
+        return node
+
+    def compared(self) -> Node:
+        node = self.sum()
+        if self.symbol() not in COMPARISONS:
+            return node
+        node = Operation(self.take(), node, self.sum())
+        if self.symbol() in COMPARISONS:
+            raise ExpressionError("one comparison at a time: for `a < x < b` write `a < x and x < b`")
+        return node
+
+    def word(self) -> str:
+        """`and` or `or`, which stand between conditions; else nothing."""
+        text = self.tokens[self.at][1] if self.at < len(self.tokens) else ""
+        return text if text in LOGICAL else ""
+
+    def sum(self) -> Node:
+        self.deeper()
+        node = self.term()
+        while self.symbol() in ("+", "-"):
+            node = Operation(self.take(), node, self.term())
+        self.depth -= 1
+        return node
+
+    def term(self) -> Node:
+        node = self.sign()
+        has_unit = divided = False
+        while True:
+            if self.symbol() in ("*", "/"):
+                divided = self.take() == "/"
+                node = Operation("/" if divided else "*", node, self.sign())
+            elif self.kind() == "name" and not self.word() and self.follows_number():
+                if divided and has_unit:
+                    raise ExpressionError("which part the last unit belongs to is unclear; write `(2 m)/(4 s)`")
+                node = Operation("*", node, self.unit())
+                has_unit = True
+            else:
+                return node
+
+    def follows_number(self) -> bool:
+        """A unit may stand directly after a number, a closing parenthesis or another unit."""
+        kind, text = self.tokens[self.at - 1]
+        return kind == "number" or text == ")" or (kind == "name" and (text in UNITS or text in CONSTANTS))
+
+    def sign(self) -> Node:
+        sign = self.symbol()
+        if sign not in ("+", "-"):
+            return self.power()
+        self.take()
+        self.deeper()
+        operand = self.sign()
+        self.depth -= 1
+        return Negative(operand) if sign == "-" else operand
+
+    def power(self) -> Node:
+        return self.raised(self.atom())
+
+    def raised(self, base: Node) -> Node:
+        if self.symbol() not in ("^", "**"):
+            return base
+        self.take()
+        self.deeper()
+        exponent = self.sign()
+        self.depth -= 1
+        return Operation("**", base, exponent)
+
+    def unit(self) -> Node:
+        name = self.take()
+        if self.symbol() == "(":
+            raise ExpressionError(f"`*` is missing before `{name}`")
+        if "." in name:
+            raise ExpressionError(f"`*` is missing before `{name}`")
+        return self.raised(_named(name))
+
+    def atom(self) -> Node:
+        kind = self.kind()
+        if kind == "number":
+            return Number(finite(float(self.take())))
+        if kind == "name":
+            name = self.take()
+            if self.symbol() == "(":
+                return self.call(name)
+            return _named(name)
+        if self.symbol() == "(":
+            self.take()
+            node = self.condition()
+            self.expect(")")
+            return node
+        raise self.unexpected()
+
+    def call(self, name: str) -> Node:
+        self.take()
+        arguments = [self.condition()]
+        while self.symbol() == ",":
+            self.take()
+            arguments.append(self.condition())
+        self.expect(")")
+        return Call(name, tuple(arguments))
+
+    def deeper(self) -> None:
+        self.depth += 1
+        if self.depth > _DEEPEST:
+            raise ExpressionError("the expression is nested too deeply")
+
+    def kind(self) -> str:
+        return self.tokens[self.at][0] if self.at < len(self.tokens) else "end"
+
+    def symbol(self) -> str:
+        return self.tokens[self.at][1] if self.kind() == "symbol" else ""
+
+    def take(self) -> str:
+        self.at += 1
+        return self.tokens[self.at - 1][1]
+
+    def expect(self, symbol: str) -> None:
+        if self.symbol() != symbol:
+            raise self.unexpected(f"; `{symbol}` was expected")
+        self.take()
+
+    def unexpected(self, hint: str = "") -> ExpressionError:
+        if self.at >= len(self.tokens):
+            return ExpressionError(f"the expression ends too early{hint}")
+        return ExpressionError(f"`{self.tokens[self.at][1]}` was not expected here{hint}")
+
+
+def _named(name: str) -> Node:
+    if "." not in name:
+        return Time() if name == TIME else Name(name)
+    if name.count(".") > 1:
+        raise ExpressionError(f"`{name}` has more than one dot; `ELEMENT.QUANTITY` was expected, such as `hinge.angle`")
+    return Signal(name)
+
+
+def _tokens(text: str) -> list[tuple[str, str]]:
+    tokens: list[tuple[str, str]] = []
+    at, parts, end = 0, 0, len(text.rstrip())
+    while at < end:
+        found = _TOKEN.match(text, at)
+        if found is None:
+            sign = text[at:].lstrip()[0]
+            hint = "; numbers that vary are hardly ever equal: write `<` or `>`" if sign in "=!" else ""
+            raise ExpressionError(f"`{sign}` is not understood{hint}")
+        tokens.append((str(found.lastgroup), found.group(str(found.lastgroup))))
+        at = found.end()
+        parts += tokens[-1][0] != "number" and tokens[-1][1] != ","
+        if parts > _MOST_TOKENS or len(tokens) > _MOST_LISTED:
+            raise ExpressionError("the expression is too long; split it with `parameters:`")
+    if not tokens:
+        raise ExpressionError("nothing stands here; a number was expected")
+    return tokens

@@ -1,0 +1,59 @@
+"""Linear functions of signals, which need no compiler: sums of multiples of signals and of the time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from nivel.machine.units.arithmetic import TIME, Negative, Node, Operation, Signal, Time, evaluate, varies
+
+
+@dataclass(frozen=True)
+class LinearFunction:
+    """offset + Σ factor · signal, with signals by their paths or `time`."""
+
+    terms: tuple[tuple[float, str], ...]
+    offset: float = 0.0
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        """The paths of the signals, each once; `time` is none."""
+        return tuple(dict.fromkeys(path for _, path in self.terms if path != TIME))
+
+
+def linear(*terms: tuple[float, str], offset: float = 0.0) -> LinearFunction:
+    """offset + Σ factor · signal, without terms of factor zero."""
+    return LinearFunction(tuple((float(factor), path) for factor, path in terms if factor != 0.0), offset)
+
+
+def linear_function(node: Node) -> LinearFunction | None:
+    """The linear function that an arithmetic tree is, or None. Names must be bound."""
+    if not varies(node):
+        return LinearFunction((), evaluate(node))
+    match node:
+        case Time():
+            return LinearFunction(((1.0, TIME),))
+        case Signal(path):
+            return LinearFunction(((1.0, path),))
+        case Negative(operand):
+            return _scaled(linear_function(operand), -1.0)
+        case Operation("+" | "-" as sign, left, right):
+            return _sum(linear_function(left), _scaled(linear_function(right), 1.0 if sign == "+" else -1.0))
+        case Operation("*", left, right) if not varies(left):
+            return _scaled(linear_function(right), evaluate(left))
+        case Operation("*", left, right) if not varies(right):
+            return _scaled(linear_function(left), evaluate(right))
+        case Operation("/", left, right) if not varies(right) and evaluate(right) != 0.0:
+            return _scaled(linear_function(left), 1.0 / evaluate(right))
+    return None
+
+
+def _scaled(function: LinearFunction | None, factor: float) -> LinearFunction | None:
+    if function is None:
+        return None
+    return LinearFunction(tuple((factor * each, path) for each, path in function.terms), factor * function.offset)
+
+
+def _sum(first: LinearFunction | None, second: LinearFunction | None) -> LinearFunction | None:
+    if first is None or second is None:
+        return None
+    return LinearFunction((*first.terms, *second.terms), first.offset + second.offset)

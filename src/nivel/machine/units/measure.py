@@ -1,0 +1,212 @@
+"""The dimension of an expression, and whether it makes sense: lengths are not added to masses, no sine is of metres.
+
+`time` and each signal may count as a bare number, as in `sin(2*pi*time)`, or as a quantity, as in `5 N/s * time`.
+A dimension by name belongs to signals that are quantities; a `rate` is of a length or of an angle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import islice, product
+from typing import Final
+
+from nivel.machine.units.arithmetic import (
+    TIME,
+    Call,
+    ExpressionError,
+    Lookup,
+    Name,
+    Negative,
+    Node,
+    Number,
+    Operation,
+    Signal,
+    Time,
+    evaluate,
+    leaves,
+    signals,
+    varies,
+)
+from nivel.machine.units.dimension import Dimension, described, dimension, known, power, without_angle
+from nivel.machine.units.dimension import product as product_of
+
+_RADIAN: Final = dimension(rad=1)
+_SECOND: Final = dimension(s=1)
+_METRE: Final = dimension(m=1)
+_SPEED: Final = dimension(m=1, s=-1)
+_TURN_RATE: Final = dimension(rad=1, s=-1)
+_MOST_READINGS: Final = 2000
+
+# The dimension of a variable in one reading; None for a bare number, which it also is where it is not listed.
+Reading = Mapping[str, Dimension | None]
+
+
+def signal_dimensions(path: str) -> tuple[Dimension, ...]:
+    """What the signal `path` may measure, by its last name; empty where that name does not tell."""
+    last = path.rpartition(".")[2]
+    match last:
+        case "displacement" | "distance" | "length" | "depth" | "bristle" | "x" | "y" | "z":
+            return (_METRE,)
+        case "vx" | "vy" | "vz":
+            return (_SPEED,)
+        case "wx" | "wy" | "wz":
+            return (_TURN_RATE,)
+        case "rate":
+            return (_SPEED, _TURN_RATE)
+        case "value" if "." not in path:  # of a state it may be anything
+            return (_METRE, _RADIAN)
+    if last.endswith("_rate"):
+        of = signal_dimensions(last.removesuffix("_rate"))
+        return tuple(tuple(a + b for a, b in zip(one, power(_SECOND, -1) or (), strict=True)) for one in of)
+    return (_RADIAN,) if last.startswith("angle") else ()
+
+
+def readings(node: Node) -> Iterator[Reading]:
+    """The ways to take the variables of `node`, likely ones first: all bare, all quantities, then each either way."""
+    choices: dict[str, tuple[Dimension | None, ...]] = {
+        path: (None, *signal_dimensions(path)) for path in signals(node)
+    }
+    if any(isinstance(leaf, Time) for leaf in leaves(node)):
+        choices[TIME] = (None, _SECOND)
+    yield {}
+    quantities = [options[1:] or options for options in choices.values()]
+    for options in (quantities, list(choices.values())):
+        for chosen in islice(product(*options), _MOST_READINGS):
+            yield dict(zip(choices, chosen, strict=True))
+
+
+def measure(node: Node, reading: Reading | None = None) -> Dimension | None:
+    """Dimension of `node` in one reading of its variables; None for a bare number.
+
+    Raises ExpressionError where dimensions clash.
+    """
+    reading = reading or {}
+    match node:
+        case Number(_, its):
+            return None if its is None else known(its)
+        case Time():
+            return reading.get(TIME)
+        case Signal(path):
+            return reading.get(path)
+        case Negative(operand):
+            return measure(operand, reading)
+        case Call(function, arguments):
+            return _of_call(function, [measure(argument, reading) for argument in arguments])
+        case Operation(symbol, left, right):
+            return _of_operation(symbol, left, right, reading)
+        case Lookup(argument):
+            measure(argument, reading)  # for clashes in it; the points of a curve are numbers
+            return None
+        case Name(text):
+            raise ExpressionError(f"`{text}` has no value")
+
+
+def refuse_unlike_terms(node: Node) -> None:
+    """Refuse a sum in which a quantity with a unit stands beside `time` or a signal of another dimension: `hinge.angle - 2 m`.
+
+    Only where they stand for themselves: in `200*arm.x - 5 N` the bare 200 may be a stiffness.
+    Raises ExpressionError.
+    """
+    terms = list(_terms(node))
+    quantities = [its for term in terms if not varies(term) and (its := measure(term)) is not None]
+    if len({without_angle(its) for its in quantities}) > 1:
+        return  # what clashes without the signals is told by `measure`
+    for term in terms:
+        match term:
+            case Time():
+                name, own = TIME, (_SECOND,)
+            case Signal(path):
+                name, own = path, signal_dimensions(path)
+            case _:
+                continue
+        for its in quantities:
+            if own and all(without_angle(its) != without_angle(each) for each in own):
+                meant = " or ".join(described(each) for each in own)
+                raise ExpressionError(
+                    f"`{name}` is {meant}; {described(its)} cannot be added to it or subtracted from it"
+                )
+
+
+def _terms(node: Node) -> Iterator[Node]:
+    """What is added and subtracted in `node`, without signs."""
+    match node:
+        case Operation("+" | "-", left, right):
+            yield from _terms(left)
+            yield from _terms(right)
+        case Negative(operand):
+            yield from _terms(operand)
+        case _:
+            yield node
+
+
+def _of_operation(symbol: str, left: Node, right: Node, reading: Reading) -> Dimension | None:
+    first, second = measure(left, reading), measure(right, reading)
+    match symbol:
+        case "+" | "-":
+            return _same(first, second, "added" if symbol == "+" else "subtracted")
+        case "<" | "<=" | ">" | ">=":
+            _same(first, second, "compared")
+            return None
+        case "and" | "or":
+            return None
+        case "*":
+            return product_of(first, second)
+        case "/":
+            return product_of(first, power(second, -1))
+    if without_angle(second) != without_angle(None):
+        raise ExpressionError(f"an exponent is a pure number, not {described(second)}")
+    if first is None:
+        return None
+    if varies(right):
+        raise ExpressionError("a quantity with a unit cannot be raised to a power that changes with time")
+    return power(first, evaluate(right))
+
+
+def _of_call(function: str, arguments: list[Dimension | None]) -> Dimension | None:
+    match function:
+        case "min" | "max":
+            result = arguments[0]
+            for other in arguments[1:]:
+                result = _same(result, other, "compared")
+            return result
+        case "abs":
+            return arguments[0]
+        case "if":
+            return _same(arguments[1], arguments[2], "values of one `if`")
+        case "not" | "sign" | "floor":
+            return None
+        case "mod":
+            return _same(arguments[0], arguments[1], "compared")
+        case "step" | "ramp" | "step_rate" | "step_acceleration":
+            return _of_step(function, arguments)
+        case "sqrt":
+            return power(arguments[0], 0.5)
+        case "atan2":
+            _same(arguments[0], arguments[1], "compared")
+            return _RADIAN
+        case "step" | "step_rate" | "step_acceleration":
+            along = _same(_same(arguments[0], arguments[1], "compared"), arguments[3], "compared")
+            order = ("step", "step_rate", "step_acceleration").index(function)
+            return product_of(_same(arguments[2], arguments[4], "compared"), power(along, -order) if order else None)
+    if without_angle(arguments[0]) != without_angle(None):
+        wanted = "an angle" if function in ("sin", "cos", "tan") else "a pure number"
+        raise ExpressionError(f"`{function}` is taken of {wanted}, not of {described(arguments[0])}")
+    return _RADIAN if function in ("asin", "acos", "atan") else None
+
+
+def _of_step(function: str, arguments: list[Dimension | None]) -> Dimension | None:
+    x, x0, y0, x1, y1 = arguments
+    across = _same(_same(x, x0, "compared"), x1, "compared")
+    height = _same(y0, y1, "joined")
+    orders = {"step_rate": -1, "step_acceleration": -2}
+    if function not in orders:
+        return height
+    return None if height is None and across is None else product_of(height, power(across, orders[function]))
+
+
+def _same(first: Dimension | None, second: Dimension | None, action: str) -> Dimension | None:
+    if first is None or second is None:
+        return first if second is None else second
+    if without_angle(first) != without_angle(second):
+        raise ExpressionError(f"{described(first)} and {described(second)} cannot be {action}")
+    return first

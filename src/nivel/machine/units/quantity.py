@@ -1,0 +1,241 @@
+"""Numbers as people write them: `0.25`, `10 cm`, `30 rpm`, `2*length + 5 mm`. Fields of records hold them as SI floats.
+
+The field types at the end (`Length`, `Mass`, …) are floats to the type checker. When a record is made they read a
+number, which is SI, or a text with units and arithmetic, whose dimension must be the field's. Parameters of a machine
+file come in through the validation context: ``{"parameters": {"radius": Number(0.25)}}``.
+"""
+
+from __future__ import annotations
+
+import numbers
+import re
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from nivel.arguments import plain
+from nivel.machine.units.arithmetic import (
+    LOCAL_SYMBOLS,
+    ExpressionError,
+    FaultyParameterError,
+    Node,
+    Parameters,
+    UnknownNameError,
+    bind,
+    evaluate,
+    given,
+    signals,
+    varies,
+)
+from nivel.machine.units.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
+from nivel.machine.units.grammar import parse
+from nivel.machine.units.measure import measure
+from nivel.wording import shown
+
+MASSLESS = (
+    "; a link without mass is a joint: distance, revolute-spherical, revolute-cylindrical, revolute-translational"
+)
+FAULT = "nivel"  # type of the validation errors that carry a finished sentence
+REPORTED = "nivel_reported"  # type of those that follow from a fault reported elsewhere
+
+Kind = str | tuple[str, ...]  # a key of KINDS, or several of which one must fit
+ANY: Kind = ()  # whatever it measures
+LARGEST = 1e100  # squares of such numbers, and products of three, can be held
+
+
+def fault(message: str, *, at_key: bool = False) -> PydanticCustomError:
+    """A validation error whose text is `message`, ready for people; `at_key`: not the value is wrong but its key."""
+    return PydanticCustomError(FAULT, "{message}", {"message": message, "at_key": at_key})
+
+
+def reported() -> PydanticCustomError:
+    """A validation error to be passed over in silence: its cause has been reported."""
+    return PydanticCustomError(REPORTED, "follows from another fault")
+
+
+def parameters_of(info: ValidationInfo) -> Parameters:
+    """The parameters of the machine file being read; none where records are made in Python."""
+    return (info.context or {}).get("parameters", {})
+
+
+def bound_tree(text: str, parameters: Parameters, local: Collection[str] = ()) -> Node:
+    """The tree of `text` with parameters, constants, units and `local` symbols put in.
+
+    Raises ExpressionError, FaultyParameterError.
+    """
+    try:
+        return bind(parse(text), parameters, local)
+    except UnknownNameError as problem:
+        if problem.name not in LOCAL_SYMBOLS:
+            raise
+        raise ExpressionError(f"{problem} (only the `law` of a spring knows its `{problem.name}`)") from None
+
+
+def kinds_of(kind: Kind) -> tuple[str, ...]:
+    """The keys of KINDS of which one must fit; none where anything does."""
+    return (kind,) if isinstance(kind, str) else kind
+
+
+def expected_kind(kind: Kind) -> str:
+    """``a force (N) or a torque (N*m)``."""
+    return " or ".join(_with_unit(*KINDS[one][:2]) for one in kinds_of(kind)) or "a number or a quantity"
+
+
+def _with_unit(article: str, unit: str) -> str:
+    return f"{article} ({unit})" if unit != "1" else article
+
+
+def check_kind(text: str, its: Dimension | None, kind: Kind) -> None:
+    """Refuse a quantity of dimension `its`, written as `text`, that is not of `kind`. A bare number always is.
+
+    Raises ExpressionError.
+    """
+    clashes = [_clash(its, KINDS[one][2]) for one in kinds_of(kind)]
+    if "" in clashes or not clashes:
+        return
+    if "turns" in clashes:
+        raise ExpressionError(
+            f"`{text}` counts turns; {expected_kind(kind)} was expected: write `rev/s`, `rpm` or `rad/s`"
+        )
+    raise ExpressionError(f"`{text}` is {described(its)}; {expected_kind(kind)} was expected")
+
+
+def _clash(its: Dimension | None, wanted: Dimension) -> Literal["", "other", "turns"]:
+    """How `its` clashes with what is `wanted`.
+
+    Angles vanish where SI lets them (rad/s × m = m/s), but where one is asked for, another power of it is a mistake.
+    """
+    if its is None:
+        return ""
+    if without_angle(its) != without_angle(wanted) or (is_angular(its) and is_angular(wanted) and its != wanted):
+        return "other"
+    return "turns" if is_angular(wanted) and counts_turns(its) else ""
+
+
+def read_quantity(value: object, kind: Kind, parameters: Parameters) -> float:
+    """`value` as a finite SI number of `kind`, of no more than LARGEST but for times and lengths, of which others judge.
+
+    Raises ExpressionError, FaultyParameterError.
+    """
+    number = _read_number(value, kind, parameters)
+    if abs(number) > LARGEST and kind != ANY and not {"time", "length"} & set(kinds_of(kind)):
+        raise ExpressionError(f"{number:.3g} is more than the limit of {LARGEST:.0e}, in SI units: a slip of a unit?")
+    return number
+
+
+def _read_number(value: object, kind: Kind, parameters: Parameters) -> float:
+    value = plain(value)
+    if isinstance(value, str):
+        tree = constant_tree(value, parameters)
+        its = measure(tree)
+        number = evaluate(tree)
+        check_kind(value.strip(), its, kind)
+        return number
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
+        return given(value)
+    raise ExpressionError(f"{expected_kind(kind)} was expected, got {shown(value)}")
+
+
+def constant_tree(text: str, parameters: Parameters) -> Node:
+    """The tree of `text`, in which nothing may vary.
+
+    Raises ExpressionError, FaultyParameterError.
+    """
+    tree = bound_tree(text, parameters)
+    if signals(tree):
+        raise ExpressionError(
+            f"`{signals(tree)[0]}` may only be used where a value may vary: in forces, states, sensors and events"
+        )
+    if varies(tree):
+        raise ExpressionError(
+            "`time` may only be used where a value may vary: in forces, drivers, states, sensors and events"
+        )
+    return tree
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Annotation of a float field: it is a quantity of `kind`, and possibly bounded below by zero."""
+
+    kind: Kind
+    positive: bool = False
+
+    def read(self, value: Any, info: ValidationInfo) -> float:
+        try:
+            number = read_quantity(value, self.kind, parameters_of(info))
+        except FaultyParameterError:
+            raise reported() from None
+        except ExpressionError as problem:
+            raise expression_fault(problem, value) from None
+        if self.positive and number <= 0:
+            instead = MASSLESS if self.kind == "mass" and number == 0 else ""
+            article = KINDS[self.kind][0] if isinstance(self.kind, str) else "a number"
+            raise fault(f"{article} greater than zero was expected, got {shown(value)}{instead}")
+        return number
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.with_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        article, unit, _ = KINDS[self.kind] if isinstance(self.kind, str) else ("a quantity in SI units", "", None)
+        meaning = article if unit == "1" else f"{article}{f' in {unit}' if unit else ''}, or with a unit"
+        number: dict[str, Any] = {"type": "number"}
+        if self.positive:
+            number["exclusiveMinimum"] = 0
+        return {"anyOf": [number, {"type": "string"}], "description": meaning}
+
+
+def expression_fault(problem: ExpressionError, value: object) -> PydanticCustomError:
+    """`problem` with the text that it is in, unless the message shows it already."""
+    message = str(problem)
+    if isinstance(value, str) and f"`{value.strip()}`" not in message:
+        message = f"{shown(value.strip())}: {message}"
+    if isinstance(value, str):
+        message += _slip(value)
+    return fault(message)
+
+
+def _slip(text: str) -> str:
+    """What is meant by usual slips in the expression `text`, as the end of the message on it."""
+    if re.fullmatch(r"\s*[-+]?\d+,\d+(\s.*)?", text):
+        return f"; write `{text.strip().replace(',', '.')}`: decimals stand behind a point"
+    if re.search(r"(?<![\w.])t(?![\w.(])", text) and not re.search(r"\d\s*t\b", text):
+        return " (`t` is the unit tonne; the time is written `time`)"
+    return ""
+
+
+def listed(value: Any) -> Any:
+    """NumPy arrays as lists, so that they may stand for vectors and matrices."""
+    return value.tolist() if hasattr(value, "tolist") and getattr(value, "ndim", 0) > 0 else value
+
+
+def _no_truth(value: Any) -> Any:
+    """NumPy scalars as numbers; true and false are none."""
+    if isinstance(value := plain(value), bool):
+        raise fault(f"a number was expected, got {shown(value)}")
+    return value
+
+
+Real = Annotated[float, BeforeValidator(_no_truth)]  # without units
+Whole = Annotated[int, BeforeValidator(_no_truth)]
+Scalar = Annotated[float, Quantity("number")]
+Length = Annotated[float, Quantity("length")]
+PositiveLength = Annotated[float, Quantity("length", positive=True)]
+Mass = Annotated[float, Quantity("mass", positive=True)]
+Density = Annotated[float, Quantity("density", positive=True)]
+Duration = Annotated[float, Quantity("time", positive=True)]
+Angle = Annotated[float, Quantity("angle")]
+Velocity = Annotated[float, Quantity("velocity")]
+AngularVelocity = Annotated[float, Quantity("angular velocity")]
+Acceleration = Annotated[float, Quantity("acceleration")]
+InertiaComponent = Annotated[float, Quantity("inertia")]
+Rate = Annotated[float, Quantity("rate", positive=True)]
+
+Direction = Annotated[tuple[Scalar, Scalar, Scalar], BeforeValidator(listed)]
+Position = Annotated[tuple[Length, Length, Length], BeforeValidator(listed)]
+VelocityVector = Annotated[tuple[Velocity, Velocity, Velocity], BeforeValidator(listed)]
+AngularVelocityVector = Annotated[tuple[AngularVelocity, AngularVelocity, AngularVelocity], BeforeValidator(listed)]
+AccelerationVector = Annotated[tuple[Acceleration, Acceleration, Acceleration], BeforeValidator(listed)]

@@ -1,0 +1,1 @@
+"""Results of kinematic, inverse and linearised analysis."""

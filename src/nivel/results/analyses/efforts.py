@@ -1,0 +1,155 @@
+"""Efforts of actuators over a motion, as the result of inverse dynamics: histories, peaks, work, what is missing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.results.comparison.comparison_files import write_text
+from nivel.results.frames.dataset_file import write_dataset
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+# generalised forces missing below this share are round-off
+NONE_MISSING = 1e-6
+# a motion whose joints are open by more than this share of their scales is not one of the machine
+OPEN = 1e-6
+
+
+@dataclass(frozen=True)
+class Efforts:
+    """effort (T, m) [N, N m] on the coordinates of the actuators, positive where it drives them up; rate (T, m) of these coordinates.
+
+    missing (T,) : effort on the joint coordinate `missing_at` that would do most of what no actuator gives; missing_share (T,) of the
+    generalised forces. limits (m,) : greatest magnitudes; limited : whether they hold efforts back. freedoms : of the machine without the
+    efforts. rank : independent ones of the actuators. violation : by how much the motion has joints open, as a share of their scales.
+    """
+
+    name: str
+    time: Array
+    actuators: tuple[str, ...]
+    coordinates: tuple[str, ...]
+    units: tuple[str, ...]
+    effort: Array
+    rate: Array
+    missing: Array
+    missing_share: Array
+    missing_at: str
+    limits: Array
+    limited: bool
+    freedoms: int
+    rank: int
+    violation: float = 0.0
+
+    @property
+    def power(self) -> Array:
+        """(T, m) [W]"""
+        return self.effort * self.rate
+
+    @property
+    def complete(self) -> bool:
+        """Whether the efforts make the whole motion."""
+        return bool(np.all(self.missing_share <= NONE_MISSING))
+
+    @property
+    def unique(self) -> bool:
+        """Whether no other efforts make the same motion."""
+        return self.rank == len(self.actuators)
+
+    def facts(self) -> list[dict[str, Any]]:
+        """Peak, RMS, largest power, and the work done and taken back, of every actuator."""
+        out = []
+        for k, name in enumerate(self.actuators):
+            effort, power = self.effort[:, k], self.power[:, k]
+            at = int(np.argmax(np.abs(effort))) if len(effort) else 0
+            span = float(self.time[-1] - self.time[0]) if len(self.time) > 1 else 0.0
+            square = float(np.trapezoid(effort**2, self.time)) / span if span else float(np.mean(effort**2))
+            out.append(
+                {
+                    "actuator": name,
+                    "unit": self.units[k],
+                    "peak": float(effort[at]),
+                    "peak_time": float(self.time[at]),
+                    "rms": float(np.sqrt(square)),
+                    "peak_power": float(np.abs(power).max(initial=0.0)),
+                    "work_done": float(np.trapezoid(np.maximum(power, 0.0), self.time)),
+                    "work_taken": float(np.trapezoid(np.minimum(power, 0.0), self.time)),
+                }
+            )
+        return out
+
+    def statements(self) -> list[str]:
+        """What a reader has to know."""
+        out = []
+        if self.violation > OPEN:
+            out.append(
+                f"the motion has joints open by {self.violation:.3g} of their scales, so it is not quite one of this machine: is it of "
+                "another one?"
+            )
+        if not self.complete:
+            k = int(np.argmax(self.missing_share))
+            where = f", most of it as {self.missing[k]:.4g} on {self.missing_at}" if self.missing_at else ""
+            why = "limits hold the actuators back" if self.limited else "no actuator gives it"
+            out.append(
+                f"the efforts do not make this motion: {100.0 * self.missing_share[k]:.3g} % of the generalised forces are missing at "
+                f"t = {self.time[k]:.6g} s{where}; {why}"
+            )
+        if not self.unique:
+            more = len(self.actuators) - self.rank
+            out.append(
+                f"{more} more actuator{'s' * (more > 1)} than needed: the efforts are those of least weighted norm, others do as well"
+            )
+        return out
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Histories with names and units."""
+        import xarray
+
+        dims = ("time", "actuator")
+        values = {
+            "effort": (dims, self.effort, {"units": ", ".join(self.units)}),
+            "rate": (dims, self.rate, {}),
+            "power": (dims, self.power, {"units": "W"}),
+            "missing_share": (("time",), self.missing_share, {"units": "1"}),
+        }
+        return xarray.Dataset(
+            values, coords={"time": self.time, "actuator": list(self.actuators)}, attrs={"machine": self.name}
+        )
+
+    def summary(self) -> dict[str, Any]:
+        """Numbers and words for programs."""
+        return {
+            "machine": self.name,
+            "actuators": self.facts(),
+            "complete": self.complete,
+            "unique": self.unique,
+            "largest_missing_share": float(np.max(self.missing_share, initial=0.0)),
+            "missing_at": self.missing_at,
+            "statements": self.statements(),
+        }
+
+    def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:
+        """Write the histories as NetCDF. Raises ModelError where the file exists and `force` is not given."""
+        return write_dataset(self.to_xarray(), path, force=force)
+
+    def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
+        """Write the page: efforts, power, peaks and work."""
+        from nivel.report.efforts_page import efforts_html
+
+        write_text(efforts_html(self), path, "report", force=force)
+        return Path(path)
+
+    def __str__(self) -> str:
+        lines = [
+            f"  {each['actuator']}: peak {each['peak']:.6g} {each['unit']} at {each['peak_time']:.6g} s, rms {each['rms']:.6g}, "
+            f"work {each['work_done']:.6g} J done, {0.0 - each['work_taken']:.6g} J taken back"
+            for each in self.facts()
+        ]
+        return "\n".join([f"{self.name}: efforts at {len(self.time)} times", *lines, *self.statements()])

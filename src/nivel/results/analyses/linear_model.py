@@ -1,0 +1,294 @@
+"""Linear equations of motion about a state, as the result of an analysis: matrices with names, eigenvalues, frequency response."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import ModelError
+from nivel.results.comparison.comparison_files import write_text
+from nivel.results.frames.dataset_file import write_dataset
+
+if TYPE_CHECKING:
+    import xarray
+
+    from nivel.results.result import Result
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+SHOWN: Final = 3  # states that are named with a mode
+ROUND_OFF: Final = 1e-11  # share of an eigenvalue below which its real part is nothing
+SHARE: Final = 0.1  # least participation of these
+FREQUENCIES: Final = 400
+LISTED: Final = 12  # modes in a text
+
+
+@dataclass(frozen=True)
+class Mode:
+    """An eigenvalue [1/s], or a pair of complex ones by that with the positive imaginary part.
+
+    natural_frequency [Hz] : |λ|/2π. damping_ratio : -Re λ/|λ|, not a number for λ = 0. structural : exactly zero, whatever the numbers of
+    the machine. participation : (name, share) of the states that take part most.
+    """
+
+    number: int
+    eigenvalue: complex
+    natural_frequency: float
+    damping_ratio: float
+    structural: bool
+    participation: tuple[tuple[str, float], ...]
+
+    @property
+    def kind(self) -> str:
+        """What the motion does, in words."""
+        if self.structural:
+            return "exactly zero"
+        value = self.eigenvalue
+        if abs(value.real) <= ROUND_OFF * abs(value):
+            return "undamped vibration"
+        if value.imag:
+            return "damped vibration" if value.real < 0.0 else "vibration that grows"
+        return "decays" if value.real < 0.0 else "grows"
+
+    @property
+    def number_in_words(self) -> str:
+        """The eigenvalue for people, a real part of round-off left out."""
+        value = self.eigenvalue
+        if self.structural:
+            return "0, exactly"
+        if not value.imag:
+            return f"{value.real:.6g}"
+        return f"± {value.imag:.6g}i" if self.kind == "undamped vibration" else f"{value.real:.6g} ± {value.imag:.6g}i"
+
+
+@dataclass(frozen=True)
+class LinearModel:
+    """δẋ = A δx + B δu, δy = C δx + D δu about a state of a machine at `time` [s].
+
+    states, inputs, outputs : names; *_units : their units. M, damping, K (m, m) : Zᵀ M Z, Zᵀ D Z and Zᵀ K Z in the independent
+    coordinates; at rest these are the second-order equations. eigenvalues (n,) : in the order of `modes`, but both of each pair.
+    notes : what a reader has to know; steady : whether eigenvalues describe the motion (at rest, or the same A later on).
+    right, left (n, n) : eigenvectors, a column each. shift, turn (n, B, 3) : of body frames in each, complex.
+    """
+
+    name: str
+    time: float
+    about: str
+    coordinates: str
+    states: tuple[str, ...]
+    state_units: tuple[str, ...]
+    inputs: tuple[str, ...]
+    input_units: tuple[str, ...]
+    outputs: tuple[str, ...]
+    output_units: tuple[str, ...]
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+    M: Array
+    damping: Array
+    K: Array
+    eigenvalues: Complex
+    structural: NDArray[np.bool_]
+    right: Complex
+    left: Complex
+    shift: Complex
+    turn: Complex
+    structural_zeros: tuple[str, ...]
+    steady: bool
+    notes: tuple[str, ...]
+    posed: Any = None
+
+    @property
+    def stable(self) -> bool:
+        """Whether every eigenvalue that is not exactly zero has a negative real part, to round-off."""
+        values = self.eigenvalues[~self.structural]
+        return bool(np.all(values.real <= ROUND_OFF * np.abs(values)))
+
+    @property
+    def participation(self) -> Array:
+        """(n, n) |w_ki x_ki| of state k in eigenvalue i, the sum over states made one."""
+        share = np.abs(self.left * self.right)
+        total = share.sum(axis=0)
+        return share / np.where(total > 0.0, total, 1.0)
+
+    @property
+    def modes(self) -> tuple[Mode, ...]:
+        """Eigenvalues in ascending order of magnitude, complex pairs once."""
+        out, share = [], self.participation
+        for k, value in enumerate(self.eigenvalues):
+            if value.imag < 0.0:
+                continue
+            size = abs(value)
+            order = np.argsort(-share[:, k], kind="stable")[:SHOWN]
+            taking = tuple((self.states[j], float(share[j, k])) for j in order if share[j, k] >= SHARE)
+            ratio = float(0.0 - value.real / size) if size > 0.0 else float("nan")
+            out.append(
+                Mode(
+                    len(out) + 1,
+                    complex(value),
+                    float(size) / (2.0 * np.pi),
+                    ratio,
+                    bool(self.structural[k]),
+                    taking,
+                )
+            )
+        return tuple(out)
+
+    def state_space(self) -> Any:
+        """`scipy.signal.StateSpace` of A, B, C, D. Raises ModelError without inputs or outputs."""
+        from scipy.signal import StateSpace
+
+        self._need_ports()
+        return StateSpace(self.A, self.B, self.C, self.D)
+
+    def control(self) -> Any:
+        """`control.StateSpace` with names, whose dots are underscores there: `rail_displacement`. Needs the package python-control."""
+        self._need_ports()
+        try:
+            import control  # type: ignore[import-not-found]
+        except ImportError:
+            raise ModelError("python-control is not installed: pip install 'nivel[control]'") from None
+        names = {"states": self.states, "inputs": self.inputs, "outputs": self.outputs}
+        plain = {kind: [name.replace(".", "_") for name in each] for kind, each in names.items()}
+        return control.ss(self.A, self.B, self.C, self.D, **plain)
+
+    def frequencies(self) -> Array:
+        """[Hz] from a tenth of the slowest to ten times the fastest eigenvalue that is not zero."""
+        size = np.abs(self.eigenvalues[~self.structural]) / (2.0 * np.pi)
+        size = size[size > 0.0]
+        low, high = (size.min(), size.max()) if len(size) else (0.1, 10.0)
+        return np.geomspace(0.1 * low, 10.0 * high, FREQUENCIES)
+
+    def frequency_response(self, frequencies: Sequence[float] | Array | None = None) -> xarray.DataArray:
+        """G(iω) = C (iω - A)⁻¹ B + D, complex, (frequency [Hz], output, input).
+
+        Raises ModelError without inputs or outputs, and where a frequency is that of an undamped vibration.
+        """
+        import xarray
+
+        self._need_ports()
+        f = np.atleast_1d(np.asarray(self.frequencies() if frequencies is None else frequencies, dtype=float))
+        n = len(self.A)
+        try:
+            inner = np.array([np.linalg.solve(2j * np.pi * each * np.eye(n) - self.A, self.B) for each in f])
+        except np.linalg.LinAlgError:
+            raise ModelError(
+                "the response is infinite: a frequency is that of an undamped motion; leave it out"
+            ) from None
+        values = self.C @ inner + self.D if n else np.broadcast_to(self.D, (len(f), *self.D.shape)).astype(complex)
+        coordinates = {"frequency": f, "output": list(self.outputs), "input": list(self.inputs)}
+        response = xarray.DataArray(values, coords=coordinates, dims=("frequency", "output", "input"), name="response")
+        response.coords["frequency"].attrs["units"] = "Hz"
+        return response
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Everything, with names and units."""
+        import xarray
+
+        of_states, doubled = {"units": ", ".join(self.state_units)}, ("state", "state_")
+        values = {
+            "A": (doubled, self.A, of_states),
+            "B": (("state", "input"), self.B, {"units of inputs": ", ".join(self.input_units)}),
+            "C": (("output", "state_"), self.C, {"units of outputs": ", ".join(self.output_units)}),
+            "D": (("output", "input"), self.D, {}),
+            "M": (("coordinate", "coordinate_"), self.M, {}),
+            "damping": (("coordinate", "coordinate_"), self.damping, {}),
+            "K": (("coordinate", "coordinate_"), self.K, {}),
+            "eigenvalue_real": (("eigenvalue",), self.eigenvalues.real, {"units": "1/s"}),
+            "eigenvalue_imag": (("eigenvalue",), self.eigenvalues.imag, {"units": "1/s"}),
+            "structural": (("eigenvalue",), self.structural, {}),
+            "participation": (("state", "eigenvalue"), self.participation, {}),
+        }
+        rates = (name.removesuffix(".rate") for name in self.states if name.endswith(".rate"))
+        free = list(rates)[: len(self.M)]
+        coordinates = {
+            "state": list(self.states),
+            "state_": list(self.states),
+            "coordinate": free,
+            "coordinate_": free,
+            "input": list(self.inputs),
+            "output": list(self.outputs),
+        }
+        facts = {"machine": self.name, "about": self.about, "time": self.time, "steady": int(self.steady)}
+        return xarray.Dataset(values, coords=coordinates, attrs=facts)
+
+    def mode(self, number: int) -> Result:
+        """Mode `number` (from 1) as a motion, to be played: a period of a second, an amplitude that can be seen.
+
+        Raises ModelError where there is no such mode.
+        """
+        from nivel.results.analyses.linear_motion import linear_motion
+
+        return linear_motion(self, number)
+
+    def summary(self) -> dict[str, Any]:
+        """Numbers and words for programs."""
+        return {
+            "machine": self.name,
+            "about": self.about,
+            "time": self.time,
+            "coordinates": self.coordinates,
+            "states": list(self.states),
+            "inputs": list(self.inputs),
+            "outputs": list(self.outputs),
+            "steady": self.steady,
+            "stable": self.stable if self.steady else None,
+            "notes": list(self.notes),
+            "structural_zeros": list(self.structural_zeros),
+            "modes": [
+                {
+                    "eigenvalue": [each.eigenvalue.real, each.eigenvalue.imag],
+                    "natural_frequency": each.natural_frequency,
+                    "damping_ratio": None if np.isnan(each.damping_ratio) else each.damping_ratio,
+                    "structural": each.structural,
+                    "participation": dict(each.participation),
+                }
+                for each in (self.modes if self.steady else ())
+            ],
+        }
+
+    def save(self, path: str | PathLike[str], *, force: bool = False) -> Path:
+        """Write everything as NetCDF, for `xarray.open_dataset`. Raises ModelError where the file exists and `force` is not given."""
+        return write_dataset(self.to_xarray(), path, force=force)
+
+    def report(self, path: str | PathLike[str], *, force: bool = True) -> Path:
+        """Write the page of the analysis: eigenvalues, modes, frequency response."""
+        from nivel.report.linear_page import linear_html
+
+        write_text(linear_html(self), path, "report", force=force)
+        return Path(path)
+
+    def _need_ports(self) -> None:
+        missing = [word for word, names in (("inputs", self.inputs), ("outputs", self.outputs)) if not names]
+        if missing:
+            raise ModelError(f"the model has no {' and no '.join(missing)}: name some when linearising")
+
+    def __str__(self) -> str:
+        head = f"{self.name}, linear about {self.about}: {len(self.states)} states"
+        if not self.steady:
+            return "\n".join([head, *self.notes])
+        lines = [f"  {each.number}: {mode_in_words(each)}" for each in self.modes[:LISTED]]
+        lines += [f"  and {len(self.modes) - LISTED} more"] if len(self.modes) > LISTED else []
+        return "\n".join([head, *lines, *self.notes])
+
+
+def mode_in_words(mode: Mode) -> str:
+    """A mode in a line."""
+    taking = ", ".join(name for name, _ in mode.participation)
+    value = mode.eigenvalue
+    if mode.structural:
+        said = "0, exactly"
+    elif value.imag:
+        said = f"{mode.natural_frequency:.6g} Hz, {mode.kind}"
+        said += f", damping ratio {mode.damping_ratio:.4g}" if mode.kind != "undamped vibration" else ""
+        said += f" ({mode.number_in_words} 1/s)"
+    else:
+        said = f"{mode.number_in_words} 1/s, {mode.kind}"
+    return f"{said}; {taking}" if taking else said

@@ -1,0 +1,283 @@
+"""What designers of mechanisms ask of a result: coupler curves, transmission angles, ranges of motion."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import Fault, ModelError
+from nivel.machine.coordinate_reference import unknown_name
+from nivel.machine.units.quantity import read_quantity
+from nivel.results.comparison.comparison_files import write_text
+from nivel.results.frames.rotations import rotation_matrices
+
+if TYPE_CHECKING:
+    import xarray
+
+    from nivel.machine.machine_record import MachineRecord
+    from nivel.results.result import Result
+
+Array = NDArray[np.float64]
+GROUND: Final = "ground"
+# a point that moves slower than this share of its largest speed stands still: a cusp, or a dwell
+STILL: Final = 1e-6
+# joints nearer to each other than this share of the machine are in one place
+APART: Final = 1e-9
+# joints that slide along the z axis of their first marker
+SLIDES: Final = frozenset({"translational", "cylindrical", "point-on-line", "screw"})
+# transmission angles further than this from the right angle transmit badly
+GOOD: Final = np.radians(40.0)
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point of a body, in the axes of the body's frame [m]."""
+
+    name: str
+    body: str
+    position: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Transmission:
+    """The angle at the second of three joints, between the lines to the other two."""
+
+    joints: tuple[str, str, str]
+
+    @property
+    def name(self) -> str:
+        return f"transmission at {self.joints[1]}"
+
+
+def read_curve(machine: MachineRecord, text: str) -> Point:
+    """`marker`, or `body:x,y,z` with units. Raises ModelError."""
+    name, colon, place = text.partition(":")
+    if not colon:
+        marker = machine.marker_named.get(name)
+        if marker is not None and marker.body != GROUND:
+            x, y, z = marker.position or (0.0, 0.0, 0.0)
+            return Point(name, marker.body, (x, y, z))
+        if name in machine.body_named:
+            return Point(name, name, (0.0, 0.0, 0.0))
+        known = [*machine.marker_named, *machine.body_named]
+        raise _fault("curve", unknown_name("marker or body", name, known))
+    if name not in machine.body_named:
+        raise _fault("curve", unknown_name("body", name, list(machine.body_named)))
+    parts = place.split(",")
+    if len(parts) != 3:
+        raise _fault("curve", f"`{text}` is no point; write BODY:X,Y,Z, e.g. coupler:10 cm,0,0")
+    try:
+        x, y, z = (float(read_quantity(part, "length", {})) for part in parts)
+    except ValueError as error:
+        raise _fault("curve", f"`{place}` is no place: {error}") from None
+    return Point(text, name, (x, y, z))
+
+
+def read_transmission(machine: MachineRecord, text: str) -> Transmission:
+    """Three joints separated by commas. Raises ModelError."""
+    names = [each.strip() for each in text.split(",")]
+    if len(names) != 3:
+        raise _fault("transmission", f"three joints were expected, e.g. pin,rocker_pin,pivot, got `{text}`")
+    known = [joint.name for joint in machine.joints]
+    for name in names:
+        if name not in known:
+            raise _fault("transmission", unknown_name("joint", name, known))
+    return Transmission((names[0], names[1], names[2]))
+
+
+def _fault(field: str, message: str) -> ModelError:
+    return ModelError(Fault("", 0, 0, f"kinematics.{field}", message))
+
+
+def coupler_curve(result: Result, body: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
+    """The path of a point of a body, given in the axes of its frame [m]: position, velocity, acceleration, speed and curvature.
+
+    curvature |ṙ × r̈|/|ṙ|³ [1/m], not a number where the point stands still; cusp : 1 where it does while it accelerates.
+    Raises ModelError for a body that the result does not have.
+    """
+    import xarray
+
+    names = list(result.coordinates.get("body", ()))
+    if body not in names:
+        raise ModelError(unknown_name("body", body, names))
+    b = names.index(body)
+    A = rotation_matrices(result.array("orientation")[:, b])
+    u = A @ np.asarray(position, dtype=float)
+    omega, alpha = result.array("angular_velocity")[:, b], result.array("angular_acceleration")[:, b]
+    turning = np.cross(omega, u)
+    r = result.array("position")[:, b] + u
+    v = result.array("velocity")[:, b] + turning
+    a = result.array("acceleration")[:, b] + np.cross(alpha, u) + np.cross(omega, turning)
+    speed = np.linalg.norm(v, axis=1)
+    slow = speed <= STILL * max(float(speed.max(initial=0.0)), 1e-300)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        curvature = np.where(slow, np.nan, np.linalg.norm(np.cross(v, a), axis=1) / speed**3)
+    accelerates = np.linalg.norm(a, axis=1) > 0.0
+    values = {
+        "position": (("time", "xyz"), r, {"units": "m"}),
+        "velocity": (("time", "xyz"), v, {"units": "m/s"}),
+        "acceleration": (("time", "xyz"), a, {"units": "m/s^2"}),
+        "speed": (("time",), speed, {"units": "m/s"}),
+        "curvature": (("time",), curvature, {"units": "1/m"}),
+        "cusp": (("time",), (slow & accelerates).astype(int), {}),
+    }
+    return xarray.Dataset(values, coords={"time": result.time, "xyz": list("xyz")}, attrs={"body": body})
+
+
+def transmission_angle(result: Result, first: str, at: str, last: str) -> xarray.DataArray:
+    """[rad] angle at joint `at` between the lines to the joints `first` and `last`, from 0 to π; π/2 transmits best.
+
+    Where `last` slides along a line, that between the line to `first` and the normal of the slide, from 0 to π/2. Raises ModelError for
+    joints that the machine does not have, or that are in one place.
+    """
+    import xarray
+
+    d = _line(result, at, first)
+    if (slide := _slide(result, last)) is not None:
+        along = np.abs(np.sum(d * slide, axis=1))
+        angle = np.arctan2(along, np.linalg.norm(d - np.sum(d * slide, axis=1)[:, None] * slide, axis=1))
+    else:
+        e = _line(result, at, last)
+        angle = np.arctan2(np.linalg.norm(np.cross(d, e), axis=1), np.sum(d * e, axis=1))
+    return xarray.DataArray(
+        angle, coords={"time": result.time}, dims="time", name="transmission_angle", attrs={"units": "rad"}
+    )
+
+
+def _line(result: Result, at: str, to: str) -> Array:
+    """(frames, 3) [m] from one joint to another. Raises ModelError where they are in one place."""
+    line = joint_place(result, to) - joint_place(result, at)
+    length = np.linalg.norm(line, axis=1)
+    if np.any(length <= APART * np.abs(result.array("position")).max(initial=0.0)):
+        raise _fault("transmission", f"the joints {at} and {to} are in one place: no line leads from one to the other")
+    return line
+
+
+def _slide(result: Result, name: str) -> Array | None:
+    """(frames, 3) direction in which a joint slides; None where it turns."""
+    joint = _joints(result).get(name)
+    if joint is None or joint["type"] not in SLIDES:
+        return None
+    body, axis = joint["bodies"][0], np.array(joint["axes"][0], dtype=float)
+    bodies = list(result.coordinates.get("body", ()))
+    if body not in bodies:
+        return np.tile(axis, (len(result.time), 1))
+    return rotation_matrices(result.array("orientation")[:, bodies.index(body)]) @ axis
+
+
+def _joints(result: Result) -> dict[str, dict[str, Any]]:
+    """The joints of the machine by their names."""
+    return {each["name"]: each for each in json.loads(str(result.attributes.get("scene", "{}"))).get("joints", [])}
+
+
+def joint_place(result: Result, name: str) -> Array:
+    """(frames, 3) [m] place of a joint on its first body, or on its second where the first is the ground.
+
+    Raises ModelError for a joint that the machine does not have.
+    """
+    joints = _joints(result)
+    if name not in joints:
+        raise ModelError(unknown_name("joint", name, list(joints)))
+    bodies = list(result.coordinates.get("body", ()))
+    body, place = _held(joints[name], bodies)
+    if body is None:
+        return np.tile(place, (len(result.time), 1))
+    b = bodies.index(body)
+    return result.array("position")[:, b] + rotation_matrices(result.array("orientation")[:, b]) @ place
+
+
+def _held(joint: dict[str, Any], bodies: Sequence[str]) -> tuple[str | None, Array]:
+    """The body that a joint is followed on, and its place there; None: the ground."""
+    ends = list(zip(joint["bodies"], joint["points"], strict=True))
+    for body, point in ends:
+        if body in bodies:
+            return body, np.array(point, dtype=float)
+    return None, np.array(ends[0][1], dtype=float)
+
+
+@dataclass(frozen=True)
+class Range:
+    """How far a joint coordinate can go: from `low` to `high` [rad or m]; full_turn : it turns right round, both ways.
+
+    low_reason, high_reason : what ends it there, in a sentence; empty where nothing does.
+    """
+
+    coordinate: str
+    unit: str
+    low: float
+    high: float
+    full_turn: bool
+    low_reason: str
+    high_reason: str
+
+    def summary(self) -> dict[str, Any]:
+        """For programs."""
+        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+
+    def __str__(self) -> str:
+        if self.full_turn:
+            return f"{self.coordinate} turns right round"
+        lines = [f"{self.coordinate} goes from {self._shown(self.low)} to {self._shown(self.high)}"]
+        lines += [f"  {word}: {text}" for word, text in (("low", self.low_reason), ("high", self.high_reason)) if text]
+        return "\n".join(lines)
+
+    def _shown(self, value: float) -> str:
+        return f"{value:.9g} {self.unit}" + (f" ({np.degrees(value):.6g}°)" if self.unit == "rad" else "")
+
+
+@dataclass(frozen=True)
+class Studies:
+    """Coupler curves and transmission angles of a result. curves : (point, its dataset); angles : (what, its array [rad])."""
+
+    name: str
+    curves: tuple[tuple[Point, Any], ...]
+    angles: tuple[tuple[Transmission, Any], ...]
+
+    def lines(self) -> list[str]:
+        """A line for each."""
+        out = []
+        for what, angle in self.angles:
+            values = np.degrees(angle.to_numpy())
+            worst = float(np.max(np.abs(values - 90.0)))
+            out.append(
+                f"{what.name}: from {values.min():.4f}° to {values.max():.4f}°, at worst {worst:.4f}° from the right angle"
+            )
+        for point, curve in self.curves:
+            steps = np.diff(curve["position"].to_numpy(), axis=0)
+            length = float(np.linalg.norm(steps, axis=1).sum())
+            cusps = int(curve["cusp"].sum())
+            more = f", {cusps} cusp{'s' * (cusps > 1)}" if cusps else ""
+            out.append(f"curve of {point.name}: {length:.6g} m long{more}")
+        return out
+
+    def summary(self) -> dict[str, Any]:
+        """For programs."""
+        return {
+            "transmission": {what.name: [float(angle.min()), float(angle.max())] for what, angle in self.angles},
+            "curves": {point.name: curve["position"].to_numpy().tolist() for point, curve in self.curves},
+        }
+
+    def report(self, path: str | PathLike[str]) -> Path:
+        """Write a page with the curves."""
+        from nivel.report.mechanism_page import mechanism_html
+
+        write_text(mechanism_html(self), path, "report", force=True)
+        return Path(path)
+
+
+def add_studies(result: Result, angles: Sequence[Transmission], points: Sequence[Point]) -> Studies | None:
+    """Transmission angles and coupler curves of a result; None where none are asked for."""
+    if not (angles or points) or not len(result.time):
+        return None
+    return Studies(
+        result.name,
+        tuple((point, coupler_curve(result, point.body, point.position)) for point in points),
+        tuple((what, transmission_angle(result, *what.joints)) for what in angles),
+    )

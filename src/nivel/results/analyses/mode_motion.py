@@ -1,0 +1,114 @@
+"""A vibration about an equilibrium as a motion, to be played."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.errors import ModelError
+from nivel.integrate.loop.sink import Header
+from nivel.results.memory import MemoryContents
+from nivel.system.layout import FrameLayout, Variable
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+
+Array = NDArray[np.float64]
+
+FRAMES, CYCLES = 121, 3  # of the motion
+PERIOD = 1.0  # s, whatever the frequency
+# The largest displacement, as a share of the machine's size; the largest turn [rad].
+SHOWN, TURNED = 0.08, 0.5
+
+
+def mode_motion(result: Result, number: int, frame: int = -1) -> Result:
+    """Vibration `number` (from 1) about the state `frame`, with a period of a second and amplitudes that can be seen.
+
+    Raises ModelError where the result has no such vibration.
+    """
+    from nivel.results.result import Result
+
+    position, orientation, bent = _equilibrium(result, frame)
+    shift, turn, bending = _shape(result, number, frame)
+    time = np.linspace(0.0, CYCLES * PERIOD, FRAMES)
+    wave = np.sin(2.0 * np.pi * time / PERIOD)
+    blocks = [
+        time[:, None],
+        (position + wave[:, None, None] * shift).reshape(FRAMES, -1),
+        np.stack([turned(orientation, share * turn) for share in wave]).reshape(FRAMES, -1),
+    ]
+    entries: list[tuple[str, tuple[str, ...], str]] = [
+        ("position", ("time", "body", "xyz"), "m"),
+        ("orientation", ("time", "body", "euler_parameter"), "1"),
+    ]
+    if bent is not None:
+        blocks.append(bent + wave[:, None] * bending)
+        entries.append(("modal_coordinate", ("time", "mode"), "kg^0.5 m"))
+    variables, start = [], 1
+    for (name, dims, units), block in zip(entries, blocks[1:], strict=True):
+        known = result.variables[name]
+        variables.append(Variable(name, dims, units, known.long_name, slice(start, start + block.shape[1])))
+        start += block.shape[1]
+    wanted = {dim for _, dims, _ in entries for dim in dims[1:]}
+    coordinates = {dim: names for dim, names in result.coordinates.items() if dim in wanted}
+    layout = FrameLayout(start, tuple(variables), coordinates)
+    attributes = {
+        key: result.attributes[key] for key in ("machine_record", "scene", "nivel_version") if key in result.attributes
+    }
+    name = f"{result.name}, {_name(result, number, frame)}"
+    header = Header(
+        layout, {**attributes, "machine": name, "settings": json.dumps({"vibration": number}), "outcome": "done"}
+    )
+    return Result(MemoryContents(header, np.hstack(blocks), header.attributes))
+
+
+def _equilibrium(result: Result, frame: int) -> tuple[Array, Array, Array | None]:
+    """Position (bodies, 3), orientation (bodies, 4) and modal coordinates of the state."""
+    if not result.is_statics or not len(result.time):
+        raise ModelError("only results of `nivel statics` with `--modes` have vibrations to show")
+    if not -len(result.time) <= frame < len(result.time):
+        raise ModelError(f"there is no state {frame}: the result has {len(result.time)}")
+    bent = result.array("modal_coordinate")[frame] if "modal_coordinate" in result.variables else None
+    return result.array("position")[frame], result.array("orientation")[frame], bent
+
+
+def _shape(result: Result, number: int, frame: int) -> tuple[Array, Array, Array]:
+    """Displacements, turns and bending of the vibration at their largest."""
+    count = len(result.coordinates.get("vibration", ()))
+    if not 1 <= number <= count:
+        have = f"it has 1 to {count}" if count else "it was made without `--modes`"
+        raise ModelError(f"the result has no vibration {number}: {have}")
+    shift, turn = result.array("mode_shift")[frame, number - 1], result.array("mode_turn")[frame, number - 1]
+    if not np.isfinite(shift).all():
+        raise ModelError(f"the machine has no vibration {number}: it has fewer freedoms")
+    bending = result.array("mode_bending")[frame, number - 1] if "mode_bending" in result.variables else np.zeros(0)
+    size = result.trust.size
+    largest = max(float(np.abs(shift).max(initial=0.0)) / (SHOWN * size), float(np.abs(turn).max(initial=0.0)) / TURNED)
+    # unit modal mass moves a body of the machine's mass by about 1/√m
+    largest = max(largest, float(np.abs(bending).max(initial=0.0)) / (SHOWN * size * float(np.sqrt(_mass(result)))))
+    scale = 1.0 / largest if largest > 0.0 else 1.0
+    return scale * shift, scale * turn, scale * bending
+
+
+def _mass(result: Result) -> float:
+    """Of all bodies that say it [kg]; at least that of one."""
+    bodies = json.loads(str(result.attributes.get("machine_record", "{}"))).get("bodies", [])
+    return sum(float(body.get("mass") or 0.0) for body in bodies) or 1.0
+
+
+def turned(theta: Array, psi: Array) -> Array:
+    """Euler parameters (·, 4) after rotation vectors ψ (·, 3) in global axes."""
+    half = 0.5 * np.linalg.norm(psi, axis=1, keepdims=True)
+    e0, e = np.cos(half), 0.5 * np.sinc(half / np.pi) * psi
+    f0, f = theta[:, :1], theta[:, 1:]
+    return np.hstack([e0 * f0 - np.sum(e * f, axis=1, keepdims=True), e0 * f + f0 * e + np.cross(e, f)])
+
+
+def _name(result: Result, number: int, frame: int) -> str:
+    square = float(result.array("vibration_stiffness")[frame, number - 1])
+    if square < 0.0:
+        return f"vibration {number}: unstable"
+    return f"vibration {number}: {np.sqrt(square) / (2.0 * np.pi):.4g} Hz"

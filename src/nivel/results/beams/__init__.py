@@ -1,0 +1,1 @@
+"""Section resultants and shapes of beams."""

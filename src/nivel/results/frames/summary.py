@@ -1,0 +1,100 @@
+"""A result in a few lines, as text and for notebooks."""
+
+from __future__ import annotations
+
+import json
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+from nivel.results.frames.occurrence import in_words
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+
+COLOURS = {"green": "#1a7f4b", "amber": "#b26a00", "red": "#c0362c"}
+
+
+def summary(result: Result) -> dict[str, Any]:
+    """Name, outcome, extent, timing, and the trust report in full; everything JSON can hold."""
+    time = result.time
+    return {
+        "machine": result.name,
+        "outcome": result.outcome,
+        "failure": result.failure,
+        "advice": result.advice,
+        "file": str(result.path) if result.path else None,
+        "frames": len(time),
+        "time": [float(time[0]), float(time[-1])] if len(time) else [],
+        "events": [each._asdict() for each in result.events],
+        "stopped_by": result.stopped_by,
+        "settings": result.settings,
+        "timing": result.timing,
+        "headline": "" if result.is_statics else result.trust.headline,
+        "trust": json.loads(result.trust.to_json()),
+    }
+
+
+def summary_text(result: Result) -> str:
+    """Name, outcome, extent and trust; then what can be asked for."""
+    lines = [f"<Result of {result.name}: {_outcome(result)}>", f"  {_extent(result)}"]
+    if not result.is_statics:
+        lines.append(f"  {result.trust.headline}")
+    lines += [f"  {item.verdict:>5}  {item.text}" for item in result.trust.items]
+    lines += [f"  event  {line}" for line in in_words(result.events, result.stopped_by)]
+    lines.append(f"  for instance: {', '.join(_examples(result))}")
+    return "\n".join(lines)
+
+
+def summary_html(result: Result) -> str:
+    """The same as a card; colours follow the notebook's theme."""
+    rows = "".join(
+        f'<tr><td style="vertical-align:top;padding:.15em .8em .15em 0;color:{COLOURS[item.verdict]};font-weight:600">'
+        f'● {item.verdict}</td><td style="text-align:left;padding:.15em 0">{escape(item.text)}</td></tr>'
+        for item in result.trust.items
+    )
+    headline = "" if result.is_statics else f" · {escape(result.trust.headline)}"
+    events = "".join(f"<div>event {escape(line)}</div>" for line in in_words(result.events, result.stopped_by))
+    names = " ".join(f"<code>{escape(name)}</code>" for name in _examples(result))
+    return (
+        '<div style="border:1px solid rgba(128,128,128,.35);border-radius:8px;padding:.8em 1.1em;max-width:56em">'
+        f'<div style="font-size:1.15em;font-weight:600">{escape(result.name)}</div>'
+        f'<div style="opacity:.75;margin-bottom:.5em">{escape(_outcome(result))} · {escape(_extent(result))}{headline}</div>'
+        f'<table style="border-collapse:collapse;background:none">{rows}</table>'
+        f"{events}"
+        f'<div style="opacity:.75;margin-top:.5em">for instance {names}</div></div>'
+    )
+
+
+def _outcome(result: Result) -> str:
+    words = {
+        "running": "never closed: still running, or killed; complete up to its last frame",
+        "interrupted": "interrupted",
+        "failed": "failed",
+    }
+    said = words.get(result.outcome, result.outcome)
+    return f"{said}: {result.failure}" if result.failure else said
+
+
+def _extent(result: Result) -> str:
+    time = result.time
+    span = f"{time[0]:.6g} to {time[-1]:.6g} s in {_count(len(time), 'frame')}" if len(time) else "no frame"
+    parts = [_count(len(result.coordinates.get(dim, ())), dim) for dim in ("body", "joint")]
+    return ", ".join([span, *parts])
+
+
+def _count(number: int, word: str) -> str:
+    plural = {"body": "bodies"}.get(word, f"{word}s")
+    return f"{number} {word if number == 1 else plural}"
+
+
+def _examples(result: Result) -> list[str]:
+    """A few names, one of each variable."""
+    firsts: dict[str, str] = {}
+    for name in result.names:
+        found = result.selection(name)
+        if (
+            len(found.where) == len(result.variables[found.variable].dims[1:2]) + 1
+            or not result.variables[found.variable].dims[1:]
+        ):
+            firsts.setdefault(found.variable, name)
+    return list(firsts.values())[:8]

@@ -1,0 +1,76 @@
+"""What may not be written over, even where the user asks to replace files."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterable
+from pathlib import Path
+
+from nivel.errors import ModelError
+
+
+def check_target(path: Path, what: str, *, force: bool, sources: Iterable[Path] = ()) -> None:
+    """Refuse to write `what` ("result file", "report", …) to `path` where that cannot be done or would destroy something.
+
+    The folder has to be there and to take files. An existing file is replaced with `force` only; what is not a regular file, and what is
+    one of the files `sources` under any name, never is. Raises ModelError.
+    """
+    found = status(path, what)
+    if found is None:
+        _check_folder(path, what)
+        return
+    if stat.S_ISDIR(found.st_mode):
+        raise ModelError(f"{path} is a folder; the name of a {what} was expected")
+    if not stat.S_ISREG(found.st_mode):
+        raise ModelError(f"{path} is {_kind(found.st_mode)}, not a file; the name of a {what} was expected")
+    keep_sources(path, what, sources)
+    if not force:
+        raise ModelError(f"the {what} {path} exists already; use --force to overwrite it (in Python: force=True)")
+    _check_folder(path, what)
+
+
+def _check_folder(path: Path, what: str) -> None:
+    """Refuse to write `what` to `path` where its folder is none, or may not be written into. Raises ModelError."""
+    folder = path.parent
+    if not os.path.exists(folder):  # Path.exists raises where the name is too long
+        raise ModelError(f"there is no folder {folder} for the {what} {path.name}")
+    if not os.path.isdir(folder):
+        raise ModelError(f"{folder} is not a folder, so the {what} {path.name} cannot be written there")
+    if not os.access(folder, os.W_OK):
+        raise ModelError(f"nothing may be written into the folder {folder}: permission denied")
+
+
+def check_text_target(path: Path, what: str, *, force: bool, sources: Iterable[Path] = ()) -> None:
+    """As `check_target`, for a text that is written into the file that stands at `path`. Raises ModelError."""
+    check_target(path, what, force=force, sources=sources)
+    if path.exists() and not os.access(path, os.W_OK):
+        raise ModelError(f"the {what} {path} cannot be written: permission denied")
+
+
+def keep_sources(path: Path, what: str, sources: Iterable[Path]) -> None:
+    """Refuse to write `what` to `path` where that is one of the files `sources`, which are read. Raises ModelError."""
+    found = status(path, what)
+    for source in sources:
+        read = status(source, what)
+        if found is not None and read is not None and os.path.samestat(found, read):
+            raise ModelError(
+                f"the {what} {path} would be written over {source}, which it is made from; give it another name"
+            )
+
+
+def status(path: Path, what: str) -> os.stat_result | None:
+    """What stands at `path`, or None where nothing does. Raises ModelError where the path cannot be one."""
+    try:
+        return path.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise ModelError(f"the {what} {path} cannot be written: {reason.lower()}") from None
+
+
+def _kind(mode: int) -> str:
+    if stat.S_ISFIFO(mode):
+        return "a pipe"
+    return "a socket" if stat.S_ISSOCK(mode) else "a device"

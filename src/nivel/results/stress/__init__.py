@@ -1,0 +1,1 @@
+"""Stresses of flexible bodies, recovered from their modes."""

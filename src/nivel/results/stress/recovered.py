@@ -1,0 +1,207 @@
+"""A flexible body of a run: where its nodes are and how it is stressed, at every frame."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.arguments import checked_arguments
+from nivel.errors import ModelError
+from nivel.flexible.body import ReducedBody
+from nivel.flexible.rainflow import Cycle, rainflow
+from nivel.flexible.recovery import (
+    Envelope,
+    HotSpot,
+    displacement,
+    envelope,
+    hot_spots,
+    signed_principal,
+    stations_at,
+    strain,
+    stress,
+    stress_modes,
+    von_mises,
+)
+from nivel.results.stress.body_sources import source_of
+
+if TYPE_CHECKING:
+    from nivel.results.result import Result
+
+Array = NDArray[np.float64]
+Whole = NDArray[np.int64]
+Told = Callable[[str, float], None]  # what is done, and which share of all is, 0 to 1
+
+CLOSE: Final = 1e-9  # of the last time: a time this near to a frame is that of the frame
+
+
+def _silent(_what: str, _share: float) -> None:
+    """Tells nobody."""
+
+
+class RecoveredBody:
+    """A flexible body of a result: `body` as it is in its `file`, its modal coordinates `q` (t, n) [kg^½ m], and the times of the frames
+    `time` (t,) [s].
+
+    Nodes are those of the finite-element model, by their number or by the name of an interface. Displacements are in the body frame;
+    stress of solids is in body axes, of beams in the axes of the element, at fibres of both its ends.
+    """
+
+    def __init__(self, result: Result, name: str | None = None, file: str | os.PathLike[str] | None = None) -> None:
+        source = source_of(result.attributes, name)
+        folder = None if result.path is None else result.path.parent
+        self.file = source.path(folder) if file is None else Path(file)
+        self.body: ReducedBody = source.read(self.file)
+        self.name = source.name
+        self.time = result.time
+        columns = [k for k, mode in enumerate(result.coordinates["mode"]) if mode.rpartition(".")[0] == source.name]
+        self.q: Array = result.array("modal_coordinate")[:, columns]
+        self._result = result
+        if not len(self.time):
+            raise ModelError(f"the result has no frame yet, so {self.name} has no stress")
+
+    # --- where and when ---
+
+    @checked_arguments
+    def node(self, node: int | str) -> int:
+        """The number of a node given by it, or by the name of its interface. Raises ModelError where there is none."""
+        if isinstance(node, str) and not node.lstrip("-").isdigit():
+            names = [each.name for each in self.body.interfaces]
+            if node not in names:
+                raise ModelError(f"{self.name} has no interface `{node}`; there are {', '.join(names) or 'none'}")
+            return int(self.body.node_ids[self.body.interface(node).node])
+        number = int(node)
+        if number not in self.body.node_ids:
+            ids = self.body.node_ids
+            raise ModelError(
+                f"{self.name} has no node {number}; its {len(ids)} nodes have numbers from {ids.min()} to {ids.max()}"
+            )
+        return number
+
+    @checked_arguments
+    def frame(self, time: float) -> int:
+        """The frame nearest to `time` [s]. Raises ModelError outside of the run."""
+        reach = CLOSE * max(abs(self.time[-1]), abs(self.time[0]))
+        if not self.time[0] - reach <= time <= self.time[-1] + reach:
+            raise ModelError(f"{time:.6g} s is outside of the run, {self.time[0]:.6g} to {self.time[-1]:.6g} s")
+        return int(np.argmin(np.abs(self.time - time)))
+
+    @checked_arguments
+    def labels(self, node: int | str) -> list[str]:
+        """What the stations at a node are called: fibres of beams; one name, empty, of nodes of solids."""
+        names = stress_modes(self.body).labels
+        return [names[k] if names else "" for k in stations_at(self.body, self.node(node))]
+
+    # --- histories ---
+
+    @checked_arguments
+    def displacement(self, node: int | str | None = None) -> Array:
+        """(t, 3) [m] of a node, or (t, nodes, 3) of all, in the body frame."""
+        if node is None:
+            return displacement(self.body, self.q)
+        place = int(np.flatnonzero(self.body.node_ids == self.node(node))[0])
+        return self.q @ self.body.modes[place, :3].T
+
+    @checked_arguments
+    def stress(self, node: int | str | None = None) -> Array:
+        """(t, stations, 6) [Pa] xx, yy, zz, xy, yz, zx at the stations of a node, default all."""
+        return stress(self.body, self.q, self._stations(node))
+
+    @checked_arguments
+    def strain(self, node: int | str | None = None) -> Array:
+        """(t, stations, 6), shear as γ. Raises ModelError where the body was reduced without strains."""
+        return strain(self.body, self.q, self._stations(node))
+
+    @checked_arguments
+    def von_mises(self, node: int | str | None = None) -> Array:
+        """(t, stations) [Pa]"""
+        return von_mises(self.stress(node))
+
+    @checked_arguments
+    def signed_principal(self, node: int | str | None = None) -> Array:
+        """(t, stations) [Pa] the principal stress of largest magnitude, with its sign."""
+        return signed_principal(self.stress(node))
+
+    def _stations(self, node: int | str | None) -> Whole | None:
+        return None if node is None else stations_at(self.body, self.node(node))
+
+    # --- the worst ---
+
+    @cached_property
+    def envelope(self) -> Envelope:
+        """The largest von Mises stress of each station over the run, and the frame at which it was."""
+        return envelope(self.body, self.q)
+
+    @property
+    def worst_time(self) -> float:
+        """[s] when the largest von Mises stress of all was."""
+        return float(self.time[self.envelope.worst])
+
+    @checked_arguments
+    def hot_spots(self, count: int = 5, *, apart: float = 0.05) -> list[HotSpot]:
+        """The places of largest von Mises stress over the run, greatest first; `index` is the frame.
+
+        apart : places nearer to a greater one than this share of the size of the body are left out.
+        """
+        return hot_spots(self.body, self.q, count=count, apart=apart)
+
+    @checked_arguments
+    def rainflow(self, node: int | str, station: int | None = None) -> list[Cycle]:
+        """Cycles of the signed principal stress [Pa] at a node, ASTM E1049.
+
+        station : which fibre, a place in `labels(node)`; default that of the largest range.
+        """
+        return rainflow(self.signed_principal(node)[:, self.widest(node) if station is None else station])
+
+    @checked_arguments
+    def widest(self, node: int | str) -> int:
+        """The station of a node, a place in `labels(node)`, whose signed principal stress has the largest range."""
+        return int(np.argmax(np.ptp(self.signed_principal(node), axis=0)))
+
+    @checked_arguments
+    def classes(self, node: int | str, count: int = 8) -> list[tuple[float, float, float]]:
+        """The cycles of `rainflow` in `count` classes of equal width: (least range, greatest range [Pa], cycles), greatest first."""
+        cycles = self.rainflow(node)
+        top = max((each.range for each in cycles), default=0.0)
+        if top <= 0.0:
+            return []
+        edges = np.linspace(0.0, top, count + 1)
+        place = np.minimum((np.array([each.range for each in cycles]) / top * count).astype(int), count - 1)
+        sums = np.bincount(place, weights=[each.count for each in cycles], minlength=count)
+        return [(float(edges[k]), float(edges[k + 1]), float(sums[k])) for k in reversed(range(count)) if sums[k]]
+
+    # --- pictures ---
+
+    @checked_arguments
+    def write_vtk(
+        self, path: str | os.PathLike[str], times: Sequence[float] | None = None, *, told: Told = _silent
+    ) -> list[Path]:
+        """Write the motion for ParaView: nodes in space with displacement and stress. Returns the files, the .pvd first.
+
+        times : [s] the frames nearest to these, default all. told : hears how far it is.
+        """
+        from nivel.flexible.vtk import write_motion
+
+        frames = np.arange(len(self.time)) if times is None else np.unique([self.frame(time) for time in times])
+        place = self._result.selection(f"{self.name}.position").where[1]
+        R = self._result.array("position")[frames, place]
+        A = _rotation(self._result.array("orientation")[frames, place])
+
+        def followed() -> Iterator[float]:
+            for k, frame in enumerate(frames):
+                told(f"writing frame {k + 1} of {len(frames)}", k / len(frames))
+                yield float(self.time[frame])
+
+        return write_motion(self.body, Path(path), followed(), self.q[frames], R, A)
+
+
+def _rotation(theta: Array) -> Array:
+    """(t, 3, 3) of Euler parameters (t, 4)."""
+    from scipy.spatial.transform import Rotation
+
+    return Rotation.from_quat(theta, scalar_first=True).as_matrix()

@@ -1,0 +1,1 @@
+"""What the trust report looks at, and its words."""

@@ -1,0 +1,213 @@
+"""What checks beyond the balance of energy have found, as lines of the trust report; what is in order is not told."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from nivel.results.passed_contacts import Passed
+from nivel.results.trust.bending import Bent
+from nivel.results.trust.second_look import Damped, Growth, OwnError
+from nivel.results.trust.steps_seen import Rounding, Turn
+from nivel.results.trust.unseen import Unseen
+from nivel.results.trust.verdicts import CHECKS, Item, Threshold, number, quantity
+
+SHOWN = 5  # functions of which each has a line
+# What is hidden between the places where steps look counts above so many times what two runs are apart by, and this share of a load.
+BEYOND_AGREED, LEAST_HIDDEN = 10.0, 1e-10
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A position passed at `time` [s] in which rows of `joints` depend on each other; left : of their independence, as a share."""
+
+    time: float
+    joints: tuple[str, ...]
+    left: float
+
+
+@dataclass(frozen=True)
+class Fast:
+    """The fastest rate [1/s] of a machine and the part that it is of, the step [s] of a run, and the longest with which `method` holds
+    that rate [s]."""
+
+    part: str
+    rate: float
+    step: float
+    held: float
+    method: str
+
+
+@dataclass(frozen=True)
+class Findings:
+    """Each None, or empty, where it was not looked at; see the modules of their types. unseen : by steps. between : samples, of functions
+    that are sampled. method : the integrator. agreed : what two runs are apart by, as a share of the largest motion."""
+
+    unseen: Sequence[Unseen] = ()
+    between: Sequence[Unseen] = ()
+    turn: Turn | None = None
+    rounding: Rounding | None = None
+    own: OwnError | None = None
+    damped: Damped | None = None
+    growth: Growth | None = None
+    unstiffened: Bent | None = None
+    passages: Sequence[Passage] = ()
+    passed: Sequence[Passed] = ()
+    bent: Bent | None = None
+    method: str = ""
+    agreed: float | None = None
+
+
+def finding_items(found: Findings) -> Iterator[Item]:
+    """The lines of what is not green."""
+    yield from _unseen_items(found.unseen, found.agreed)
+    yield from _sampling_items(found.between)
+    yield from (_passed_item(each) for each in found.passed[:SHOWN])
+    if found.turn is not None:
+        yield from _told(_turn_item(found.turn))
+    if found.rounding is not None:
+        yield from _told(_rounding_item(found.rounding))
+    if found.passages:
+        yield _passage_item(found.passages)
+    if found.unstiffened is not None:
+        yield from _told(_unstiffened_item(found.unstiffened))
+    if found.bent is not None:
+        yield from _told(_bent_item(found.bent))
+    if found.own is not None:
+        yield from _told(_own_item(found.own))
+    if found.damped is not None:
+        yield _damped_item(found.damped, found.method)
+    if found.growth is not None:
+        yield _growth_item(found.growth)
+
+
+def _told(item: Item) -> Iterator[Item]:
+    if item.verdict != "green":
+        yield item
+
+
+def _measured(
+    name: str, text: str, value: float, time: float | None, row: str, threshold: Threshold | None = None
+) -> Item:
+    threshold = threshold or CHECKS[name]
+    verdict = threshold.verdict(value)
+    return Item(name, verdict, f"{text} ({threshold})", value, threshold.green, threshold.amber, row, time)
+
+
+def _unseen_items(unseen: Sequence[Unseen], agreed: float | None) -> Iterator[Item]:
+    told = sorted((each for each in unseen if _is_missed(each, agreed)), key=lambda each: -each.share)
+    for each in told[:SHOWN]:
+        by = "" if each.of == "time" else f" along {each.of}"
+        said = f"the steps miss {number(min(each.share, 1.0))} of {each.name} at t = {each.time:.6g} s, where it changes{by} within"
+        advice = f"{number(each.scale)} s, in steps of {number(each.step)} s; take steps of {number(min(each.scale, each.step) / 10.0)} s"
+        if each.share < CHECKS["loads"].green:
+            much = f"that is {number(each.hidden)} of it over the whole run, more than two runs are apart by, and neither need see it"
+            yield Item("loads", "amber", f"Loads: {said} {advice} ({much})", each.share, row=each.name, time=each.time)
+        else:
+            yield _measured("loads", f"Loads: {said} {advice}", each.share, each.time, each.name)
+
+
+def _is_missed(each: Unseen, agreed: float | None) -> bool:
+    """Whether a load is missed by much, or by more than a headline that two runs agree on allows."""
+    if not each.share < CHECKS["loads"].green:
+        return True
+    return agreed is not None and each.hidden > BEYOND_AGREED * max(agreed, LEAST_HIDDEN)
+
+
+def _sampling_items(between: Sequence[Unseen]) -> Iterator[Item]:
+    told = sorted((each for each in between if not each.share < CHECKS["sampling"].green), key=lambda each: -each.share)
+    for each in told[:SHOWN]:
+        said = f"after t = {each.time:.6g} s {each.name} changes by {number(each.share)} of its range and back between two samples"
+        advice = (
+            f"{number(each.step)} s apart, as fast as in {number(each.scale)} s; sample faster if that is to be seen"
+        )
+        yield _measured("sampling", f"Sampling: {said} {advice}", each.share, each.time, each.name)
+
+
+def _passed_item(passed: Passed) -> Item:
+    text = (
+        f"Contact: {' and '.join(passed.pair.bodies)} pass through each other at t = {passed.time:.6g} s, by {number(passed.overlap)} of "
+        f"the distance at which they touch, and {passed.pair.contact} does not push them apart: they overlap for {number(passed.lasted)} s "
+        f"only; take steps of {number(passed.lasted / 10.0)} s, or a method that chooses its steps (green when none does, red otherwise)"
+    )
+    return Item("contact", "red", text, passed.overlap, row=passed.pair.contact, time=passed.time)
+
+
+def steps_item(fast: Fast) -> Item:
+    """Why a run with steps of fixed size is wrong, where its steps are too long for what is fastest."""
+    of = f", of {fast.part}" if fast.part else ""
+    step = fast.held if fast.step > fast.held else CHECKS["steps"].green / fast.rate
+    does = "holds" if fast.step > fast.held else "follows"
+    said = f"the fastest rate of the machine is {number(fast.rate)}/s{of}, and {fast.method} {does} it with steps below {number(step)} s"
+    text = f"Steps: {said}, not {number(fast.step)} s; take those, or `integrator: radau`"
+    return _measured("steps", text, fast.step * fast.rate, None, fast.part)
+
+
+def _turn_item(turn: Turn) -> Item:
+    threshold = Threshold(CHECKS["turn"].amber, math.inf, "") if turn.counted else CHECKS["turn"]
+    lost = "what depends on its angle is not followed" if turn.counted else "its turns can no longer be counted"
+    meaning = lost if turn.angle > CHECKS["turn"].amber else "that is more than the method resolves"
+    said = f"Turning: {turn.body} turns by {number(turn.angle)} rad in one step at t = {turn.time:.6g} s, and {meaning}"
+    return _measured("turn", f"{said}; take shorter steps", turn.angle, turn.time, turn.body, threshold)
+
+
+def _rounding_item(rounding: Rounding) -> Item:
+    far = f"{rounding.body} is {number(rounding.distance)} m from the origin, where places are rounded to {number(rounding.unit)} m"
+    lost = f"in all steps that may add up to {number(rounding.share)} of the machine's size"
+    return _measured(
+        "rounding", f"Round-off: {far}; {lost}; move the machine to the origin", rounding.share, None, rounding.body
+    )
+
+
+def _own_item(own: OwnError) -> Item:
+    its = f"{number(own.extent)} {own.units}"
+    said = f"{own.name} is off by {number(own.error)} {own.units}, {number(own.share)} of its own motion over {its}"
+    return _measured("parts", f"Parts: {said}", own.share, None, own.name)
+
+
+def _passage_item(passages: Sequence[Passage]) -> Item:
+    times = ", ".join(f"{each.time:.6g}" for each in passages[:SHOWN]) + (" …" if len(passages) > SHOWN else "")
+    joints = ", ".join(dict.fromkeys(name for each in passages for name in each.joints))
+    text = (
+        f"Singular: at t = {times} s the machine passes a position where freedoms split (constraints of {joints} depend on each other); it "
+        f"went on by inertia, a real one may take the other way, and reactions near it are not to be trusted (green when none, amber "
+        f"otherwise)"
+    )
+    return Item("singular", "amber", text, row=joints, time=passages[0].time)
+
+
+def _unstiffened_item(found: Bent) -> Item:
+    said = (
+        f"Stiffening: {found.body} has no geometric stiffness and turns so fast at t = {found.time:.6g} s that the square of its speed is "
+        f"{number(found.value)} of that of its lowest frequency; reduce it with `stiffening: true`"
+    )
+    return _measured("stiffening", said, found.value, found.time, found.body)
+
+
+def _bent_item(found: Bent) -> Item:
+    said = (
+        f"Bending: {found.body} bends by {number(found.value)} of its size at t = {found.time:.6g} s; modes are made for small "
+        f"displacements: take a beam in its place, or several bodies"
+    )
+    return _measured("bending", said, found.value, found.time, found.body)
+
+
+def _damped_item(damped: Damped, method: str) -> Item:
+    by = f"{method} takes" if method else "the method takes"
+    text = (
+        f"Damped: {by} {quantity(damped.lost, 'J')} from the motion, and {quantity(damped.lost_finer, 'J')} with finer steps: "
+        f"vibrations faster than the steps are damped away; take steps of a tenth of their period, or say that they do not "
+        f"matter by damping them yourself "
+        f"(green where finer steps lose less, amber otherwise)"
+    )
+    return Item("damped", "amber", text, damped.lost)
+
+
+def _growth_item(growth: Growth) -> Item:
+    text = (
+        f"Sensitivity: neighbouring motions part by a factor e every {number(growth.time_constant)} s, and have parted at t = "
+        f"{growth.parted:.6g} s: the motion is chaotic, and what follows is one of many; only means and extremes of it tell anything "
+        f"(green where they stay together, amber otherwise)"
+    )
+    return Item("sensitivity", "amber", text, time=growth.parted)

@@ -1,0 +1,322 @@
+"""How far a result can be trusted: the numbers, the thresholds they are held against, and the verdict in words."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, fields
+from typing import Any, Literal
+
+Verdict = Literal["green", "amber", "red"]
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """A number is green below `green`, amber below `amber`, red otherwise; NaN is red."""
+
+    green: float
+    amber: float
+    reason: str
+
+    def verdict(self, number: float) -> Verdict:
+        if number < self.green:
+            return "green"
+        return "amber" if number < self.amber else "red"
+
+    def __str__(self) -> str:
+        beyond = f"amber below {self.amber:.0e}" if math.isfinite(self.amber) else "amber otherwise"
+        return f"green below {self.green:.0e}, {beyond}".replace("e-0", "e-")
+
+
+# Every threshold there is. Each number is a fraction, so the table holds for a watch and for a crane.
+THRESHOLDS = {
+    "energy": Threshold(
+        1e-4,
+        1e-2,
+        "Friction and inertia data of real machines are rarely known to 1 %: above it the run invents or loses more "
+        "energy than the model can explain. 1e-4 is two decades below, where the error is seen in no curve.",
+    ),
+    "violation": Threshold(
+        1e-6,
+        1e-4,
+        "1e-6 of a machine of one metre is a micrometre, less than the play of a good bearing; 1e-4 is a tenth of a "
+        "millimetre, the play of a worn one: above it the joint is visibly open.",
+    ),
+    "rate_violation": Threshold(
+        1e-5,
+        1e-3,
+        "A joint whose parts slip past each other at 1e-3 of the machine's speed feeds in or loses energy of the same "
+        "order; at 1e-5 this is below what the energy balance counts as green.",
+    ),
+    "accuracy": Threshold(
+        1e-4,
+        1e-2,
+        "No point is off by more than 1e-4 of the machine, a tenth of a millimetre in a metre: finer than manufacturing tolerances. "
+        "Above 1e-2 the curves of the run and of the exact motion are seen apart.",
+    ),
+    "neglected": Threshold(
+        1e-3,
+        1e-2,
+        "Inertia of real bodies is rarely known to 1 %: above it the invariants that a flexible body does without are missed. 1e-3 is a "
+        "decade below.",
+    ),
+}
+# of what is told only where it is not green
+CHECKS = {
+    "loads": Threshold(
+        1e-2,
+        1e-1,
+        "A hundredth of an impulse that the steps do not see is as much as loads of real machines are known to; a tenth is seen in every "
+        "curve.",
+    ),
+    "sampling": Threshold(
+        0.3,
+        math.inf,
+        "By this share of its range a function goes beyond two samples between them: a sine with less than three samples a period, or a "
+        "pulse that they do not see. The model samples, so its motion is as exact as ever.",
+    ),
+    "steps": Threshold(
+        0.3,
+        math.inf,
+        "The fastest rate of the machine times the step, reported where a run is red: beyond 0.3 an explicit method does not follow "
+        "motions that fast, beyond 1 to 3 it diverges.",
+    ),
+    "turn": Threshold(
+        0.5,
+        3.0,
+        "In radians a step: methods of order four lose 2e-4 rad a turn at 0.5. Beyond half a turn, with a margin, no method can tell "
+        "which way a body turned.",
+    ),
+    "rounding": Threshold(
+        1e-6,
+        1e-3,
+        "Half a unit in the last place of a coordinate, in every step and always to the same side, as a share of the machine's size: as "
+        "much as open joints may be.",
+    ),
+    "parts": Threshold(
+        1e-2,
+        1e-1,
+        "Errors of a body, or of a joint coordinate, as a share of its own motion: below a hundredth its curves lie on each other, above "
+        "a tenth they are others.",
+    ),
+    "stiffening": Threshold(
+        1e-2,
+        1e-1,
+        "Centrifugal forces make a slender body stiffer by about this share: a hundredth is what its stiffness is known to, a tenth is "
+        "seen.",
+    ),
+    "bending": Threshold(
+        5e-2,
+        2e-1,
+        "A body bent by the share x of its length becomes shorter by about x²/2 of it, which modes do not know: 1e-3 at 0.05, a "
+        "fiftieth at 0.2.",
+    ),
+}
+# what no second run of the same model and method sees, by the names of items
+BLIND = {
+    "loads": "their steps miss {row}",
+    "contact": "their steps pass {row}",
+    "turn": "{row} turns too far in a step",
+    "rounding": "{row} is so far from the origin that steps are rounded away",
+    "damped": "their method damps vibrations away",
+    "singular": "at t = {time} s the motion may go on either way",
+}
+# of states of equilibrium
+RESIDUAL = Threshold(
+    1e-8,
+    1e-5,
+    "Forces that are left over, as a share of the largest load. Loads are rarely known to 1e-3; 1e-5 is two decades below, and Newton's "
+    "method ends far below 1e-8 unless stiff parts hide what holds the soft ones.",
+)
+
+
+EXTENT_FLOOR = 1e-12  # of the distance from the global origin: round-off of points that are one
+REST = 1e-3  # of the size, travelled in the time of the run: a machine that stays below it is at rest
+# of the potential energy, of a load times the size, of the energy of travelling by the size in the run: round-off of a machine at rest
+# is below green
+ENERGY_FLOOR = 1e-9
+CLOSED = 1e-12  # of the size: joints that are open by less are closed as well as a run closes them
+OPENING_WORK = 1e5  # times the work of the loads over what closed joints are open by: it is a decade below green
+POINT_SIZE = 1.0  # m: a single point that never moves has no size; said wherever it is used
+
+RULES = {
+    "energy_scale": "the largest kinetic energy, or the largest change of potential energy, work of external forces or "
+    "dissipated energy where one of these is larger; at least what a machine at rest is made of: 1e-9 of the largest potential energy; "
+    "1e-9, or of a machine at rest whose steps are chosen the tolerance, of the largest load (less what dampers do in the same frame) and "
+    "the weight times the size, and of the kinetic energy of travelling by the size in the time of the run; 1e5 times the work of these "
+    "loads over what joints are open by, as far as that is 1e-12 of the size at most. There is no fixed number of joules: where all "
+    "energies are zero, an error of zero is a fraction of zero",
+    "size": "the diagonal of the box around all joint points, centres of mass and body origins in the first frame. "
+    "Where all of them are one point: of the box around its path, or twice the largest radius of gyration where that is larger; where it "
+    "has neither, because it is a point mass or moves by less than 1e-9 of what its loads would move it, 1 m by convention. Constraint "
+    "rows that are cosines of angles are compared with 1",
+    "speed": "the largest speed of any joint point, centre of mass or body origin (upper bound |v| + |ω| r, r the radius of gyration of "
+    "a body that has no other point than its origin). A "
+    "machine that travels less than 1e-3 of its size in the time of the run at this speed is at rest, and compared with the "
+    "speed that would. Rates of cosines of angles are compared with speed / size",
+}
+
+
+@dataclass(frozen=True)
+class Item:
+    """One line of the trust report.
+
+    fraction : what is held against `green` and `amber`; None where the item is not a number.
+    text : the whole statement for a machine designer, thresholds included.
+    """
+
+    name: str
+    verdict: Verdict
+    text: str
+    fraction: float | None = None
+    green: float | None = None
+    amber: float | None = None
+    row: str = ""
+    time: float | None = None
+
+
+@dataclass(frozen=True)
+class Trust:
+    """The numbers behind the verdicts, in SI units, and the verdicts.
+
+    Rows are named as in the machine (`hinge.s.x`), times are in seconds. Violations are in `…_units`: m, rad or 1 (a
+    cosine).
+    size_kind : what `size` is, to be said after "the". at_rest : `speed` is not that of the machine, which is at rest,
+    but the least speed that counts.
+    accuracy_refinement : what the run was done again with to find `accuracy_estimate`; verified_until : up to which time [s], None where
+    to the end; verification_ended : why not further. degrees_of_freedom : of velocities, None where the run did not
+    live to tell; position_freedoms : of positions. modes : of flexible bodies, whose coordinates
+    are freedoms that joints may take. neglected_share : the largest share of the mass matrix of a flexible body that is lacking because it
+    moves without the inertia invariants `neglected_names`; None where none does. drivers : motions that are prescribed.
+    undetermined_efforts : results that are not unique while a friction holds a joint at rest together with a driver or
+    with other frictions.
+    unresolved_force : that does so much work in a step of fixed size, unresolved_work [J] at unresolved_time, that the energy error may be
+    its; empty where none does, or the energy is green.
+    """
+
+    verdict: Verdict
+    outcome: str
+    energy_error_max: float
+    energy_error_time: float
+    energy_scale: float
+    energy_scale_kind: str
+    size: float
+    speed: float
+    constraint_violation_max: float = 0.0
+    constraint_violation_row: str = ""
+    constraint_violation_time: float = 0.0
+    constraint_violation_units: str = "m"
+    constraint_rate_violation_max: float = 0.0
+    constraint_rate_violation_row: str = ""
+    constraint_rate_violation_time: float = 0.0
+    constraint_rate_violation_units: str = "m/s"
+    degrees_of_freedom: int | None = None
+    position_freedoms: int | None = None
+    drivers: int = 0
+    redundant_rows: tuple[str, ...] = ()
+    non_unique_joints: tuple[str, ...] = ()
+    accuracy_estimate: float | None = None
+    accuracy_body: str = ""
+    accuracy_time: float | None = None
+    accuracy_refinement: str = "half the step"
+    verified_until: float | None = None
+    verification_ended: str = ""
+    size_kind: str = "machine's size"
+    at_rest: bool = False
+    modes: int = 0
+    neglected_share: float | None = None
+    neglected_body: str = ""
+    neglected_names: tuple[str, ...] = ()
+    neglected_time: float | None = None
+    undetermined_efforts: tuple[str, ...] = ()
+    unresolved_force: str = ""
+    unresolved_work: float = 0.0
+    unresolved_time: float = 0.0
+    items: tuple[Item, ...] = ()
+
+    def to_json(self) -> str:
+        """JSON text; NaN and infinities stand as the strings "nan", "inf", "-inf"."""
+        return json.dumps(_storable(asdict(self)), ensure_ascii=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Trust:
+        """Read what `to_json` wrote; keys of later versions are passed over."""
+        data = json.loads(text)
+        data["items"] = tuple(Item(**_known(Item, each)) for each in data["items"])
+        for name in ("redundant_rows", "non_unique_joints", "neglected_names", "undetermined_efforts"):
+            data[name] = tuple(data.get(name, ()))
+        return cls(**_known(cls, data))
+
+    @property
+    def headline(self) -> str:
+        """How exact the run is, in a sentence: what a second run says, or that there was none."""
+        if self.accuracy_estimate is None:
+            return "not verified"
+        if blind := blindness(self.items):
+            return f"of unknown error: two runs agree within {number(self.accuracy_estimate)} m, but {blind}"
+        where = f"; largest at {self.accuracy_body}" if self.accuracy_body else ""
+        when = f", t = {self.accuracy_time:.6g} s" if self.accuracy_time is not None else ""
+        until = (
+            f" up to t = {self.verified_until:.6g} s, not verified beyond" if self.verified_until is not None else ""
+        )
+        return f"within {number(self.accuracy_estimate)} m of the exact motion of this model{until}{where}{when}"
+
+    def lines(self) -> list[str]:
+        """One line per item: its verdict and its statement."""
+        return [f"{item.verdict:>5}  {item.text}" for item in self.items]
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines())
+
+
+def blindness(items: Iterable[Item]) -> str:
+    """Why two runs may be wrong alike, in words; empty where nothing says so."""
+    for item in items:
+        if item.verdict != "green" and item.name in BLIND:
+            return BLIND[item.name].format(row=item.row, time=f"{item.time or 0.0:.6g}")
+    return ""
+
+
+def worst(items: tuple[Item, ...]) -> Verdict:
+    """The verdict of the whole: that of its worst item."""
+    found = [item.verdict for item in items]
+    return "red" if "red" in found else "amber" if "amber" in found else "green"
+
+
+def number(value: float) -> str:
+    """Two significant digits for what is tiny or huge, three for the sizes one can picture."""
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g}"
+    if 1e-3 <= abs(value) < 1e6:
+        return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+    mantissa, exponent = f"{value:.1e}".split("e")
+    return f"{float(mantissa):g}e{int(exponent)}"
+
+
+def quantity(value: float, unit: str) -> str:
+    """A number with its unit as people say it: 94 kJ, 1.25 MJ, 812 J."""
+    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if factor <= abs(value) < 1e12:
+            return f"{value / factor:.3g} {prefix}{unit}"
+    return f"{number(value)} {unit}"
+
+
+def _known(record: type[Any], data: dict[str, Any]) -> dict[str, Any]:
+    """The entries that the record has; numbers that JSON cannot hold are read back."""
+    names = {field.name: field.type for field in fields(record)}
+    return {
+        key: float(value) if value in ("nan", "inf", "-inf") and "float" in str(names[key]) else value
+        for key, value in data.items()
+        if key in names
+    }
+
+
+def _storable(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _storable(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_storable(each) for each in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    return value

@@ -1,0 +1,1 @@
+"""Which rows and unknowns are eliminated, and in which order the rest is factorised."""

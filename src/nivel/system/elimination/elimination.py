@@ -1,0 +1,152 @@
+"""Order and pattern of the elimination of constraint rows: done once a machine, in Python; the kernels only follow it."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+Index = NDArray[np.uint32]
+Groups = tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """Index arrays of `nivel.kernels.record.record.Saddle`, see there."""
+
+    order: Index
+    pair: Index
+    S_start: Index
+    S_row: Index
+    L_start: Index
+    L_row: Index
+    P_start: Index
+    P_column: Index
+    P_entry: Index
+
+
+def minimum_degree(groups: Sequence[int], neighbours: Sequence[set[int]]) -> list[int]:
+    """Order of groups of rows by minimum degree: always the one with the fewest rows beside it, its neighbours then joined.
+
+    groups : rows in each group; neighbours : groups that share a body with each (without itself). Ties: the earlier group.
+    """
+    adjacent = [set(others) for others in neighbours]
+
+    def degree(g: int) -> int:
+        return sum(groups[other] for other in adjacent[g])
+
+    heap = [(degree(g), g) for g in range(len(groups))]
+    heapq.heapify(heap)
+    done: list[int] = []
+    eliminated = [False] * len(groups)
+    while heap:
+        claimed, g = heapq.heappop(heap)
+        if eliminated[g]:
+            continue
+        if claimed != degree(g):
+            heapq.heappush(heap, (degree(g), g))
+            continue
+        eliminated[g] = True
+        done.append(g)
+        for other in adjacent[g]:
+            adjacent[other] |= adjacent[g]
+            adjacent[other] -= {g, other}
+            heapq.heappush(heap, (degree(other), other))
+    return done
+
+
+def plan(rows: Sequence[Sequence[int]], block_row: Sequence[int], block_body: Sequence[int]) -> Elimination:
+    """Elimination of all rows. Its arrays are only read: machines of one structure share them.
+
+    rows : the rows of each joint (or normalisation), kept together; block_row, block_body : row and body of every block of C_q.
+    """
+    return _planned(tuple(tuple(group) for group in rows), tuple(block_row), tuple(block_body))
+
+
+@lru_cache(maxsize=64)
+def _planned(rows: Groups, block_row: tuple[int, ...], block_body: tuple[int, ...]) -> Elimination:
+    count = sum(len(group) for group in rows)
+    group_of = np.empty(count, dtype=int)
+    for g, group in enumerate(rows):
+        group_of[list(group)] = g
+    of_body: dict[int, list[int]] = {}
+    for block, body in enumerate(block_body):
+        of_body.setdefault(body, []).append(block)
+    neighbours: list[set[int]] = [set() for _ in rows]
+    for blocks in of_body.values():
+        around = {int(group_of[block_row[block]]) for block in blocks}
+        for g in around:
+            neighbours[g] |= around - {g}
+    order = [row for g in minimum_degree([len(group) for group in rows], neighbours) for row in rows[g]]
+    position = np.empty(count, dtype=int)
+    position[order] = np.arange(count)
+
+    columns: list[set[int]] = [{k} for k in range(count)]
+    pairs: list[tuple[int, int, int, int]] = []
+    for blocks in of_body.values():
+        for n, a in enumerate(blocks):
+            for b in blocks[: n + 1]:
+                low, high = sorted((int(position[block_row[a]]), int(position[block_row[b]])))
+                columns[high].add(low)
+                pairs.append((high, low, a, b))
+                if a != b and high == low:
+                    pairs.append((high, low, b, a))  # a row that touches a body twice
+    S_start, S_row = _compressed([sorted(column) for column in columns])
+    entry = {(k, int(S_row[p])): p for k in range(count) for p in range(S_start[k], S_start[k + 1])}
+    pair = sorted((entry[high, low], a, b) for high, low, a, b in pairs)
+    P = _row_patterns(columns)
+    L_columns: list[list[int]] = [[] for _ in range(count)]
+    for k, pattern in enumerate(P):
+        for j in pattern:
+            L_columns[j].append(k)
+    L_start, L_row = _compressed(L_columns)
+    filled = L_start[:-1].astype(int)
+    P_entry = []
+    for pattern in P:
+        for j in pattern:
+            P_entry.append(filled[j])
+            filled[j] += 1
+    P_start, P_column = _compressed(P)
+    return Elimination(
+        order=_index(order),
+        pair=_index([(a, b, target) for target, a, b in pair]).reshape(-1, 3),
+        S_start=S_start,
+        S_row=S_row,
+        L_start=L_start,
+        L_row=L_row,
+        P_start=P_start,
+        P_column=P_column,
+        P_entry=_index(P_entry),
+    )
+
+
+def _row_patterns(columns: Sequence[set[int]]) -> list[list[int]]:
+    """Pattern of every row of L by climbing the elimination tree from the entries of S (Davis 2006, §4.3)."""
+    count = len(columns)
+    parent = [-1] * count
+    patterns: list[list[int]] = []
+    for k in range(count):
+        seen = {k}
+        for start in columns[k]:
+            i = start
+            while i not in seen and i < k:
+                seen.add(i)
+                if parent[i] == -1:
+                    parent[i] = k
+                i = parent[i]
+        patterns.append(sorted(seen - {k}))
+    return patterns
+
+
+def _compressed(lists: Sequence[Sequence[int]]) -> tuple[Index, Index]:
+    start = np.zeros(len(lists) + 1, dtype=np.uint32)
+    start[1:] = np.cumsum([len(entries) for entries in lists])
+    return start, _index([value for entries in lists for value in entries])
+
+
+def _index(values: Sequence[object]) -> Index:
+    return np.ascontiguousarray(np.array(values, dtype=np.uint32))

@@ -1,0 +1,1 @@
+"""Functions of a machine: expressions as programs, tables, Python laws."""

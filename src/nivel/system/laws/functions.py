@@ -1,0 +1,129 @@
+"""Functions of time and signals for the kernels: constants, tables and expressions as numbers, laws as compiled code."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from nivel.kernels.record.function import CODE, CONSTANT, LINEAR, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
+from nivel.kernels.record.program import run
+from nivel.kernels.record.record import Functions
+from nivel.machine.python_law import PythonLaw
+from nivel.machine.table import Table
+from nivel.machine.time_function import TimeFunction
+from nivel.machine.units.arithmetic import TIME as TIME_SYMBOL
+from nivel.machine.units.expression import Expression
+from nivel.machine.units.linear_function import LinearFunction, linear_function
+from nivel.system.laws.laws import law_address
+from nivel.system.laws.program import curve_motion_program, curve_program, expression_program, motion_program
+from nivel.system.tables import Array, index_array
+
+Signal = tuple[int, int, int]  # kind, index, component: see `nivel.kernels.record.function`
+Find = Callable[[str], Signal]
+
+
+@dataclass
+class FunctionTable:
+    """Functions of a machine in numbers. Laws are compiled, or loaded from the cache, when they are added."""
+
+    kind: list[int] = field(default_factory=list)
+    value: list[float] = field(default_factory=list)
+    address: list[int] = field(default_factory=list)
+    table: list[tuple[int, int]] = field(default_factory=list)
+    span: list[tuple[int, int, int, int]] = field(default_factory=list)
+    knots: list[float] = field(default_factory=list)
+    coefficients: list[Sequence[float]] = field(default_factory=list)
+    argument: list[tuple[int, int, int, int]] = field(default_factory=list)
+    arguments: list[float] = field(default_factory=list)
+
+    def add(
+        self, function: TimeFunction | LinearFunction, find: Find, *, motion: bool = False, end: float = math.inf
+    ) -> int:
+        """Index of a new function; `find` gives the signal of a path. motion : its derivatives are needed, up to the `end` of the run [s].
+
+        Raises ModelError where a law cannot be compiled.
+        """
+        match function:
+            case Table() if function.interpolation == "quintic":
+                make = curve_motion_program if motion else curve_program
+                program = make(function.interpolation, function.times, function.values)
+                return self._append(CODE, [function.of], find, address=run.address, program=program)
+            case Table():
+                pieces = function.coefficients()
+                last = [float(function.values[-1]), 0.0, 0.0, 0.0]
+                times, rows = list(function.times), [*pieces.tolist(), last]
+                if motion and function.ends_before(end):
+                    # at its end it has the rate of what follows, as at every other point
+                    times, rows = [*times, math.inf], [*rows, last]
+                return self._append(TABLE_HELD, [function.of], find, table=(times, rows))
+            case LinearFunction():
+                return self._append_linear(function, find)
+            case Expression() if not motion and (linear := linear_function(function.tree)) is not None:
+                return self._append_linear(linear, find)
+            case Expression():
+                signals = list(dict.fromkeys([TIME_SYMBOL, *function.signals]))
+                program = motion_program(function) if motion else expression_program(function, signals)
+                return self._append(CODE, signals, find, address=run.address, program=program)
+            case PythonLaw():
+                address = law_address(function, motion=motion)
+                return self._append(CODE, list(function.arguments), find, address=address)
+        return self._append(CONSTANT, [], find, value=float(function))
+
+    def _append_linear(self, function: LinearFunction, find: Find) -> int:
+        factors, paths = [factor for factor, _ in function.terms], [path for _, path in function.terms]
+        return self._append(LINEAR, paths, find, value=function.offset, table=(factors, [[0.0] * 4] * len(factors)))
+
+    def add_table(self, knots: Sequence[float], coefficients: Array) -> int:
+        """Index of a new table that goes on beyond its ends; `coefficients` (n, 4) as `Functions.coefficients`."""
+        return self._append(TABLE_EXTENDED, [], _nothing, table=(knots, coefficients.tolist()))
+
+    def _append(
+        self,
+        kind: int,
+        arguments: Sequence[str | float],
+        find: Find,
+        *,
+        value: float = 0.0,
+        address: int = 0,
+        program: Sequence[float] = (),
+        table: tuple[Sequence[float], Sequence[Sequence[float]]] = ((), ()),
+    ) -> int:
+        first, start = len(self.argument), len(self.arguments)
+        place = start + len(program)
+        self.arguments += program
+        for n, argument in enumerate(arguments):
+            if not isinstance(argument, str):
+                signal, number = (NUMBER, 0, 0), float(argument)
+            else:
+                signal, number = (TIME, 0, 0) if argument == TIME_SYMBOL else find(argument), 0.0
+            self.argument.append((*signal, place + n))
+            self.arguments.append(number)
+        self.arguments += [0.0, 0.0]
+        self.span.append((first, len(self.argument), place, start))
+        self.kind.append(kind)
+        self.value.append(value)
+        self.address.append(address)
+        self.table.append((len(self.knots), len(self.knots) + len(table[0])))
+        self.knots += table[0]
+        self.coefficients += table[1]
+        return len(self.kind) - 1
+
+    def arrays(self) -> Functions:
+        return Functions(
+            kind=index_array(self.kind, 1),
+            value=np.array(self.value, dtype=float),
+            table=index_array(self.table, 2),
+            knots=np.array(self.knots, dtype=float),
+            coefficients=np.array(self.coefficients, dtype=float).reshape(-1, 4),
+            argument=index_array(self.argument, 4),
+            span=index_array(self.span, 4),
+            arguments=np.array(self.arguments, dtype=float),
+            address=np.array(self.address, dtype=np.uint64),
+        )
+
+
+def _nothing(path: str) -> Signal:
+    raise KeyError(path)

@@ -1,0 +1,46 @@
+// The diagram of hydraulic circuits with the pressures of the moment; a click at a pressure plots it.
+import type { Columns } from "../columns";
+import { el, icon } from "./dom";
+import type { Plots } from "./plots";
+
+const START = "hydraulics.";
+const BAR = 1e5;
+
+export class Circuit {
+  readonly element: HTMLElement;
+  private readonly shown: { place: Element; values: Float32Array | null }[] = [];
+  private frame = 0;
+
+  constructor(svg: string, columns: Columns, plots: Plots) {
+    const diagram = el("div", { class: "diagram" });
+    diagram.innerHTML = svg;
+    const large = el("dialog", { class: "large-circuit" }, el("form", { method: "dialog" }, el("button", { class: "chip" }, icon("close"), "Close"))) as HTMLDialogElement;
+    const enlarge = () => {
+      large.append(diagram);
+      large.showModal();
+    };
+    this.element = el("section", { class: "circuits" }, el("h3", {}, "Hydraulics"), el("button", { type: "button", class: "chip", onclick: enlarge }, icon("fit"), "Large"), diagram);
+    large.addEventListener("close", () => this.element.append(diagram));
+    document.body.append(large);
+    for (const place of diagram.querySelectorAll("[data-pressure]")) {
+      const name = START + place.getAttribute("data-pressure");
+      const shown: { place: Element; values: Float32Array | null } = { place, values: null };
+      this.shown.push(shown);
+      place.textContent = "";
+      place.closest("text")?.addEventListener("click", () => plots.toggle(name));
+      void columns.get(0, name).then((values) => {
+        if (typeof values === "string") return;
+        shown.values = values;
+        this.moveTo(this.frame);
+      });
+    }
+  }
+
+  moveTo(frame: number): void {
+    this.frame = frame;
+    for (const { place, values } of this.shown) {
+      const pressure = values?.[frame];
+      if (pressure !== undefined) place.textContent = `${+(pressure / BAR).toPrecision(4)} bar`;
+    }
+  }
+}

@@ -29,8 +29,8 @@ from nivel.analysis.run import preparation
 from nivel.files import parse_machine
 from nivel.integrate.catalogue import INTEGRATORS
 from nivel.integrate.loop import paced as paced_loop
-from nivel.integrate.loop.repeated import repeat_evaluation, repeat_family
-from nivel.kernels.core.status import BUDGET_SPENT, OK
+from nivel.integrate.loop.repeated import halt, repeat_evaluation, repeat_family, repeat_rows
+from nivel.kernels.core.status import BUDGET_SPENT, DONE, OK
 from nivel.live.preparation import live_plan, prepared_run
 from nivel.live.shared import bytes_of, live_in
 from nivel.machine import PointForce, Table
@@ -413,6 +413,10 @@ def test_live_ticks(paced):
     code, family = motion.kernels.evaluate.address, motion.system.record.elements.address[0]
     assert repeat_evaluation(code, motion.handle.address, 0.0, run.y.copy(), run.rate.copy(), 2) == OK
     assert repeat_family(family, motion.handle.address, 0, 0.0, 2) == OK
+    assert repeat_rows(motion.handle.address, 2) == OK
+    # an evaluation that ends before its forces
+    motion.system.record.elements.address[0] = halt.address
+    assert repeat_evaluation(code, motion.handle.address, 0.0, run.y.copy(), run.rate.copy(), 2) == DONE
 
 
 # --- circuits ---

@@ -2,19 +2,26 @@
 
 import time
 from itertools import pairwise
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import cart
 from cart import DAMPING, FORCE, MASS, machine, operate, running, until
-from nivel.errors import ModelError
+from nivel.api import Machine
+from nivel.cli.replay import command
+from nivel.errors import ModelError, SolveError
+from nivel.files.reader import parse_machine
 from nivel.integrate.loop.paced import DONE, SAVED
 from nivel.live.hand import grip
 from nivel.live.opening import session_of
 from nivel.live.preparation import live_plan, pace_of
 from nivel.live.recording import Recording, Take, read_recording, write_recording
 from nivel.live.replay import machine_of, replay, rerun
+from nivel.machine import PythonLaw
 
 
 @pytest.fixture(scope="module")
@@ -185,6 +192,17 @@ def test_a_file_that_is_no_recording_is_refused(tmp_path):
         read_recording(tmp_path / "none.npz")
 
 
+def test_a_recording_that_holds_code_is_replayed_only_where_that_is_allowed(tmp_path):
+    record, path = machine().record, tmp_path / "law.live.npz"
+    law = PythonLaw("def pull(x):\n    return 20.0 * x\n", "pull", ("lever.value",))
+    drive, *others = record.forces
+    for forces, has_code in (((drive.replace(effort=law), *others), True), (record.forces, False)):
+        write_recording(path, record.replace(forces=forces), "", {}, pace_of(1e-3, None), [])
+        assert read_recording(path).has_code == has_code
+        refusal = str(CliRunner().invoke(command, [str(path)]).exception)
+        assert ("--allow-code" in refusal) == has_code
+
+
 def test_integrators_that_choose_their_steps_are_refused():
     with pytest.raises(ModelError, match="`dopri5` chooses its steps; live operation needs fixed ones"):
         live_plan(cart.machine().record, {"integrator": "dopri5"}, None)
@@ -247,6 +265,29 @@ def test_a_body_that_is_picked_up_moves_as_the_spring_says_and_its_replay_is_the
     assert result.array("external_work")[inside][-1] == pytest.approx(
         result.array("kinetic_energy")[inside][-1], rel=1e-3
     )
+
+
+def test_a_run_that_fails_says_why_and_its_replay_fails_as_it_did():
+    """√(0.2 - x) is no number beyond 0.2 m. Only a reset goes on from there."""
+    text = cart.CART.replace("effort: 20.0*lever.value", "effort: 20.0*lever.value + 0*sqrt(0.2 - rail.displacement)")
+    assert "sqrt" in text
+    fragile = Machine.from_record(parse_machine(text))
+    with TemporaryDirectory() as folder, session_of(fragile, {}, urgent=False, recorded_in=Path(folder)) as session:
+        session.command("run")
+        while session.mode == "running":
+            operate(session, [1.0, 1.0], 0.05)
+        assert session.mode == "failed"
+        until(lambda: session.problem)
+        assert "is no longer a number" in session.problem
+        assert "go back to the start" in session.command("run")
+        at = float(session.live.control[DONE]) * session.pace.tick
+        assert session.command("reset") == ""
+        assert session.mode == "paused"
+        take = session.takes[0]
+    assert take.ticks * session.pace.tick == pytest.approx(at)
+    with pytest.raises(SolveError, match="is no longer a number") as failure:
+        replay(Recording(session.plan.machine, "", {}, session.pace, (take,)), take)
+    assert failure.value.result.array("rail.displacement")[-1] < 0.2
 
 
 def test_the_hand_lets_go_before_it_takes_another_point():

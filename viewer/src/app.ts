@@ -137,7 +137,7 @@ export class App {
         () => this.reset(),
       );
     }
-    if (content.mode === "live" && connection && content.controls.length + content.gauges.length) {
+    if (content.mode === "live" && connection) {
       this.trails = new Trails(this.actor);
       this.world.scene.add(this.trails.root);
       this.actor.show("signs", false);

@@ -2,6 +2,7 @@
 import type { Control } from "./generated/records";
 
 const EVERY = 20; // ms between two messages
+const PAD_ASKS = 1000; // ms between two questions of a gamepad whether it may operate
 const KEY_TIME = 1.5; // s in which a key moves a control that holds its place from end to end
 
 export class Operator {
@@ -14,6 +15,7 @@ export class Operator {
   private readonly sticks = new Map<string, number>(); // deflection from -1 to 1
   private readonly keys: Set<string>;
   private last = performance.now();
+  private asked = -PAD_ASKS;
 
   constructor(
     private readonly controls: Control[],
@@ -68,6 +70,14 @@ export class Operator {
     if (!this.driving) this.take();
   }
 
+  /** A gamepad that is deflected for long asks now and then: another page may operate, or its stick may not rest in the middle. */
+  private askWithPad(): void {
+    const now = performance.now();
+    if (now - this.asked < PAD_ASKS) return;
+    this.asked = now;
+    this.take();
+  }
+
   private press(event: KeyboardEvent): void {
     const key = named(event.key);
     if (event.ctrlKey || event.metaKey || event.altKey || !this.keys.has(key) || isText(event.target)) return;
@@ -93,7 +103,7 @@ export class Operator {
     const { low, high, rest, hold } = control;
     const keys = Number(this.held.has(control.raises)) - Number(this.held.has(control.lowers));
     const deflection = keys || this.sticks.get(control.stick) || ofPad(control, pad);
-    if (!keys && deflection && pad && !this.driving) this.take();
+    if (!keys && deflection && pad && !this.driving) this.askWithPad();
     if (hold) {
       const before = this.hand[k] ?? this.values[k]!;
       const after = Math.min(Math.max(before + (deflection * passed * (high - low)) / KEY_TIME, low), high);

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from nivel.cli.failures import COMPUTATION_FAILED
 from nivel.cli.options import allow_code_option, file_argument, method_option, override_option, quiet_option
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ def command(
             say(line)
         session.command("run")
         serve(source, host=host, port=port, browser=not no_browser, say=say)
-        timing = session.timing
+        timing, problem = session.timing, session.problem if session.mode == "failed" else ""
     for line in in_words(timing):
         say(line)
     if timing.ticks:
@@ -105,6 +106,9 @@ def command(
             record, session.plan.machine, loaded.origin.source, settings, session.pace, session.recorder.parts
         )
         say(f"recording: {record}{session.recorder.problem and f' ({session.recorder.problem})'}")
+    if problem:
+        click.echo(problem, err=True)
+        raise SystemExit(COMPUTATION_FAILED)
 
 
 def both(first: Callable[[], None], second: Callable[[], None]) -> Callable[[], None]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.failures import COMPUTATION_FAILED
-from nivel.cli.options import file_argument, quiet_option, simulation_options
+from nivel.cli.options import allow_code_option, file_argument, quiet_option, simulation_options
 from nivel.cli.progress import progress_listener
 
 if TYPE_CHECKING:
@@ -27,9 +27,16 @@ if TYPE_CHECKING:
     help="Result file; default: the machine's name with .replay.nc, here.",
 )
 @click.option("--force", is_flag=True, help="Replace an existing result.")
+@allow_code_option
 @quiet_option
 def command(
-    recording: str, take: int | None, out: str | None, force: bool, quiet: bool, settings: dict[str, Any]
+    recording: str,
+    take: int | None,
+    out: str | None,
+    force: bool,
+    allow_code: bool,
+    quiet: bool,
+    settings: dict[str, Any],
 ) -> None:
     """Repeat the RECORDING of `nivel live --record` and write a result.
 
@@ -43,10 +50,16 @@ def command(
     from nivel.results.frames.target import check_target
 
     stored = read_recording(recording)
+    if stored.has_code and not allow_code:
+        raise ModelError(
+            f"{recording} holds functions in Python, which run with your rights; if you trust who recorded it, add --allow-code"
+        )
     if not stored.takes:
         raise ModelError(f"{recording} has no motion: the machine was never run")
     if take is not None and take > len(stored.takes):
-        raise ModelError(f"{recording} has {len(stored.takes)} takes; there is no take {take}")
+        raise ModelError(
+            f"{recording} has {len(stored.takes)} take{'s'[: len(stored.takes) != 1]}; there is no take {take}"
+        )
     chosen = max(stored.takes, key=lambda each: each.ticks) if take is None else stored.takes[take - 1]
     target = Path(out) if out is not None else Path(f"{stored.machine.name}.replay.nc")
     check_target(target, "result file", force=force, sources=[Path(recording)])
@@ -54,7 +67,7 @@ def command(
     length = f"{chosen.ticks} ticks, {chosen.ticks * stored.pace.tick:.6g} s"
     with progress_listener(quiet) as listener:
         if settings:
-            other = rerun(stored, chosen, settings, out=target, force=force, listener=listener)
+            other = rerun(stored, chosen, settings, verify=True, out=target, force=force, listener=listener)
             say(f"{stored.machine.name}: {length} again by other methods; {_trust(other)}\nresult: {target}")
             return
         done = replay(stored, chosen, out=target, force=force, listener=listener)

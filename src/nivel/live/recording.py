@@ -75,13 +75,14 @@ def _joined(before: Take, part: Part, pace: Pace) -> Take:
 
 @dataclass(frozen=True)
 class Recording:
-    """A recording from a file. record : of the machine; settings : given for the run; pace; takes."""
+    """A recording from a file. settings : given for the run. has_code : whether laws of the machine are functions in Python."""
 
     machine: MachineRecord
     source: str
     settings: dict[str, Any]
     pace: Pace
     takes: tuple[Take, ...]
+    has_code: bool = False
 
     def inputs(self, take: Take) -> dict[str, Table]:
         """What every input did, as tables of time; points on straight lines are left out."""
@@ -146,4 +147,13 @@ def read_recording(path: str | PathLike[str]) -> Recording:
     step, substeps, every = about["pace"]
     machine = MachineRecord.model_validate_json(json.dumps(about["machine"]))
     pace = Pace(step, int(substeps), int(every))
-    return Recording(machine, about["source"], about["settings"], pace, tuple(takes_of(parts, pace)))
+    return Recording(
+        machine, about["source"], about["settings"], pace, tuple(takes_of(parts, pace)), _has_code(about["machine"])
+    )
+
+
+def _has_code(written: Any) -> bool:
+    """Whether a Python law stands somewhere in what was written of a machine."""
+    if isinstance(written, dict):
+        return {"source", "function"} <= set(written) or any(map(_has_code, written.values()))
+    return isinstance(written, list) and any(map(_has_code, written))

@@ -22,7 +22,7 @@ from nivel.analysis.run.simulate import close_run
 from nivel.api import Machine
 from nivel.errors import ModelError
 from nivel.integrate.loop.paced import DONE, FROM_TAPE, SHOWN, TICKS, drive
-from nivel.integrate.loop.run import ACCEPTED, STEP
+from nivel.integrate.loop.run import ACCEPTED, STEP, STOPPED
 from nivel.integrate.loop.sink import Header
 from nivel.kernels.core.status import BUDGET_SPENT
 from nivel.kernels.core.status import DONE as ENDED
@@ -147,7 +147,9 @@ def _frames_of(again: LiveRun, tape: Array, outcome: RunOutcome) -> Iterator[Arr
         if control[SHOWN] > shown:
             yield live.frames[np.arange(shown, control[SHOWN]) % len(live.frames)]
             shown = int(control[SHOWN])
-    run = again.run
+    run, events = again.run, again.prepared.motion.system.events
+    if run.counter[STOPPED]:
+        outcome.stopped_by = events[run.counter[STOPPED] - 1]
     outcome.timing = {**counts_of(again.prepared.motion.system, run), "loop_seconds": 0.0, "wall_seconds": 0.0}
     if status not in (BUDGET_SPENT, ENDED):
         at = float(run.clock[ACCEPTED])
@@ -161,10 +163,11 @@ def rerun(
     take: Take,
     settings: Mapping[str, Any],
     *,
+    verify: bool = False,
     out: str | PathLike[str] | None = None,
     force: bool = False,
     listener: Listener | None = None,
 ) -> Result:
-    """The inputs of the take again, by other methods. Raises ModelError, SolveError."""
+    """The inputs of the take again, by other methods. verify : as of `Machine.simulate`. Raises ModelError, SolveError."""
     machine = Machine.from_record(machine_of(recording, take))
-    return machine.simulate(**settings, out=out, force=force, listener=listener)
+    return machine.simulate(**settings, verify=verify, out=out, force=force, listener=listener)

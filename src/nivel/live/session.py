@@ -37,6 +37,7 @@ COMMANDS: Final = {
     "save": shared.SAVE,
     "restore": shared.RESTORE,
 }
+GOING_ON: Final = ("run", "step", "save")  # what only a run that is not over can do
 MODES: Final = {
     shared.STARTING: "starting",
     shared.RUNNING: "running",
@@ -193,6 +194,8 @@ class Session:
         """Do one of COMMANDS; returns why it was not done, or an empty text."""
         if word == "restore" and not self._has_saved:
             return "no state has been saved"
+        if word in GOING_ON and self.mode in ("ended", "failed"):
+            return "the run is over: go back to the start, or restore a state"
         with self._lock:
             self.recorder.gather()
             if not self._do(COMMANDS[word]):

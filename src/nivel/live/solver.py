@@ -161,7 +161,7 @@ class Solver:
         message, advice = failure(
             prepared.motion, status, at, float(run.clock[STEP_CLOCK]), run.previous, chosen_by="", beams=()
         )
-        return f"{message} {advice}".strip()
+        return f"{message}. {advice}" if advice else message
 
     def _obey(self, command: int) -> None:
         control = self._live.control

@@ -25,6 +25,7 @@ export class Live {
   private readonly rows: Row[];
   private readonly run: HTMLButtonElement;
   private readonly seat: HTMLButtonElement;
+  private readonly speed: HTMLSelectElement;
   private readonly clock = el("output", { class: "time", "aria-live": "off" });
   private readonly load = el("span", { class: "of load" });
   private readonly problem = el("p", { class: "problem", role: "status" });
@@ -41,8 +42,8 @@ export class Live {
     this.run = iconButton("play", "Run", () => this.toggle(), "space");
     this.run.classList.add("main-button");
     this.seat = el("button", { type: "button", class: "chip seat", onclick: () => this.take(this.status?.driver !== "you") }, "Take the controls");
-    const speed = el("select", { "aria-label": "Speed", title: "Simulated over real time" }, ...SPEEDS.map((each) => el("option", { value: each, selected: each === 1 }, `${each}×`)));
-    speed.addEventListener("change", () => this.say("speed", Number(speed.value)));
+    this.speed = el("select", { "aria-label": "Speed", title: "Simulated over real time" }, ...SPEEDS.map((each) => el("option", { value: each, selected: each === 1 }, `${each}×`)));
+    this.speed.addEventListener("change", () => this.say("speed", Number(this.speed.value)));
     const hand = el("button", { type: "button", class: "chip", title: "Drag a body with the mouse; shift does it too", "aria-pressed": "false" }, "Pick up");
     hand.addEventListener("click", () => {
       const on = hand.getAttribute("aria-pressed") !== "true";
@@ -55,7 +56,7 @@ export class Live {
       el("div", { class: "transport" }, this.run, iconButton("forward", "One tick", () => this.say("step")), iconButton("reset", "Back to the start", () => this.say("reset"))),
       el("div", { class: "clock" }, this.clock),
       this.load,
-      el("div", { class: "pace" }, hand, el("button", { type: "button", class: "chip", onclick: () => this.say("save") }, "Save state"), el("button", { type: "button", class: "chip", onclick: () => this.say("restore") }, "Restore"), speed, this.seat),
+      el("div", { class: "pace" }, hand, el("button", { type: "button", class: "chip", onclick: () => this.say("save") }, "Save state"), el("button", { type: "button", class: "chip", onclick: () => this.say("restore") }, "Restore"), this.speed, this.seat),
     );
     this.hint = el("p", { class: "note" }, hintOf(controls));
     this.rows = controls.map((control, k) => this.row(control, k));
@@ -117,6 +118,7 @@ export class Live {
     this.load.textContent = `${running ? "" : `${status.mode} · `}${short(+status.computing.toPrecision(2))} µs a tick, ${share.toPrecision(2)} %${status.overruns ? `, ${status.overruns} late` : ""}`;
     this.load.title = `99 % of the ticks are computed in at most this time, and begin at most ${short(+status.late.toPrecision(2))} µs after their deadlines. ${status.overruns} ended after the next deadline, ${status.own} of them by their own computing.`;
     this.problem.textContent = status.text;
+    if (document.activeElement !== this.speed) this.speed.value = String(status.speed);
     this.hint.hidden = status.driver === "you";
   }
 

@@ -172,14 +172,13 @@ def judge(session, deadline, period, begin, end, computing):
 
 @leaf
 def tick(advance, evaluate, correct, step, machine, history, session, heard):
-    """One tick. Returns a status, BUDGET_SPENT where all is well."""
+    """One tick; that with which a run ends counts, too. Returns a status, BUDGET_SPENT where all is well."""
     run, live = run_at(history), live_at(session)
     set_inputs(machine, history, session, heard)
     run.counter[BUDGET] = live.control[SUBSTEPS]
     status = call_advance(advance, evaluate, correct, step, machine, history)
     show_frame(history, session)
-    if status == BUDGET_SPENT:
-        live.control[DONE] += 1
+    live.control[DONE] += 1
     return status
 
 

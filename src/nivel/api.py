@@ -59,11 +59,11 @@ if TYPE_CHECKING:
     from nivel.analysis.run.stepping import Simulation
     from nivel.c_library.writer import Files
     from nivel.native.entry import Entry
+    from nivel.results.analyses.configuration_curve import ConfigurationCurve
     from nivel.results.analyses.efforts import Efforts
     from nivel.results.analyses.linear_model import LinearModel
     from nivel.results.analyses.mechanism import Range
     from nivel.results.comparison.comparison import Comparison
-    from nivel.results.configuration_curve import ConfigurationCurve
     from nivel.results.frames.joint_path import JointPath
     from nivel.results.result import Result
     from nivel.view.sources import PosedMachine

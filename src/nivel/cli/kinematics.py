@@ -14,8 +14,8 @@ from nivel.cli.progress import progress_listener
 from nivel.cli.run import assembly_lines, beside, refuse_to_replace
 
 if TYPE_CHECKING:
+    from nivel.results.analyses.configuration_curve import ConfigurationCurve
     from nivel.results.analyses.mechanism import Range
-    from nivel.results.configuration_curve import ConfigurationCurve
     from nivel.results.result import Result
 
 

@@ -21,7 +21,7 @@ from nivel.analysis.assembly.redundancy import scaled_jacobian
 from nivel.analysis.kinematics.singular import TAKES_PART, determinant_sign, independent_rows
 from nivel.errors import Fault, ModelError, SolveError
 from nivel.machine.machine_record import MachineRecord
-from nivel.results.configuration_curve import ConfigurationCurve, Turning
+from nivel.results.analyses.configuration_curve import ConfigurationCurve, Turning
 from nivel.system.beam_nodes import with_nodes
 from nivel.system.system import Array
 

@@ -17,14 +17,14 @@ from nivel.integrate.loop.run import TURNED
 from nivel.machine.forces import Contact
 from nivel.machine.orientation import euler_parameters_from_matrix
 from nivel.machine.shape import Sphere
-from nivel.results.beam_mesh import BeamMesh, coarsest, turns
-from nivel.results.passed_contacts import Pair, passed_contacts
 from nivel.results.result import Result
 from nivel.results.trust.accuracy import error_from_finer, extent
+from nivel.results.trust.beam_mesh import BeamMesh, coarsest, turns
 from nivel.results.trust.bending import ModalBody, fastest_unstiffened, most_bent
 from nivel.results.trust.estimate import Estimate
 from nivel.results.trust.findings import Findings
 from nivel.results.trust.motion import Motion
+from nivel.results.trust.passed_contacts import Pair, passed_contacts
 from nivel.results.trust.scales import machine_size
 from nivel.results.trust.second_look import damped, growth, own_error
 from nivel.results.trust.steps_seen import largest_turn, rounding

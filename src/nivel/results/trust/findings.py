@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from nivel.results.beam_mesh import Coarse
-from nivel.results.passed_contacts import Passed
+from nivel.results.trust.beam_mesh import Coarse
 from nivel.results.trust.bending import Bent
+from nivel.results.trust.passed_contacts import Passed
 from nivel.results.trust.second_look import Damped, Growth, OwnError
 from nivel.results.trust.steps_seen import Rounding, Turn
 from nivel.results.trust.unseen import Unseen

@@ -185,7 +185,7 @@ FAULTS = {
     "both": ("1 dm^3/(s*bar)", "1 dm^3/(s*bar), flow: 1 L/min", "is of liquids, and `sonic_conductance` of gases"),
     "a component of liquids": ("type: check-valve", "type: pipe", "a pipe is for liquids; circuits of gas know `volume`, `tank`"),
     "an elastic wall": ("1 L, fluid", "1 L, wall_modulus: 1 GPa, fluid", "`wall_modulus` belongs to liquids"),
-    "an unknown kind of fluid": ("type: ideal-gas", "type: gas", "the type `gas` is not known; there are liquid, ideal-gas"),
+    "an unknown kind of fluid": ("type: ideal-gas", "type: gas", "the type `gas` is not known; did you mean `ideal-gas`?"),
     "a ratio of one": ("{type: ideal-gas}", "{type: ideal-gas, heat_capacity_ratio: 1}", "a ratio above 1 and up to 5/3"),
     "degrees Celsius": ("{type: ideal-gas}", "{type: ideal-gas, temperature: -20}", "greater than zero"),
 }  # fmt: skip

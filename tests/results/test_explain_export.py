@@ -73,7 +73,7 @@ def test_export_of_a_choice_to_a_file_and_to_standard_output(folder):
         (["explain", "nothing.nc"], "there is no result file nothing.nc"),
         (["export", "run.nc"], "say in which form"),
         (["export", "run.nc", "--csv", "--select", "hinge.angel"], "did you mean `hinge.angle`"),
-        (["export", "run.nc", "--csv", "nowhere/out.csv"], "cannot be written: no such file or directory"),
+        (["export", "run.nc", "--csv", "nowhere/out.csv"], "there is no folder nowhere"),
     ],
 )
 def test_faults_are_the_users_and_said(folder, arguments, said):

@@ -21,7 +21,7 @@ from nivel.analysis.run.divergence import GROWN, UNBOUND
 from nivel.analysis.run.fastest import fastest_beyond, held_step
 from nivel.analysis.run.history import start_history
 from nivel.analysis.run.lockup import Jam, can_be_asked, find_jam
-from nivel.analysis.run.outcome import failure
+from nivel.analysis.run.outcome import NO_NUMBER, failure
 from nivel.analysis.run.preparation import Prepared
 from nivel.integrate.loop.loop import advance
 from nivel.integrate.loop.run import (
@@ -254,7 +254,7 @@ def failure_of(
 
 def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, message: str, advice: str) -> tuple[str, str]:
     """Message and advice, led by the part that is too fast for the step where there is one. Where it is so from the start, and the state
-    has grown without bound, what failed in the end only shows that."""
+    has grown without bound, a function that has no value in the end only shows that."""
     time = float(run.clock[ACCEPTED])
     found = fastest_beyond(prepared, settings.integrator, settings.step, time, run.previous)
     if found is None:
@@ -266,7 +266,7 @@ def _with_fastest(prepared: Prepared, settings: RunSettings, run: Run, message: 
         f"`integrator: radau` with any."
     )
     start, last = (float(np.max(np.abs(y), initial=0.0)) for y in (prepared.start, run.previous))
-    if UNBOUND not in message and found.time == 0.0 and not last < GROWN * max(start, prepared.motion.system.size):
+    if NO_NUMBER in message and found.time == 0.0 and not last < GROWN * max(start, prepared.motion.system.size):
         return f"stopped at t = {time:.6g} s: {UNBOUND}; a step of {settings.step:.3g} s is too long for it", cause
     return message, f"{cause} {advice}"
 

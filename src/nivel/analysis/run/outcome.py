@@ -41,6 +41,8 @@ FOR_STIFF = ("radau", "bdf")
 TINY = 1e-9
 # A violation above this share of its scale is not round-off or truncation: the step was too large for the motion.
 DRIFTED = 1e-2
+# What is said of a function that has no value
+NO_NUMBER = "is not a number at t ="
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a state that may be beyond all bounds
@@ -324,7 +326,7 @@ def broken_function(motion: MotionEquations, time: float, step: float, y: Array)
         if broken:
             advice = "a division by zero, or a root or logarithm of a negative number, or their derivatives?"
             return (
-                f"{broken[0]} is not a number at t = {at:.6g} s",
+                f"{broken[0]} {NO_NUMBER} {at:.6g} s",
                 f"Look at the law of {broken[0].split()[-1]}: {advice}",
             )
     return None

@@ -60,7 +60,6 @@ class Facts:
 
     outcome: str
     degrees_of_freedom: int | None = None
-    position_freedoms: int | None = None
     redundant_rows: tuple[str, ...] = ()
     non_unique_joints: tuple[str, ...] = ()
     accuracy: Peak | None = None
@@ -77,6 +76,7 @@ class Facts:
     further: tuple[Item, ...] = ()
     saturated: tuple[str, ...] = ()
     guard: Guard | None = None
+    position_freedoms: int | None = None
 
 
 @np.errstate(over="ignore", invalid="ignore")  # a run that grew beyond all bounds is red, not a warning

@@ -188,6 +188,7 @@ def shown(browser, smooth):
         until(page, "nivel.app.actor.swept[0].mesh.geometry.attributes.position.array.some((x) => x !== 0)")
         read = "(name) => Array.from(nivel.app.actor.swept[0].mesh.geometry.attributes[name].array)"
         vertices, normals = (np.reshape(page.evaluate(read, name), (-1, 3)) for name in ("position", "normal"))
+        page.keyboard.press("s")  # a page of live operation begins without the list of parts
         assert not page.get_by_role(
             "button", name="boom.2", exact=True
         ).is_visible()  # one thing, with its parts inside

@@ -56,6 +56,7 @@ def test_every_example_is_here():
 
 
 @pytest.mark.parametrize("name", tail(BEAMS, ["slider-crank"]))
+@pytest.mark.full
 def test_examples_of_beams_play_and_scrub(name, browser, tmp_path):
     result = nivel.load(EXAMPLES / "beams" / f"{name}.yaml").simulate(duration=BEAMS[name])
     assert_plays_and_scrubs(browser, result, tmp_path / "scene.html")

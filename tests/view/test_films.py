@@ -67,6 +67,7 @@ def test_a_gif_is_read_by_pillow(source, tmp_path):
 
 
 @with_browser
+@pytest.mark.full
 def test_a_still_is_the_frame_of_the_film(source, tmp_path):
     still(source, tmp_path / "a.png", LOOK, 0.25)
     film(source, tmp_path / "a.gif", LOOK, lambda *_: None)

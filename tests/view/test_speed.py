@@ -83,6 +83,7 @@ def test_large_scenes_are_shown_at_thirty_frames_a_second(stage, moment):
     assert_fast(rates, min(before, free_share()))
 
 
+@pytest.mark.full
 def test_frames_are_new_and_vertices_have_their_colours():
     count = "(() => { const m = nivel.app.actor.deforming[0].mesh.geometry; return [m.attributes.position.count,"
     colours = "new Set(Array.from(m.attributes.color.array).map((c) => c.toFixed(2))).size] })()"
@@ -95,6 +96,7 @@ def test_frames_are_new_and_vertices_have_their_colours():
     assert tones > 20
 
 
+@pytest.mark.full
 def test_links_of_a_chain_are_solids_near_by_and_lines_from_afar():
     levels = "Array.from(nivel.app.actor.levels)"
     with opened(many_bodies.chain, many_bodies.wave) as (page, _):

@@ -125,7 +125,7 @@ class Shifted(NamedTuple):
 
 
 class Newton(NamedTuple):
-    """Newton's iteration for the residual, in a state that is an affine function of the unknowns; see `nivel.kernels.newton`."""
+    """Newton's iteration for the residual, in a state affine in the unknowns; see `nivel.integrate.newmark.newton_state`."""
 
     address: A1  # (3,) of the record with complex work, of its residual, and of that at an instant where the residual is over a step
     place: (

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from nivel.cli.options import allow_code_option, file_argument, override_option, separated
+from nivel.cli.options import allow_code_option, file_argument, json_option, override_option, separated
 
 
 @click.command(short_help="Check and assemble a machine; say what it is.")
@@ -20,7 +20,7 @@ from nivel.cli.options import allow_code_option, file_argument, override_option,
     "--mass", metavar="MARKER", help="Also mass, centre of mass and inertia about a marker, a body's frame or ground."
 )
 @click.option("--of", metavar="BODIES", multiple=True, callback=separated, help="Bodies of --mass; default: all.")
-@click.option("--json", "as_json", is_flag=True, help="Print the facts as JSON on standard output.")
+@json_option
 def command(
     machine: str,
     overrides: dict[str, str],

@@ -13,8 +13,11 @@ from nivel.cli.options import (
     cut_option,
     duration_option,
     file_argument,
+    force_option,
+    json_option,
     largest_step_option,
     method_option,
+    no_report_option,
     output_interval_option,
     override_option,
     quiet_option,
@@ -71,10 +74,10 @@ STYLES: Final = {"failed": "red", "refused": "yellow"}
 @click.option(
     "--report", type=click.Path(dir_okay=False, path_type=Path), help="HTML page; default: beside the table with .html."
 )
-@click.option("--no-report", is_flag=True, help="Write no HTML page.")
-@click.option("--force", is_flag=True, help="Replace existing files.")
+@no_report_option
+@force_option
 @quiet_option
-@click.option("--json", "as_json", is_flag=True, help="Print the comparison as JSON on standard output.")
+@json_option
 def command(
     machine: str,
     integrators: tuple[str, ...] | None,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from nivel.cli.options import file_argument
+from nivel.cli.options import file_argument, json_option
 
 if TYPE_CHECKING:
     from nivel.results import Result
@@ -17,7 +17,7 @@ SIGNS = {"green": "✓", "amber": "!", "red": "✕"}
 
 @click.command(short_help="Say how far a result can be trusted, and why.")
 @file_argument("result")
-@click.option("--json", "as_json", is_flag=True, help="Print the trust report as JSON on standard output.")
+@json_option
 def command(result: str, as_json: bool) -> None:
     """Print the trust report of RESULT: every number, its threshold, and the reason for the threshold.
 

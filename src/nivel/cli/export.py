@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from nivel.cli.options import file_argument, override_option
+from nivel.cli.options import file_argument, force_option, override_option
 
 BESIDE = "\0"  # stands for `--csv` without a file
 
@@ -28,7 +28,7 @@ BESIDE = "\0"  # stands for `--csv` without a file
     metavar="NAMES",
     help="Only these columns, separated by commas: hinge.angle, crank.position, crank, '*.force'. May be repeated.",
 )
-@click.option("--force", is_flag=True, help="Replace an existing file.")
+@force_option
 @click.option("--c", "folder", metavar="FOLDER", help="Write a C library of the machine SOURCE into a new folder.")
 @override_option
 def command(

@@ -8,22 +8,21 @@ from typing import Any
 
 import click
 
-from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option, separated
+from nivel.cli.options import (
+    allow_code_option,
+    assignments,
+    file_argument,
+    force_option,
+    json_option,
+    no_report_option,
+    override_option,
+    quiet_option,
+    separated,
+)
 from nivel.cli.progress import progress_listener
 from nivel.cli.run import beside, refuse_to_replace
 
-
-def _named(_context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> dict[str, str] | None:
-    """NAME=VALUE pairs, as a mapping."""
-    out: dict[str, str] = {}
-    for text in values:
-        name, equals, value = text.partition("=")
-        if not equals or not name.strip():
-            raise click.BadParameter(
-                f"'{text}' is not of the form NAME=VALUE, e.g. hinge.angle='20 N m'", param=parameter
-            )
-        out[name.strip()] = value.strip()
-    return out or None
+_values = assignments("NAME=VALUE, e.g. hinge.angle='20 N m'")
 
 
 @click.command(short_help="Efforts of actuators that make a machine follow a motion.")
@@ -40,14 +39,14 @@ def _named(_context: click.Context, parameter: click.Parameter, values: tuple[st
 )
 @click.option("--trajectory", metavar="FILE.csv", help="Joint coordinates over time, in place of a motion.")
 @click.option(
-    "--limit", "limits", metavar="NAME=VALUE", multiple=True, callback=_named, help="Greatest effort. May be repeated."
+    "--limit", "limits", metavar="NAME=VALUE", multiple=True, callback=_values, help="Greatest effort. May be repeated."
 )
 @click.option(
     "--weight",
     "weights",
     metavar="NAME=NUMBER",
     multiple=True,
-    callback=_named,
+    callback=_values,
     help="Of an effort, where there are more than needed. May be repeated.",
 )
 @click.option(
@@ -61,10 +60,10 @@ def _named(_context: click.Context, parameter: click.Parameter, values: tuple[st
 @override_option
 @allow_code_option
 @click.option("-o", "--out", metavar="FILE.nc", type=click.Path(), help="Histories. Default: NAME-inverse.nc, here.")
-@click.option("--force", is_flag=True, help="Replace existing files.")
-@click.option("--no-report", is_flag=True, help="Write no HTML page.")
+@force_option
+@no_report_option
 @quiet_option
-@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")
+@json_option
 def command(
     machine: str,
     overrides: dict[str, str],
@@ -124,7 +123,7 @@ def _lead(
     if path is None or point is None:
         missing = "path" if path is None else "point"
         raise ModelError(Fault("", 0, 0, f"inverse.{missing}", "is missing: a path leads a point, so both are needed"))
-    idle = [name for name, value in options.items() if value is not None]
+    idle = [name for name, value in options.items() if value]
     if idle:
         raise ModelError(Fault("", 0, 0, f"inverse.{idle[0]}", "has no part in inverse kinematics: leave it out"))
     check_target(target, "table", force=force, sources=[Path(path)])

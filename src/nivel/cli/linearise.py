@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option, separated
+from nivel.cli.options import (
+    allow_code_option,
+    file_argument,
+    force_option,
+    json_option,
+    no_report_option,
+    override_option,
+    quiet_option,
+    separated,
+)
 from nivel.cli.progress import progress_listener
 from nivel.cli.run import beside, refuse_to_replace
 
@@ -47,10 +56,10 @@ MOST = 1000  # values of a parameter
     "-o", "--out", metavar="FILE.nc", type=click.Path(), help="Matrices and eigenvalues. Default: NAME-linear.nc, here."
 )
 @click.option("--mode", "shown", type=int, multiple=True, metavar="N", help="Also write mode N as a page to be played.")
-@click.option("--force", is_flag=True, help="Replace existing files.")
-@click.option("--no-report", is_flag=True, help="Write no HTML page.")
+@force_option
+@no_report_option
 @quiet_option
-@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")
+@json_option
 def command(
     machine: str,
     about: str | None,

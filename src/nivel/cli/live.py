@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.failures import COMPUTATION_FAILED
-from nivel.cli.options import allow_code_option, file_argument, method_option, override_option, quiet_option
+from nivel.cli.options import (
+    allow_code_option,
+    file_argument,
+    force_option,
+    method_option,
+    override_option,
+    quiet_option,
+)
 
 if TYPE_CHECKING:
     from nivel.live.session import Session
@@ -29,7 +36,7 @@ if TYPE_CHECKING:
 @method_option("coordinates")
 @method_option("stabilisation")
 @click.option("--record", type=click.Path(dir_okay=False), help="Write the recording to this file, for `nivel replay`.")
-@click.option("--force", is_flag=True, help="Replace an existing recording.")
+@force_option
 @click.option("--udp", metavar="HOST:PORT", help="Take inputs from datagrams that come in here; pages only look then.")
 @click.option("--udp-to", metavar="HOST:PORT", help="Send sensors there with every frame.")
 @click.option("--host", default="127.0.0.1", help="Address to listen at; others than this machine need the token then.")

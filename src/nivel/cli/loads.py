@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.options import file_argument, separated
+from nivel.cli.options import file_argument, json_option, separated
 
 if TYPE_CHECKING:
     import xarray
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 )
 @click.option("--repeating", is_flag=True, help="The history goes on as it began: no half cycles.")
 @click.option("--period", metavar="TIME", help="Of a cycle of the machine: work in the last whole one, e.g. '0.5 s'.")
-@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON on standard output.")
+@json_option
 def command(result: str, signals: tuple[str, ...] | None, repeating: bool, period: str | None, as_json: bool) -> None:
     """Print the loads of RESULT: the largest and the RMS reaction of every joint, power and work of everything that drives the machine,
     and with --cycles the rainflow cycles of signals (ASTM E1049).

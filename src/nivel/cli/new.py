@@ -9,6 +9,7 @@ from typing import Final
 
 import click
 
+from nivel.cli.options import force_option
 from nivel.errors import ModelError
 
 TEMPLATE: Final = Path(__file__).with_name("new_machine.yaml")
@@ -18,7 +19,7 @@ SCHEMA_NAME: Final = "nivel.schema.json"
 
 @click.command(short_help="Write a commented machine file that runs, to start from.")
 @click.argument("name", type=click.Path(path_type=Path))
-@click.option("--force", is_flag=True, help="Replace a file that exists already.")
+@force_option
 @click.option(
     "--schema", "with_schema", is_flag=True, help=f"Also write {SCHEMA_NAME} beside it, with which editors help."
 )

@@ -14,16 +14,24 @@ def file_argument(name: str) -> Any:
     return click.argument(name, type=click.Path(dir_okay=True))
 
 
-def _assignments(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> dict[str, str]:
-    out: dict[str, str] = {}
-    for text in values:
-        path, equals, value = text.partition("=")
-        if not equals or not path.strip():
-            raise click.BadParameter(f"'{text}' is not of the form PATH=VALUE, e.g. bodies.crank.mass='22 kg'")
-        if path.strip() in out:
-            raise click.BadParameter(f"'{path.strip()}' is set twice")
-        out[path.strip()] = value.strip()
-    return out
+def assignments(form: str, empty: bool = False) -> Any:
+    """What reads the repeated words NAME=VALUE of an option, which are of a `form`; `empty`: a value may be empty.
+
+    A name given twice is refused.
+    """
+
+    def read(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> dict[str, str]:
+        out: dict[str, str] = {}
+        for text in values:
+            name, equals, value = (part.strip() for part in text.partition("="))
+            if not equals or not name or not (value or empty):
+                raise click.BadParameter(f"'{text}' is not of the form {form}")
+            if name in out:
+                raise click.BadParameter(f"'{name}' is given twice")
+            out[name] = value
+        return out
+
+    return read
 
 
 override_option = click.option(
@@ -31,23 +39,9 @@ override_option = click.option(
     "overrides",
     multiple=True,
     metavar="PATH=VALUE",
-    callback=_assignments,
+    callback=assignments("PATH=VALUE, e.g. bodies.crank.mass='22 kg'", empty=True),
     help="Set any value of the machine file, e.g. bodies.crank.mass='22 kg'. May be repeated.",
 )
-
-
-def _tables(_context: click.Context, _parameter: click.Parameter, values: tuple[str, ...]) -> dict[str, str]:
-    out: dict[str, str] = {}
-    for text in values:
-        name, equals, value = text.partition("=")
-        if not equals or not name.strip() or not value.strip():
-            raise click.BadParameter(
-                f"'{text}' is not of the form NAME=TABLE.csv, e.g. lever=lever.csv, or NAME=NUMBER"
-            )
-        if name.strip() in out:
-            raise click.BadParameter(f"'{name.strip()}' is given twice")
-        out[name.strip()] = value.strip()
-    return out
 
 
 input_option = click.option(
@@ -55,13 +49,19 @@ input_option = click.option(
     "inputs",
     multiple=True,
     metavar="NAME=TABLE.csv",
-    callback=_tables,
+    callback=assignments("NAME=TABLE.csv, e.g. lever=lever.csv, or NAME=NUMBER"),
     help="What an input of the machine follows: a file of columns time,value, or a number. May be repeated.",
 )
 
 allow_code_option = click.option(
     "--allow-code", is_flag=True, help="Laws of the machine may be Python functions; they run with all your rights."
 )
+
+force_option = click.option("--force", is_flag=True, help="Overwrite existing files.")
+
+no_report_option = click.option("--no-report", is_flag=True, help="Write no HTML report.")
+
+json_option = click.option("--json", "as_json", is_flag=True, help="Print what was found as JSON on standard output.")
 
 quiet_option = click.option("--quiet", is_flag=True, help="Say nothing on standard error but errors.")
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from nivel.cli.options import file_argument, override_option, quiet_option
+from nivel.cli.options import file_argument, force_option, json_option, no_report_option, override_option, quiet_option
 from nivel.cli.progress import progress_stage
 
 if TYPE_CHECKING:
@@ -31,15 +31,15 @@ SHOWN = 15  # modes in the table of the terminal
 @click.option(
     "--report", type=click.Path(dir_okay=False, path_type=Path), help="HTML page; default: beside the body file."
 )
-@click.option("--no-report", is_flag=True, help="Write no HTML page.")
+@no_report_option
 @click.option(
     "--vtk",
     type=click.Path(dir_okay=False, path_type=Path),
     help="Also write the modes for ParaView: .pvd, with .vtu beside it.",
 )
-@click.option("--force", is_flag=True, help="Replace existing files.")
+@force_option
 @quiet_option
-@click.option("--json", "as_json", is_flag=True, help="Print what was found as JSON on standard output.")
+@json_option
 def command(
     model: str,
     overrides: dict[str, str],

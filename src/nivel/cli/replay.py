@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nivel.cli.failures import COMPUTATION_FAILED
-from nivel.cli.options import allow_code_option, file_argument, quiet_option, simulation_options
+from nivel.cli.options import allow_code_option, file_argument, force_option, quiet_option, simulation_options
 from nivel.cli.progress import progress_listener
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     type=click.Path(dir_okay=False),
     help="Result file; default: the machine's name with .replay.nc, here.",
 )
-@click.option("--force", is_flag=True, help="Replace an existing result.")
+@force_option
 @allow_code_option
 @quiet_option
 def command(

@@ -15,7 +15,10 @@ from nivel.cli.failures import say_faults
 from nivel.cli.options import (
     allow_code_option,
     file_argument,
+    force_option,
     input_option,
+    json_option,
+    no_report_option,
     override_option,
     quiet_option,
     simulation_options,
@@ -38,16 +41,16 @@ if TYPE_CHECKING:
 @click.option(
     "-o", "--out", type=click.Path(dir_okay=False), help="Result file; default: the machine's name with .nc, here."
 )
-@click.option("--force", is_flag=True, help="Replace an existing result.")
+@force_option
 @click.option("--no-verify", is_flag=True, help="Make no second run, and say nothing of how exact the result is.")
 @click.option(
     "--verify-limit",
     metavar="TIME",
     help="How long the second run may go on after the first, e.g. '1 min'; default: as long again as that took, and at least 10 s.",
 )
-@click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
+@no_report_option
 @quiet_option
-@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")
+@json_option
 def command(
     machine: str,
     overrides: dict[str, str],

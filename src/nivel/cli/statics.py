@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from nivel.cli.ending import COLOURS, computed_in, ended, say_checks
-from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
+from nivel.cli.options import (
+    allow_code_option,
+    file_argument,
+    force_option,
+    json_option,
+    no_report_option,
+    override_option,
+    quiet_option,
+)
 from nivel.cli.progress import progress_listener
 from nivel.cli.run import assembly_lines, beside, refuse_to_replace
 
@@ -43,10 +51,10 @@ SHOWN: Final = 12  # vibrations in the terminal
     type=click.Path(),
     help="Result file. Default: NAME-statics.nc in the working directory.",
 )
-@click.option("--force", is_flag=True, help="Replace an existing result.")
-@click.option("--no-report", is_flag=True, help="Write no HTML report beside the result.")
+@force_option
+@no_report_option
 @quiet_option
-@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON on standard output.")
+@json_option
 def command(
     machine: str,
     overrides: dict[str, str],

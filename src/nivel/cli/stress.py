@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from nivel.cli.options import file_argument, quiet_option, separated
+from nivel.cli.options import file_argument, force_option, json_option, quiet_option, separated
 from nivel.cli.progress import progress_stage
 
 if TYPE_CHECKING:
@@ -48,9 +48,9 @@ FILE = click.Path(dir_okay=False, path_type=Path)
 @click.option("--rainflow", "cycles", type=FILE, help="Write the cycles at the nodes of --node as a table.")
 @click.option("--plot", "picture", type=FILE, help="Draw the history at the nodes of --node (.png, .svg, .pdf).")
 @click.option("--vtk", type=FILE, help="Write the motion for ParaView (.pvd), or only the frames of --at.")
-@click.option("--force", is_flag=True, help="Replace existing files.")
+@force_option
 @quiet_option
-@click.option("--json", "as_json", is_flag=True, help="Print what was found as JSON on standard output.")
+@json_option
 def command(
     result: str,
     body: str | None,

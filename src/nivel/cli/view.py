@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from nivel.cli.options import allow_code_option, file_argument, override_option, quiet_option
+from nivel.cli.options import allow_code_option, file_argument, force_option, override_option, quiet_option
 
 if TYPE_CHECKING:
     from nivel.view.capture import Look
@@ -56,7 +56,7 @@ MACHINES = (".yaml", ".yml")
     help="Address to listen at; others than this machine's own need a token.",
 )
 @click.option("--no-browser", is_flag=True, help="Open no browser, only say the address.")
-@click.option("--force", is_flag=True, help="Replace existing files.")
+@force_option
 @override_option
 @allow_code_option
 @quiet_option

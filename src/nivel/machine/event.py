@@ -12,9 +12,7 @@ from nivel.machine.coefficient import Truth
 from nivel.machine.record import Name
 from nivel.machine.table import Table
 from nivel.machine.time_function import Measured
-from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
-from nivel.machine.units.measure import refuse_unlike_terms
-from nivel.machine.units.quantity import bound_tree, expression_fault, fault, parameters_of, shown
+from nivel.machine.units.quantity import fault, of_one_kind, shown
 
 _COMPARISONS = ("<", ">", "=")
 
@@ -26,16 +24,7 @@ def _passes_zero(value: Any, info: ValidationInfo) -> Any:
             f"an event is where an expression passes zero, not a comparison as in {shown(value)}: "
             "for `hinge.angle > 2` write `hinge.angle - 2` and `direction: rising`"
         )
-    if isinstance(value, str):
-        try:
-            tree = bound_tree(value, parameters_of(info))
-        except (ExpressionError, FaultyParameterError):
-            return value  # reported where the text is read
-        try:
-            refuse_unlike_terms(tree)
-        except ExpressionError as problem:
-            raise expression_fault(problem, value) from None
-    return value
+    return of_one_kind(value, info)
 
 
 class Event(Checked):

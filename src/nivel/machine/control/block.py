@@ -8,34 +8,17 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
-from pydantic import BeforeValidator, Field, ValidationInfo
+from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import NotNegative
 from nivel.machine.control.part import VALUE, Part, PartFunction
 from nivel.machine.record import Name, entry
 from nivel.machine.time_function import Measured
-from nivel.machine.units.arithmetic import ExpressionError, FaultyParameterError
 from nivel.machine.units.linear_function import linear
-from nivel.machine.units.measure import refuse_unlike_terms
-from nivel.machine.units.quantity import ANY, Duration, Quantity, bound_tree, expression_fault, listed, parameters_of
+from nivel.machine.units.quantity import ANY, Duration, Quantity, listed, of_one_kind
 
-
-def _of_one_kind(value: Any, info: ValidationInfo) -> Any:
-    """Refuse sums of what measures different things: `1 m - boom.angle`."""
-    if isinstance(value, str):
-        try:
-            tree = bound_tree(value, parameters_of(info))
-        except (ExpressionError, FaultyParameterError):
-            return value  # reported where the text is read
-        try:
-            refuse_unlike_terms(tree)
-        except ExpressionError as problem:
-            raise expression_fault(problem, value) from None
-    return value
-
-
-Input = Annotated[Measured, BeforeValidator(_of_one_kind)]
+Input = Annotated[Measured, BeforeValidator(of_one_kind)]
 Number = Annotated[float, Quantity(ANY)]
 PositiveNumber = Annotated[float, Quantity(ANY, positive=True)]
 Numbers = Annotated[tuple[Number, ...], BeforeValidator(listed)]

@@ -32,7 +32,7 @@ from nivel.machine.units.arithmetic import (
 )
 from nivel.machine.units.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.units.grammar import parse
-from nivel.machine.units.measure import measure
+from nivel.machine.units.measure import measure, refuse_unlike_terms
 from nivel.wording import shown
 
 MASSLESS = (
@@ -205,6 +205,20 @@ def _slip(text: str) -> str:
     if re.search(r"(?<![\w.])t(?![\w.(])", text) and not re.search(r"\d\s*t\b", text):
         return " (`t` is the unit tonne; the time is written `time`)"
     return ""
+
+
+def of_one_kind(value: Any, info: ValidationInfo) -> Any:
+    """`value` as it is, unless it is an expression that adds or compares unlike things, as `1 m - boom.angle` does: a fault."""
+    if isinstance(value, str):
+        try:
+            tree = bound_tree(value, parameters_of(info))
+        except (ExpressionError, FaultyParameterError):
+            return value  # reported where the text is read
+        try:
+            refuse_unlike_terms(tree)
+        except ExpressionError as problem:
+            raise expression_fault(problem, value) from None
+    return value
 
 
 def listed(value: Any) -> Any:

@@ -11,10 +11,10 @@ from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
-from nivel.machine.control.laws import trapezoid
-from nivel.machine.control.part import Part, PartFunction, law
+from nivel.machine.control.part import Part, PartFunction
 from nivel.machine.table import Table
 from nivel.machine.units.expression import Expression
+from nivel.machine.units.formula import Formula, formula
 from nivel.machine.units.quantity import Quantity, listed
 
 Times = Annotated[tuple[Annotated[float, Quantity("time")], ...], BeforeValidator(listed)]
@@ -35,23 +35,33 @@ class Trapezoid(Block):
     speed: PositiveNumber = Field(description="greatest speed, per second")
     acceleration: PositiveNumber = Field(description="of speeding up and slowing down, per second squared")
 
+    @property
+    def _times(self) -> tuple[float, float, float]:
+        """Top speed, towards the last value; time to reach it; from the begin to when slowing down begins."""
+        way = self.last - self.first
+        top = min(self.speed, math.sqrt(abs(way) * self.acceleration))
+        return math.copysign(top, way), top / self.acceleration, abs(way) / top
+
     def computation(self) -> tuple[Part, ...]:
-        numbers = (self.begin, self.first, self.last - self.first, self.speed, self.acceleration)
-        return (
-            self.present(self.output, law(trapezoid, "time", *numbers), start=self.first),
-            self.present("rate", self._rate()),
+        if self.first == self.last:
+            return self.present(self.output, self.first, start=self.first), self.present("rate", 0.0)
+        return self.present(self.output, self._place(), start=self.first), self.present("rate", self._rate())
+
+    def _place(self) -> Formula:
+        """Parabolas where it speeds up and slows down, a straight line between them."""
+        top, rise, whole = self._times
+        end = "if(end - time < rise, last - half*(end - time)^2, first + top*(time - begin - rise/2))"
+        return formula(
+            f"if(time <= begin, first, if(time >= end, last, if(time - begin < rise, first + half*(time - begin)^2, {end})))",
+            **{"first": self.first, "last": self.last, "begin": self.begin, "end": self.begin + whole + rise},
+            **{"top": top, "rise": rise, "half": 0.5 * math.copysign(self.acceleration, top)},
         )
 
-    def _rate(self) -> PartFunction:
-        """Speed along the way: straight lines up to the top speed and down again."""
-        way = self.last - self.first
-        if way == 0.0:
-            return 0.0
-        top = min(self.speed, math.sqrt(abs(way) * self.acceleration))
-        rise, whole = top / self.acceleration, abs(way) / top
-        signed = math.copysign(top, way)
-        level = {whole: signed} if whole > rise * (1.0 + ROUND_OFF) else {}
-        corners = {0.0: 0.0, rise: signed, **level, whole + rise: 0.0}
+    def _rate(self) -> Table:
+        """Straight lines up to the top speed and down again."""
+        top, rise, whole = self._times
+        level = {whole: top} if whole > rise * (1.0 + ROUND_OFF) else {}
+        corners = {0.0: 0.0, rise: top, **level, whole + rise: 0.0}
         return Table(tuple(self.begin + each for each in corners), tuple(corners.values()))
 
 

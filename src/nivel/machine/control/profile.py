@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Annotated, Literal
 
@@ -13,7 +13,9 @@ from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
 from nivel.machine.control.part import Part, PartFunction
 from nivel.machine.table import Table
-from nivel.machine.units.expression import Expression
+from nivel.machine.units.arithmetic import Call, Node, Operation, Time
+from nivel.machine.units.arithmetic import Number as Constant
+from nivel.machine.units.expression import expression_of
 from nivel.machine.units.formula import Formula, formula
 from nivel.machine.units.quantity import Quantity, listed
 
@@ -85,13 +87,18 @@ class Waypoints(Block):
         return [(*span, change) for span, change in zip(spans, changes, strict=True) if change]
 
     def computation(self) -> tuple[Part, ...]:
-        steps = [f"step(time, {begin!r}, 0, {end!r}, {change!r})" for begin, end, change in self.moves]
-        value: PartFunction = self.values[0]
-        rate: PartFunction = 0.0
-        if steps:
-            value = Expression(" + ".join([repr(self.values[0]), *steps]))
-            rate = value.derivative
-        return self.present(self.output, value, start=self.values[0]), self.present("rate", rate)
+        value = self._over_moves("step", self.values[0])
+        return self.present(self.output, value, start=self.values[0]), self.present(
+            "rate", self._over_moves("step_rate")
+        )
+
+    def _over_moves(self, function: str, start: float = 0.0) -> PartFunction:
+        """start + the sum over all moves of a function of time with the two ends of each."""
+        if not self.moves:
+            return start
+        ends = ((begin, 0.0, end, change) for begin, end, change in self.moves)
+        calls = [Call(function, (Time(), *map(Constant, each))) for each in ends]
+        return expression_of(_sum([Constant(start), *calls]))
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -108,3 +115,9 @@ class Waypoints(Block):
             begin == end for begin, end, _ in self.moves
         ):
             yield Problem(("times",), "times increase")
+
+
+def _sum(terms: Sequence[Node]) -> Node:
+    """The sum, by halves, so that many terms nest little."""
+    half = len(terms) // 2
+    return Operation("+", _sum(terms[:half]), _sum(terms[half:])) if half else terms[0]

@@ -204,6 +204,9 @@ def _record(tree: Tree, parameters: Parameters, made: Elements) -> MachineRecord
             path = _path_in_file(line["loc"], names)
             if line["type"] == FAULT and not tree.is_broken(path) and not _is_about_unread(tree, line["msg"]):
                 tree.faults.append(tree.fault(path, line["msg"], at_key=bool(line.get("ctx", {}).get("at_key"))))
+        if not tree.faults:  # nothing is refused without a word
+            lines = error.errors(include_url=False)
+            tree.faults += [tree.fault(_path_in_file(line["loc"], names), line["msg"]) for line in lines]
         raise ModelError(tree.faults) from None
     if tree.faults:
         raise ModelError(tree.faults)

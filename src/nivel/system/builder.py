@@ -10,13 +10,13 @@ import numpy as np
 
 from nivel.kernels.bodies.coordinate import DISTANCE, ROTATION
 from nivel.kernels.record.function import ANGULAR_VELOCITY, COORDINATE, OUTPUT, POSITION, RATE, STATE, VELOCITY
+from nivel.machine.control.part import PartFunction
 from nivel.machine.coordinate_reference import Kind, resolve
 from nivel.machine.forces import End, GlobalPoint
 from nivel.machine.index import Index
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.marker import Marker
 from nivel.machine.symbols import find_symbol, is_output
-from nivel.machine.time_function import TimeFunction
 from nivel.machine.units.linear_function import LinearFunction
 from nivel.system.circuit import CircuitTable
 from nivel.system.interfaces import marker_place
@@ -187,9 +187,7 @@ class SystemBuilder:
         self._note(*self.coordinates.markers(index))
         return self.coordinates.use(index)
 
-    def function(
-        self, value: TimeFunction | LinearFunction, local: dict[str, Signal] | None = None, *, motion: bool = False
-    ) -> int:
+    def function(self, value: PartFunction, local: dict[str, Signal] | None = None, *, motion: bool = False) -> int:
         """Index of a new function; `local` are the symbols that only this one knows."""
 
         def find(path: str) -> Signal:

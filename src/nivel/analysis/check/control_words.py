@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from nivel.analysis.check.elements import function_in_words
 from nivel.machine.control.block import Block
-from nivel.machine.time_function import TimeFunction
+from nivel.machine.control.part import PartFunction
+from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
 
 
@@ -29,9 +30,10 @@ def control_in_words(blocks: Sequence[Block]) -> str:
     )
 
 
-def _in_words(function: TimeFunction | LinearFunction) -> str:
+def _in_words(function: PartFunction) -> str:
     if isinstance(function, LinearFunction):
         return " + ".join(f"{factor:.6g}*{path}" for factor, path in function.terms)
+    assert not isinstance(function, Formula)  # made by the block, not given
     return function_in_words(function)
 
 

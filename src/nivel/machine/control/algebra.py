@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
@@ -11,9 +10,10 @@ from pydantic import BeforeValidator, Field
 from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.condition import Condition
-from nivel.machine.control.laws import beyond, chosen, limited
-from nivel.machine.control.part import Part, law
+from nivel.machine.control.laws import beyond, limited
+from nivel.machine.control.part import Part
 from nivel.machine.table import Interpolation, Table
+from nivel.machine.units.formula import formula
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import listed
 
@@ -87,7 +87,7 @@ class Limit(OfInput):
     limits: Pair = Field(description="lower and upper limit")
 
     def computation(self) -> tuple[Part, ...]:
-        return self.taken, self.present(self.output, law(limited, self.input_path, *self.limits))
+        return self.taken, self.present(self.output, limited(self.input_path, self.limits))
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -101,7 +101,7 @@ class DeadZone(OfInput):
     band: Pair = Field(description="lower and upper end")
 
     def computation(self) -> tuple[Part, ...]:
-        return self.taken, self.present(self.output, law(beyond, self.input_path, *self.band))
+        return self.taken, self.present(self.output, beyond(self.input_path, self.band))
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -120,7 +120,8 @@ class Switch(Block):
         parts = {"condition": self.when, "then": self.then, "otherwise": self.otherwise}
         keys = {"condition": "when"}
         taken = [self.present(name, each, key=keys.get(name, name)) for name, each in parts.items()]
-        return (*taken, self.present(self.output, law(chosen, *(self.path(name) for name in parts))))
+        choice = formula("if(condition, then, otherwise)", **{name: self.path(name) for name in parts})
+        return (*taken, self.present(self.output, choice))
 
 
 class Lookup(OfInput):
@@ -153,8 +154,3 @@ def refuse_order(limits: tuple[float, float], key: str = "limits") -> Iterator[P
         yield Problem(
             (key,), f"the lower limit comes first and is less than the upper one; got {lower:g} and {upper:g}"
         )
-
-
-def both(limits: tuple[float, float] | None) -> tuple[float, float]:
-    """The limits, or infinite ones."""
-    return (-math.inf, math.inf) if limits is None else limits

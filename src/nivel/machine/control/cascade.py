@@ -8,10 +8,10 @@ from typing import Literal
 from pydantic import Field
 
 from nivel.machine.checked import Problem, superfluous
-from nivel.machine.control.algebra import both, refuse_order
+from nivel.machine.control.algebra import refuse_order
 from nivel.machine.control.block import Block, Input, Number, Pair, PositiveNumber
 from nivel.machine.control.laws import limited
-from nivel.machine.control.part import Part, law
+from nivel.machine.control.part import Part
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import Duration
 
@@ -48,7 +48,7 @@ class Cascade(Block):
             parts.append(self.present(self.output, linear(*terms)))
         else:
             parts.append(self.present("unlimited", linear(*terms)))
-            parts.append(self.present(self.output, law(limited, self.path("unlimited"), *both(self.limits))))
+            parts.append(self.present(self.output, limited(self.path("unlimited"), self.limits)))
         if self.integral_time is not None:
             parts.append(self._integral(max(self.integral_time, self.period)))
         return tuple(parts)
@@ -68,7 +68,7 @@ class Cascade(Block):
         else:
             yield self.present("unlimited_speed", linear(*terms))
             limits = (-self.speed_limit, self.speed_limit)
-            yield self.present("wished_speed", law(limited, self.path("unlimited_speed"), *limits))
+            yield self.present("wished_speed", limited(self.path("unlimited_speed"), limits))
         yield self.present("speed_error", linear((1.0, self.path("wished_speed")), (-1.0, self.path("speed"))))
 
     def _integral(self, time: float) -> Part:

@@ -11,11 +11,11 @@ import numpy as np
 from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem
-from nivel.machine.control.algebra import OfInput, both, refuse_order
+from nivel.machine.control.algebra import OfInput, refuse_order
 from nivel.machine.control.block import Block, Input, Number, Numbers, Pair
 from nivel.machine.control.laws import bounded_rate, limited
 from nivel.machine.control.linear_system import LinearSystem, of_transfer_function, sampled, steady_state
-from nivel.machine.control.part import VALUE, Part, law
+from nivel.machine.control.part import VALUE, Part
 from nivel.machine.record import entry
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import Duration, Quantity, listed
@@ -231,18 +231,18 @@ class Integrator(OfInput):
     start: Number = Field(default=0.0, description="value at the start")
 
     def computation(self) -> tuple[Part, ...]:
-        own, limits = self.path("integral"), both(self.limits)
+        own, limits = self.path("integral"), self.limits
         step = linear((1.0, own), (self.gain * self.period, self.input_path))
         parts = [self.taken]
-        if self.limits is None:
+        if limits is None:
             parts.append(self.remembered("integral", linear((self.gain, self.input_path)), step, self.start))
         else:
             parts.append(self.present("slope", linear((self.gain, self.input_path))))
-            rate, after = law(bounded_rate, self.path("slope"), own, *limits), law(limited, self.path("next"), *limits)
+            rate, after = bounded_rate(self.path("slope"), own, limits), limited(self.path("next"), limits)
             if self.is_sampled:
                 parts.append(self.present("next", step, start=self.start))
             parts.append(self.remembered("integral", rate, after, self.start))
-        value = linear((1.0, own)) if self.limits is None else law(limited, own, *limits)
+        value = linear((1.0, own)) if limits is None else limited(own, limits)
         return *parts, self.present(self.output, value, start=self.start)
 
     def problems(self) -> Iterator[Problem]:

@@ -12,8 +12,8 @@ from pydantic import Field
 from nivel.machine.checked import Problem
 from nivel.machine.control.algebra import OfInput
 from nivel.machine.control.block import MOST_DELAYED, WHOLE, Number, Pair, PositiveNumber
-from nivel.machine.control.laws import approach, followed, switched
-from nivel.machine.control.part import Part, law
+from nivel.machine.control.part import Part
+from nivel.machine.units.formula import formula
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import Duration
 
@@ -82,13 +82,17 @@ class RateLimit(OfInput):
         fall, rise = self.rates or (-(self.rate or 0.0), self.rate or 0.0)
         own = self.path(self.output)
         if self.is_sampled:
-            change = law(followed, self.path("before"), self.input_path, fall * self.period, rise * self.period)
+            steps = {"fall": fall * self.period, "rise": rise * self.period}
+            text = "before + min(max(target - before, fall), rise)"
+            change = formula(text, before=self.path("before"), target=self.input_path, **steps)
             return (
                 self.taken,
                 *self._began(Part("before", "memory", linear((1.0, own)))),
                 self.present(self.output, change),
             )
-        rate = law(approach, own, self.input_path, self.time_constant or 1.0, fall, rise)
+        text = "min(max((target - value)/time_constant, fall), rise)"
+        names = {"value": own, "target": self.input_path}
+        rate = formula(text, **names, time_constant=self.time_constant or 1.0, fall=fall, rise=rise)
         return self.taken, *self._began(Part(self.output, "state", rate))
 
     def _began(self, part: Part) -> tuple[Part]:
@@ -120,7 +124,8 @@ class Hysteresis(OfInput):
     def computation(self) -> tuple[Part, ...]:
         low, high = self.values
         began = 1.0 if self.start == "on" else 0.0
-        is_on = law(switched, self.path("on"), self.input_path, self.on, self.off)
+        text = "if(value > above, 1, if(value < below, 0, before))"
+        is_on = formula(text, before=self.path("on"), value=self.input_path, above=self.on, below=self.off)
         value = linear((high - low, self.path("on")), offset=low)
         return (
             self.taken,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from nivel.machine.control.block import Block
 from nivel.machine.control.part import Part, PartFunction
 from nivel.machine.time_function import signals_of
+from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
 
 
@@ -36,15 +37,17 @@ class PartOf:
     @property
     def signals(self) -> tuple[str, ...]:
         """Paths that its function reads."""
-        function = self.part.function
-        return function.signals if isinstance(function, LinearFunction) else signals_of(function)
+        return _signals_of(self.part.function)
 
     @property
     def feedthrough(self) -> tuple[str, ...]:
         """Paths that it reads at the instant at which it is computed; a sample that reads itself reads its value before."""
-        function = self.present
-        paths = function.signals if isinstance(function, LinearFunction) else signals_of(function)
+        paths = _signals_of(self.present)
         return paths if self.part.role == "signal" else tuple(path for path in paths if path != self.path)
+
+
+def _signals_of(function: PartFunction) -> tuple[str, ...]:
+    return function.signals if isinstance(function, LinearFunction | Formula) else signals_of(function)
 
 
 def parts_of(blocks: Sequence[Block]) -> list[PartOf]:

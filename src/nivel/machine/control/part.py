@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from typing import Literal
 
-from nivel.machine.python_law import PythonLaw
-from nivel.machine.python_source import source_of
 from nivel.machine.time_function import TimeFunction
+from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction
 
 Role = Literal["signal", "state", "sample", "memory"]
@@ -17,7 +14,7 @@ Role = Literal["signal", "state", "sample", "memory"]
 VALUE = "value"
 
 
-PartFunction = TimeFunction | LinearFunction
+PartFunction = TimeFunction | LinearFunction | Formula
 
 
 @dataclass(frozen=True)
@@ -38,13 +35,3 @@ class Part:
     offset: float = 0.0
     holds: bool = False
     key: str = ""
-
-
-def law(function: Callable[..., float], *arguments: str | float) -> PythonLaw:
-    """A function of `nivel.machine.control.laws` of these signals and numbers."""
-    return PythonLaw(_text(function), function.__name__, arguments)
-
-
-@cache
-def _text(function: Callable[..., float]) -> str:
-    return source_of(function)

@@ -9,10 +9,10 @@ from typing import Literal
 from pydantic import Field
 
 from nivel.machine.checked import Problem, superfluous
-from nivel.machine.control.algebra import both, refuse_order
+from nivel.machine.control.algebra import refuse_order
 from nivel.machine.control.block import Block, Input, NotNegativeTime, Number, Pair
 from nivel.machine.control.laws import limited
-from nivel.machine.control.part import Part, law
+from nivel.machine.control.part import Part
 from nivel.machine.units.linear_function import linear
 from nivel.machine.units.quantity import Duration
 
@@ -75,7 +75,7 @@ class Pid(Block):
             parts.append(self.present(self.output, linear(*terms)))
         else:
             parts.append(self.present("unlimited", linear(*terms)))
-            parts.append(self.present(self.output, law(limited, self.path("unlimited"), *both(self.limits))))
+            parts.append(self.present(self.output, limited(self.path("unlimited"), self.limits)))
         if self.ki:
             parts.append(self._integral_part(error, integral))
         return tuple(parts)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Annotated, Literal
 
@@ -11,10 +11,12 @@ from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Number, Numbers, PositiveNumber
-from nivel.machine.control.laws import trapezoid
-from nivel.machine.control.part import Part, PartFunction, law
+from nivel.machine.control.part import Part, PartFunction
 from nivel.machine.table import Table
-from nivel.machine.units.expression import Expression
+from nivel.machine.units.arithmetic import Call, Node, Operation, Time
+from nivel.machine.units.arithmetic import Number as Constant
+from nivel.machine.units.expression import expression_of
+from nivel.machine.units.formula import Formula, formula
 from nivel.machine.units.quantity import Quantity, listed
 
 Times = Annotated[tuple[Annotated[float, Quantity("time")], ...], BeforeValidator(listed)]
@@ -35,23 +37,33 @@ class Trapezoid(Block):
     speed: PositiveNumber = Field(description="greatest speed, per second")
     acceleration: PositiveNumber = Field(description="of speeding up and slowing down, per second squared")
 
+    @property
+    def _times(self) -> tuple[float, float, float]:
+        """Top speed, towards the last value; time to reach it; from the begin to when slowing down begins."""
+        way = self.last - self.first
+        top = min(self.speed, math.sqrt(abs(way) * self.acceleration))
+        return math.copysign(top, way), top / self.acceleration, abs(way) / top
+
     def computation(self) -> tuple[Part, ...]:
-        numbers = (self.begin, self.first, self.last - self.first, self.speed, self.acceleration)
-        return (
-            self.present(self.output, law(trapezoid, "time", *numbers), start=self.first),
-            self.present("rate", self._rate()),
+        if self.first == self.last:
+            return self.present(self.output, self.first, start=self.first), self.present("rate", 0.0)
+        return self.present(self.output, self._place(), start=self.first), self.present("rate", self._rate())
+
+    def _place(self) -> Formula:
+        """Parabolas where it speeds up and slows down, a straight line between them."""
+        top, rise, whole = self._times
+        end = "if(end - time < rise, last - half*(end - time)^2, first + top*(time - begin - rise/2))"
+        return formula(
+            f"if(time <= begin, first, if(time >= end, last, if(time - begin < rise, first + half*(time - begin)^2, {end})))",
+            **{"first": self.first, "last": self.last, "begin": self.begin, "end": self.begin + whole + rise},
+            **{"top": top, "rise": rise, "half": 0.5 * math.copysign(self.acceleration, top)},
         )
 
-    def _rate(self) -> PartFunction:
-        """Speed along the way: straight lines up to the top speed and down again."""
-        way = self.last - self.first
-        if way == 0.0:
-            return 0.0
-        top = min(self.speed, math.sqrt(abs(way) * self.acceleration))
-        rise, whole = top / self.acceleration, abs(way) / top
-        signed = math.copysign(top, way)
-        level = {whole: signed} if whole > rise * (1.0 + ROUND_OFF) else {}
-        corners = {0.0: 0.0, rise: signed, **level, whole + rise: 0.0}
+    def _rate(self) -> Table:
+        """Straight lines up to the top speed and down again."""
+        top, rise, whole = self._times
+        level = {whole: top} if whole > rise * (1.0 + ROUND_OFF) else {}
+        corners = {0.0: 0.0, rise: top, **level, whole + rise: 0.0}
         return Table(tuple(self.begin + each for each in corners), tuple(corners.values()))
 
 
@@ -75,13 +87,18 @@ class Waypoints(Block):
         return [(*span, change) for span, change in zip(spans, changes, strict=True) if change]
 
     def computation(self) -> tuple[Part, ...]:
-        steps = [f"step(time, {begin!r}, 0, {end!r}, {change!r})" for begin, end, change in self.moves]
-        value: PartFunction = self.values[0]
-        rate: PartFunction = 0.0
-        if steps:
-            value = Expression(" + ".join([repr(self.values[0]), *steps]))
-            rate = value.derivative
-        return self.present(self.output, value, start=self.values[0]), self.present("rate", rate)
+        value = self._over_moves("step", self.values[0])
+        return self.present(self.output, value, start=self.values[0]), self.present(
+            "rate", self._over_moves("step_rate")
+        )
+
+    def _over_moves(self, function: str, start: float = 0.0) -> PartFunction:
+        """start + the sum over all moves of a function of time with the two ends of each."""
+        if not self.moves:
+            return start
+        ends = ((begin, 0.0, end, change) for begin, end, change in self.moves)
+        calls = [Call(function, (Time(), *map(Constant, each))) for each in ends]
+        return expression_of(_sum([Constant(start), *calls]))
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -98,3 +115,9 @@ class Waypoints(Block):
             begin == end for begin, end, _ in self.moves
         ):
             yield Problem(("times",), "times increase")
+
+
+def _sum(terms: Sequence[Node]) -> Node:
+    """The sum, by halves, so that many terms nest little."""
+    half = len(terms) // 2
+    return Operation("+", _sum(terms[:half]), _sum(terms[half:])) if half else terms[0]

@@ -10,10 +10,11 @@ from pydantic import BeforeValidator, Field
 from nivel.machine.checked import Problem
 from nivel.machine.control.block import Block, Input, names_in
 from nivel.machine.control.condition import Condition
-from nivel.machine.control.laws import entered
-from nivel.machine.control.part import Part, PartFunction, law
-from nivel.machine.python_law import PythonLaw
+from nivel.machine.control.part import Part, PartFunction
 from nivel.machine.record import Name, Record, entry, unknown_word
+from nivel.machine.units.arithmetic import Call, Node, Operation, Signal
+from nivel.machine.units.arithmetic import Number as Constant
+from nivel.machine.units.formula import Formula, formula
 from nivel.machine.units.linear_function import linear
 
 
@@ -80,20 +81,23 @@ class StateMachine(Block):
     def computation(self) -> tuple[Part, ...]:
         names = [state.name for state in self.states]
         began = float(names.index(self.start)) if self.start else 0.0
-        guards, arms, number = [], [], 0
-        for k, state in enumerate(self.states):
-            for transition in state.next:
-                first = number
-                for condition in transition.when:
-                    number += 1
-                    guards.append(Part(f"guard_{number}", "sample", condition, key="states"))
-                arms.append((k, range(first, number), names.index(transition.to)))
         own = self.path("state")
-        step = _step_law(own, [self.path(part.name) for part in guards], arms)
-        since = law(entered, "time", self.path("entered"), own, self.path("before"))
+        guards, arms = [], []
+        for k, state in enumerate(self.states):
+            arm: Node = Constant(float(k))
+            for transition in reversed(state.next):
+                first = len(guards)
+                guards += transition.when
+                conditions = [Signal(self.path(f"guard_{n + 1}")) for n in range(first, len(guards))]
+                arm = Call("if", (_all(conditions), Constant(float(names.index(transition.to))), arm))
+            arms.append(arm)
+        since = formula(
+            "if(state < before or state > before, time, entered)",
+            **{name: self.path(name) for name in ("state", "before", "entered")},
+        )
         return (
-            *guards,
-            Part("state", "sample", step, began, holds=True),
+            *(Part(f"guard_{n + 1}", "sample", condition, key="states") for n, condition in enumerate(guards)),
+            Part("state", "sample", Formula(_chosen(Signal(own), arms)), began, holds=True),
             *self._values(
                 self.output,
                 [state.value if state.value is not None else float(k) for k, state in enumerate(self.states)],
@@ -114,17 +118,17 @@ class StateMachine(Block):
 
     def _values(self, name: str, given: Sequence[PartFunction]) -> Iterator[Part]:
         """What the states give, and of it that of the present state."""
-        arguments: list[str | float] = []
+        values: list[Node] = []
         for k, value in enumerate(given):
             if isinstance(value, float | int):
-                arguments.append(float(value))
+                values.append(Constant(float(value)))
             else:
                 part = f"{name}_{k}"
                 yield Part(part, "sample", value, key="states")
-                arguments.append(self.path(part))
-        start = arguments[[state.name for state in self.states].index(self.start) if self.start else 0]
-        select = PythonLaw(_selection(len(given)), "select", (self.path("state"), *arguments))
-        yield Part(name, "sample", select, start if isinstance(start, float) else 0.0)
+                values.append(Signal(self.path(part)))
+        first = values[[state.name for state in self.states].index(self.start) if self.start else 0]
+        chosen = Formula(_chosen(Signal(self.path("state")), values))
+        yield Part(name, "sample", chosen, first.value if isinstance(first, Constant) else 0.0)
 
     def problems(self) -> Iterator[Problem]:
         yield from super().problems()
@@ -157,19 +161,17 @@ def _output_names(outputs: Iterable[Any]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name for each in outputs for name in names_in(each)))
 
 
-def _step_law(own: str, guards: list[str], arms: list[tuple[int, range, int]]) -> PythonLaw:
-    """The state after a sample. arms : (state, its guards, the state that they lead to)."""
-    lines = [f"def step({', '.join(['state', *(f'g{k}' for k in range(len(guards)))])}):"]
-    for state, span, to in arms:
-        conditions = [f"state == {state}.0", *(f"g{k} > 0.0" for k in span)]
-        lines += [f"    if {' and '.join(conditions)}:", f"        return {to}.0"]
-    return PythonLaw("\n".join([*lines, "    return state", ""]), "step", (own, *guards))
+def _all(conditions: Sequence[Node]) -> Node:
+    """Positive where all conditions are."""
+    if len(conditions) > 1:
+        return Call("min", (*conditions,))
+    return conditions[0] if conditions else Constant(1.0)
 
 
-def _selection(count: int) -> str:
-    """A function of a number from 0 and `count` values that returns the value of this number."""
-    names = [f"v{k}" for k in range(count)]
-    lines = [f"def select({', '.join(['state', *names])}):"]
-    for k, name in enumerate(names[:-1]):
-        lines += [f"    if state < {k}.5:", f"        return {name}"]
-    return "\n".join([*lines, f"    return {names[-1]}", ""])
+def _chosen(state: Node, values: Sequence[Node], first: int = 0) -> Node:
+    """The value that belongs to the number of a state. first : number of the first value. By halves, so that many states nest little."""
+    half = len(values) // 2
+    if not half:
+        return values[0]
+    before = Operation("<", state, Constant(first + half - 0.5))
+    return Call("if", (before, _chosen(state, values[:half], first), _chosen(state, values[half:], first + half)))

@@ -11,11 +11,12 @@ import numpy as np
 from nivel.kernels.record.function import CODE, CONSTANT, LINEAR, NUMBER, TABLE_EXTENDED, TABLE_HELD, TIME
 from nivel.kernels.record.program import run
 from nivel.kernels.record.record import Functions
+from nivel.machine.control.part import PartFunction
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.table import Table
-from nivel.machine.time_function import TimeFunction
 from nivel.machine.units.arithmetic import TIME as TIME_SYMBOL
 from nivel.machine.units.expression import Expression
+from nivel.machine.units.formula import Formula
 from nivel.machine.units.linear_function import LinearFunction, linear_function
 from nivel.system.laws.laws import law_address
 from nivel.system.laws.program import curve_motion_program, curve_program, expression_program, motion_program
@@ -39,9 +40,7 @@ class FunctionTable:
     argument: list[tuple[int, int, int, int]] = field(default_factory=list)
     arguments: list[float] = field(default_factory=list)
 
-    def add(
-        self, function: TimeFunction | LinearFunction, find: Find, *, motion: bool = False, end: float = math.inf
-    ) -> int:
+    def add(self, function: PartFunction, find: Find, *, motion: bool = False, end: float = math.inf) -> int:
         """Index of a new function; `find` gives the signal of a path. motion : its derivatives are needed, up to the `end` of the run [s].
 
         Raises ModelError where a law cannot be compiled.
@@ -66,6 +65,10 @@ class FunctionTable:
             case Expression():
                 signals = list(dict.fromkeys([TIME_SYMBOL, *function.signals]))
                 program = motion_program(function) if motion else expression_program(function, signals)
+                return self._append(CODE, signals, find, address=run.address, program=program)
+            case Formula():
+                signals = [TIME_SYMBOL, *function.signals]
+                program = expression_program(function, signals)
                 return self._append(CODE, signals, find, address=run.address, program=program)
             case PythonLaw():
                 address = law_address(function, motion=motion)

@@ -10,6 +10,7 @@ from nivel.kernels.record import program as kernel
 from nivel.machine.units.arithmetic import TIME, Call, Lookup, Negative, Node, Number, Operation, Signal, Time
 from nivel.machine.units.elementary import COMPOUND, elementary
 from nivel.machine.units.expression import Expression
+from nivel.machine.units.formula import Formula
 from nivel.machine.units.interpolation import differentiated, pieces
 
 OPERATIONS = {
@@ -27,7 +28,7 @@ OPERATIONS = {
 TWO, ZERO = Number(2.0), Number(0.0)
 
 
-def expression_program(expression: Expression, signals: Sequence[str]) -> list[float]:
+def expression_program(expression: Expression | Formula, signals: Sequence[str]) -> list[float]:
     """The program of an expression of `signals`, of which the first is the time. The arguments are expected behind it."""
     program = _Program(signals)
     program.end(program.place_of(expression.tree))

@@ -1,0 +1,26 @@
+"""Formulas that blocks are computed with: expressions of symbols and numbers, put together here and not by users."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from nivel.machine.units.arithmetic import Node, Number, Signal, bind, signals
+from nivel.machine.units.grammar import parse
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A value that follows from symbols and the time. tree : without unbound names."""
+
+    tree: Node
+
+    @property
+    def signals(self) -> tuple[str, ...]:
+        """The paths of the symbols, each once; `time` is none."""
+        return signals(self.tree)
+
+
+def formula(text: str, **names: str | float) -> Formula:
+    """The formula of a text in which `names` stand for symbols (by their paths) and numbers."""
+    meaning = {name: Signal(each) if isinstance(each, str) else Number(float(each)) for name, each in names.items()}
+    return Formula(bind(parse(text), meaning))

@@ -17,6 +17,8 @@ from nivel.system.system import Array, System
 TURN_A_MARKER = (
     "turn one of its markers (the name says which axis of the first is perpendicular to which of the second)"
 )
+# Changes of velocities below this share of the largest one are those of solving for it.
+TOLD = 1e-9
 # Joints may be open by this share of the machine's length as given, unless the machine says otherwise; directions by this cosine.
 GAP, GAP_OF_DIRECTIONS = 0.1, 0.5
 
@@ -60,7 +62,8 @@ def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Asse
     close_positions(motion, t, y, wishes)
     _refuse_open_joints(machine, motion, wishes)
     y, change = consistent_velocities(machine, motion, t, y, wishes)
-    velocity_change = _named(system.bodies, change[:, :3], change[:, 3:], ROUND_OFF * system.size, ROUND_OFF)
+    told = max(ROUND_OFF, TOLD * float(np.max(np.abs(change / np.repeat([system.size, 1.0], 3)), initial=0.0)))
+    velocity_change = _named(system.bodies, change[:, :3], change[:, 3:], told * system.size, told)
     changed = {name for name, _, _ in velocity_change}
     free = ~given_velocities(machine).any(axis=1)
     followed = tuple(body.name for body, none in zip(machine.bodies, free, strict=True) if none and body.name in changed)

@@ -19,6 +19,8 @@ from nivel.system.system import Array, System
 
 # Given velocities are changed so much less willingly than others, and only where they do not fit.
 RELUCTANT = 1e-3
+# The second solution takes the round-off of the first one away.
+SOLUTIONS = 2
 # Changes below this share of the largest velocity are round-off.
 ROUND_OFF = 1e-12
 
@@ -33,22 +35,24 @@ def consistent_velocities(
     system, record = motion.system, motion.system.record
     count, rows = system.body_count, slice(0, system.machine_rows)
     before = _velocities(system)
-    chosen = [q for _, q, _ in wishes.rates]
-    missing = np.array([rate for _, _, rate in wishes.rates]) - record.coordinates.rate[chosen]
-    target = np.append(-record.constraints.Cdot[rows], missing)
+    chosen, rates = [q for _, q, _ in wishes.rates], np.array([rate for _, _, rate in wishes.rates])
     units = [1.0 if name.partition(".")[2].startswith("angle") else system.size for name, _, _ in wishes.rates]
     scale = np.append(record.constraints.scale[rows], units)
-    new, change = before, np.zeros((count, 6))
+    new = before
     for ways in _ways(machine, system, wishes):
-        change = least_change(motion, target, chosen, scale, ways).reshape(count, 6)
-        change[np.abs(change) <= ROUND_OFF * np.abs(before).max(initial=0.0)] = 0.0
-        new = before + change
+        new = before
         _set_velocities(motion, t, y, new)
+        for _ in range(SOLUTIONS):
+            target = np.append(-record.constraints.Cdot[rows], rates - record.coordinates.rate[chosen])
+            change = least_change(motion, target, chosen, scale, ways).reshape(count, 6)
+            change[np.abs(change) <= ROUND_OFF * np.abs(before).max(initial=0.0)] = 0.0
+            new = new + change
+            _set_velocities(motion, t, y, new)
         if not _left_open(system).size and not _missed(system, wishes):
             break
     _refuse_impossible_rates(system, wishes)
-    change[:, :3] *= system.size
-    return _set_velocities(motion, t, y, new), change
+    state = _set_velocities(motion, t, y, new)
+    return state, (new - before) * np.repeat([system.size, 1.0], 3)
 
 
 def given_velocities(machine: MachineRecord) -> NDArray[np.bool_]:

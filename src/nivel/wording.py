@@ -9,6 +9,7 @@ from typing import Final
 from nivel.vocabulary import translated
 
 LONGEST: Final = 40  # characters of a value in a message
+MOST_NAMES: Final = 8  # of a list of names in a sentence
 
 
 def shown(value: object) -> str:
@@ -28,6 +29,12 @@ def shown(value: object) -> str:
     text = str(value)
     line = (text.splitlines() or [""])[0]
     return f"`{text}`" if line == text and len(text) <= LONGEST else f"`{line[: LONGEST - 3]}…`"
+
+
+def set_in_motion(names: Sequence[str]) -> str:
+    """A sentence without its full stop about bodies that move at the start though no velocity was given to them."""
+    few = names if len(names) <= MOST_NAMES else [*names[: MOST_NAMES - 1], f"{len(names) - MOST_NAMES + 1} more"]
+    return f"velocities that are not given follow from the joints and the masses (least kinetic energy): {', '.join(few)}"
 
 
 def unknown_word(word: str, valid: Sequence[str], what: str) -> str:

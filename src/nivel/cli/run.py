@@ -24,6 +24,7 @@ from nivel.cli.options import (
     simulation_options,
 )
 from nivel.cli.progress import progress_listener
+from nivel.wording import set_in_motion
 
 ROUND_OFF = 1e-14  # m, rad or per second: smaller changes of the start are not reported
 
@@ -178,8 +179,13 @@ def assembly_lines(result: Result) -> Iterator[str]:
     for name, distance, angle in moved:
         why = f"to close {assembly['gap_row']}, open by {assembly['gap']:.3g} as given"
         yield f"assembly: {name} was moved by {_amounts((distance, 'm'), (math.degrees(angle), 'deg'))} {why}"
+    followed = assembly.get("followed", [])
     for name, speed, rate in changed:
+        if name in followed:
+            continue
         yield f"assembly: the velocity of {name} was changed by {_amounts((speed, 'm/s'), (rate, 'rad/s'))} to fit the joints"
+    if followed:
+        yield f"assembly: {set_in_motion(followed)}"
 
 
 def _amounts(*amounts: tuple[float, str]) -> str:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from nivel.results.beams.beam_nodes import beam_nodes
 from nivel.results.frames.occurrence import in_words
 from nivel.results.trust.verdicts import Item, Trust, Verdict
+from nivel.wording import set_in_motion
 
 if TYPE_CHECKING:
     from nivel.results.result import Result
@@ -198,6 +199,7 @@ def assembly_lines(result: Result) -> list[str]:
     """What the assembly changed of the given start: each body it moved, then each initial velocity it changed."""
     assembly = json.loads(str(result.attributes.get("assembly", "{}")))
     moved, changed = assembly.get("moved") or [], assembly.get("velocity_change") or []
+    followed = assembly.get("followed") or []
     gap = f"open by up to {_amount(assembly.get('gap', 0.0), 'm or rad')} as given"
     why = f" to close the joints, {gap} (row {assembly['gap_row']})" if assembly.get("gap_row") else ""
     moved, changed = ([each for each in found if max(each[1:]) > ROUND_OFF] for found in (moved, changed))
@@ -205,7 +207,10 @@ def assembly_lines(result: Result) -> list[str]:
     lines += [
         f"The velocity of {name} was changed by {_both(v, 'm/s', w, 'rad/s')} to fit the joints"
         for name, v, w in changed
+        if name not in followed
     ]
+    if followed:
+        lines.append(f"Start: {set_in_motion(followed)}")
     return lines if len(lines) <= SHOWN_CHANGES else [*lines[:SHOWN_CHANGES], f"and {len(lines) - SHOWN_CHANGES} more"]
 
 

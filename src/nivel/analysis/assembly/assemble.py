@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nivel.analysis.assembly.closing import OPEN, Wishes, close_positions, least_change
+from nivel.analysis.assembly.closing import OPEN, Wishes, close_positions
 from nivel.analysis.assembly.equations import MotionEquations, change_between
+from nivel.analysis.assembly.velocities import ROUND_OFF, consistent_velocities, given_velocities, section_of
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
 from nivel.system.joints import composition_of
@@ -16,8 +17,8 @@ from nivel.system.system import Array, System
 TURN_A_MARKER = (
     "turn one of its markers (the name says which axis of the first is perpendicular to which of the second)"
 )
-# Changes below this share of the machine's length, of one radian, of the largest velocity are round-off and not told.
-ROUND_OFF = 1e-12
+# Changes of velocities below this share of the largest one are those of solving for it.
+TOLD = 1e-9
 # Joints may be open by this share of the machine's length as given, unless the machine says otherwise; directions by this cosine.
 GAP, GAP_OF_DIRECTIONS = 0.1, 0.5
 
@@ -28,7 +29,7 @@ class Assembly:
 
     y : state. reference : joint angles and other measured coordinates there. gap : largest violation of a position row as given
     (`gap_row` names it) [m or rad]. moved : for each body that moved, name, distance [m] and angle [rad]. velocity_change : the same
-    for velocities [m/s], [rad/s].
+    for velocities [m/s], [rad/s]; followed : those of these bodies for which no velocity was given.
     """
 
     y: Array
@@ -37,6 +38,7 @@ class Assembly:
     gap_row: str
     moved: tuple[tuple[str, float, float], ...]
     velocity_change: tuple[tuple[str, float, float], ...]
+    followed: tuple[str, ...] = ()
 
 
 def assemble(machine: MachineRecord, motion: MotionEquations, t: float = 0.0) -> Assembly:
@@ -59,9 +61,14 @@ def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Asse
     _refuse_contradictions(machine, motion)
     close_positions(motion, t, y, wishes)
     _refuse_open_joints(machine, motion, wishes)
-    y, velocity_change = _consistent_velocities(motion, t, y, wishes)
+    y, change = consistent_velocities(machine, motion, t, y, wishes)
+    told = max(ROUND_OFF, TOLD * float(np.max(np.abs(change / np.repeat([system.size, 1.0], 3)), initial=0.0)))
+    velocity_change = _named(system.bodies, change[:, :3], change[:, 3:], told * system.size, told)
+    changed = {name for name, _, _ in velocity_change}
+    free = ~given_velocities(machine).any(axis=1)
+    followed = tuple(body.name for body, none in zip(machine.bodies, free, strict=True) if none and body.name in changed)
     reference = system.record.coordinates.reference.copy()
-    return Assembly(y, reference, gap, gap_row, _moves(system, given, y[: system.positions]), velocity_change)
+    return Assembly(y, reference, gap, gap_row, _moves(system, given, y[: system.positions]), velocity_change, followed)
 
 
 def _wishes(machine: MachineRecord, system: System) -> Wishes:
@@ -124,61 +131,6 @@ def _rows_by_owner(system: System) -> dict[str, list[int]]:
     return rows
 
 
-def _consistent_velocities(
-    motion: MotionEquations, t: float, y: Array, wishes: Wishes
-) -> tuple[Array, tuple[tuple[str, float, float], ...]]:
-    system, record = motion.system, motion.system.record
-    bodies, count = record.bodies, system.body_count
-    # lengths in units of the machine's length, so that metres and radians can be compared
-    given = np.hstack([bodies.Rdot[:count] / system.size, bodies.omega_b[:count]])
-    chosen = [q for _, q, _ in wishes.rates]
-    missing = np.array([rate for _, _, rate in wishes.rates]) - record.coordinates.rate[chosen]
-    target = np.append(-record.constraints.Cdot[: system.machine_rows], missing)
-    units = [1.0 if name.partition(".")[2].startswith("angle") else system.size for name, _, _ in wishes.rates]
-    scale = np.append(record.constraints.scale[: system.machine_rows], units)
-    change = least_change(motion, target, chosen, scale, wishes, hold=False).reshape(count, 6)
-    change[np.abs(change) <= ROUND_OFF * np.abs(given).max(initial=0.0)] = 0.0
-    new = given + change
-    new[:, :3] *= system.size
-    change[:, :3] *= system.size
-    assembled = system.state(y[: system.positions], new[:, :3], new[:, 3:])
-    motion.evaluate(t, assembled)
-    _refuse_impossible_rates(motion, wishes, scale)
-    return assembled, _named(system.bodies, change[:, :3], change[:, 3:], ROUND_OFF * system.size, ROUND_OFF)
-
-
-def _refuse_impossible_rates(motion: MotionEquations, wishes: Wishes, scale: Array) -> None:
-    """Rates that the machine cannot have: drivers or start rates that contradict each other or the joints."""
-    system, record = motion.system, motion.system.record
-    faults = []
-    speed = max(1.0, float(np.abs(record.bodies.omega_b).max()), float(np.abs(record.bodies.Rdot).max()) / system.size)
-    left = np.abs(record.constraints.Cdot[: system.machine_rows]) / scale[: system.machine_rows]
-    wrong = np.flatnonzero(left > OPEN * speed)
-    # drivers that contradict each other open joints as well, which are not to blame
-    prescribed = [row for row in wrong if _section(system, system.row_owner[row]) == "drivers"]
-    for row in prescribed or wrong:
-        owner = system.row_owner[row]
-        message = f"the velocities contradict each other: {system.rows[row]} cannot have the rate that is asked of it"
-        faults.append(Fault("", 0, 0, f"{_section(system, owner)}.{owner}", message))
-    for name, q, rate in wishes.rates:
-        got = float(record.coordinates.rate[q])
-        if abs(got - rate) > OPEN * max(speed, abs(rate)) * max(1.0, system.size):
-            joint, _, coordinate = name.partition(".")
-            message = (
-                f"the rate {rate:.6g} of {name} cannot be had: the joints, drivers and other rates allow {got:.6g}"
-            )
-            faults.append(Fault("", 0, 0, f"joints.{joint}.start_rates.{coordinate}", message))
-    if faults:
-        raise ModelError(faults)
-
-
-def _section(system: System, owner: str) -> str:
-    """The section of the machine file in which the owner of a row stands."""
-    if owner in system.joints:
-        return "joints"
-    return "couplings" if f"{owner}.coupling" in system.rows else "drivers"
-
-
 def _named(
     names: tuple[str, ...], lengths: Array, angles: Array, least_length: float, least_angle: float
 ) -> tuple[tuple[str, float, float], ...]:
@@ -200,7 +152,7 @@ def _refuse_open_joints(machine: MachineRecord, motion: MotionEquations, wishes:
     for owner, rows in _rows_by_owner(system).items():
         worst = rows[int(np.argmax(share[rows]))]
         if not share[worst] <= OPEN:
-            faults.append(Fault("", 0, 0, f"{_section(system, owner)}.{owner}", _gap(system, worst)))
+            faults.append(Fault("", 0, 0, f"{section_of(system, owner)}.{owner}", _gap(system, worst)))
         elif owner in parallel:
             first = int(record.joints.first_marker[parallel[owner]])
             if record.markers.A[first, :, 2] @ record.markers.A[first + 1, :, 2] < 0.0:

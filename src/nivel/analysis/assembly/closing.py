@@ -80,6 +80,8 @@ def close_positions(
         scale, [1.0 if name.partition(".")[2].startswith("angle") else system.size for name, _, _ in values]
     )
     scale = np.concatenate([scale, *(aim.scale for aim in aims)])
+    willing = np.ones(system.body_count) if wishes is None else np.where(wishes.hold, 0.0, 1.0 / wishes.weight)
+    ways = willing[:, None, None] * np.eye(6)
     chosen, wanted = [q for _, q, _ in values], np.array([value for _, _, value in values])
 
     def violations() -> Array:
@@ -102,7 +104,7 @@ def close_positions(
         if np.max(np.abs(violation) / scale, initial=0.0) <= CLOSED:
             return True
         further = _blocks(aims, y[: system.positions], system.machine_rows + len(chosen))
-        change = least_change(motion, -violation, chosen, scale, wishes, hold=True, further=further)
+        change = least_change(motion, -violation, chosen, scale, ways, further)
         # a step of more than half a radian or half the machine is outside the linear range
         length = float(np.abs(change).max())
         change *= min(1.0, LONGEST / length) if length > 0.0 else 0.0
@@ -142,26 +144,23 @@ def least_change(
     target: Array,
     coordinates: Sequence[int],
     scale: Array,
-    wishes: Wishes | None,
-    *,
-    hold: bool,
+    ways: Array,
     further: Blocks = NOTHING,
 ) -> Array:
-    """Least weighted x with [C_q; derivatives of the coordinates; further] x = target, lengths of x in units of the machine's length.
+    """The change x (6 B,) with [C_q; derivatives of the coordinates; further] x = target, lengths of x in units of the machine's length.
 
-    Rows are weighed by their scales. hold : bodies that are held do not move. further : blocks of the rows after the coordinates.
+    x = ways z, block by block (B, 6, 6), for the least z. Rows are weighed by their scales. further : blocks of the rows after the
+    coordinates.
     """
     system = motion.system
     if not np.any(target):
         return np.zeros(6 * system.body_count)
     row, body, block = motion.jacobian_blocks(coordinates)
     row, body, block = np.append(row, further[0]), np.append(body, further[1]), np.vstack([block, further[2]])
-    willing = np.ones(system.body_count)
-    if wishes is not None:
-        willing = np.where(wishes.hold & hold, 0.0, 1.0 / wishes.weight)
-    block = block * (willing[body] / scale[row])[:, None]
     block[:, :3] *= system.size
-    return np.repeat(willing, 6) * _least_solution(row, body, block, system.body_count, target / scale)
+    block = np.einsum("ki,kij->kj", block / scale[row][:, None], ways[body])
+    z = _least_solution(row, body, block, system.body_count, target / scale)
+    return np.einsum("bij,bj->bi", ways, z.reshape(-1, 6)).ravel()
 
 
 def _least_solution(row: Index, body: Index, block: Array, bodies: int, target: Array) -> Array:

@@ -33,6 +33,7 @@ from nivel.system.flexible import bending_bodies
 from nivel.system.joints import composition_of
 from nivel.system.states.relative import tree_of
 from nivel.system.system import Array, System
+from nivel.wording import set_in_motion
 
 
 @dataclass(frozen=True)
@@ -101,6 +102,7 @@ class Check:
     gap_row: str
     moved: tuple[tuple[str, float, float], ...]
     velocity_change: tuple[tuple[str, float, float], ...]
+    followed: tuple[str, ...]  # of the bodies whose velocities were changed those for which none was given
     cut: tuple[str, ...]  # joints that stay constraints in relative coordinates
     settings: RunSettings
 
@@ -194,8 +196,11 @@ def _assembly_lines(facts: Check) -> Iterator[str]:
             yield f"  {name} by {distance:.3g} m and {np.degrees(angle):.3g} deg"
     else:
         yield "assembly: closed as given"
-    for name, speed, rate in _by_owner(facts, facts.velocity_change):
+    changed = tuple(each for each in facts.velocity_change if each[0] not in facts.followed)
+    for name, speed, rate in _by_owner(facts, changed):
         yield f"  velocity of {name} changed by {speed:.3g} m/s and {rate:.3g} rad/s to fit the joints"
+    if facts.followed:
+        yield f"  {set_in_motion(facts.followed)}"
 
 
 def _by_owner(facts: Check, changes: tuple[tuple[str, float, float], ...]) -> Iterator[tuple[str, float, float]]:
@@ -287,6 +292,7 @@ def check(plan: Plan) -> Check:
         gap_row=assembly.gap_row,
         moved=assembly.moved,
         velocity_change=assembly.velocity_change,
+        followed=assembly.followed,
         cut=_cut(plan.methods) if settings.coordinates == "relative" else (),
         settings=settings,
     )

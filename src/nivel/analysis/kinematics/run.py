@@ -99,7 +99,7 @@ def _attributes(
 ) -> dict[str, str | float | int]:
     """The attributes of the result; that drivers give the bodies other velocities than the file is no news."""
     attributes = run_attributes(machine, source, prepared, settings)
-    assembly = {**json.loads(str(attributes["assembly"])), "velocity_change": ()}
+    assembly = {**json.loads(str(attributes["assembly"])), "velocity_change": (), "followed": ()}
     return {**attributes, "assembly": json.dumps(assembly), "analysis": "kinematics"}
 
 

@@ -53,18 +53,23 @@ def refuse_deep_starts(machine: MachineRecord, motion: MotionEquations, y: Array
         raise ModelError(faults)
 
 
-def refuse_samples_between_steps(machine: MachineRecord, step: float, *, fixed: bool) -> None:
-    """Sampled states and blocks whose times are not ends of fixed steps [s]."""
-    faults = []
-    times = [(f"states.{state.name}.every", state.every) for state in machine.states]
+def sampled_times(machine: MachineRecord) -> list[tuple[str, float]]:
+    """Periods, offsets and latencies of sampled states and blocks [s] that are not zero, with where they stand."""
+    times = [(f"states.{state.name}.every", state.every or 0.0) for state in machine.states]
     times += [
-        (f"control.{block.name}.{key}", getattr(block, key))
+        (f"control.{block.name}.{key}", getattr(block, key) or 0.0)
         for block in machine.control
         for key in ("sample_time", "offset", "latency")
     ]
-    for place, time in times if fixed else ():
-        count = round(time / step) if time else 0
-        if time and (count < 1 or abs(count * step - time) > WHOLE * time):
+    return [(place, time) for place, time in times if time]
+
+
+def refuse_samples_between_steps(machine: MachineRecord, step: float, *, fixed: bool) -> None:
+    """Sampled states and blocks whose times are not ends of fixed steps [s]."""
+    faults = []
+    for place, time in sampled_times(machine) if fixed else ():
+        count = round(time / step)
+        if count < 1 or abs(count * step - time) > WHOLE * time:
             message = (
                 f"{time:.6g} s is no whole number of steps of {step:.6g} s, and fixed steps stay as they are: "
                 f"`simulation: {{step: {time / max(count, 1):.6g}}}` would fit, or an integrator that chooses its steps"

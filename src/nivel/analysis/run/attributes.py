@@ -49,6 +49,7 @@ def run_attributes(
                 "gap_row": assembly.gap_row,
                 "moved": assembly.moved,
                 "velocity_change": assembly.velocity_change,
+                "followed": assembly.followed,
             }
         ),
     }

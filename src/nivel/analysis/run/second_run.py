@@ -6,9 +6,10 @@ import threading
 import time as clock_of_python
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import ceil
+from math import ceil, gcd, lcm
 
 from nivel.analysis.plan.plan import Plan
+from nivel.analysis.plan.refusals import sampled_times
 from nivel.analysis.plan.settings import RunSettings
 from nivel.analysis.progress.interrupt import interruptible
 from nivel.analysis.progress.listener import Listener
@@ -22,6 +23,8 @@ from nivel.results.result import Result
 
 # Steps of fixed size are this much shorter in the second run: about 5/3, where one in three steps of the first ends with one of it.
 FINER, LEAST_STEPS = 1.6, 3
+# Where states change at given times, some of these many steps, at most, fill the time between two of them.
+MOST_OF_SAMPLES = 12
 # of the tolerance, where steps are chosen
 TENTH = 0.1
 # A second run may go on after the first one for as long as that took, and at least for so long [s].
@@ -53,8 +56,11 @@ class Verified:
     ended: str
 
 
-def refine(settings: RunSettings, *, sampled: bool = False) -> Refinement:
-    """How a second run is to differ from one with these settings. sampled : states change at given times, which steps have to meet.
+def refine(settings: RunSettings, between_samples: int = 0) -> Refinement:
+    """How a second run is to differ from one with these settings.
+
+    between_samples : whole numbers of so many fixed steps lie between times at which states are sampled, which steps have to meet; 0: none
+    are.
 
     Half the step would look at loads where the first run does. Steps of three fifths meet the first run's in one of three, where frames
     can be compared, and what repeats itself within a step of the first run does not within one of these.
@@ -63,13 +69,23 @@ def refine(settings: RunSettings, *, sampled: bool = False) -> Refinement:
         # the step still says how fast stiction stops a joint
         finer = replace(settings, tolerance=TENTH * settings.tolerance, step=0.5 * settings.step)
         return Refinement(finer, f"a tolerance of {finer.tolerance:.3g} and other, irregular steps", TENTH)
-    frames = ceil(LEAST_STEPS / settings.every)
-    coarse = frames * settings.every
-    fine = 2 * coarse if sampled else ceil(FINER * coarse)
+    if between_samples:
+        few = steps_between(between_samples)
+        coarse = lcm(few, settings.every)
+        fine = max(few + 1, round(FINER * few)) * (coarse // few)
+    else:
+        coarse = ceil(LEAST_STEPS / settings.every) * settings.every
+        fine = ceil(FINER * coarse)
     step = settings.step * coarse / fine
     steps = max(1, ceil(settings.duration / step * (1.0 - 1e-12)))
     finer = replace(settings, step=step, every=fine, steps=steps, output_interval=fine * step)
     return Refinement(finer, f"steps of {step:.3g} s", (coarse / fine) ** INTEGRATORS[settings.integrator].order)
+
+
+def steps_between(samples: int) -> int:
+    """The least part of `samples` steps with three of them or more: one in so many ends where a finer one does. Else 2 or 1."""
+    parts = [few for few in range(1, MOST_OF_SAMPLES + 1) if samples % few == 0]
+    return next((few for few in parts if few >= LEAST_STEPS), parts[-1])
 
 
 class SecondRun:
@@ -79,7 +95,8 @@ class SecondRun:
     """
 
     def __init__(self, plan: Plan, limit: float | None) -> None:
-        self.refinement = refine(plan.settings, sampled=any(state.every for state in plan.machine.states))
+        counts = [round(time / plan.settings.step) for _, time in sampled_times(plan.machine)]
+        self.refinement = refine(plan.settings, gcd(*counts))
         self.leader = Leader()
         self._plan, self._limit = plan, limit
         self._sink = Memory()

@@ -57,7 +57,7 @@ class Settled:
             raise ModelError(faults)
         count = system.body_count
         refuse_moving(self.machine, rate[system.positions :][: 6 * count].reshape(count, 6), system.size)
-        return replace(assembly, y=y, reference=self.reference.copy(), velocity_change=())
+        return replace(assembly, y=y, reference=self.reference.copy(), velocity_change=(), followed=())
 
 
 SETTINGS = StaticsSettings(duration=0.0, step=1.0, coordinates="absolute")

@@ -21,10 +21,11 @@ STIFFNESS, DAMPING, UNSTRESSED = 0, 1, 2
 def apply(machine, number, t):
     """Tension T = k x + d ẋ of the stretch x = s - l, zero where x < 0 or T < 0; s = Σ distances, l̇ = the speed of the winch.
 
-    The rope stores ½ k x², the winch works by -T l̇, and (T - k x) ẋ is dissipated, also where the rope goes slack.
+    Where steps are chosen one ends where x passes zero. The rope stores ½ k x², the winch works by -T l̇, and (T - k x) ẋ is dissipated, also where the rope goes slack.
     """
     record = record_at(machine)
     elements, coordinates, control, out = record.elements, record.coordinates, record.control, record.outputs.value
+    followed = record.watched.followed[0]
     for k in range(elements.span[number, 0], elements.span[number, 1]):
         index, numbers = elements.columns[k], elements.number[k]
         length, speed = (
@@ -40,6 +41,9 @@ def apply(machine, number, t):
             q = index[FIRST + j]
             stretch += coordinates.value[q]
             rate += coordinates.rate[q]
+        elements.depth[k, 0] = stretch
+        if followed == 1:
+            elements.depth_rate[k, 0] = rate
         elastic = 0.0 * stretch
         if real(stretch) > 0.0:
             elastic = numbers[STIFFNESS] * stretch

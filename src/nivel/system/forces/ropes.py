@@ -26,7 +26,7 @@ def add(draft: SystemBuilder, rope: Rope) -> None:
         )
         length, speed = draft.own_state(fact), draft.function(rope.speed)
     columns = [first, length, speed, len(distances), *distances]
-    draft.elements.add(apply, columns, [rope.stiffness, rope.damping, rope.length])
+    draft.elements.add(apply, columns, [rope.stiffness, rope.damping, rope.length], memory=1, surfaces=(0,))
 
 
 KINDS = (ForceKind(Rope, add, (apply,)),)

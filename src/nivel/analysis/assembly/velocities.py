@@ -1,0 +1,157 @@
+"""Velocities at the start: those that are given are kept, all others follow with the least kinetic energy.
+
+What the constraints and the rates of joints and drivers ask for is an impulse at the start: of all motions that fit, the machine takes the
+one whose change has the least kinetic energy (Bertrand and Kelvin; Routh 1905, Rigid Dynamics, part 1, art. 374–389), found by least
+squares in the velocities whitened by the mass matrix. Where what is given does not fit by itself, it is changed as little as possible,
+in lengths of the machine and radians.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nivel.analysis.assembly.closing import OPEN, Wishes, least_change
+from nivel.analysis.assembly.equations import MotionEquations
+from nivel.errors import Fault, ModelError
+from nivel.machine.machine_record import MachineRecord
+from nivel.system.system import Array, System
+
+# Given velocities are changed so much less willingly than others, and only where they do not fit.
+RELUCTANT = 1e-3
+# The second solution takes the round-off of the first one away.
+SOLUTIONS = 2
+# Changes below this share of the largest velocity are round-off.
+ROUND_OFF = 1e-12
+
+
+def consistent_velocities(
+    machine: MachineRecord, motion: MotionEquations, t: float, y: Array, wishes: Wishes
+) -> tuple[Array, Array]:
+    """The state y with velocities that fit the joints, and their changes (B, 6): (Ṙ [m/s], ω̄ [rad/s]).
+
+    Raises ModelError naming rows and start rates that cannot have the rates asked of them.
+    """
+    system, record = motion.system, motion.system.record
+    count, rows = system.body_count, slice(0, system.machine_rows)
+    before = _velocities(system)
+    chosen, rates = [q for _, q, _ in wishes.rates], np.array([rate for _, _, rate in wishes.rates])
+    units = [1.0 if name.partition(".")[2].startswith("angle") else system.size for name, _, _ in wishes.rates]
+    scale = np.append(record.constraints.scale[rows], units)
+    new = before
+    for ways in _ways(machine, system, wishes):
+        new = before
+        _set_velocities(motion, t, y, new)
+        for _ in range(SOLUTIONS):
+            target = np.append(-record.constraints.Cdot[rows], rates - record.coordinates.rate[chosen])
+            change = least_change(motion, target, chosen, scale, ways).reshape(count, 6)
+            change[np.abs(change) <= ROUND_OFF * np.abs(before).max(initial=0.0)] = 0.0
+            new = new + change
+            _set_velocities(motion, t, y, new)
+        if not _left_open(system).size and not _missed(system, wishes):
+            break
+    _refuse_impossible_rates(system, wishes)
+    state = _set_velocities(motion, t, y, new)
+    return state, (new - before) * np.repeat([system.size, 1.0], 3)
+
+
+def given_velocities(machine: MachineRecord) -> NDArray[np.bool_]:
+    """(B, 2) of each body whether a velocity and an angular velocity other than zero are given; nodes of beams have theirs."""
+    nodes = {name for beam in machine.beams for name in beam.node_names}
+    return np.array(
+        [
+            (
+                body.name in nodes or any(body.velocity),
+                body.name in nodes or any(body.angular_velocity or body.angular_velocity_body or ()),
+            )
+            for body in machine.bodies
+        ],
+        dtype=bool,
+    ).reshape(len(machine.bodies), 2)
+
+
+def _ways(machine: MachineRecord, system: System, wishes: Wishes) -> tuple[Array, ...]:
+    """(B, 6, 6) changes of velocities for numbers of equal cost: first where given ones are kept, then, if any is, where they are not."""
+    given = given_velocities(machine)
+    free = _whitened(system, ~np.repeat(given, 3, axis=1))
+    reluctant = np.repeat(given, 3, axis=1) * (RELUCTANT / wishes.weight[:, None])
+    return (free, free + reluctant[:, :, None] * np.eye(6)) if given.any() else (free,)
+
+
+def _whitened(system: System, free: NDArray[np.bool_]) -> Array:
+    """(B, 6, 6) L⁻ᵀ of the mass matrix L Lᵀ of the velocities that are `free` (B, 6), lengths in units of the machine; zero for the others.
+
+    The largest mass of the machine counts as one.
+    """
+    bodies, count = system.record.bodies, system.body_count
+    M = np.zeros((count, 6, 6))
+    for b in range(count):
+        m, c, A = bodies.mass[b], bodies.centre_b[b], bodies.A[b]
+        cross = np.array([[0.0, -c[2], c[1]], [c[2], 0.0, -c[0]], [-c[1], c[0], 0.0]])
+        M[b, :3, :3] = m * np.eye(3)
+        M[b, :3, 3:] = -m * A @ cross
+        M[b, 3:, :3] = M[b, :3, 3:].T
+        M[b, 3:, 3:] = bodies.inertia_origin_b[b]
+    M[:, :3, :] *= system.size
+    M[:, :, :3] *= system.size
+    M /= np.max(np.abs(M), initial=np.finfo(float).tiny)
+    both = free[:, :, None] & free[:, None, :]
+    L = np.linalg.cholesky(np.where(both, M, np.eye(6)))
+    return np.where(both, np.swapaxes(np.linalg.inv(L), 1, 2), 0.0)
+
+
+def _velocities(system: System) -> Array:
+    """(B, 6) of the state last evaluated: Ṙ in lengths of the machine, ω̄."""
+    bodies, count = system.record.bodies, system.body_count
+    return np.hstack([bodies.Rdot[:count] / system.size, bodies.omega_b[:count]])
+
+
+def _set_velocities(motion: MotionEquations, t: float, y: Array, velocities: Array) -> Array:
+    """The state with the positions of y and velocities (B, 6), evaluated."""
+    system = motion.system
+    state = system.state(y[: system.positions], velocities[:, :3] * system.size, velocities[:, 3:])
+    motion.evaluate(t, state)
+    return state
+
+
+def _speed(system: System) -> float:
+    """What rates are measured by: the largest angular velocity or velocity over the machine's length, or 1/s."""
+    bodies = system.record.bodies
+    return max(1.0, float(np.abs(bodies.omega_b).max()), float(np.abs(bodies.Rdot).max()) / system.size)
+
+
+def _left_open(system: System) -> NDArray[np.intp]:
+    """Rows whose rates are not what is asked of them."""
+    constraints, rows = system.record.constraints, slice(0, system.machine_rows)
+    return np.flatnonzero(np.abs(constraints.Cdot[rows]) / constraints.scale[rows] > OPEN * _speed(system))
+
+
+def _missed(system: System, wishes: Wishes) -> list[tuple[str, float, float]]:
+    """Rates of joint coordinates that are not those asked for: name, wanted, had."""
+    speed = _speed(system)
+    found = [(name, rate, float(system.record.coordinates.rate[q])) for name, q, rate in wishes.rates]
+    return [each for each in found if abs(each[2] - each[1]) > OPEN * max(speed, abs(each[1])) * max(1.0, system.size)]
+
+
+def _refuse_impossible_rates(system: System, wishes: Wishes) -> None:
+    """Rates that the machine cannot have: drivers or start rates that contradict each other or the joints."""
+    wrong, faults = _left_open(system), []
+    # drivers that contradict each other open joints as well, which are not to blame
+    prescribed = [row for row in wrong if section_of(system, system.row_owner[row]) == "drivers"]
+    for row in prescribed or wrong:
+        owner = system.row_owner[row]
+        message = f"the velocities contradict each other: {system.rows[row]} cannot have the rate that is asked of it"
+        faults.append(Fault("", 0, 0, f"{section_of(system, owner)}.{owner}", message))
+    for name, rate, got in _missed(system, wishes):
+        joint, _, coordinate = name.partition(".")
+        message = f"the rate {rate:.6g} of {name} cannot be had: the joints, drivers and other rates allow {got:.6g}"
+        faults.append(Fault("", 0, 0, f"joints.{joint}.start_rates.{coordinate}", message))
+    if faults:
+        raise ModelError(faults)
+
+
+def section_of(system: System, owner: str) -> str:
+    """The section of the machine file in which the owner of a row stands."""
+    if owner in system.joints:
+        return "joints"
+    return "couplings" if f"{owner}.coupling" in system.rows else "drivers"

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from scipy.linalg import (
     LinAlgError,
-    LinAlgWarning,
     cholesky,
     eig,
     eigh,
     eigvalsh,
-    lu_factor,
-    lu_solve,
     null_space,
     solve_triangular,
 )
+from scipy.linalg.lapack import dgetrf, dgetrs
 from scipy.sparse import bmat, csc_matrix, diags
 from scipy.sparse.linalg import splu
 
@@ -61,17 +58,21 @@ def factors(matrix: Sparse) -> Any:
     return found
 
 
+def saddle_factors(tangent: Tangent, shift: float = 0.0) -> Any:
+    """LU factors of [K + shift, Cᵀ; C, 0]. Raises PivotError where it is singular to round-off."""
+    small = tangent.K.shape[0] + tangent.C.shape[0] <= FULL
+    return _Full(tangent.full_saddle(shift)) if small else factors(tangent.saddle(shift))
+
+
 class _Full:
     """Factors of a small matrix."""
 
     def __init__(self, matrix: Array) -> None:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", LinAlgWarning)  # a pivot of zero is told below
-            self._factors = lu_factor(matrix)
-        _refuse_small(np.diagonal(self._factors[0]))
+        self._lu, self._pivots, _ = dgetrf(matrix)  # a pivot of zero is told below
+        _refuse_small(np.diagonal(self._lu))
 
     def solve(self, b: Array) -> Array:
-        return lu_solve(self._factors, b)
+        return dgetrs(self._lu, self._pivots, b)[0]
 
 
 def _refuse_small(pivots: Array) -> None:
@@ -84,7 +85,7 @@ def solve(tangent: Tangent, r: Array, C: Array, shift: float = 0.0) -> Change:
     """x, λ with (K + shift) x + Cᵀ λ = r and C x = C."""
     if not len(r):
         return Change(np.zeros(0), np.zeros(len(C)))
-    x = factors(tangent.saddle(shift)).solve(np.concatenate([r, C]))
+    x = saddle_factors(tangent, shift).solve(np.concatenate([r, C]))
     return Change(x[: len(r)], x[len(r) :])
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.analysis.assembly.closing import OPEN, Wishes, close_positions, least_change
+from nivel.analysis.assembly.driven_start import half_turns, turn_to_targets
 from nivel.analysis.assembly.equations import MotionEquations, change_between
 from nivel.errors import Fault, ModelError
 from nivel.machine.machine_record import MachineRecord
@@ -57,8 +58,11 @@ def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Asse
     motion.evaluate(t, y)
     gap, gap_row = _largest_gap(system)
     _refuse_contradictions(machine, motion)
+    turn_to_targets(machine, motion, t, y)
     close_positions(motion, t, y, wishes)
     _refuse_open_joints(machine, motion, wishes)
+    if faults := list(half_turns(machine, motion, t, y)):
+        raise ModelError(faults)
     y, velocity_change = _consistent_velocities(motion, t, y, wishes)
     reference = system.record.coordinates.reference.copy()
     return Assembly(y, reference, gap, gap_row, _moves(system, given, y[: system.positions]), velocity_change)

@@ -105,7 +105,7 @@ def prepare(
         absolute,
         assembly,
         redundancy,
-        len(machine.drivers),
+        sum(driver.row_count for driver in machine.drivers),
         integrator,
         machine.beams,
         corners(machine, with_values=True) if methods.chooses_steps and not integrator.knows_corners else (),

@@ -14,7 +14,7 @@ from nivel.machine.table import Table
 from nivel.machine.time_function import TimeFunction, varying
 from nivel.machine.units.arithmetic import ExpressionError
 from nivel.machine.units.expression import Expression
-from nivel.machine.units.quantity import Direction, listed
+from nivel.machine.units.quantity import Direction, fault, listed
 
 AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]
 ShareMotion = Annotated[TimeFunction, varying("number", smooth=True)]
@@ -29,13 +29,12 @@ def _columns(value: Any) -> Any:
     """Four functions; of a table with four values in a row, the four columns, in which q and -q, the same turn, follow each other smoothly."""
     if not isinstance(value, Mapping) or "values" not in value:
         return listed(value)
-    rows = value["values"]
     try:
-        table = np.array(rows, dtype=float)
+        table = np.array([listed(row) for row in value["values"]], dtype=float)
     except (TypeError, ValueError):
-        return value
+        table = np.zeros(0)
     if table.ndim != 2 or table.shape[1] != 4:
-        return value
+        raise fault("`values` has four numbers a row, scalar first: `values: [[1, 0, 0, 0], [0.8, 0.6, 0, 0], …]`")
     flips = np.cumprod([1.0, *np.where(np.einsum("ki,ki->k", table[1:], table[:-1]) < 0.0, -1.0, 1.0)])
     rest = {"interpolation": "cubic", **{key: each for key, each in value.items() if key != "values"}}
     return tuple({**rest, "values": column.tolist()} for column in (table * flips[:, None]).T)
@@ -77,9 +76,7 @@ class DrivenOrientation(Checked):
             got = " and ".join(given) or "none of them"
             yield Problem((), f"one of {', '.join(FORMS)} was expected, got {got}")
         if (self.euler is None) != (self.sequence is None):
-            yield Problem(
-                (), "`euler` and `sequence` belong together, e.g. `{euler: [time, 0, 0], sequence: zyx}`"
-            )
+            yield Problem((), "`euler` and `sequence` belong together, e.g. `{euler: [time, 0, 0], sequence: zyx}`")
         if (self.axis is None) != (self.angle is None):
             yield Problem((), "`axis` and `angle` belong together, e.g. `{axis: [0, 0, 1], angle: 2*time}`")
         if self.axis is not None and not np.any(self.axis):
@@ -91,9 +88,10 @@ class DrivenOrientation(Checked):
 def _problems_of_length(parameters: tuple[TimeFunction, ...]) -> Iterator[Problem]:
     """Tables whose Euler parameters are far from unit length between their points: these are too far apart, or no unit quaternions."""
     tables = [each for each in parameters if isinstance(each, Table)]
-    if not tables:
-        return
-    times = np.unique(np.concatenate([np.linspace(each.times[0], each.times[-1], LOOKS) for each in tables]))
+    if not tables and any(not isinstance(each, float | int) for each in parameters):
+        return  # functions of any length
+    spans = [np.linspace(each.times[0], each.times[-1], LOOKS) for each in tables]
+    times = np.unique(np.concatenate([[0.0], *spans]))
     for time in times:
         try:
             length = float(np.linalg.norm([_value(each, float(time)) for each in parameters]))
@@ -103,7 +101,7 @@ def _problems_of_length(parameters: tuple[TimeFunction, ...]) -> Iterator[Proble
             yield Problem(
                 ("euler_parameters",),
                 f"their length at {time:.6g} s is {length:.4g}, not 1: give unit quaternions, scalar first, "
-                f"at points less than a quarter turn apart",
+                f"of a table at times less than a quarter turn apart",
             )
             return
 

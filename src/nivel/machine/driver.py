@@ -77,8 +77,8 @@ class Driver(Checked):
         if self.is_pose:
             yield from self._problems_of_pose()
             return
-        if self.value is None:
-            yield Problem((), "`value` is missing: the driven length or angle as a function of time, or a `position` of a marker")
+        if self.value is None and (self.coordinate, self.along, self.about) != (None, None, None):
+            yield Problem((), "`value` is missing: the driven length or angle, a function of time")
         if self.coordinate is not None:
             for name in ("marker", "along", "about", "relative_to"):
                 if getattr(self, name) is not None:
@@ -88,10 +88,13 @@ class Driver(Checked):
             yield Problem((), "a driver needs a `coordinate`, or a `marker` and `along` or `about`")
             return
         if self.along is None and self.about is None:
-            yield Problem((), "`along` or `about` is missing: the axis of the driven motion")
+            yield Problem(
+                (),
+                "`along` or `about` is missing: the axis of the driven motion; or a whole `position` or `orientation`",
+            )
         if self.along is not None and self.about is not None:
             yield superfluous("about", "stands in place of `along`; give one of them")
-        if self.relative_to == self.marker:
+        if self.marker is not None and self.relative_to == self.marker:
             yield Problem(("relative_to",), "a marker does not move relative to itself")
 
     def _problems_of_pose(self) -> Iterator[Problem]:
@@ -99,8 +102,10 @@ class Driver(Checked):
             if getattr(self, name) is not None:
                 yield superfluous(name, "must not be given with `position` or `orientation`, which drive a marker")
         if self.from_start:
-            yield superfluous("from_start", "goes with `value`; a `position` and an `orientation` are those of the marker")
+            yield superfluous(
+                "from_start", "goes with `value`; a `position` and an `orientation` are those of the marker"
+            )
         if self.marker is None:
             yield Problem((), "`marker` is missing: the marker whose pose is driven")
-        if self.relative_to == self.marker:
+        if self.marker is not None and self.relative_to == self.marker:
             yield Problem(("relative_to",), "a marker does not move relative to itself")

@@ -75,7 +75,9 @@ def _add_pose(draft: SystemBuilder, rows: RowTable, driver: Driver) -> None:
         for axis, value in zip("xyz", driver.position, strict=True):
             coordinate = draft.coordinates.add(TRANSLATION, reference, marker, AXES[axis])
             function = _function(draft, f"drivers.{driver.name}.position.{AXES[axis]}", value)
-            _add_row(draft, rows, driver, (axis, f"along {axis} of {driver.relative_to or 'ground'}"), coordinate, function)
+            _add_row(
+                draft, rows, driver, (axis, f"along {axis} of {driver.relative_to or 'ground'}"), coordinate, function
+            )
     if driver.orientation is not None:
         axes, functions = driver.orientation.turns
         place = f"drivers.{driver.name}.orientation"

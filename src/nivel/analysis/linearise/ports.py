@@ -104,7 +104,9 @@ class Catalogue:
         drivers = {driver.name for driver in self.machine.drivers}
         for row, name, unit in self._rows(drivers):
             effort = "N" if unit == "m" else "N m"
-            out.append(Output(f"driver.{_motion(name)}.effort", effort, lambda own, row=row: -own.twin.residual.lam[row]))
+            out.append(
+                Output(f"driver.{_motion(name)}.effort", effort, lambda own, row=row: -own.twin.residual.lam[row])
+            )
         values = reported(system.layout, len(system.record.outputs.value))
         for k, each in enumerate(values):
             if each.name.startswith(("sensor.", "force.")):

@@ -67,9 +67,7 @@ class Prepared:
     allowed: Array | None = None
 
 
-def prepare(
-    methods: Methods, given: Assembled | None = None, residual: ResidualOptions | None = None
-) -> Prepared:
+def prepare(methods: Methods, given: Assembled | None = None, residual: ResidualOptions | None = None) -> Prepared:
     """Build and assemble the machine of these methods; given : the machine is built and assembled already.
 
     residual : what is asked of the residual of an implicit integrator, in place of what that asks.

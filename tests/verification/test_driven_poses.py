@@ -165,7 +165,8 @@ def test_the_driven_poses_of_a_platform_give_the_lengths_of_its_legs():
     for k, t in enumerate(result.time):
         A = Rotation.from_euler("ZYX", [0.3 * t, 0.0, 0.2 * t])
         for n, (foot, head) in enumerate(zip(feet, heads, strict=True)):
-            length = np.linalg.norm([0.1 * t, 0, 1 + 0.2 * t] + A.apply(np.subtract(head, [0, 0, 1])) - foot)
+            moved = np.array([0.1 * t, 0, 1 + 0.2 * t]) + A.apply(np.subtract(head, [0, 0, 1]))
+            length = np.linalg.norm(moved - foot)
             assert result.array(f"leg_{n}.distance")[k] == pytest.approx(length, abs=1e-9)
 
 

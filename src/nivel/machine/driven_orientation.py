@@ -19,21 +19,21 @@ from nivel.machine.units.quantity import Direction, fault, listed
 AngleMotion = Annotated[TimeFunction, varying("angle", smooth=True)]
 ShareMotion = Annotated[TimeFunction, varying("number", smooth=True)]
 FORMS: Final = ("euler", "axis", "euler_parameters")
-# Euler parameters between the points of their tables are made of unit length; where they are shorter than this, the points are too far apart.
+# Euler parameters between the points of a table are made of unit length; shorter than this they are of points too far apart.
 SHORTEST: Final = 0.9
 # times at which the length of Euler parameters is looked at
 LOOKS: Final = 400
 
 
 def _columns(value: Any) -> Any:
-    """Four functions; of a table with four values in a row, the four columns, in which q and -q, the same turn, follow each other smoothly."""
+    """Four functions; of a table with four values in a row its columns, with signs of rows (q and -q are the same turn) that follow smoothly."""
     if not isinstance(value, Mapping) or "values" not in value:
         return listed(value)
     try:
         table = np.array([listed(row) for row in value["values"]], dtype=float)
     except (TypeError, ValueError):
         table = np.zeros(0)
-    if table.ndim != 2 or table.shape[1] != 4:
+    if table.ndim != 2 or len(table[0]) != 4:
         raise fault("`values` has four numbers a row, scalar first: `values: [[1, 0, 0, 0], [0.8, 0.6, 0, 0], …]`")
     flips = np.cumprod([1.0, *np.where(np.einsum("ki,ki->k", table[1:], table[:-1]) < 0.0, -1.0, 1.0)])
     rest = {"interpolation": "cubic", **{key: each for key, each in value.items() if key != "values"}}

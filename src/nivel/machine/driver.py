@@ -16,7 +16,6 @@ from nivel.machine.record import GROUND, Name
 from nivel.machine.time_function import TimeFunction, varying
 from nivel.machine.units.quantity import listed
 
-
 LengthMotion = Annotated[TimeFunction, varying("length", smooth=True)]
 # keys of a driver of one motion, which a whole pose has no use for
 OF_ONE_MOTION: Final = ("coordinate", "along", "about", "value")

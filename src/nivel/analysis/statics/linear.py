@@ -12,10 +12,10 @@ from scipy.linalg import (
     eig,
     eigh,
     eigvalsh,
+    get_lapack_funcs,
     null_space,
     solve_triangular,
 )
-from scipy.linalg.lapack import dgetrf, dgetrs
 from scipy.sparse import bmat, csc_matrix, diags
 from scipy.sparse.linalg import splu
 
@@ -40,6 +40,8 @@ NO_STIFFNESS = 3e-14
 SHIFTS = (0.0, 1e-15, 1e-13, 1e-11, 1e-9)
 # Pivots below this share of the largest are none.
 NO_PIVOT = 1e-15
+# LU factors of a full matrix, and solutions with them
+getrf, getrs = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 
 
 class PivotError(Exception):
@@ -68,11 +70,11 @@ class _Full:
     """Factors of a small matrix."""
 
     def __init__(self, matrix: Array) -> None:
-        self._lu, self._pivots, _ = dgetrf(matrix)  # a pivot of zero is told below
+        self._lu, self._pivots, _ = getrf(matrix)  # a pivot of zero is told below
         _refuse_small(np.diagonal(self._lu))
 
     def solve(self, b: Array) -> Array:
-        return dgetrs(self._lu, self._pivots, b)[0]
+        return getrs(self._lu, self._pivots, b)[0]
 
 
 def _refuse_small(pivots: Array) -> None:

@@ -11,12 +11,12 @@ from scipy.linalg import eig, eigh
 from nivel.analysis.statics.equations import Tangent
 from nivel.analysis.statics.linear import (
     PivotError,
-    saddle_factors,
     fastest,
     free_directions,
     has_potential,
     is_small,
     lowest,
+    saddle_factors,
     symmetric,
 )
 from nivel.system.system import Array

@@ -78,7 +78,12 @@ def placed_driver(driver: Driver, scene: Scene) -> Driver:
     Raises NotRepresentableError.
     """
     if driver.coordinate is not None:
+        assert driver.value is not None  # the record was checked
         return driver.replace(value=negative(driver.value)) if scene.is_opposite(driver.coordinate) else driver
+    if driver.is_pose and scene.placement.mirrored:
+        raise NotRepresentableError(
+            "the driven pose of a marker has no mirror image: drive the marker of the part as placed"
+        )
     kept = POLAR_Z if driver.along == "z" else AXIAL_Z
     reference = driver.reference
     return driver.replace(relative_to=scene.ground_frame(kept) if reference is None else scene.variant(reference, kept))

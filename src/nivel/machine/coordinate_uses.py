@@ -105,17 +105,30 @@ def _driven_twice(
 ) -> Faults:
     marker = entry(driver, "marker")
     if found is not None:
-        what: tuple[object, ...] = found
+        every: list[tuple[object, ...]] = [found]
         words, key = f"the coordinate `{'.'.join(found)}`", "coordinate"
     elif isinstance(marker, str):
-        motion = [str(entry(driver, key)) for key in ("along", "about")]
-        what = (marker, *motion, str(entry(driver, "relative_to") or GROUND))
+        seen_from = str(entry(driver, "relative_to") or GROUND)
+        every = [(marker, *motion, seen_from) for motion in _motions(driver)]
         words, key = f"this motion of the marker `{marker}`", "marker"
     else:
         return
     name = str(entry(driver, "name"))
-    if driven.setdefault(what, name) != name:
-        yield (*place, key), f"{words} is driven by `{driven[what]}` already"
+    others = {driven.setdefault(what, name) for what in every} - {name}
+    if others:
+        yield (*place, key), f"{words} is driven by `{sorted(others)[0]}` already"
+
+
+def _motions(driver: Any) -> Iterator[tuple[str, str]]:
+    """What a driver moves a marker along and about."""
+    whole = [key for key in ("position", "orientation") if entry(driver, key) is not None]
+    if not whole:
+        yield str(entry(driver, "along")), str(entry(driver, "about"))
+    for axis in "xyz":
+        if "position" in whole:
+            yield axis, str(None)
+        if "orientation" in whole:
+            yield str(None), axis
 
 
 def _started(joint: Any, driven: Mapping[tuple[object, ...], str], place: Place) -> Faults:

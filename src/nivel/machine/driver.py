@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from nivel.machine.checked import Checked, Problem, superfluous
 from nivel.machine.coefficient import Truth
 from nivel.machine.coordinate_function import CoordinateMotion
 from nivel.machine.coordinate_reference import CoordinateReference, Kind, kind_of
+from nivel.machine.driven_orientation import DrivenOrientation
 from nivel.machine.record import GROUND, Name
+from nivel.machine.time_function import TimeFunction, varying
+from nivel.machine.units.quantity import listed
+
+LengthMotion = Annotated[TimeFunction, varying("length", smooth=True)]
+# keys of a driver of one motion, which a whole pose has no use for
+OF_ONE_MOTION: Final = ("coordinate", "along", "about", "value")
 
 
 class Driver(Checked):
-    """A joint coordinate, or the place or angle of a marker, that follows a function of time."""
+    """A joint coordinate, the place or angle of a marker, or a marker's whole pose, that follows functions of time."""
 
     collection: ClassVar[str] = "drivers"
 
@@ -30,7 +37,14 @@ class Driver(Checked):
         description="axis of `relative_to` about which the marker is turned, measured between the axes that follow it",
     )
     relative_to: Name | None = Field(default=None, description="marker from which it is measured; default `ground`")
-    value: CoordinateMotion = Field(description="length or angle, a function of time")
+    value: CoordinateMotion | None = Field(default=None, description="length or angle, a function of time")
+    position: Annotated[tuple[LengthMotion, LengthMotion, LengthMotion] | None, BeforeValidator(listed)] = Field(
+        default=None,
+        description="of the marker's point from that of `relative_to`, along its axes: three functions of time",
+    )
+    orientation: DrivenOrientation | None = Field(
+        default=None, description="of the marker's axes in those of `relative_to`, functions of time"
+    )
     from_start: Truth = Field(
         default=False,
         description="the coordinate moves from where it is placed by what `value` changes from its value at t = 0",
@@ -44,11 +58,26 @@ class Driver(Checked):
         return kind_of(self.coordinate)
 
     @property
+    def is_pose(self) -> bool:
+        """Whether a position or an orientation is driven as a whole."""
+        return self.position is not None or self.orientation is not None
+
+    @property
+    def row_count(self) -> int:
+        """Motions that it prescribes."""
+        return 3 * (self.position is not None) + 3 * (self.orientation is not None) if self.is_pose else 1
+
+    @property
     def reference(self) -> str | None:
         """The marker from which a marker is measured; None for the ground."""
         return None if self.relative_to == GROUND else self.relative_to
 
     def problems(self) -> Iterator[Problem]:
+        if self.is_pose:
+            yield from self._problems_of_pose()
+            return
+        if self.value is None and (self.coordinate, self.along, self.about) != (None, None, None):
+            yield Problem((), "`value` is missing: the driven length or angle, a function of time")
         if self.coordinate is not None:
             for name in ("marker", "along", "about", "relative_to"):
                 if getattr(self, name) is not None:
@@ -58,8 +87,24 @@ class Driver(Checked):
             yield Problem((), "a driver needs a `coordinate`, or a `marker` and `along` or `about`")
             return
         if self.along is None and self.about is None:
-            yield Problem((), "`along` or `about` is missing: the axis of the driven motion")
+            yield Problem(
+                (),
+                "`along` or `about` is missing: the axis of the driven motion; or a whole `position` or `orientation`",
+            )
         if self.along is not None and self.about is not None:
             yield superfluous("about", "stands in place of `along`; give one of them")
-        if self.relative_to == self.marker:
+        if self.marker is not None and self.relative_to == self.marker:
+            yield Problem(("relative_to",), "a marker does not move relative to itself")
+
+    def _problems_of_pose(self) -> Iterator[Problem]:
+        for name in OF_ONE_MOTION:
+            if getattr(self, name) is not None:
+                yield superfluous(name, "must not be given with `position` or `orientation`, which drive a marker")
+        if self.from_start:
+            yield superfluous(
+                "from_start", "goes with `value`; a `position` and an `orientation` are those of the marker"
+            )
+        if self.marker is None:
+            yield Problem((), "`marker` is missing: the marker whose pose is driven")
+        if self.marker is not None and self.relative_to == self.marker:
             yield Problem(("relative_to",), "a marker does not move relative to itself")

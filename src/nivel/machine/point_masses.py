@@ -41,7 +41,7 @@ def point_mass_faults(machine: Any, index: Index) -> Faults:
         yield from _not_on_one(entry(force, "plane"), index, ("forces", at, "plane"))
         yield from _no_axes_of_one(force, index, ("forces", at, "axes"))
     for at, driver in enumerate(elements(machine, "drivers")):
-        if entry(driver, "about") is not None:
+        if entry(driver, "about") is not None or entry(driver, "orientation") is not None:
             yield from _not_on_one(entry(driver, "marker"), index, ("drivers", at, "marker"))
     for at, sensor in enumerate(elements(machine, "sensors")):
         if str(entry(sensor, "quantity")).startswith("angular"):

@@ -164,7 +164,8 @@ def _outputs(result: Result, section: str) -> Iterator[tuple[str, str]]:
     for name in result.variables:
         start, _, rest = name.partition(".")
         if start == section:
-            element, _, output = rest.partition(".")
+            # the motions of a pose that is driven, `lift.x`, have efforts of their own
+            element, _, output = rest.rpartition(".") if section == "driver" else rest.partition(".")
             yield element, output
 
 

@@ -43,6 +43,7 @@ from nivel.system.beams import add_beam, no_tangent, shared_mass
 from nivel.system.bodies import body_tables, given_poses, given_velocities, machine_size
 from nivel.system.builder import SystemBuilder
 from nivel.system.control import add_control
+from nivel.system.driver_rows import add_drivers
 from nivel.system.elimination.partition import no_partition
 from nivel.system.elimination.tree_tables import empty_tree
 from nivel.system.flexible import no_flexible, no_modal_tree
@@ -54,7 +55,7 @@ from nivel.system.inputs import add_inputs
 from nivel.system.interfaces import refuse_unknown_interfaces
 from nivel.system.layout import first_columns, frame_layout
 from nivel.system.located import located
-from nivel.system.rows import RowTable, add_couplings, add_drivers, add_joint, coordinate_units
+from nivel.system.rows import RowTable, add_couplings, add_joint, coordinate_units
 from nivel.system.saddle import friction_parts, friction_tables, saddle_tables
 from nivel.system.sensors import sensor_columns
 from nivel.system.states.three_coordinates import no_rotations

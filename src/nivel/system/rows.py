@@ -1,4 +1,4 @@
-"""Constraint rows: joints, couplings and drivers become basic constraints."""
+"""Constraint rows: joints and couplings become basic constraints."""
 
 from __future__ import annotations
 
@@ -6,13 +6,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from nivel.kernels.bodies.coordinate import LAST_ANGLE, ROTATION, TRANSLATION
+from nivel.kernels.bodies.coordinate import LAST_ANGLE
 from nivel.kernels.record.record import NONE, Constraints
 from nivel.machine.coordinate_reference import COORDINATE_KINDS
-from nivel.machine.driver import Driver
 from nivel.machine.joint import Joint
 from nivel.system.builder import SystemBuilder
-from nivel.system.interfaces import marker_place
 from nivel.system.joint_frames import cosine_as_placed, joint_frames, slot_frame
 from nivel.system.joints import (
     AXES,
@@ -25,7 +23,6 @@ from nivel.system.joints import (
     PerpendicularDistance,
     composition_of,
 )
-from nivel.system.located import located
 from nivel.system.rails import OnBeam
 from nivel.system.tables import Rail, Wheel, index_array
 
@@ -221,7 +218,7 @@ def add_couplings(draft: SystemBuilder, rows: RowTable) -> None:
             for (reference, factor), kind in zip(coupling.terms, coupling.kinds, strict=True)
         ]
         leading = terms[0][1]
-        units = _units(draft, terms[0][0])
+        units = units_of(draft, terms[0][0])
         row = rows.row(coupling.name, "coupling", units)
         effort = "N m" if units == "rad" else "N"
         output = draft.outputs.add(
@@ -231,46 +228,8 @@ def add_couplings(draft: SystemBuilder, rows: RowTable) -> None:
         rows.combine(draft, row, scaled, report=(output, 0))
 
 
-def add_drivers(draft: SystemBuilder, rows: RowTable) -> None:
-    """Rows of all drivers."""
-    for driver in draft.machine.drivers:
-        coordinate = _driven(draft, driver)
-        units = _units(draft, coordinate)
-        row = rows.row(driver.name, "driver", units)
-        effort = "N m" if units == "rad" else "N"
-        output = draft.outputs.add(
-            (f"driver.{driver.name}.effort", effort, f"effort of {driver.name} on its coordinate"),
-            (f"driver.{driver.name}.power", "W", f"power of {driver.name} into the machine"),
-        )
-        with located(f"drivers.{driver.name}.value"):
-            function = draft.function(driver.value, motion=True)
-        offset = None if driver.from_start else 0.0
-        rows.combine(draft, row, [(coordinate, 1.0)], offset=offset, function=function, report=(output, 1))
-
-
-def _driven(draft: SystemBuilder, driver: Driver) -> int:
-    if driver.coordinate is not None:
-        return draft.coordinate(driver.coordinate)
-    assert driver.marker is not None  # the record was checked
-    if driver.about in ("x", "y"):
-        ends = (_with_axis(draft, name, driver.about) for name in (driver.reference, driver.marker))
-        return draft.coordinates.add(ROTATION, *ends)
-    marker, reference = draft.marker(driver.marker), draft.marker_or_ground(driver.relative_to)
-    if driver.along is not None:
-        return draft.coordinates.add(TRANSLATION, reference, marker, AXES[driver.along])
-    return draft.coordinates.add(ROTATION, reference, marker)
-
-
-def _with_axis(draft: SystemBuilder, name: str | None, axis: str) -> int:
-    """A marker like that called `name`, or the global frame, with this axis in the place of z and the next one in that of x."""
-    body, point, axes = ("ground", np.zeros(3), np.eye(3))
-    if name is not None:
-        body, point, axes = marker_place(draft.machine, draft.machine.marker_named[name])
-    k = AXES[axis]
-    return draft.place((body, point, axes[:, [(k + 1) % 3, (k + 2) % 3, k]]))
-
-
-def _units(draft: SystemBuilder, coordinate: int) -> str:
+def units_of(draft: SystemBuilder, coordinate: int) -> str:
+    """SI unit of a measured coordinate."""
     kind = draft.coordinates.what[coordinate][0]
     return "rad" if kind <= LAST_ANGLE else "m"
 

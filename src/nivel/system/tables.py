@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nivel.kernels.bodies.coordinate import ALONG, LAST_ANGLE
+from nivel.kernels.bodies.driven_turn import BASE
 from nivel.kernels.record.hook import Family
 from nivel.kernels.record.record import NONE, Coordinates, Elements, Markers
 from nivel.system.state_facts import StateFact
@@ -78,6 +80,15 @@ class Wheel:
     crown: float
 
 
+@dataclass(frozen=True)
+class Target:
+    """An orientation that a marker is driven to: the first of its functions, and the axes of its turns, see
+    `nivel.kernels.bodies.driven_turn`."""
+
+    function: int
+    axes: str
+
+
 @dataclass
 class CoordinateTable:
     """Scalars measured between two markers, or a slider and the nodes of its rail; the same one is measured once."""
@@ -85,6 +96,7 @@ class CoordinateTable:
     what: list[tuple[int, int, int, int]] = field(default_factory=list)  # kind, first marker, second marker, axis
     rails: dict[int, Rail] = field(default_factory=dict)  # of sliders
     wheels: dict[int, Wheel] = field(default_factory=dict)  # of what rolls
+    targets: dict[int, Target] = field(default_factory=dict)  # of driven orientations
     active: set[int] = field(default_factory=set)
     _index: dict[tuple[int, int, int, int], int] = field(default_factory=dict)
 
@@ -107,6 +119,12 @@ class CoordinateTable:
         """The same for a kind of wheel on a plane."""
         index = self.add(kind, plane, wheel.marker, axis)
         self.wheels[index] = wheel
+        return index
+
+    def on_target(self, kind: int, reference: int, marker: int, target: Target) -> int:
+        """The same for a component of the turn of a marker against its target."""
+        index = self.add(kind, reference, marker, NONE)
+        self.targets[index] = target
         return index
 
     def markers(self, coordinate: int) -> tuple[int, ...]:
@@ -140,9 +158,13 @@ class CoordinateTable:
         )
 
     def _numbers(self, coordinate: int) -> tuple[float, ...]:
-        """A number for each part: stations of the nodes of a rail, radii of a wheel."""
+        """A number for each part: stations of the nodes of a rail, radii of a wheel, what says the target of a turn."""
         if coordinate in self.rails:
             return 0.0, *self.rails[coordinate].stations
+        if coordinate in self.targets:
+            target = self.targets[coordinate]
+            digits = ("xyz".index(axis) + 1 for axis in target.axes)
+            return float(target.function), float(reduce(lambda code, digit: BASE * code + digit, digits, 0))
         wheel = self.wheels.get(coordinate)
         return (wheel.circle, wheel.crown) if wheel is not None else (0.0, 0.0)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.analysis.assembly.closing import OPEN, Wishes, close_positions
+from nivel.analysis.assembly.driven_start import half_turns, turn_to_targets
 from nivel.analysis.assembly.equations import MotionEquations, change_between
 from nivel.analysis.assembly.velocities import ROUND_OFF, consistent_velocities, given_velocities, section_of
 from nivel.errors import Fault, ModelError
@@ -59,8 +60,11 @@ def _assemble(machine: MachineRecord, motion: MotionEquations, t: float) -> Asse
     motion.evaluate(t, y)
     gap, gap_row = _largest_gap(system)
     _refuse_contradictions(machine, motion)
+    turn_to_targets(machine, motion, t, y)
     close_positions(motion, t, y, wishes)
     _refuse_open_joints(machine, motion, wishes)
+    if faults := list(half_turns(machine, motion, t, y)):
+        raise ModelError(faults)
     y, change = consistent_velocities(machine, motion, t, y, wishes)
     told = max(ROUND_OFF, TOLD * float(np.max(np.abs(change / np.repeat([system.size, 1.0], 3)), initial=0.0)))
     velocity_change = _named(system.bodies, change[:, :3], change[:, 3:], told * system.size, told)

@@ -32,6 +32,8 @@ def coupling_in_words(machine: MachineRecord, coupling: Coupling) -> str:
 
 def driver_in_words(driver: Driver) -> str:
     """What is driven, and how."""
+    if driver.is_pose:
+        return f"{driver.name}: pose of {driver.marker} in {driver.relative_to or 'ground'}; {_pose_in_words(driver)}"
     if driver.coordinate is not None:
         driven = driver.coordinate
     else:
@@ -42,7 +44,21 @@ def driver_in_words(driver: Driver) -> str:
             else f"{driver.marker} about {driver.about} of {seen}"
         )
     placed = "as placed + change of " if driver.from_start else ""
+    assert driver.value is not None  # the record was checked
     return f"{driver.name}: {driven} = {placed}{function_in_words(driver.value)}"
+
+
+def _pose_in_words(driver: Driver) -> str:
+    """The functions of a driven pose."""
+    said = []
+    if driver.position is not None:
+        said.append(f"position {', '.join(map(function_in_words, driver.position))}")
+    if driver.orientation is not None:
+        axes, functions = driver.orientation.turns
+        said.append(
+            f"{f'turns about {axes}' if axes else 'Euler parameters'} {', '.join(map(function_in_words, functions))}"
+        )
+    return "; ".join(said)
 
 
 def function_in_words(function: TimeFunction) -> str:

@@ -43,7 +43,8 @@ def moving_states(system: System, result: Result, every: int = 1) -> Iterator[Mo
     known = list(result.coordinates.get("joint_coordinate_name", ())) == list(
         system.layout.coordinates["joint_coordinate"]
     )
-    angles = result.array("joint_coordinate")[some] if known else np.zeros((len(position), 0))
+    measured = known and "joint_coordinate" in result.variables
+    angles = result.array("joint_coordinate")[some] if measured else np.zeros((len(position), 0))
     for k, time in enumerate(result.time[some]):
         A = rotation_matrices(orientation[k])
         velocity, omega, acceleration, alpha = (each[k] for each in rates)

@@ -57,7 +57,9 @@ class Catalogue:
 
     def default_inputs(self) -> list[str]:
         """Motors and drivers."""
-        return [f.name for f in self.machine.forces if isinstance(f, Motor)] + [d.name for d in self.machine.drivers]
+        drivers = {driver.name for driver in self.machine.drivers}
+        motors = [force.name for force in self.machine.forces if isinstance(force, Motor)]
+        return motors + [_motion(name) for _, name, _ in self._rows(drivers)]
 
     def default_outputs(self) -> list[str]:
         """Sensors; without any the joint coordinates."""
@@ -100,9 +102,11 @@ class Catalogue:
                 Output(f"state.{fact.name}", fact.units, lambda own, k=k: own.twin.residual.y[own.first_state + k])
             )
         drivers = {driver.name for driver in self.machine.drivers}
-        for row, owner, unit in self._rows(drivers):
+        for row, name, unit in self._rows(drivers):
             effort = "N" if unit == "m" else "N m"
-            out.append(Output(f"driver.{owner}.effort", effort, lambda own, row=row: -own.twin.residual.lam[row]))
+            out.append(
+                Output(f"driver.{_motion(name)}.effort", effort, lambda own, row=row: -own.twin.residual.lam[row])
+            )
         values = reported(system.layout, len(system.record.outputs.value))
         for k, each in enumerate(values):
             if each.name.startswith(("sensor.", "force.")):
@@ -110,11 +114,11 @@ class Catalogue:
         return out
 
     def _rows(self, owners: set[str]) -> list[tuple[int, str, str]]:
-        """(row of the residual, owner, unit) of the rows of these owners."""
+        """(row of the residual, its name, unit) of the rows of these owners."""
         row = self.instant.record.residual.row.tolist()
         system = self.system
         return [
-            (k, system.row_owner[r], system.row_units[r])
+            (k, system.rows[r], system.row_units[r])
             for k, r in enumerate(row)
             if r < len(system.row_owner) and system.row_owner[r] in owners
         ]
@@ -158,8 +162,8 @@ class Catalogue:
             if isinstance(force, Motor):
                 whole = self._whole(force.coordinate)
                 out.append(Input(force.name, by_name[whole].units, "effort", by_name[whole].place))
-        for row, owner, unit in self._rows({driver.name for driver in self.machine.drivers}):
-            out.append(Input(owner, f"{'rad' if unit == '1' else unit}/s^2", "drive", (row,)))
+        for row, name, unit in self._rows({driver.name for driver in self.machine.drivers}):
+            out.append(Input(_motion(name), f"{'rad' if unit == '1' else unit}/s^2", "drive", (row,)))
         out += [Input(f"state.{fact.name}", fact.units, "state", (k,)) for k, fact in enumerate(system.states)]
         for b, body in enumerate(system.bodies):
             out += [Input(f"{body}.force.{axis}", "N", "force", (b, i)) for i, axis in enumerate(XYZ)]
@@ -200,3 +204,8 @@ def _rate(own: Instant, each: Input) -> complex:
     if each.kind == "torque":
         return own.twin.bodies.omega[each.place]
     return 0.0
+
+
+def _motion(row: str) -> str:
+    """The motion that a driver prescribes by a row: the driver itself, or `DRIVER.x` of a pose."""
+    return row.removesuffix(".driver")

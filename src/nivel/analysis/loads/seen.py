@@ -48,13 +48,15 @@ def unseen_loads(machine: MachineRecord, result: Result, steps: Steps, facts: In
 
 def missed(function: Varying, path: Path, steps: Steps, facts: IntegratorFacts) -> Unseen | None:
     """What was missed of one function; None where it has no value anywhere."""
-    share = np.arange(SAMPLES + 1) / SAMPLES
-    time = steps.begin[:, None] + steps.length[:, None] * share
-    known = path.at(time.ravel())
-    values = function.curve.values(known).reshape(time.shape)
-    if not np.isfinite(values).any():
+    # the samples of one share of all steps stand side by side, as sums over the samples of a step are fast then
+    share = np.arange(SAMPLES + 1)[:, None] / SAMPLES
+    time = steps.begin + steps.length * share
+    values = function.curve.values(path.at(time.ravel())).reshape(time.shape).T
+    finite = np.isfinite(values)
+    if not finite.any():
         return None
-    values = np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0)
+    if not finite.all():
+        values = np.where(finite, values, 0.0)
     curve = as_seen(values, steps, facts)
     exact, magnitude = _integrals(values, steps.length)
     seen, curve_magnitude = _integrals(curve, steps.length)

@@ -43,7 +43,7 @@ def _through(values: Array, count: int) -> Array:
         for k in range(count):
             if k != j:
                 weights[j] *= (share - at[k]) / (at[j] - at[k])
-    return values[:, places] @ weights
+    return (weights.T @ values[:, places].T).T  # in the order of `values`, whose columns stand side by side
 
 
 def _over_steps(values: Array, steps: Steps) -> Array:

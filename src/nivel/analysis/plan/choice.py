@@ -107,7 +107,7 @@ def _rows(machine: MachineRecord) -> list[tuple[str, int, set[str]]]:
         touched: set[str] = set()
         if driver.coordinate is not None:
             touched = bodies[resolve(driver.coordinate, machine.joints)[0]]
-        rows.append((driver.name, 1, touched))
+        rows.append((driver.name, driver.row_count, touched))
     return [(owner, count, touched - {"ground"}) for owner, count, touched in rows]
 
 

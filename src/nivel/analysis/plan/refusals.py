@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from nivel.analysis.assembly.equations import MotionEquations
 from nivel.analysis.assembly.redundancy import Redundancy
@@ -11,10 +11,12 @@ from nivel.errors import Fault, ModelError
 from nivel.integrate.catalogue import INTEGRATORS, chooses
 from nivel.machine.coordinate_reference import resolve
 from nivel.machine.forces import Contact, Friction, Stop
+from nivel.machine.functions import functions_in
 from nivel.machine.machine_record import MachineRecord
 from nivel.machine.python_law import PythonLaw
 from nivel.machine.settings import SimulationSettings
 from nivel.machine.table import Table
+from nivel.machine.units.expression import Expression
 from nivel.system.laws.laws import false_derivative
 from nivel.system.layout import reported
 from nivel.system.system import Array
@@ -146,8 +148,8 @@ def refuse_rough_motions(machine: MachineRecord) -> None:
     what they return."""
     faults = []
     settings = machine.simulation
-    for driver in machine.drivers:
-        table, message = driver.value, ""
+    for owner, table in _motions(machine):
+        message = ""
         if isinstance(table, PythonLaw) and (wrong := false_derivative(table, settings.duration)):
             message = (
                 f"the law `{table.function}` must return value, rate and acceleration that belong together: {wrong}"
@@ -155,21 +157,28 @@ def refuse_rough_motions(machine: MachineRecord) -> None:
         elif isinstance(table, Table) and not INTEGRATORS[settings.integrator].velocity_jumps:
             message = _jump_of(table, settings)
         if message:
-            faults.append(Fault("", 0, 0, f"drivers.{driver.name}.value", message))
+            faults.append(Fault("", 0, 0, owner, message))
     if faults:
         raise ModelError(faults)
+
+
+def _motions(machine: MachineRecord) -> Iterator[tuple[str, Expression | Table | PythonLaw]]:
+    """The functions by which drivers move a machine, each with its place in the file: `drivers.lift.value`, or the list where it stands."""
+    for driver in machine.drivers:
+        for place, function in functions_in(driver):
+            yield f"drivers.{driver.name}.{place if place == 'value' else place.rpartition('.')[0] or place}", function
 
 
 def refuse_friction_at_jumps(machine: MachineRecord) -> None:
     """Friction loaded by reactions where the speed of a driver jumps: the impulse through the joints would ask for one of friction."""
     end = machine.simulation.duration
     jumping = [
-        driver.name
-        for driver in machine.drivers
-        if isinstance(driver.value, Table)
+        owner.split(".")[1]
+        for owner, motion in _motions(machine)
+        if isinstance(motion, Table)
         and (
-            driver.value.ends_before(end)
-            or (driver.value.interpolation == "linear" and min(corners_of(driver.value, end), default=end) < end)
+            motion.ends_before(end)
+            or (motion.interpolation == "linear" and min(corners_of(motion, end), default=end) < end)
         )
     ]
     loaded = [force.name for force in machine.forces if isinstance(force, Friction) and force.normal_load is None]

@@ -67,8 +67,10 @@ class Prepared:
     allowed: Array | None = None
 
 
-def prepare(methods: Methods, given: Assembled | None = None) -> Prepared:
+def prepare(methods: Methods, given: Assembled | None = None, residual: ResidualOptions | None = None) -> Prepared:
     """Build and assemble the machine of these methods; given : the machine is built and assembled already.
+
+    residual : what is asked of the residual of an implicit integrator, in place of what that asks.
 
     Raises ModelError where it cannot be closed, starts in a singular position, or has friction of no certain load.
     """
@@ -93,7 +95,7 @@ def prepare(methods: Methods, given: Assembled | None = None) -> Prepared:
     if integrator.circuit_tangent:
         prepared = replace(prepared, system=with_circuit_tangent(prepared.system))
     if integrator.residual:
-        prepared = with_residual(prepared, y, methods.coordinates, _wanted(prepared, methods), path)
+        prepared = with_residual(prepared, y, methods.coordinates, residual or _wanted(prepared, methods), path)
     return Prepared(
         path,
         prepared,
@@ -101,7 +103,7 @@ def prepare(methods: Methods, given: Assembled | None = None) -> Prepared:
         absolute,
         assembly,
         redundancy,
-        len(machine.drivers),
+        sum(driver.row_count for driver in machine.drivers),
         integrator,
         machine.beams,
         corners(machine, with_values=True) if methods.chooses_steps and not integrator.knows_corners else (),

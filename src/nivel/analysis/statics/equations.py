@@ -98,6 +98,16 @@ class Tangent:
         column = np.concatenate([K.col, C.col, C.row + free, every])
         return csc_matrix((value, (row, column)), shape=(size, size))
 
+    def full_saddle(self, shift: float = 0.0) -> Array:
+        """The same as a full matrix (f + K, f + K)."""
+        free, rows = self.K.shape[0], self.C.shape[0]
+        out = np.zeros((free + rows, free + rows))
+        out[:free, :free] = self.K.toarray()
+        out[free:, :free] = self.C.toarray()
+        out[:free, free:] = out[free:, :free].T
+        out[np.arange(free), np.arange(free)] += shift
+        return out
+
     def rigid(self) -> Tangent:
         """The same constraints without any stiffness."""
         return replace(self, K=0.0 * self.K)

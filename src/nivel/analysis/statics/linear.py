@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from scipy.linalg import (
     LinAlgError,
-    LinAlgWarning,
     cholesky,
     eig,
     eigh,
     eigvalsh,
-    lu_factor,
-    lu_solve,
+    get_lapack_funcs,
     null_space,
     solve_triangular,
 )
@@ -43,6 +40,8 @@ NO_STIFFNESS = 3e-14
 SHIFTS = (0.0, 1e-15, 1e-13, 1e-11, 1e-9)
 # Pivots below this share of the largest are none.
 NO_PIVOT = 1e-15
+# LU factors of a full matrix, and solutions with them
+getrf, getrs = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 
 
 class PivotError(Exception):
@@ -61,17 +60,21 @@ def factors(matrix: Sparse) -> Any:
     return found
 
 
+def saddle_factors(tangent: Tangent, shift: float = 0.0) -> Any:
+    """LU factors of [K + shift, Cᵀ; C, 0]. Raises PivotError where it is singular to round-off."""
+    small = tangent.K.shape[0] + tangent.C.shape[0] <= FULL
+    return _Full(tangent.full_saddle(shift)) if small else factors(tangent.saddle(shift))
+
+
 class _Full:
     """Factors of a small matrix."""
 
     def __init__(self, matrix: Array) -> None:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", LinAlgWarning)  # a pivot of zero is told below
-            self._factors = lu_factor(matrix)
-        _refuse_small(np.diagonal(self._factors[0]))
+        self._lu, self._pivots, _ = getrf(matrix)  # a pivot of zero is told below
+        _refuse_small(np.diagonal(self._lu))
 
     def solve(self, b: Array) -> Array:
-        return lu_solve(self._factors, b)
+        return getrs(self._lu, self._pivots, b)[0]
 
 
 def _refuse_small(pivots: Array) -> None:
@@ -84,7 +87,7 @@ def solve(tangent: Tangent, r: Array, C: Array, shift: float = 0.0) -> Change:
     """x, λ with (K + shift) x + Cᵀ λ = r and C x = C."""
     if not len(r):
         return Change(np.zeros(0), np.zeros(len(C)))
-    x = factors(tangent.saddle(shift)).solve(np.concatenate([r, C]))
+    x = saddle_factors(tangent, shift).solve(np.concatenate([r, C]))
     return Change(x[: len(r)], x[len(r) :])
 
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent
-from nivel.analysis.statics.linear import PivotError, bordered, factors, solve_bordered
+from nivel.analysis.statics.linear import PivotError, bordered, saddle_factors, solve_bordered
 from nivel.system.system import Array
 
 # The least share of a step that is tried.
@@ -100,7 +100,7 @@ def _iterate(
             r, C = equations.evaluate(state)
             if iteration.balanced and _is_balanced(equations, state, r, C, iteration.balanced):
                 return Found(state, tangent, number, moved, tuple(sizes))
-            found: Any = factors(tangent.saddle()) if border is None and len(r) + len(C) else None
+            found: Any = saddle_factors(tangent) if border is None and len(r) + len(C) else None
             found = bordered(tangent, border) if border is not None else found
             change = _change(found, r, C, border)
         except StateError:

@@ -10,7 +10,7 @@ from os import PathLike
 
 import numpy as np
 
-from nivel.analysis.assembly.implicit import ResidualOptions, with_residual
+from nivel.analysis.assembly.implicit import ResidualOptions
 from nivel.analysis.plan.plan import methods_of
 from nivel.analysis.plan.refusals import refuse_rough_motions
 from nivel.analysis.progress.interrupt import interruptible
@@ -71,12 +71,13 @@ def prepare_statics(
     neutral, coordinates = for_statics(machine, settings)
     refuse_rough_motions(neutral)
     held = len(neutral.drivers) > len(machine.drivers)  # drivers that hold what is free are not in what was built
-    prepared = prepare(methods_of(neutral, "newton-euler", coordinates), None if held else given)
-    motion = with_residual(prepared.motion, prepared.start, coordinates, ResidualOptions(shifted=True))
+    methods = methods_of(neutral, "newton-euler", coordinates)
+    prepared = prepare(methods, None if held else given, ResidualOptions(shifted=True))
+    motion = prepared.motion
     motion.system.record.coordinates.reference[:] = prepared.assembly.reference
     # multipliers of equilibria are those of the residual, and S in the record is of another state
     motion.system.record.control.rank[LEFT_OUT] = 0
-    return replace(prepared, motion=motion), StaticEquations(motion, settings.duration or 1.0)
+    return prepared, StaticEquations(motion, settings.duration or 1.0)
 
 
 def statics(

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nivel.analysis.statics.equations import Change, Rest, StateError, StaticEquations, Tangent, with_multipliers
-from nivel.analysis.statics.linear import PivotError, factors, negative_directions, solve
+from nivel.analysis.statics.linear import PivotError, negative_directions, saddle_factors, solve
 from nivel.analysis.statics.newton import EquilibriumError, Found, Iteration, equilibrate, step_to
 from nivel.analysis.statics.stability import is_mechanism, softest
 from nivel.analysis.statics.states import depends_on_samples, equilibrate_states, find_moving_states, growing_motions
@@ -213,7 +213,7 @@ def _try(equations: StaticEquations, state: Rest, tangent: Tangent, sigma: float
     f = len(applied)
     if not f:
         return _Tried(state, 0.0, 0.0)
-    found = factors(tangent.saddle(sigma))
+    found = saddle_factors(tangent, sigma)
     x = found.solve(-np.concatenate([applied, C]))
     q, lam = x[:f], equations.force_of(x[f:])
     size = float(np.max(np.abs(q), initial=0.0))

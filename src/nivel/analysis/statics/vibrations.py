@@ -11,12 +11,12 @@ from scipy.linalg import eig, eigh
 from nivel.analysis.statics.equations import Tangent
 from nivel.analysis.statics.linear import (
     PivotError,
-    factors,
     fastest,
     free_directions,
     has_potential,
     is_small,
     lowest,
+    saddle_factors,
     symmetric,
 )
 from nivel.system.system import Array
@@ -108,7 +108,7 @@ def buckling_factors(before: Tangent, after: Tangent, count: int) -> tuple[Array
         return _positive(values, Z @ vectors, count)
     from scipy.sparse.linalg import LinearOperator, eigsh
 
-    found = factors(before.saddle())
+    found = saddle_factors(before)
 
     def inverse(b: Array) -> Array:
         return found.solve(np.concatenate([np.ravel(b), np.zeros(rows)]))[:size]

@@ -8,6 +8,7 @@ from nivel.kernels.algebra.analytic import real
 from nivel.kernels.bodies.constraint import combine
 from nivel.kernels.bodies.coordinate import ALONG
 from nivel.kernels.bodies.coordinate import measure as measure_one
+from nivel.kernels.bodies.driven_turn import TURN_X, driven_turn, note_motions
 from nivel.kernels.bodies.rolling import CONTACT, rolling
 from nivel.kernels.core.status import OK
 from nivel.kernels.record.hook import ACCEPTED, ACTIVE, SHOWN, call_hook, family
@@ -27,7 +28,10 @@ def measure(machine, job, t):
     count = coordinates.reference.shape[0] if job == SHOWN else listed.shape[0]
     for n in range(count):
         k = n if job == SHOWN else np.int64(listed[n])
-        if coordinates.what[k, 0] >= CONTACT:
+        if coordinates.what[k, 0] >= TURN_X:
+            value, rate, bias = driven_turn(machine, k, t)
+            coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
+        elif coordinates.what[k, 0] >= CONTACT:
             value, rate, bias = rolling(record.bodies, record.markers, coordinates, k)
             coordinates.value[k], coordinates.rate[k], coordinates.bias[k] = value, rate, bias
         elif coordinates.what[k, 0] >= ALONG:
@@ -41,4 +45,5 @@ def measure(machine, job, t):
             coordinates.reference[k] = real(coordinates.value[k])
     if job == ACTIVE:
         combine(machine, record.constraints, coordinates, record.friction, t)
+        note_motions(machine)
     return OK

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import lru_cache
 from typing import Any, Protocol
 
 import numpy as np
@@ -178,7 +179,7 @@ def _largest_load(result: Readable, size: float) -> float:
 def _damping(result: Readable, size: float, frames: slice) -> Array:
     """(frames,) what all dampers of the machine do, as `_largest_load` measures it."""
     total = np.zeros(len(result.time[frames]))
-    for force in json.loads(str(result.attributes.get("machine_record", "{}"))).get("forces", ()):
+    for force in _read(str(result.attributes.get("machine_record", "{}"))).get("forces", ()):
         name, damping = f"force.{force['name']}", force.get("damping", 0.0)
         if f"{name}.rate" in result.variables and isinstance(damping, float | int) and damping > 0.0:
             effort = np.abs(damping * result.array(f"{name}.rate", frames))
@@ -200,7 +201,7 @@ def _mass(result: Readable) -> float:
 
 def _weight(result: Readable) -> float:
     """Of all bodies [N], as far as the scene knows their mass."""
-    gravity = json.loads(str(result.attributes.get("machine_record", "{}"))).get("gravity", (0.0, 0.0, 0.0))
+    gravity = _read(str(result.attributes.get("machine_record", "{}"))).get("gravity", (0.0, 0.0, 0.0))
     return _mass(result) * float(np.linalg.norm(np.array(gravity, dtype=float)))
 
 
@@ -212,7 +213,13 @@ def _largest(result: Readable, name: str, change: Callable[[Array], Array]) -> f
 
 
 def _scene(result: Readable) -> dict[str, Any]:
-    return json.loads(str(result.attributes.get("scene", "{}")))
+    return _read(str(result.attributes.get("scene", "{}")))
+
+
+@lru_cache(maxsize=4)
+def _read(text: str) -> dict[str, Any]:
+    """What a text of a result's attributes says, not to be changed: it is asked for several times in a report."""
+    return json.loads(text)
 
 
 def bodies(result: Readable) -> list[dict[str, Any]]:

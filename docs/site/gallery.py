@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import shutil
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -15,10 +17,36 @@ def examples() -> list[Path]:
     return [path for path, text in found if "\nsimulation:" in text and ("\nbodies:" in text or "\nbeams:" in text)]
 
 
+# bodies of the flexible examples by their models, and what makes a body for a picture quickly
+BODIES = {
+    "pendulum-bar": {},
+    "blade": {},
+    "connecting-rod": {},
+    "lever": {},
+    "crane-boom": {"solid.element_size": "60 mm", "reduction.modes": 4, "reduction.stiffening": False},
+}
+
+
+def with_bodies(folder: Path) -> Path:
+    """A copy of the examples in `folder`, with the bodies that the flexible ones need. The body of a solid needs gmsh: without it its
+    machine has no picture."""
+    import nivel
+    from nivel.flexible.body_file import write_body
+    from nivel.flexible.reduce import reduce
+
+    copy = folder / "examples"
+    shutil.copytree(EXAMPLES, copy)
+    for model, changes in BODIES.items():
+        path = copy / "flexible" / f"{model}.yaml"
+        try:
+            write_body(reduce(path, overrides=changes).body, path.with_suffix(".nc"))
+        except nivel.NivelError as error:
+            print(f"gallery: no picture of machines with {model}: {error}")
+    return copy
+
+
 def gallery(pictures: bool) -> tuple[str, dict[str, str]]:
     """The page, and its pictures (SVG) by their paths in the site."""
-    import nivel
-
     lines = [
         "# Gallery",
         "",
@@ -26,21 +54,28 @@ def gallery(pictures: bool) -> tuple[str, dict[str, str]]:
         "",
         '<div class="grid" markdown>',
     ]
-    drawn: dict[str, str] = {}
+    drawn = _pictures() if pictures else {}
     for path in examples():
         place = path.relative_to(ROOT).as_posix()
         name = path.stem
         lines += ["", '<figure markdown style="display:inline-block;width:20em;vertical-align:top">']
-        if pictures:
-            svg = _picture(path)
-            if svg:
-                picture = f"pictures/gallery/{'-'.join(path.relative_to(EXAMPLES).with_suffix('').parts)}.svg"
-                drawn[picture] = svg
-                lines.append(f"![{name}]({picture})")
+        if (picture := _picture_name(path)) in drawn:
+            lines.append(f"![{name}]({picture})")
         lines += [f"<figcaption markdown>[{name}](files/{place}) {_first_sentence(path)}</figcaption>", "</figure>"]
     lines += ["", "</div>", ""]
-    del nivel
     return "\n".join(lines), drawn
+
+
+def _picture_name(path: Path) -> str:
+    return f"pictures/gallery/{'-'.join(path.relative_to(EXAMPLES).with_suffix('').parts)}.svg"
+
+
+def _pictures() -> dict[str, str]:
+    """The pictures of all examples that can be drawn."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = with_bodies(Path(folder))
+        drawn = {_picture_name(path): _picture(copy / path.relative_to(EXAMPLES)) for path in examples()}
+    return {name: svg for name, svg in drawn.items() if svg}
 
 
 def _first_sentence(path: Path) -> str:

@@ -6,7 +6,9 @@ A word of ours answers where it is valid in that place. Where no single word say
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final, NamedTuple
+from typing import Final
+
+from nivel.lines_to_write import LINES
 
 # ours: how other programs call it. Spelling counts without case, `-`, `_` and spaces.
 SAME: Final[dict[str, str]] = {
@@ -17,6 +19,7 @@ SAME: Final[dict[str, str]] = {
     "universal": "hooke, hookes joint, cardan, u joint, universal joint, cardan joint",
     "fixed": "weld, welded, rigid, bolted, clamped, rigid connection, fixed joint",
     "planar": "plane, planar joint",
+    "locked": "constrained axes, constrained, locked axes, fixed axes",
     "screw": "helical, lead screw, ball screw",
     "cylindrical": "cylindrical joint, telescoping",
     "point-on-line": "inline, point curve, point on a line, pin in slot",
@@ -26,8 +29,8 @@ SAME: Final[dict[str, str]] = {
     "variable-distance": "cylinder, hydraulic cylinder, linear actuator, actuator, telescopic, actuated distance, driven distance, ram",
     "generic": "general, six dof, 6dof, dof, custom",
     # keys of a run, and its methods
-    "duration": "t end, end time, stop time, final time, t final, t stop, t max, tf, max time, simulation time, time",
-    "step": "dt, time step, timestep, step size, delta t, h, sample time, fixed step",
+    "duration": "end, t end, end time, stop time, final time, t final, t stop, t max, tf, max time, simulation time, time",
+    "step": "step time, dt, time step, timestep, step size, delta t, h, sample time, fixed step",
     "largest_step": "max step, hmax, dt max, maximum step",
     "output_interval": "output step, dt out, output dt, save every, print interval, communication interval",
     "integrator": "solver, method, integration, time integration, scheme, algorithm, solver type",
@@ -38,7 +41,7 @@ SAME: Final[dict[str, str]] = {
     "dop853": "rk853, ode8, dop",
     "adams": "ode113, abam, vode",
     "bdf": "ode15s, cvode, ida, lsoda, dassl, gstiff, wstiff, stiff, implicit euler, backward euler, daspk",
-    "radau": "radau5, radau iia, ode23s, implicit",
+    "radau": "radau5, radau iia, ode23s, implicit, implicitfast, implicit midpoint",
     "newmark": "ode23t, trapezoidal, trapezoid rule",
     "hht": "hht i3, hht alpha, hilber hughes taylor",
     "generalised-alpha": "gen alpha, generalized alpha, chung hulbert",
@@ -46,7 +49,7 @@ SAME: Final[dict[str, str]] = {
     "mass": "m, weight",
     "inertia": "i, ixx, moment of inertia, inertia tensor, moments of inertia, inertial",
     "centre_of_mass": "com, cog, cg, cm, centroid, center of gravity, centre of gravity",
-    "position": "pos, xyz, origin, location, translation, coordinates, loc, place",
+    "position": "pos, xyz, reference position, origin, location, translation, coordinates, loc, place",
     "point": "origin, position, location, anchor, at, pos, loc, centre, center",
     "axis": "direction, dir, normal, hinge axis, axis direction",
     "orientation": "rotation, rot, rotate, angles, attitude, ori, pose",
@@ -55,42 +58,49 @@ SAME: Final[dict[str, str]] = {
     "velocity": "vel, v, linear velocity, v0, initial velocity",
     "angular_velocity": "omega, w, ang vel, rotational velocity, spin, gyro, gyroscope",
     "density": "rho, material density",
-    "shape": "geometry, visual, geom, collision, solid",
+    "shape": "geometry, dimensions, size, graphics, visual, geom, collision, solid",
     "start": "initial, q0, initial position, initial value, x0, ic, initial conditions, init",
     "start_rates": "qd0, initial velocity, initial velocities, initial rate, v0",
     # sections of a file
-    "bodies": "links, parts, rigid bodies, masses, body, components",
+    "bodies": "links, parts, worldbody, objects, rigid bodies, masses, body, components",
     "joints": "constraints, connections, joint, connectors",
-    "forces": "loads, springs, dampers, force, actuators, contacts, torques, elements, force elements",
+    "forces": "loads, springs, dampers, force, actuators, actuator, bushings, contacts, torques, elements, force elements",
     "drivers": "motions, motion, driver, prescribed motions, inputs",
     "couplings": "gears, coupling, transmissions, gearboxes",
     "sensors": "outputs, probes, measures, requests, sensor, measurements",
     "euler_angles": "euler, angles, orientation, rpy, rotation, camber, toe, roll, pitch, yaw",
     "markers": "frames, sites, points, marker, attachment points, connection points",
     "events": "event, stop conditions, triggers",
-    "simulation": "settings, options, solver, run, solver settings, sim, analysis, integration",
+    "simulation": "settings, options, option, simulation settings, model settings, solver, run, sim, analysis, integration",
+    "functions": "splines, spline, curves, tables, lookups",
     "parameters": "params, variables, constants, design variables, vars, parameter",
     "assemblies": "subsystems, instances, submodels, modules",
     "include": "import, imports, includes",
     "name": "title, model",
     "description": "comment, notes, about",
     # forces
-    "spring-damper": "spring, damper, tsda, coil spring, shock, shock absorber, translational spring",
+    "spring-damper": "spring, damper, translational spring damper, connector spring damper, tsda, coil spring, shock, shock absorber",
     "torsional-spring-damper": "rotational spring, torsion spring, rsda, torsional spring",
     "joint-spring-damper": "joint damping, joint spring, joint damper",
     "torque": "moment, couple",
     "force": "point force, applied force, external force, vector force, gforce",
-    "stop": "limit, end stop, hard stop, joint limit, bumpstop, bump stop",
-    "motor": "actuator, drive",
+    "spectral_radius": "rho inf, rho, spectral radius infinity, rho infinity",
+    "stop": "terminate, halt, action, limit, end stop, hard stop, joint limit, bumpstop, bump stop",
+    "motor": "actuator, drive, sforce, joint torque, joint force, general force, velocity motor",
     "servo": "pid, pd, controller, position control, position servo, pid controller, pd controller",
     "target": "setpoint, set point, reference, command, desired, goal",
     "integral": "ki, integral gain",
+    "pid": "pid controller, pi, pd, pi controller, pd controller, controller",
+    "box": "brick, cuboid, block, rectangular, cube",
+    "sphere": "ball, ellipsoid, globe",
+    "extrusion": "prism, extruded solid, polygon, profile",
+    "mesh": "stl, cad, obj, step file, file solid, triangles",
     "rope": "cable, wire, wire rope, tendon, string, tether, tensile link",
     "dc-motor": "electric motor, dc machine, bldc, pmsm, servo drive",
     "contact": "sphere on plane, spatial contact force, contact force, collision, ground contact, impact",
     "hand": "mouse spring, perturbation",
-    "three-axis-spring": "linear spring 3d, cartesian spring, translational bushing",
-    "bushing": "bush, rubber mount, compliant joint, mount",
+    "three-axis-spring": "linear spring 3d, cartesian spring damper, cartesian spring, translational bushing",
+    "bushing": "bush, rubber mount, rigid body spring damper, field, compliant joint, mount",
     "vector": "force, value, components, f, torque, load, magnitude",
     "stiffness": "k, spring constant, rate, spring rate, spring stiffness, kp, gain, proportional gain, p",
     "damping": "c, d, damping coefficient, damper, kd, derivative gain",
@@ -146,7 +156,7 @@ SAME: Final[dict[str, str]] = {
     "state-machine": "stateflow, chart, sequence, grafcet, fsm, plc",
     "trapezoid": "trapezoidal profile, motion profile, trajectory, s curve",
     "waypoints": "path, spline, minimum jerk, trajectory points",
-    "signal": "profile, table, data, source, series",
+    "signal": "profile, table, data, source, series, step, sine, sine wave, ramp, chirp, pulse, clock, white noise, function",
     "input": "u, in, in 1, of, from",
     "inputs": "u, in, of",
     "gain": "k, factor, amplification",
@@ -168,149 +178,20 @@ SAME: Final[dict[str, str]] = {
     "acceleration": "accelerometer",
     "marker": "site, frame",
     # forces and drivers act on
+    "relative": "joint, joint coordinates, minimal, reduced, internal, generalized, recursive",
+    "absolute": "cartesian, global, maximal, redundant, body",
+    "lagrange": "index 3, index 1, index3, index1, dae, multipliers",
     "coordinate": "joint, dof, axis, joint coordinate, degree of freedom",
     "value": "function, expression, motion, position, f, displacement, law, trajectory",
     "when": "condition, trigger, expression, if",
     "interpolation": "method, kind, interp, type",
-    "linear": "straight, piecewise linear, lin, polyline, linear interpolation",
+    "linear": "mimic, equality, coordinate constraint, straight, piecewise linear, lin, polyline, linear interpolation",
     "cubic": "spline, cubic spline, natural spline, smooth",
     "times": "t, time, x, points",
     "points": "x, abscissa, breakpoints, anchors, ends, positions",
     "values": "y, data, ordinate, value",
     "ground": "world, base, earth, inertial, global, fixed, origin, root, env, frame, base link",
 }  # fmt: skip
-
-
-class Line(NamedTuple):
-    """What to write for a word, where `beside` is one of the words that are valid there."""
-
-    words: str
-    beside: str
-    answer: str
-
-
-LINES: Final = (
-    Line("parent, child", "markers", "write `bodies: [PARENT, CHILD]`, first and second body of the joint"),
-    Line(
-        "body 1, body 2, body a, body b, from, to, base, follower, i, j, first, second, body i, body j",
-        "markers",
-        "write `bodies: [FIRST, SECOND]`",
-    ),
-    Line(
-        "limits, limit, range, lower, upper, min, max",
-        "markers",
-        "limits of a joint are a force: `forces: {limit: {type: stop, coordinate: JOINT.COORDINATE, lower: …, upper: …, stiffness: …}}`",
-    ),
-    Line(
-        "damping, stiffness, spring, damper",
-        "x_axis",
-        "a spring or damper in a joint is a force: "
-        "`forces: {damper: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, damping: …}}`",
-    ),
-    Line(
-        "friction",
-        "x_axis",
-        "friction of a joint is a force: `forces: {rubbing: {type: friction, …}}`",
-    ),
-    Line(
-        "motor, actuator, torque, force, motion, drive",
-        "x_axis",
-        "what moves a joint stands apart: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: …}}` prescribes its motion, "
-        "`forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: …}}` its effort",
-    ),
-    Line(
-        "free, floating, none",
-        "revolute",
-        "a body without a joint is free; leave the joint out",
-    ),
-    Line("gear, belt, rack, coupler", "revolute", "a gear is a coupling: `couplings: {pair: {type: gear, …}}`"),
-    Line("bushing, mount", "revolute", "a joint that yields is a force: `forces: {mount: {type: bushing, …}}`"),
-    Line(
-        "rope, cable, wire",
-        "revolute",
-        "a rope that may slacken is a force; a link that keeps its length is a `distance` joint",
-    ),
-    Line(
-        "fixed, static, ground, is static, immovable, kinematic",
-        "assembly_weight",
-        "a body that does not move is joined to the ground: `joints: {base: {type: fixed, bodies: [ground, BODY], point: [0, 0, 0]}}`",
-    ),
-    Line(
-        "parent, joint",
-        "assembly_weight",
-        "bodies are connected under `joints:`, e.g. `hinge: {type: revolute, bodies: [ground, BODY], point: [0, 0, 0], axis: [0, 0, 1]}`",
-    ),
-    Line("material", "density", "write `density`, e.g. `density: 7850 kg/m^3` of steel"),
-    Line("colour, color, rgba", "density", "the viewer chooses the colours; leave it out"),
-    Line(
-        "rpy, roll pitch yaw, euler angles, ypr, euler, eulerangles",
-        "orientation",
-        "write `orientation: {euler: [YAW, PITCH, ROLL], sequence: zyx}` for roll, pitch and yaw",
-    ),
-    Line(
-        "rpy, roll pitch yaw, ypr, xyz, euler angles",
-        "euler_parameters",
-        "roll, pitch and yaw are `{euler: [YAW, PITCH, ROLL], sequence: zyx}`, each about the axis as turned so far",
-    ),
-    Line(
-        "quaternion, quat, euler parameters",
-        "orientation",
-        "write `orientation: {euler_parameters: [W, X, Y, Z]}`, scalar first",
-    ),
-    Line("quaternion, quat, wxyz, xyzw", "euler_parameters", "write `euler_parameters: [W, X, Y, Z]`, scalar first"),
-    Line(
-        "t end, end time, stop time, duration, tf, t final, final time",
-        "simulation",
-        "write `simulation: {duration: 5 s}`",
-    ),
-    Line("dt, step, time step, timestep, step size", "simulation", "write `simulation: {step: 1 ms}`"),
-    Line("integrator, method, rtol", "simulation", "write `simulation: {integrator: rk4}`"),
-    Line("solver", "simulation", "write `simulation: {integrator: rk4, step: 1 ms, duration: 5 s}`"),
-    Line("g, grav, gravitation", "gravity", "write `gravity: [0, 0, -9.81]`, where z points up"),
-    Line(
-        "units, unit, unit system",
-        "gravity",
-        "a number without a unit is in SI units; other units stand behind numbers: `12 cm`, `30 deg`",
-    ),
-    Line("ground, world", "gravity", "`ground` is there already; leave it out"),
-    Line("materials", "gravity", "materials are parameters: `parameters: {steel: 7850 kg/m^3}`, then `density: steel`"),
-    Line(
-        "initial conditions, initial",
-        "gravity",
-        "the start is said where it belongs: `velocity` of a body, `start` and `start_rates` of a joint",
-    ),
-    Line("gravity, weight", "spring-damper", "gravity is a key of the whole file: `gravity: [0, 0, -9.81]`"),
-    Line("min, max, minimum, maximum, lower, upper", "rest", "write `range: [MIN, MAX]`"),
-    Line("min, max, minimum, maximum, lower, upper", "sample_time", "write `limits: [MIN, MAX]`"),
-    Line(
-        "source, sink, from, to, inlet, outlet, port a, port b, a, b, p, t",
-        "ports",
-        "write `ports: {…}` or `ports: […]` with names of nodes: ports of one name are connected",
-    ),
-    Line(
-        "type, body, accelerometer, gyro, gyroscope, imu, encoder",
-        "sequence",
-        "a sensor is said by what it measures: `{coordinate: JOINT.COORDINATE, quantity: rate}`, "
-        "or `{marker: MARKER, quantity: acceleration}`",
-    ),
-    Line(
-        "tspan, time span, t span, t 0, t0, start time, begin",
-        "duration",
-        "a run begins at t = 0; write `duration: 5 s`",
-    ),
-    Line("fluid, oil, medium", "gravity", "write `fluids: {oil: {type: liquid, …}}`"),
-    Line(
-        "hydraulic, pneumatics, fluid power, circuit, circuits, valves, cylinders",
-        "gravity",
-        "write `hydraulics: {…}`, with what each component is by `type`",
-    ),
-    Line(
-        "controller, controllers, blocks, controls, signals, pid",
-        "gravity",
-        "write `control: {…}`, with what each block is by `type`",
-    ),
-    Line("operator, joysticks, levers, commands, signals in", "gravity", "write `inputs: {lever: {range: [-1, 1]}}`"),
-)
 
 
 def translated(word: str, valid: Sequence[str]) -> str:

@@ -4,7 +4,8 @@ import pytest
 
 from nivel.errors import ModelError
 from nivel.files import parse_machine, read_machine
-from nivel.vocabulary import LINES, SAME, translated
+from nivel.lines_to_write import LINES
+from nivel.vocabulary import SAME, translated
 
 BASE = """\
 format: 1
@@ -79,6 +80,58 @@ MISTAKES = {
     "numbers without brackets": ("[0.5, 0, 0]", "0.5 0 0", 7, "write `position: [0.5, 0, 0]`"),
     "x, y and z": ("position: [0.5, 0, 0]", "position: {x: 0.5, y: 0, z: 0}", 7, "write `position: [0.5, 0, 0]`"),
     "shape as a word": ("position: [0.5, 0, 0]", "shape: box", 7, "write `shape: {type: box, …}`"),
+    "splines": ("gravity: [0, -9.81, 0]", "splines: {}", 2, RATHER.format("functions")),
+    "number of steps": ("step: 1 ms", "numberOfSteps: 500", 15, "write `step: 1 ms`"),
+    "gravity of the run": ("step: 1 ms", "gravity: [0, 0, -9.81]", 15, "a key of the whole file"),
+    "output file": ("step: 1 ms", "output: a.csv", 15, "`nivel export NAME.nc --csv`"),
+    "spectral radius": ("step: 1 ms", "spectralRadius: 0.8", 15, "`generalised_alpha: {spectral_radius: 0.8}`"),
+    "internal mechanics": (
+        "axis: [0, 0, 1]}\nf",
+        "axis: [0, 0, 1], internal mechanics: {}}\nf",
+        10,
+        "joint-spring-damper",
+    ),
+    "armature": ("axis: [0, 0, 1]}\nf", "axis: [0, 0, 1], armature: 1}\nf", 10, "add it to the `inertia`"),
+    "state targets": ("axis: [0, 0, 1]}\nf", "axis: [0, 0, 1], ref: 1}\nf", 10, "`start: {angle: 30 deg}`"),
+    "velocity of a joint": (
+        "axis: [0, 0, 1]}\nf",
+        "axis: [0, 0, 1], start: {position: 1}}\nf",
+        10,
+        "`angle` of a revolute",
+    ),
+    "joint of markers i and j": ("bodies: [ground, rod]", "i: a, j: b", 10, "write `bodies: [FIRST, SECOND]`"),
+    "tyre": ("type: force", "type: tyre", 12, "`{type: rolling, …}`"),
+    "STEP(TIME, …)": (
+        "vector: [1, 0, 0]",
+        "vector: ['STEP(TIME, 0, 0, 1, 1)', 0, 0]",
+        12,
+        "the time is written `time`",
+    ),
+    "STEP": ("vector: [1, 0, 0]", "vector: ['STEP(time, 0, 0, 1, 1)', 0, 0]", 12, RATHER.format("step")),
+    "30d": ("angle: 0}", "angle: 30d}", 8, "degrees are written `30 deg`"),
+    "question mark": ("vector: [1, 0, 0]", "vector: ['time > 1 ? 2 : 3', 0, 0]", 12, "write `if(condition, a, b)`"),
+    "IMPACT": ("vector: [1, 0, 0]", "vector: ['IMPACT(time, time, 1, 1)', 0, 0]", 12, "`{type: contact, …}`"),
+    "AKISPL": (
+        "vector: [1, 0, 0]",
+        "vector: ['AKISPL(time, 0, load)', 0, 0]",
+        12,
+        "`functions:` is called by its name",
+    ),
+    "DX": ("vector: [1, 0, 0]", "vector: ['DX(rod)', 0, 0]", 12, "read by name: `BODY.x`"),
+    "index": ("vector: [1, 0, 0]", "vector: ['rod.position[0]', 0, 0]", 12, "components are read by name"),
+    "a number as an input": ("gravity: [0, -9.81, 0]", "inputs: {lever: 0.5}", 2, "write `lever: {rest: 0.5}`"),
+    "steel": (
+        "gravity: [0, -9.81, 0]",
+        "beams: {b: {material: steel}}",
+        2,
+        "write `material: {youngs_modulus: 210 GPa",
+    ),
+    "modulus of a beam": (
+        "gravity: [0, -9.81, 0]",
+        "beams: {b: {E: 2e11}}",
+        2,
+        "write `material: {youngs_modulus: 210 GPa",
+    ),
 }
 
 
@@ -146,6 +199,22 @@ def test_components_of_hydraulics_are_known_by_their_other_names(word, kind):
         "cylinder",
     ]
     assert translated(word, kinds) == RATHER.format(kind)
+
+
+@pytest.mark.parametrize(
+    ("word", "beside", "answer"),
+    [
+        ("oil", "load-sensing", "`fluids: {oil: {type: liquid, …}}`"),
+        ("pressure sensor", "load-sensing", "results by themselves"),
+        ("zero order hold", "lead-lag", "`sample_time: 10 ms`"),
+        ("mux", "lead-lag", "it is not needed"),
+        ("kalman", "lead-lag", "`{type: python, …}`"),
+        ("Sine Wave", "signal", "`signal`"),
+        ("type", "gamepad", "`control: slider`"),
+    ],
+)
+def test_blocks_and_components_that_do_not_exist_are_answered_with_what_takes_their_place(word, beside, answer):
+    assert answer in translated(word, [beside])
 
 
 def test_the_machine_that_is_spoilt_here_is_right():

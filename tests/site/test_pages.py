@@ -129,3 +129,14 @@ def test_the_site_builds_without_warnings(tmp_path):
         text = (tmp_path / "site" / page).read_text(encoding="utf-8")
         assert "https://fonts" not in text
         assert "cdn" not in text
+
+
+@pytest.mark.full
+def test_every_example_has_a_picture_in_the_gallery(monkeypatch):
+    pytest.importorskip("gmsh")
+    monkeypatch.syspath_prepend(str(DOCS / "site"))
+    import gallery
+
+    page, drawn = gallery.gallery(True)
+    assert len(drawn) == len(gallery.examples()) == page.count("![")
+    assert all("<path" in svg or "<line" in svg or "<poly" in svg for svg in drawn.values())

@@ -7,6 +7,7 @@ from typing import Any, Final
 from nivel.errors import Fault, ModelError
 from nivel.files.tree import Tree
 from nivel.machine import MachineRecord
+from nivel.machine.example_line import element_line
 from nivel.machine.record import field_words, unknown_word
 from nivel.machine.references import SECTIONS
 from nivel.machine.units.quantity import shown
@@ -89,7 +90,9 @@ def _check_element(tree: Tree, content: dict[str, Any], section: str, name: str)
         return
     content[name] = {}
     if element is not None:
-        tree.report((section, name), f"a mapping was expected, got {shown(element)}")
+        tree.report(
+            (section, name), f"a mapping was expected, got {shown(element)}{element_line(section, name, element)}"
+        )
 
 
 def section_of(tree: Tree, section: str) -> dict[str, Any]:

@@ -32,7 +32,11 @@ _MAPPINGS: Final = {
     "start_rates": "{angle: 2 rad/s}",
     "simulation": "{duration: 5 s, step: 1 ms}",
     "baumgarte": "{alpha: 10, beta: 10}",
+    "section": "{type: circle, radius: 1 cm}",
+    "material": "{youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}",
 }
+# of sections: the key of an element that a single value most likely means
+_MAIN_KEYS: Final = {"inputs": "rest", "sensors": "value", "states": "rate", "events": "when"}
 _DIRECTIONS: Final = {"x": "[1, 0, 0]", "y": "[0, 1, 0]", "z": "[0, 0, 1]"}
 
 
@@ -55,6 +59,12 @@ def mapping_line(field: str, given: Any) -> str:
     if field == "orientation" and isinstance(given, list | tuple) and len(given) == 3:
         return f"; write `orientation: {{euler: {_listed(given)}, sequence: xyz}}`, or another sequence of axes"
     return f"; write `{field}: {_MAPPINGS[field]}`" if field in _MAPPINGS else ""
+
+
+def element_line(section: str, name: str, given: Any) -> str:
+    """As `list_line`, of an element of a section: ``; write `lever: {rest: 0}` ``."""
+    key = _MAIN_KEYS.get(section)
+    return f"; write `{name}: {{{key}: {given}}}`" if key and not isinstance(given, list | tuple) else ""
 
 
 def _entries(field: str, given: Any) -> str | None:

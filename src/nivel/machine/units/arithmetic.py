@@ -284,7 +284,7 @@ def _bind_call(function: str, arguments: tuple[Node, ...], parameters: Parameter
             raise FaultyParameterError(function)
         raise ExpressionError(f"`{function}` is a number and takes no arguments; `*` is missing behind it")
     known = [*FUNCTIONS, LOOKUP, *(name for name, each in parameters.items() if isinstance(each, Function))]
-    near = get_close_matches(function, known, n=1)
+    near = [each for each in known if each == function.casefold()] or get_close_matches(function, known, n=1)
     hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(known)}"
     raise ExpressionError(f"there is no function `{function}`{hint}")
 

@@ -8,7 +8,6 @@ file come in through the validation context: ``{"parameters": {"radius": Number(
 from __future__ import annotations
 
 import numbers
-import re
 from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
@@ -33,6 +32,7 @@ from nivel.machine.units.arithmetic import (
 from nivel.machine.units.dimension import KINDS, Dimension, counts_turns, described, is_angular, without_angle
 from nivel.machine.units.grammar import parse
 from nivel.machine.units.measure import measure, refuse_unlike_terms
+from nivel.machine.units.slips import slip
 from nivel.wording import shown
 
 MASSLESS = (
@@ -194,17 +194,8 @@ def expression_fault(problem: ExpressionError, value: object) -> PydanticCustomE
     if isinstance(value, str) and f"`{value.strip()}`" not in message:
         message = f"{shown(value.strip())}: {message}"
     if isinstance(value, str):
-        message += _slip(value)
+        message += slip(value)
     return fault(message)
-
-
-def _slip(text: str) -> str:
-    """What is meant by usual slips in the expression `text`, as the end of the message on it."""
-    if re.fullmatch(r"\s*[-+]?\d+,\d+(\s.*)?", text):
-        return f"; write `{text.strip().replace(',', '.')}`: decimals stand behind a point"
-    if re.search(r"(?<![\w.])t(?![\w.(])", text) and not re.search(r"\d\s*t\b", text):
-        return " (`t` is the unit tonne; the time is written `time`)"
-    return ""
 
 
 def of_one_kind(value: Any, info: ValidationInfo) -> Any:

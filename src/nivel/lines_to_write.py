@@ -1,0 +1,256 @@
+"""What to write for words of other programs that no single word of ours stands for."""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+
+class Line(NamedTuple):
+    """What to write for a word, where `beside` is one of the words that are valid there."""
+
+    words: str
+    beside: str
+    answer: str
+
+
+LINES: Final = (
+    Line(
+        "steps, number of steps, nsteps, n steps, n",
+        "largest_step",
+        "the length of a step is given, not their number: write `step: 1 ms`",
+    ),
+    Line(
+        "output, output file, results, result, save, file, csv",
+        "largest_step",
+        "every run stores all results in `NAME.nc`; `nivel export NAME.nc --csv` writes tables",
+    ),
+    Line("gravity, g", "largest_step", "gravity is a key of the whole file: `gravity: [0, 0, -9.81]`"),
+    Line("spectral radius, rho inf, rho", "largest_step", "write `generalised_alpha: {spectral_radius: 0.8}`"),
+    Line(
+        "mechanism configuration, mechanism",
+        "gravity",
+        "gravity and the run are keys of the file: `gravity: [0, 0, -9.81]`, `simulation: {duration: 5 s, step: 1 ms}`",
+    ),
+    Line(
+        "internal mechanics, spring stiffness, damping coefficient",
+        "rim_radius",
+        "springs and dampers of a joint are a force: `forces: {coil: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, "
+        "stiffness: …, damping: …, free_value: …}}`",
+    ),
+    Line(
+        "armature, rotor inertia",
+        "rim_radius",
+        "there is no inertia of a rotor; add it to the `inertia` of the driven body",
+    ),
+    Line(
+        "frictionloss, friction loss, joint friction, coulomb friction, dynamics",
+        "rim_radius",
+        "friction of a joint is a force: `forces: {rubbing: {type: friction, coordinate: JOINT.COORDINATE, …}}`",
+    ),
+    Line(
+        "state targets, ref, initial, initial angle, springref, qpos0, qpos, position target",
+        "rim_radius",
+        "write `start: {angle: 30 deg}` of a revolute, `start: {displacement: 10 cm}` of a translational joint",
+    ),
+    Line(
+        "angle, displacement, position target",
+        "rim_radius",
+        "write `start: {angle: 30 deg}`, or `start: {displacement: 10 cm}`",
+    ),
+    Line(
+        "position, velocity, value, theta, q, rate, speed, omega, w",
+        "angle_1",
+        "write the name of a joint coordinate: `angle` of a revolute, `displacement` of a translational joint",
+    ),
+    Line(
+        "expression, function, formula, f, equation",
+        "interpolation",
+        "a function of arguments is written in one line: `functions: {NAME(x): 2*x + 1}`",
+    ),
+    Line(
+        "tyre, tire, magic formula, pacejka",
+        "spring-damper",
+        "there is no tyre; a wheel that does not slip is a joint, `{type: rolling, …}`",
+    ),
+    Line(
+        "aerodynamic, aero, drag, lift, wind, magnetic, user, user force, custom, electrostatic, sfosub",
+        "spring-damper",
+        "a force of your own is `{type: force, body: BODY, vector: [-5*BODY.vx, 0, 0]}`, or the `law` of a spring",
+    ),
+    Line("body 1, body 2, body a, body b, mobile", "plane", "write `bodies: [FIRST, SECOND]`, or `body` and `plane`"),
+    Line(
+        "body 1, body 2, body a, body b, from, to, i, j, attach 1, attach 2, point 1, point 2, site 1, site 2",
+        "stiffness",
+        "write `bodies: [FIRST, SECOND], points: [[0, 0, 0], [1, 0, 0]]`",
+    ),
+    Line(
+        "e, g, youngs modulus, elastic modulus, young, nu, poisson, poisson ratio, rho, density, modulus, shear modulus",
+        "shear_centre",
+        "write `material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}`",
+    ),
+    Line(
+        "a, area, iyy, izz, ix, iy, iz, i, j, ip, inertia, radius, diameter, width, height, profile, cross section, geometry",
+        "shear_centre",
+        "write `section: {type: circle, radius: 1 cm}`; sections are circle, tube, rectangle and others",
+    ),
+    Line("length, l", "shear_centre", "a beam lies between two points: write `from: [0, 0, 0], to: [1, 0, 0]`"),
+    Line("nodes, n elements, number of elements, segments, mesh, n", "shear_centre", "write `elements: 8`"),
+    Line("body, bodies", "sequence", "motion is measured at a marker: write `{marker: MARKER, quantity: position}`"),
+    Line(
+        "joint force, joint torque, reaction",
+        "sequence",
+        "reactions are results by themselves: `JOINT.force`, `JOINT.torque`",
+    ),
+    Line("measure, expression, function, measurement", "sequence", "write `{value: hinge.angle, units: rad}`"),
+    Line(
+        "fluid, oil, medium, liquid",
+        "load-sensing",
+        "a fluid stands in a section of its own: `fluids: {oil: {type: liquid, …}}`",
+    ),
+    Line(
+        "filter, strainer, cooler, heat exchanger",
+        "load-sensing",
+        "write `{type: orifice, …}`, which has a pressure drop",
+    ),
+    Line(
+        "sensor, pressure sensor, flow sensor, flow meter, manometer, gauge",
+        "load-sensing",
+        "pressures and flows are results by themselves: `NODE.pressure`, `COMPONENT.flow`",
+    ),
+    Line(
+        "mux, demux, bus, bus selector, subsystem, terminator, goto, from, scope, display, to workspace, outport, out",
+        "lead-lag",
+        "it is not needed: a block names the signals that it reads, and each output is a result",
+    ),
+    Line(
+        "zero order hold, zoh, sample and hold, rate transition, memory, unit delay",
+        "lead-lag",
+        "a block is sampled by `sample_time: 10 ms`; a delay by samples is `{type: delay, …}`",
+    ),
+    Line(
+        "kalman, kalman filter, observer, mpc, matlab function, s function, fcn, c, c function, script, quantizer, backlash",
+        "lead-lag",
+        "a block of your own is `{type: python, …}`; a short formula is a signal: `{type: signal, …}`",
+    ),
+    Line("type, kind", "gamepad", "an input is a number; `control: slider` or `control: button` is how it is shown"),
+    Line("parent, child", "markers", "write `bodies: [PARENT, CHILD]`, first and second body of the joint"),
+    Line(
+        "body 1, body 2, body a, body b, from, to, base, follower, i, j, first, second, body i, body j",
+        "markers",
+        "write `bodies: [FIRST, SECOND]`",
+    ),
+    Line(
+        "limits, limit, range, lower, upper, min, max",
+        "markers",
+        "limits of a joint are a force: `forces: {limit: {type: stop, coordinate: JOINT.COORDINATE, lower: …, upper: …, stiffness: …}}`",
+    ),
+    Line(
+        "damping, stiffness, spring, damper",
+        "x_axis",
+        "a spring or damper in a joint is a force: "
+        "`forces: {damper: {type: joint-spring-damper, coordinate: JOINT.COORDINATE, damping: …}}`",
+    ),
+    Line(
+        "friction",
+        "x_axis",
+        "friction of a joint is a force: `forces: {rubbing: {type: friction, …}}`",
+    ),
+    Line(
+        "motor, actuator, torque, force, motion, drive",
+        "x_axis",
+        "what moves a joint stands apart: `drivers: {drive: {coordinate: JOINT.COORDINATE, value: …}}` prescribes its motion, "
+        "`forces: {motor: {type: motor, coordinate: JOINT.COORDINATE, effort: …}}` its effort",
+    ),
+    Line(
+        "free, floating, none",
+        "revolute",
+        "a body without a joint is free; leave the joint out",
+    ),
+    Line("gear, belt, rack, coupler", "revolute", "a gear is a coupling: `couplings: {pair: {type: gear, …}}`"),
+    Line("bushing, mount", "revolute", "a joint that yields is a force: `forces: {mount: {type: bushing, …}}`"),
+    Line(
+        "rope, cable, wire",
+        "revolute",
+        "a rope that may slacken is a force; a link that keeps its length is a `distance` joint",
+    ),
+    Line(
+        "fixed, static, ground, is static, immovable, kinematic",
+        "assembly_weight",
+        "a body that does not move is joined to the ground: `joints: {base: {type: fixed, bodies: [ground, BODY], point: [0, 0, 0]}}`",
+    ),
+    Line(
+        "parent, joint",
+        "assembly_weight",
+        "bodies are connected under `joints:`, e.g. `hinge: {type: revolute, bodies: [ground, BODY], point: [0, 0, 0], axis: [0, 0, 1]}`",
+    ),
+    Line("material", "density", "write `density`, e.g. `density: 7850 kg/m^3` of steel"),
+    Line("colour, color, rgba", "density", "the viewer chooses the colours; leave it out"),
+    Line(
+        "rpy, roll pitch yaw, euler angles, ypr, euler, eulerangles",
+        "orientation",
+        "write `orientation: {euler: [YAW, PITCH, ROLL], sequence: zyx}` for roll, pitch and yaw",
+    ),
+    Line(
+        "rpy, roll pitch yaw, ypr, xyz, euler angles",
+        "euler_parameters",
+        "roll, pitch and yaw are `{euler: [YAW, PITCH, ROLL], sequence: zyx}`, each about the axis as turned so far",
+    ),
+    Line(
+        "quaternion, quat, euler parameters",
+        "orientation",
+        "write `orientation: {euler_parameters: [W, X, Y, Z]}`, scalar first",
+    ),
+    Line("quaternion, quat, wxyz, xyzw", "euler_parameters", "write `euler_parameters: [W, X, Y, Z]`, scalar first"),
+    Line(
+        "t end, end time, stop time, duration, tf, t final, final time",
+        "simulation",
+        "write `simulation: {duration: 5 s}`",
+    ),
+    Line("dt, step, time step, timestep, step size", "simulation", "write `simulation: {step: 1 ms}`"),
+    Line("integrator, method, rtol", "simulation", "write `simulation: {integrator: rk4}`"),
+    Line("solver", "simulation", "write `simulation: {integrator: rk4, step: 1 ms, duration: 5 s}`"),
+    Line("g, grav, gravitation", "gravity", "write `gravity: [0, 0, -9.81]`, where z points up"),
+    Line(
+        "units, unit, unit system",
+        "gravity",
+        "a number without a unit is in SI units; other units stand behind numbers: `12 cm`, `30 deg`",
+    ),
+    Line("ground, world", "gravity", "`ground` is there already; leave it out"),
+    Line("materials", "gravity", "materials are parameters: `parameters: {steel: 7850 kg/m^3}`, then `density: steel`"),
+    Line(
+        "initial conditions, initial",
+        "gravity",
+        "the start is said where it belongs: `velocity` of a body, `start` and `start_rates` of a joint",
+    ),
+    Line("gravity, weight", "spring-damper", "gravity is a key of the whole file: `gravity: [0, 0, -9.81]`"),
+    Line("min, max, minimum, maximum, lower, upper", "rest", "write `range: [MIN, MAX]`"),
+    Line("min, max, minimum, maximum, lower, upper", "sample_time", "write `limits: [MIN, MAX]`"),
+    Line(
+        "source, sink, from, to, inlet, outlet, port a, port b, a, b, p, t",
+        "ports",
+        "write `ports: {…}` or `ports: […]` with names of nodes: ports of one name are connected",
+    ),
+    Line(
+        "type, body, accelerometer, gyro, gyroscope, imu, encoder",
+        "sequence",
+        "a sensor is said by what it measures: `{coordinate: JOINT.COORDINATE, quantity: rate}`, "
+        "or `{marker: MARKER, quantity: acceleration}`",
+    ),
+    Line(
+        "tspan, time span, t span, t 0, t0, start time, begin",
+        "duration",
+        "a run begins at t = 0; write `duration: 5 s`",
+    ),
+    Line("fluid, oil, medium", "gravity", "write `fluids: {oil: {type: liquid, …}}`"),
+    Line(
+        "hydraulic, pneumatics, fluid power, circuit, circuits, valves, cylinders",
+        "gravity",
+        "write `hydraulics: {…}`, with what each component is by `type`",
+    ),
+    Line(
+        "controller, controllers, blocks, controls, signals, pid",
+        "gravity",
+        "write `control: {…}`, with what each block is by `type`",
+    ),
+    Line("operator, joysticks, levers, commands, signals in", "gravity", "write `inputs: {lever: {range: [-1, 1]}}`"),
+)

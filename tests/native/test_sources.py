@@ -42,6 +42,15 @@ def test_it_ignores_the_rest(digest):
     assert digest("pack.b") == digest("pack.b", c="x = 4\n")
 
 
+def test_what_was_installed_into_a_folder_is_not_looked_into(digest, tmp_path, monkeypatch):
+    """`pip install --target FOLDER` leaves a `.dist-info` beside what it installs."""
+    (tmp_path / "target" / "brought-1.0.dist-info").mkdir(parents=True)
+    (tmp_path / "target" / "brought.py").write_text("from . import relative\n")
+    monkeypatch.syspath_prepend(tmp_path / "target")
+    assert digest("pack.a", b="import brought\n") != digest("pack.a", b="x = 1\n")
+    assert "brought" not in sources.modules("pack.a")
+
+
 def test_kernels_depend_on_the_way_they_are_translated():
     found = sources.modules("nivel.kernels.output.observe")
     assert "nivel.native.with_numba.views" in found

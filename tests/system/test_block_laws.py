@@ -56,7 +56,9 @@ def test_limits_bands_and_rates_at_limits():
         assert value(bounded_rate("rate", "x", (-1.0, 0.5)), x=x, rate=rate) == (0.0 if held else rate)
 
 
-@pytest.mark.parametrize("law", [limited("x", (-1.0, 1.0)), beyond("x", (-1.0, 1.0)), bounded_rate("x", "x", (-1.0, 1.0))])
+@pytest.mark.parametrize(
+    "law", [limited("x", (-1.0, 1.0)), beyond("x", (-1.0, 1.0)), bounded_rate("x", "x", (-1.0, 1.0))]
+)
 def test_what_is_no_number_stays_none(law):
     assert math.isnan(value(law, x=math.nan))
 
@@ -78,7 +80,9 @@ def test_a_relay_keeps_its_state_between_its_thresholds():
 @pytest.mark.parametrize(("last", "speed"), [(-0.5, 2.0), (3.0, 1.0), (0.5, 50.0)])
 def test_a_trapezoid_ends_exactly_and_its_rate_is_its_slope(last, speed):
     """A way with and without a stretch at top speed; the slope by differences within the parabolas, which are exact."""
-    block = control(f"a: {{type: trapezoid, first: 0.2, last: {last}, begin: 0.1, speed: {speed}, acceleration: 10}}")[0]
+    block = control(f"a: {{type: trapezoid, first: 0.2, last: {last}, begin: 0.1, speed: {speed}, acceleration: 10}}")[
+        0
+    ]
     place, rate = (each.function for each in block.parts)
     assert [value(place, t) for t in (-1.0, 0.1)] == [0.2, 0.2]
     assert [value(place, t) for t in (rate.times[-1], 9.0)] == [last, last]
@@ -89,7 +93,9 @@ def test_a_trapezoid_ends_exactly_and_its_rate_is_its_slope(last, speed):
 
 
 def test_a_machine_of_many_states_takes_the_first_transition_that_holds():
-    states = [f"s{k}: {{value: {k * k}, next: {{s{(k + 3) % 9}: [x > 1, x > 2], s{(k + 1) % 9}: x > 0}}}}" for k in range(9)]
+    states = [
+        f"s{k}: {{value: {k * k}, next: {{s{(k + 3) % 9}: [x > 1, x > 2], s{(k + 1) % 9}: x > 0}}}}" for k in range(9)
+    ]
     text = f"cycle: {{type: state-machine, sample_time: 0.1, states: {{{', '.join(states)}}}}}".replace("x >", "time >")
     block = control(text)[0]
     functions = {part.name: part.function for part in block.parts}

@@ -53,7 +53,11 @@ def _is_own(package: str) -> bool:
     if package == "nivel":
         return True
     path = _file(package)
-    if path is None or {"site-packages", "dist-packages"} & {*path.parts}:
+    if path is None:
+        return False
+    folder = path.parent.parent if path.name == "__init__.py" else path.parent
+    # `pip install --target` installs into a folder of any name
+    if {"site-packages", "dist-packages"} & {*path.parts} or next(folder.glob("*.dist-info"), None) is not None:
         return False
     return not any(Path(sysconfig.get_path(each)) in path.parents for each in ("stdlib", "platstdlib"))
 

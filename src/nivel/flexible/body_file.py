@@ -16,6 +16,7 @@ from nivel import __version__
 from nivel.errors import ModelError
 from nivel.flexible.body import Array, Interface, ReducedBody, StressModes
 from nivel.flexible.invariants import UNITS, Invariants
+from nivel.flexible.left_out import LeftOut
 
 KIND: Final = "flexible body"
 FORMAT: Final = 1
@@ -36,6 +37,15 @@ INVARIANT_DIMS: Final = {
     "I9": ("mode", "mode_", "xyz", "xyz_"),
 }
 STIFFENING_DIMS: Final = {"acceleration": "xyz", "angular_acceleration": "xyz", "centrifugal": "pair"}
+LEFT_OUT: Final = {
+    "eigenvalues": (("left_mode",), "1/s^2", "stiffness, unit modal mass"),
+    "phi": (("interface", "axis", "left_mode"), "kg^-0.5", "displacement and turn [kg^-0.5 m^-1] of the interfaces"),
+    "mass": (("left_mode", "mode"), "1", "mass in common with the modes"),
+    "stiffness": (("left_mode", "mode"), "1/s^2", "stiffness in common with the modes"),
+    "I3": (("xyz", "left_mode"), "kg^0.5", "inertia invariant I3"),
+    "I4": (("xyz", "left_mode"), "kg^0.5 m", "inertia invariant I4"),
+    "I8": (("left_mode", "xyz", "xyz_"), "kg^0.5 m", "inertia invariant I8"),
+}
 STIFFENING_UNITS: Final = {"acceleration": "1/m", "angular_acceleration": "1", "centrifugal": "1"}
 
 
@@ -135,6 +145,8 @@ def _write(out: _Writer, body: ReducedBody) -> None:
         _write_stress(out, body.stress)
     for name, matrices in body.stiffening.items():
         _write_stiffening(out, name, matrices)
+    if body.left_out is not None:
+        _write_left_out(out, body.left_out)
 
 
 def _write_meshes(out: _Writer, body: ReducedBody) -> None:
@@ -163,6 +175,13 @@ def _write_stiffening(out: _Writer, name: str, matrices: Array) -> None:
         first = "xyz"
     units = STIFFENING_UNITS.get(name, "kg^-1 m^-1")
     out.put(f"stiffening.{name}", matrices, (first, "mode", "mode_"), units, f"geometric stiffness for unit {name}")
+
+
+def _write_left_out(out: _Writer, left: LeftOut) -> None:
+    out.length("left_mode", len(left.eigenvalues))
+    for field in fields(left):
+        name, (dims, units, text) = field.name, LEFT_OUT[field.name]
+        out.put(f"left_out.{name}", getattr(left, name), dims, units, f"modes that are left out: {text}")
 
 
 def read_body(path: str | Path) -> ReducedBody:
@@ -233,4 +252,5 @@ def _read(file: Any) -> ReducedBody:
         lines=array("line_node"),
         solids=array("solid_node"),
         source=str(file.attrs["source"]),
+        left_out=LeftOut(**{name: array(f"left_out.{name}") for name in LEFT_OUT}) if "left_mode" in file else None,
     )

@@ -18,6 +18,7 @@ from nivel.flexible.findings import Findings, findings_of
 from nivel.flexible.free_body import FreeBody
 from nivel.flexible.given_modes import given_modes
 from nivel.flexible.invariants import invariants
+from nivel.flexible.left_out import LeftOut, beside_kept, left_out
 from nivel.flexible.mass import lumped
 from nivel.flexible.model import AXES, Array, FiniteElementModel
 from nivel.flexible.model_file import Located, read_model
@@ -126,6 +127,7 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
         lines=model.lines,
         solids=model.solids,
         source=record.description,
+        left_out=_left_out(body, modes, found, basis, attachments),
     )
     say("done", 1.0)
     return Reduction(replace(reduced, interfaces=_interfaces(reduced, attachments)), findings)
@@ -140,7 +142,7 @@ def _rows(model: FiniteElementModel, node: int) -> Whole:
 def _basis(body: FreeBody, boundary: Whole, located: Located) -> Basis:
     reduction = located.record.reduction
     if reduction.modes.given:
-        return given_modes(body, located)
+        return given_modes(body, boundary, located)
     modes = ModeCount(reduction.modes.count, reduction.modes.up_to)
     match reduction.method:
         case "craig-bampton":
@@ -148,7 +150,7 @@ def _basis(body: FreeBody, boundary: Whole, located: Located) -> Basis:
         case "free-interface":
             basis = free_interface(body, boundary, modes)
         case "normal-modes":
-            basis = normal_only(body, modes)
+            basis = normal_only(body, boundary, modes)
     if not reduction.inertia_modes:
         return basis
     own = inertia_modes(body, boundary)
@@ -183,6 +185,14 @@ def _with_reference(
         raise ModelError(located.fault(("reduction", "held"), message))
     modes, eigenvalues = held_at(body, found.modes, matrix)
     return modes, eigenvalues, held
+
+
+def _left_out(
+    body: FreeBody, modes: Array, found: Orthonormal, basis: Basis, attachments: tuple[Attachment, ...]
+) -> LeftOut:
+    """The next modes. Where they do not move the interfaces they are taken as they are, and their loads need no loads there."""
+    candidates = basis.left if basis.held else beside_kept(body, found.modes, basis.left)
+    return left_out(body, modes, candidates, np.array([each.node for each in attachments], dtype=np.int64))
 
 
 def _node_modes(model: FiniteElementModel, modes: Array) -> Array:

@@ -48,6 +48,15 @@ class StressModes:
 
 
 @dataclass(frozen=True)
+class MeshError:
+    """share : (n,) by which the energy of each mode of the body is wrong. dynamic : only where the mode accelerates, as it does when it
+    vibrates freely; else wherever it is bent."""
+
+    share: Array
+    dynamic: bool
+
+
+@dataclass(frozen=True)
 class ReducedBody:
     """A flexible body in the floating frame of reference.
 
@@ -72,6 +81,8 @@ class ReducedBody:
 
     **Left out.** `left_out` has the next modes, which a run is judged by; None where they are not known.
 
+    **Mesh.** `mesh_error` estimates how far the mesh is from its limit; None where it is not known.
+
     eigenvalues : (n,) [1/s²] stiffness of the modes.
     node_ids : (n,); position : (n, 3) [m]; modes : (n, 6, n_modes) displacement and turn of nodes, NaN where unknown.
     triangles, lines, solids : places of nodes, for pictures and export.
@@ -95,6 +106,7 @@ class ReducedBody:
     solids: Whole = field(default_factory=lambda: np.zeros((0, 4), dtype=np.int64))
     source: str = ""
     left_out: LeftOut | None = None
+    mesh_error: MeshError | None = None
 
     @property
     def frequencies(self) -> Array:
@@ -135,6 +147,7 @@ class ReducedBody:
             stress=stress,
             stiffening={name: each[:, take][:, :, take] for name, each in self.stiffening.items()},
             left_out=self._left_out_of(take),
+            mesh_error=None if self.mesh_error is None else replace(self.mesh_error, share=self.mesh_error.share[take]),
         )
 
     def _left_out_of(self, kept: Whole) -> LeftOut | None:

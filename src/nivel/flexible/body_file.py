@@ -14,7 +14,7 @@ import numpy as np
 
 from nivel import __version__
 from nivel.errors import ModelError
-from nivel.flexible.body import Array, Interface, ReducedBody, StressModes
+from nivel.flexible.body import Array, Interface, MeshError, ReducedBody, StressModes
 from nivel.flexible.invariants import UNITS, Invariants
 from nivel.flexible.left_out import LeftOut
 
@@ -46,6 +46,7 @@ LEFT_OUT: Final = {
     "I4": (("xyz", "left_mode"), "kg^0.5 m", "inertia invariant I4"),
     "I8": (("left_mode", "xyz", "xyz_"), "kg^0.5 m", "inertia invariant I8"),
 }
+DYNAMIC: Final = ", where it accelerates"
 STIFFENING_UNITS: Final = {"acceleration": "1/m", "angular_acceleration": "1", "centrifugal": "1"}
 
 
@@ -147,6 +148,10 @@ def _write(out: _Writer, body: ReducedBody) -> None:
         _write_stiffening(out, name, matrices)
     if body.left_out is not None:
         _write_left_out(out, body.left_out)
+    if body.mesh_error is not None:
+        name = "mesh_error.dynamic" if body.mesh_error.dynamic else "mesh_error"
+        text = "share by which the energy of the mode is wrong, estimated" + DYNAMIC * body.mesh_error.dynamic
+        out.put(name, body.mesh_error.share, ("mode",), "1", text)
 
 
 def _write_meshes(out: _Writer, body: ReducedBody) -> None:
@@ -252,5 +257,13 @@ def _read(file: Any) -> ReducedBody:
         lines=array("line_node"),
         solids=array("solid_node"),
         source=str(file.attrs["source"]),
+        mesh_error=_mesh_error(file),
         left_out=LeftOut(**{name: array(f"left_out.{name}") for name in LEFT_OUT}) if "left_mode" in file else None,
     )
+
+
+def _mesh_error(file: Any) -> MeshError | None:
+    for name, dynamic in (("mesh_error", False), ("mesh_error.dynamic", True)):
+        if name in file:
+            return MeshError(file[name][()], dynamic)
+    return None

@@ -20,6 +20,7 @@ from nivel.flexible.given_modes import given_modes
 from nivel.flexible.invariants import invariants
 from nivel.flexible.left_out import LeftOut, beside_kept, left_out
 from nivel.flexible.mass import lumped
+from nivel.flexible.mesh_error import mesh_error
 from nivel.flexible.model import AXES, Array, FiniteElementModel
 from nivel.flexible.model_file import Located, read_model
 from nivel.flexible.orthonormal import Orthonormal, held_at, orthonormal
@@ -108,7 +109,8 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
         raise ModelError(located.fault(("reduction", "modes"), NO_MODE))
     modes, eigenvalues, held = _with_reference(body, found, attachments, located)
     say("computing the modes of the whole model for comparison", 0.7)
-    findings = findings_of(body, attachments, boundary, basis, found, modes)
+    error = mesh_error(located, model, modes, eigenvalues)
+    findings = findings_of(body, attachments, boundary, basis, found, modes, error)
     say("computing inertia invariants and stress modes", 0.88)
     reduced = ReducedBody(
         name=record.name,
@@ -127,6 +129,7 @@ def _reduced(body: FreeBody, attachments: tuple[Attachment, ...], located: Locat
         lines=model.lines,
         solids=model.solids,
         source=record.description,
+        mesh_error=error,
         left_out=_left_out(body, modes, found, basis, attachments),
     )
     say("done", 1.0)

@@ -20,7 +20,7 @@ from nivel.machine.orientation import euler_parameters_from_matrix
 from nivel.machine.shape import Sphere
 from nivel.results.result import Result
 from nivel.results.trust.accuracy import error_from_finer, extent
-from nivel.results.trust.basis import most_lacking
+from nivel.results.trust.basis import most_coarse, most_lacking
 from nivel.results.trust.beam_mesh import BeamMesh, coarsest, turns
 from nivel.results.trust.bending import fastest_unstiffened, most_bent
 from nivel.results.trust.estimate import Estimate
@@ -47,6 +47,7 @@ def find(
         return Findings()
     settings, fixed = plan.settings, plan.settings.steps > 0
     turned, bending = finished.pace[TURNED], modal_bodies(plan)
+    bases = modal_bases(plan, prepared)
     implicit = prepared.integrator.residual or prepared.integrator.circuit_tangent
     return Findings(
         unseen=_unseen(plan, prepared, finished, result),
@@ -63,7 +64,8 @@ def find(
         passages=tuple(passages(prepared, result)) if verified is not None else (),
         unstiffened=fastest_unstiffened(result, bending),
         bent=most_bent(result, bending),
-        lacking=most_lacking(result, modal_bases(plan, prepared)),
+        lacking=most_lacking(result, bases),
+        meshed=most_coarse(result, bases),
         coarse=coarsest(result, _meshes(plan)),
         method=settings.integrator,
         agreed=_agreed(result, verified) if verified is not None else None,

@@ -50,6 +50,7 @@ def modal_bases(plan: Plan, prepared: Prepared) -> list[Basis]:
                 damping_ratio=getattr(flexible, "damping_ratio", 0.0),
                 gravity=np.array(plan.machine.gravity, dtype=float),
                 held=tuple(_held(plan, body, interfaces)),
+                mesh=each.reduced.mesh_error,
             )
         )
     return out

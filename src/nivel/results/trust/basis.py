@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nivel.results.trust.bending import ModalBody
+from nivel.results.trust.bending import Bent, ModalBody
 from nivel.results.trust.scales import Readable, rotated
 
 if TYPE_CHECKING:
+    from nivel.flexible.body import MeshError
     from nivel.flexible.invariants import Invariants
     from nivel.flexible.left_out import LeftOut
 
@@ -39,7 +40,8 @@ class Held:
 @dataclass(frozen=True)
 class Basis:
     """The modes of a body. its : inertia invariants; left : modes left out, phi at the interfaces in use alone. phi (i, 6, n) and place
-    (i, 3) [m] : of these interfaces. damping (n,) [1/s], damping_ratio : of the modes. gravity (3,) [m/s²]."""
+    (i, 3) [m] : of these interfaces. damping (n,) [1/s], damping_ratio : of the modes. gravity (3,) [m/s²]. mesh :
+    what its mesh makes wrong, where it is known."""
 
     body: ModalBody
     its: Invariants
@@ -50,6 +52,7 @@ class Basis:
     damping_ratio: float
     gravity: Array
     held: tuple[Held, ...]
+    mesh: MeshError | None = None
 
 
 @dataclass(frozen=True)
@@ -83,6 +86,25 @@ def most_lacking(result: Readable, bases: Sequence[Basis]) -> Lacking | None:
         lacking = _lacking(result, each)
         if lacking is not None and (found is None or lacking.share > found.share):
             found = lacking
+    return found
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
+def most_coarse(result: Readable, bases: Sequence[Basis]) -> Bent | None:
+    """The largest energy that meshes of bodies make wrong, as a share of their own."""
+    found = None
+    frames = slice(None, None, max(1, len(result.time) // FRAMES))
+    for each in bases:
+        motion, mesh = _motion(result, each, frames), each.mesh
+        scale = _own_energy(each, motion)
+        if mesh is None or not scale > 0.0:
+            continue
+        stiffness = each.body.eigenvalues
+        energy = 0.5 * motion.pddot**2 / stiffness if mesh.dynamic else 0.5 * motion.p**2 * stiffness
+        wrong = np.nan_to_num(energy @ mesh.share)
+        k = int(np.argmax(wrong))
+        if found is None or float(wrong[k]) / scale > found.value:
+            found = Bent(each.body.name, float(wrong[k]) / scale, float(result.time[frames][k]))
     return found
 
 
@@ -145,7 +167,7 @@ def _solved(equations: Array, rest: Array) -> Array:
     """(t, i, 6) the forces of least norm that come nearest."""
     count = equations.shape[1]
     solution = np.linalg.lstsq(equations.reshape(len(equations), -1), rest.T, rcond=1e-10)[0]
-    return solution.T.reshape(len(rest), count, 6)
+    return np.array(solution.T, dtype=float).reshape(len(rest), count, 6)
 
 
 def _reactions(result: Readable, basis: Basis, frames: slice) -> Array:
@@ -206,4 +228,4 @@ def response(time: Array, load: Array, omega: Array, ratio: float) -> Array:
             grown = np.exp(s * step)
         change = (load[k] - load[k - 1]) / (s * step)
         z[k] = grown * (z[k - 1] + load[k - 1] / s + change / s) - load[k] / s - change / s
-    return z.imag / s.imag
+    return np.imag(z) / np.imag(s)

@@ -59,6 +59,7 @@ class Findings:
     bent: Bent | None = None
     coarse: Coarse | None = None
     lacking: Lacking | None = None
+    meshed: Bent | None = None
     method: str = ""
     agreed: float | None = None
 
@@ -80,6 +81,8 @@ def finding_items(found: Findings) -> Iterator[Item]:
         yield from _told(_bent_item(found.bent))
     if found.coarse is not None:
         yield from _told(_coarse_item(found.coarse))
+    if found.meshed is not None:
+        yield from _told(_meshed_item(found.meshed))
     if found.lacking is not None:
         yield from _told(_lacking_item(found.lacking))
     if found.own is not None:
@@ -207,6 +210,14 @@ def _coarse_item(coarse: Coarse) -> Item:
         f"t = {coarse.time:.6g} s, as curvatures change within them; take twice as many, or `order: 2`"
     )
     return _measured("mesh", said, coarse.share, coarse.time, coarse.beam)
+
+
+def _meshed_item(found: Bent) -> Item:
+    said = (
+        f"Mesh: the finite elements of {found.body} make {number(found.value)} of its strain energy wrong at t = {found.time:.6g} s; "
+        f"reduce it with smaller ones"
+    )
+    return _measured("mesh", said, found.value, found.time, found.body)
 
 
 def _lacking_item(lacking: Lacking) -> Item:
